@@ -1,0 +1,45 @@
+/* Errors as values: a function that can fail returns NULL on success, else an error that its caller
+ * owns. An error carries one or more messages, so that all mistakes of a file come in one go. */
+#ifndef BOLIDE_ERROR_H
+#define BOLIDE_ERROR_H
+
+#include <stdarg.h>
+
+#include "base/base.h"
+
+/* What kind of failure; the values are the exit statuses of the program. */
+enum error_kind {
+    ERROR_CHECK = 1,  /* a case ran, but one of its checks failed */
+    ERROR_INPUT = 2,  /* a mistake of the user, in a case file or on the command line */
+    ERROR_STATE = 3,  /* an impossible state in a run: NaN, negative density, energy drift */
+    ERROR_SYSTEM = 4, /* a disk, memory or library that failed */
+};
+
+struct error;
+
+/* A new error with one message. */
+struct error *error_new(enum error_kind kind, const char *format, ...) BOLIDE_PRINTF(2, 3);
+
+/* Puts "context: " before every message of ERROR and returns it; NULL stays NULL. */
+struct error *error_context(struct error *error, const char *format, ...) BOLIDE_PRINTF(2, 3);
+
+/* Joins the messages of two errors, either may be NULL; the graver kind (the larger) wins. */
+struct error *error_join(struct error *first, struct error *second);
+
+enum error_kind error_kind(const struct error *error);
+
+/* Number of messages, and the one at INDEX. The text belongs to the error. */
+int error_count(const struct error *error);
+const char *error_message(const struct error *error, int index);
+
+void error_free(struct error *error);
+
+/* Return an error to the caller at once: `TRY(store_open(...));`. */
+#define TRY(call)                        \
+    do {                                 \
+        struct error *try_error = (call); \
+        if (try_error)                   \
+            return try_error;            \
+    } while (0)
+
+#endif

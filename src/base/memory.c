@@ -1,0 +1,68 @@
+/* Memory and text on the heap; see memory.h. */
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void *memory_allocate(size_t size)
+{
+    size_t rounded = (size + MEMORY_ALIGNMENT - 1) / MEMORY_ALIGNMENT * MEMORY_ALIGNMENT;
+    if (rounded < size)
+        return NULL;
+    void *memory = aligned_alloc(MEMORY_ALIGNMENT, rounded ? rounded : MEMORY_ALIGNMENT);
+    if (memory)
+        memset(memory, 0, rounded);
+    return memory;
+}
+
+bool memory_reserve(void **array, int64_t *capacity, int64_t needed, int64_t kept, size_t element)
+{
+    if (needed <= *capacity)
+        return true;
+    int64_t wanted = *capacity + *capacity / 2;
+    if (wanted < needed)
+        wanted = needed;
+    void *grown = memory_allocate((size_t)wanted * element);
+    if (!grown)
+        return false;
+    if (kept > 0)
+        memcpy(grown, *array, (size_t)kept * element);
+    free(*array);
+    *array = grown;
+    *capacity = wanted;
+    return true;
+}
+
+char *text_vformat(const char *format, va_list arguments)
+{
+    va_list again;
+    va_copy(again, arguments);
+    int length = vsnprintf(NULL, 0, format, again);
+    va_end(again);
+    char *text = length < 0 ? NULL : malloc((size_t)length + 1);
+    if (text)
+        vsnprintf(text, (size_t)length + 1, format, arguments);
+    return text;
+}
+
+char *text_format(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char *text = text_vformat(format, arguments);
+    va_end(arguments);
+    return text;
+}
+
+char *text_copy(const char *text) { return text ? text_copy_part(text, strlen(text)) : NULL; }
+
+char *text_copy_part(const char *text, size_t length)
+{
+    char *copy = malloc(length + 1);
+    if (copy) {
+        memcpy(copy, text, length);
+        copy[length] = '\0';
+    }
+    return copy;
+}

@@ -1,0 +1,27 @@
+/* Memory and text on the heap. */
+#ifndef BOLIDE_MEMORY_H
+#define BOLIDE_MEMORY_H
+
+#include <stdarg.h>
+
+#include "base/base.h"
+
+/* Alignment of every array that a kernel reads: one cache line, one AVX-512 register. */
+enum { MEMORY_ALIGNMENT = 64 };
+
+/* SIZE bytes aligned to MEMORY_ALIGNMENT, zeroed; NULL when memory is out. Free with free(). */
+void *memory_allocate(size_t size);
+
+/* Makes *array hold at least NEEDED elements of ELEMENT bytes, keeping its first KEPT elements.
+ * *capacity counts elements and grows by half at least. False when memory is out. */
+bool memory_reserve(void **array, int64_t *capacity, int64_t needed, int64_t kept, size_t element);
+
+/* A printf into fresh memory; NULL when memory is out. */
+char *text_format(const char *format, ...) BOLIDE_PRINTF(1, 2);
+char *text_vformat(const char *format, va_list arguments);
+
+/* A copy of TEXT (NULL gives NULL), and of its first LENGTH bytes. */
+char *text_copy(const char *text);
+char *text_copy_part(const char *text, size_t length);
+
+#endif

@@ -1,0 +1,130 @@
+/* Parameter tables. Everything that a user can name in a case declares its parameters once, in a table
+ * of these; the reader, its error messages, the filled-in case, `bolide help` and the reference manual
+ * are loops over the tables.
+ *
+ * A table describes a plain C struct: each parameter says where in the struct its value goes. What a
+ * value may be is its kind:
+ *
+ *   kind       in the case                               in the struct, at `offset`
+ *   NUMBER     an expression of dimension `unit`         double, in SI units
+ *   QUANTITY   an expression of any dimension            struct quantity; value NAN when not given
+ *   INTEGER    a whole number                            int64_t
+ *   FLAG       yes | no                                  bool
+ *   TEXT       a scalar                                  char *, NULL when not given
+ *   CHOICE     one of `names`                            int, the index in `names`
+ *   VECTOR     a list of 1 to 3 expressions              struct vector_value (count 0: not given)
+ *   NAMES      a list of scalars, or one scalar          struct name_list
+ *   TABLE      a map with the keys of `table`            the nested struct itself
+ *   ONE_OF     {name: {...}} or name, of `kind_of_thing` struct one_of
+ *   LIST       a list of such ONE_OF                     struct one_of_list
+ *   MAP        {any name: a map of `table`}              struct named_map
+ *
+ * A ONE_OF whose key is NULL stands inline: exactly one key of the surrounding map must be a name of
+ * `kind_of_thing` (`{box: {...}, velocity: ...}`). Where a thing's value is a scalar or a list instead of
+ * a map, it fills the first parameter of the thing's table (`{mean: pressure}`).
+ *
+ * `standard` is the default as a user would type it, REQUIRED when there is none, OPTIONAL when a value
+ * may be missing (NAN, NULL, count 0 or index -1 in the struct). */
+#ifndef BOLIDE_PARAMETER_H
+#define BOLIDE_PARAMETER_H
+
+#include "base/expression.h"
+
+enum parameter_kind {
+    PARAMETER_NUMBER,
+    PARAMETER_QUANTITY,
+    PARAMETER_INTEGER,
+    PARAMETER_FLAG,
+    PARAMETER_TEXT,
+    PARAMETER_CHOICE,
+    PARAMETER_VECTOR,
+    PARAMETER_NAMES,
+    PARAMETER_TABLE,
+    PARAMETER_ONE_OF,
+    PARAMETER_LIST,
+    PARAMETER_MAP,
+};
+
+#define PARAMETER_REQUIRED ((const char *)0)
+#define PARAMETER_OPTIONAL ""
+
+struct parameter {
+    const char *key;
+    enum parameter_kind kind;
+    size_t offset;
+    const char *unit;     /* NUMBER, VECTOR: the SI unit that fixes the dimension, "" or NULL for none */
+    const char *standard; /* default as typed, PARAMETER_REQUIRED or PARAMETER_OPTIONAL */
+    double above, below;  /* NUMBER, INTEGER: allowed is above < value < below; both 0: anything */
+    bool closed;          /* the bounds themselves are allowed too */
+    const char *help;
+    const struct parameter *table; /* TABLE, MAP: the nested table, ended by a key and kind of zero */
+    size_t size;                   /* MAP: bytes of one item's struct */
+    const char *const *names;      /* CHOICE: the names, ended by NULL */
+    const char *kind_of_thing;     /* ONE_OF, LIST: a kind of the catalogue: "eos", "shape", ... */
+};
+
+/* The last entry of every table. */
+#define PARAMETER_END                                                                            \
+    {                                                                                            \
+        0                                                                                        \
+    }
+#define PARAMETER_IS_END(parameter) (!(parameter)->key && !(parameter)->kind_of_thing)
+
+struct vector_value {
+    int count;
+    double at[3];
+};
+
+struct name_list {
+    int count;
+    char **names;
+};
+
+/* A thing that a case can name: `name` chooses it, `table` (may be NULL) describes its parameters, a
+ * struct of `size` bytes holds them, `thing` is what the owner of the kind needs to use it. */
+struct choice {
+    const char *name, *help;
+    const struct parameter *table;
+    size_t size;
+    const void *thing;
+};
+
+struct one_of {
+    int index;                   /* in the list of its kind; -1: not given */
+    const struct choice *choice; /* NULL: not given */
+    void *value;                 /* choice->size bytes, NULL when the size is zero */
+};
+
+struct one_of_list {
+    int count;
+    struct one_of *items;
+};
+
+/* Items in the order of the file. */
+struct named_map {
+    int count;
+    char **names;
+    void *items; /* count structs of the parameter's `size` */
+};
+
+/* All things of all kinds; the kinds end with a NULL name. */
+struct choice_list {
+    const char *kind_of_thing, *help;
+    const struct choice *choices;
+    int count;
+};
+
+struct catalogue {
+    const struct choice_list *lists;
+};
+
+const struct choice_list *catalogue_list(const struct catalogue *catalogue, const char *kind);
+
+/* The choice NAME of KIND, NULL if there is none. */
+const struct choice *catalogue_find(const struct catalogue *catalogue, const char *kind,
+                                    const char *name);
+
+/* Frees what the values of TABLE in VALUES own (texts, lists, nested things), not VALUES itself. */
+void parameters_release(const struct parameter *table, void *values);
+
+#endif

@@ -1,0 +1,90 @@
+/* What the subcommands share: options, words to the user, folders of shared files. This is the one room
+ * that prints, exits and holds a static variable (the signal's flag). */
+#ifndef BOLIDE_CLI_H
+#define BOLIDE_CLI_H
+
+#include "output/report.h"
+#include "run/catalogue.h"
+#include "run/run.h"
+
+enum { EXIT_OK = 0, EXIT_USAGE = ERROR_INPUT };
+
+/* A list of texts that belong to argv. */
+struct text_list {
+    int count;
+    const char **text;
+};
+
+/* All options of all commands, and the arguments that are none. */
+struct cli_options {
+    const char *output;
+    int64_t threads, points;
+    bool overwrite, resume, quick, all;
+    const char *time;
+    struct text_list settings, names;
+};
+
+enum command_bit {
+    COMMAND_RUN = 1,
+    COMMAND_CHECK = 2,
+    COMMAND_VERIFY = 4,
+    COMMAND_EXACT = 8,
+    COMMAND_HELP = 16
+};
+
+struct command {
+    enum command_bit bit;
+    const char *name, *usage, *help;
+    int least_names, most_names; /* arguments beside the options */
+    int (*run)(const struct cli_options *options); /* gives the exit status */
+};
+
+extern const struct command commands[];
+extern const int command_count;
+
+int command_run(const struct cli_options *options);
+int command_check(const struct cli_options *options);
+int command_verify(const struct cli_options *options);
+int command_exact(const struct cli_options *options);
+int command_help(const struct cli_options *options);
+
+/* ---- options.c ---- */
+
+/* Reads what follows the command's name; ERROR_INPUT with the nearest right spelling. */
+struct error *options_read(const struct command *command, int count, char **words,
+                           struct cli_options *options);
+void options_free(struct cli_options *options);
+/* Prints the options of COMMAND. */
+void options_print(const struct command *command);
+
+/* ---- terminal.c ---- */
+
+/* Prints the messages of ERROR on stderr, one a line, frees it, and gives its exit status. */
+int report_error(struct error *error);
+
+/* Words and progress of a run; on a terminal the progress line is drawn over, elsewhere it is a line every
+ * ten per cent. */
+struct listener terminal_listener(void);
+struct progress_pace terminal_pace(void);
+void terminal_clear_line(void);
+
+/* Escape sequences for stdout, "" where it is no terminal. */
+enum colour { COLOUR_NONE, COLOUR_GOOD, COLOUR_BAD, COLOUR_FAINT, COLOUR_STRONG };
+const char *colour(enum colour which);
+
+/* Catches SIGINT and SIGTERM; the flag that they set. */
+const volatile sig_atomic_t *signals_catch(void);
+/* 128 + the signal that came. */
+int signals_status(void);
+
+/* ---- share.c ---- */
+
+/* The folder NAME ("examples", "materials") of files that come with the program: in $BOLIDE_SHARE,
+ * beside the build, where the program is installed, or here. NULL if there is none; free it. */
+char *share_folder(const char *name);
+
+/* Reads the case at PATH as OPTIONS want it. */
+struct error *read_case(const char *path, const struct cli_options *options,
+                        struct simulation_case **input);
+
+#endif

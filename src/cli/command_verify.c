@@ -1,0 +1,134 @@
+/* bolide verify: cases and their checks as one table. */
+#include <glob.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "cli/cli.h"
+#include "run/verify.h"
+
+struct row {
+    char measured[96], allowed[96];
+};
+
+static void case_ended(void *context, const struct verify_case *verified)
+{
+    (void)context;
+    terminal_clear_line();
+    printf("%s: %s%s%s, %.1f s, %.3g M updates/s, energy drift %.2g\n", verified->name,
+           colour(verified->passed ? COLOUR_GOOD : COLOUR_BAD),
+           verified->error ? "could not run" : verified->passed ? "passed" : "FAILED",
+           colour(COLOUR_NONE), verified->result.seconds,
+           1e-6 * verified->result.updates_per_second, verified->result.energy_drift);
+    fflush(stdout);
+}
+
+static int longer(int width, const char *text)
+{
+    int length = text ? (int)strlen(text) : 0;
+    return length > width ? length : width;
+}
+
+static void print_rule(int width)
+{
+    for (int i = 0; i < width; i++)
+        putchar('-');
+    putchar('\n');
+}
+
+/* Each case's name stands at its first check. */
+static void print_table(const struct verify_result *result)
+{
+    int name = 4, check = 5, measured = 8, allowed = 7;
+    struct row row;
+    for (int i = 0; i < result->count; i++) {
+        const struct verify_case *verified = &result->item[i];
+        name = longer(name, verified->name);
+        for (int k = 0; k < verified->result.checks.count; k++) {
+            const struct check_result *r = &verified->result.checks.item[k];
+            check_measured_text(r, row.measured, sizeof row.measured);
+            check_allowed_text(r, row.allowed, sizeof row.allowed);
+            check = longer(check, r->name);
+            measured = longer(measured, row.measured);
+            allowed = longer(allowed, row.allowed);
+        }
+    }
+    printf("\n%-*s  %-*s  %-*s  %-*s  verdict\n", name, "case", check, "check", measured, "measured",
+           allowed, "allowed");
+    print_rule(name + check + measured + allowed + 15);
+    for (int i = 0; i < result->count; i++) {
+        const struct verify_case *verified = &result->item[i];
+        for (int k = 0; k < verified->result.checks.count; k++) {
+            const struct check_result *r = &verified->result.checks.item[k];
+            check_measured_text(r, row.measured, sizeof row.measured);
+            check_allowed_text(r, row.allowed, sizeof row.allowed);
+            printf("%-*s  %-*s  %-*s  %-*s  %s%s%s\n", name, k ? "" : verified->name, check, r->name,
+                   measured, row.measured, allowed, row.allowed,
+                   colour(r->passed ? COLOUR_GOOD : COLOUR_BAD), r->passed ? "passed" : "FAILED",
+                   colour(COLOUR_NONE));
+        }
+    }
+    print_rule(name + check + measured + allowed + 15);
+    printf("%d of %d cases passed, %d of %d checks\n", result->passed, result->count,
+           result->checks_passed, result->checks);
+}
+
+static int verify_paths(const char *const *paths, int count, const struct cli_options *options)
+{
+    struct listener listener = terminal_listener();
+    char *materials = share_folder("materials");
+    const char *const folders[] = {materials};
+    struct progress_pace pace = terminal_pace();
+    bool draws_over = pace.fraction == 0.0;
+    struct verify_options verifying = {
+        .reading = {.settings = options->settings.text,
+                    .setting_count = options->settings.count,
+                    .quick = options->quick,
+                    .library_paths = folders,
+                    .library_count = materials ? 1 : 0},
+        .catalogue = &bolide_catalogue,
+        .output = options->output,
+        .threads = (int)options->threads,
+        .stop = signals_catch(),
+        .listener = draws_over ? &listener : NULL,
+        .progress = pace,
+        .ended = case_ended,
+    };
+    struct verify_result result;
+    struct error *error = verify_cases(paths, count, &verifying, &result);
+    if (result.checks)
+        print_table(&result);
+    int status = error ? report_error(error) : EXIT_OK;
+    if (*verifying.stop)
+        status = signals_status();
+    verify_result_free(&result);
+    free(materials);
+    return status;
+}
+
+static int verify_all(const struct cli_options *options)
+{
+    char *examples = share_folder("examples");
+    char *pattern = examples ? text_format("%s/*/*/case.yaml", examples) : NULL;
+    glob_t found = {0};
+    int status;
+    if (!pattern || glob(pattern, 0, NULL, &found) || !found.gl_pathc)
+        status = report_error(error_new(ERROR_INPUT, "no examples found; set BOLIDE_SHARE to the "
+                                                     "folder that holds examples/ and materials/"));
+    else
+        status = verify_paths((const char *const *)found.gl_pathv, (int)found.gl_pathc, options);
+    globfree(&found);
+    free(pattern);
+    free(examples);
+    return status;
+}
+
+int command_verify(const struct cli_options *options)
+{
+    if (options->all == (options->names.count > 0))
+        return report_error(
+            error_new(ERROR_INPUT, "verify wants cases, or --all; see `bolide help verify`"));
+    return options->all ? verify_all(options)
+                        : verify_paths(options->names.text, options->names.count, options);
+}

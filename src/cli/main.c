@@ -1,0 +1,68 @@
+/* bolide: the command line. Exit status: 0 all is well, 1 a check failed, 2 bad input or usage, 3 an
+ * impossible state in a run, 4 a disk, memory or library that failed; 128 + the signal when stopped. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/cli.h"
+
+const struct command commands[] = {
+    {COMMAND_RUN, "run", "CASE", "Run a case and judge its checks.", 1, 1, command_run},
+    {COMMAND_CHECK, "check", "CASE...", "Say what would be computed, without computing it.", 1, 1000,
+     command_check},
+    {COMMAND_VERIFY, "verify", "CASE... | --all", "Run cases and print all their checks as one table.",
+     0, 1000, command_verify},
+    {COMMAND_EXACT, "exact", "[NAME]", "Print an exact solution: its numbers, and its profile.", 0, 1,
+     command_exact},
+    {COMMAND_HELP, "help", "[TOPIC]", "Explain a command, a key of a case, or anything it can name.", 0, 1,
+     command_help},
+};
+const int command_count = COUNT_OF(commands);
+
+static const struct command *find_command(const char *name)
+{
+    for (int i = 0; i < command_count; i++)
+        if (!strcmp(commands[i].name, name))
+            return &commands[i];
+    return NULL;
+}
+
+static int unknown_command(const char *word)
+{
+    const char *names[COUNT_OF(commands)];
+    for (int i = 0; i < command_count; i++)
+        names[i] = commands[i].name;
+    const char *nearest = nearest_name(word, names, command_count);
+    if (nearest)
+        return report_error(error_new(ERROR_INPUT, "unknown command \"%s\" (did you mean \"%s\"?)",
+                                      word, nearest));
+    return report_error(
+        error_new(ERROR_INPUT, "unknown command \"%s\"; `bolide help` lists them", word));
+}
+
+static bool is_one_of(const char *word, const char *a, const char *b)
+{
+    return !strcmp(word, a) || !strcmp(word, b);
+}
+
+int main(int count, char **words)
+{
+    if (count < 2) {
+        command_help(&(struct cli_options){0});
+        return EXIT_USAGE;
+    }
+    if (is_one_of(words[1], "--version", "-V")) {
+        printf("bolide %s\n", BOLIDE_VERSION);
+        return EXIT_OK;
+    }
+    const char *name = is_one_of(words[1], "--help", "-h") ? "help" : words[1];
+    const struct command *command = find_command(name);
+    if (!command)
+        return unknown_command(name);
+    struct cli_options options;
+    struct error *error = options_read(command, count - 2, words + 2, &options);
+    int status = error ? report_error(error) : command->run(&options);
+    options_free(&options);
+    if (fflush(stdout) && status == EXIT_OK)
+        status = report_error(error_new(ERROR_SYSTEM, "the output could not be written"));
+    return status;
+}

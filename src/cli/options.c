@@ -1,0 +1,168 @@
+/* The options of the commands, each declared once. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "cli/cli.h"
+
+enum option_kind { OPTION_FLAG, OPTION_COUNT, OPTION_TEXT, OPTION_LIST };
+
+struct option {
+    const char *name, *value, *help;
+    enum option_kind kind;
+    size_t offset;
+    unsigned commands;
+};
+
+#define AT(member) offsetof(struct cli_options, member)
+
+static const struct option option_table[] = {
+    {"--output", "DIR", "folder of the results (run: results/<name of the case>; verify: none)",
+     OPTION_TEXT, AT(output), COMMAND_RUN | COMMAND_VERIFY},
+    {"--overwrite", NULL, "replace the results that the folder holds", OPTION_FLAG, AT(overwrite),
+     COMMAND_RUN},
+    {"--resume", NULL, "go on from the folder's checkpoint", OPTION_FLAG, AT(resume), COMMAND_RUN},
+    {"--threads", "N", "number of threads (all processors)", OPTION_COUNT, AT(threads),
+     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY},
+    {"--set", "PATH=VALUE", "replace a value of the case: run.until=3us; may be repeated", OPTION_LIST,
+     AT(settings), COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
+    {"--short", NULL, "use the short form of cases that have one", OPTION_FLAG, AT(quick),
+     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY},
+    {"--all", NULL, "all cases that come with bolide", OPTION_FLAG, AT(all), COMMAND_VERIFY},
+    {"--time", "T", "the time of the solution, with its unit: 5us", OPTION_TEXT, AT(time),
+     COMMAND_EXACT},
+    {"--points", "N", "print the profile at the time in N points, as CSV", OPTION_COUNT, AT(points),
+     COMMAND_EXACT},
+};
+
+#undef AT
+
+static struct error *unknown_option(const struct command *command, const char *word, int length)
+{
+    const char *names[COUNT_OF(option_table)];
+    int count = 0;
+    for (size_t i = 0; i < COUNT_OF(option_table); i++)
+        if (option_table[i].commands & command->bit)
+            names[count++] = option_table[i].name;
+    char *name = text_copy_part(word, (size_t)length);
+    const char *nearest = name ? nearest_name(name, names, count) : NULL;
+    struct error *error =
+        nearest ? error_new(ERROR_INPUT, "%s: unknown option %.*s (did you mean %s?)", command->name,
+                            length, word, nearest)
+                : error_new(ERROR_INPUT, "%s: unknown option %.*s; see `bolide help %s`",
+                            command->name, length, word, command->name);
+    free(name);
+    return error;
+}
+
+static const struct option *find_option(const struct command *command, const char *word, int length)
+{
+    for (size_t i = 0; i < COUNT_OF(option_table); i++) {
+        const struct option *option = &option_table[i];
+        if ((option->commands & command->bit) && (int)strlen(option->name) == length &&
+            !strncmp(option->name, word, (size_t)length))
+            return option;
+    }
+    return NULL;
+}
+
+static struct error *append(struct text_list *list, const char *text)
+{
+    const char **grown = realloc(list->text, ((size_t)list->count + 1) * sizeof *grown);
+    if (!grown)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    list->text = grown;
+    list->text[list->count++] = text;
+    return NULL;
+}
+
+static struct error *store(const struct option *option, const char *value,
+                           struct cli_options *options)
+{
+    void *place = (char *)options + option->offset;
+    switch (option->kind) {
+    case OPTION_FLAG:
+        *(bool *)place = true;
+        return NULL;
+    case OPTION_TEXT:
+        *(const char **)place = value;
+        return NULL;
+    case OPTION_LIST:
+        return append(place, value);
+    case OPTION_COUNT: {
+        char *end;
+        errno = 0;
+        long long number = strtoll(value, &end, 10);
+        if (end == value || *end || errno || number < 1 || number > 1000000)
+            return error_new(ERROR_INPUT, "%s: \"%s\" is no whole number from 1 to 1000000",
+                             option->name, value);
+        *(int64_t *)place = number;
+        return NULL;
+    }
+    }
+    return NULL;
+}
+
+/* Reads the option at words[*at], and its value behind a `=` or in the next word. */
+static struct error *read_option(const struct command *command, int count, char **words, int *at,
+                                 struct cli_options *options)
+{
+    const char *word = words[*at];
+    int length = (int)strcspn(word, "=");
+    const struct option *option = find_option(command, word, length);
+    if (!option)
+        return unknown_option(command, word, length);
+    const char *value = word[length] ? word + length + 1 : NULL;
+    if (option->kind == OPTION_FLAG && value)
+        return error_new(ERROR_INPUT, "%s takes no value", option->name);
+    if (option->kind != OPTION_FLAG && !value) {
+        if (*at + 1 >= count)
+            return error_new(ERROR_INPUT, "%s wants %s", option->name, option->value);
+        value = words[++*at];
+    }
+    return store(option, value, options);
+}
+
+struct error *options_read(const struct command *command, int count, char **words,
+                           struct cli_options *options)
+{
+    struct error *error = NULL;
+    bool only_names = false;
+    *options = (struct cli_options){0};
+    for (int at = 0; at < count; at++) {
+        if (!only_names && !strcmp(words[at], "--"))
+            only_names = true;
+        else if (!only_names && words[at][0] == '-' && words[at][1])
+            error = error_join(error, read_option(command, count, words, &at, options));
+        else
+            error = error_join(error, append(&options->names, words[at]));
+    }
+    if (!error && (options->names.count < command->least_names ||
+                   options->names.count > command->most_names))
+        error = error_new(ERROR_INPUT, "usage: bolide %s %s [options]; see `bolide help %s`",
+                          command->name, command->usage, command->name);
+    if (!error && options->overwrite && options->resume)
+        error = error_new(ERROR_INPUT, "--overwrite and --resume exclude each other");
+    return error;
+}
+
+void options_free(struct cli_options *options)
+{
+    free(options->settings.text);
+    free(options->names.text);
+}
+
+void options_print(const struct command *command)
+{
+    for (size_t i = 0; i < COUNT_OF(option_table); i++) {
+        const struct option *option = &option_table[i];
+        if (!(option->commands & command->bit))
+            continue;
+        char name[48];
+        snprintf(name, sizeof name, "%s%s%s", option->name, option->value ? " " : "",
+                 option->value ? option->value : "");
+        printf("  %-18s  %s\n", name, option->help);
+    }
+}

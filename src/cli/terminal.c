@@ -1,0 +1,79 @@
+/* Words to the user: errors, lines of a run, the progress line, colours, and the signals that stop a run. */
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/cli.h"
+
+static volatile sig_atomic_t stop_signal;
+
+static void on_signal(int number)
+{
+    stop_signal = number;
+    signal(number, SIG_DFL); /* a second one ends the program at once */
+}
+
+const volatile sig_atomic_t *signals_catch(void)
+{
+    signal(SIGINT, on_signal);
+    signal(SIGTERM, on_signal);
+    return &stop_signal;
+}
+
+int signals_status(void) { return 128 + stop_signal; }
+
+/* The progress line goes to stderr, so that stdout holds whole lines only. */
+static bool draws_over(void) { return isatty(STDERR_FILENO); }
+
+void terminal_clear_line(void)
+{
+    if (draws_over())
+        fputs("\r\033[K", stderr);
+}
+
+const char *colour(enum colour which)
+{
+    static const char *const sequences[] = {"\033[0m", "\033[32m", "\033[1;31m", "\033[2m", "\033[1m"};
+    return isatty(STDOUT_FILENO) ? sequences[which] : "";
+}
+
+int report_error(struct error *error)
+{
+    int status = (int)error_kind(error);
+    terminal_clear_line();
+    fflush(stdout);
+    for (int i = 0; i < error_count(error); i++)
+        fprintf(stderr, "%s\n", error_message(error, i));
+    error_free(error);
+    return status;
+}
+
+static void say_line(void *context, const char *text)
+{
+    (void)context;
+    terminal_clear_line();
+    bool bad = strstr(text, "check FAILED") != NULL;
+    printf("%s%s%s\n", bad ? colour(COLOUR_BAD) : "", text, bad ? colour(COLOUR_NONE) : "");
+    fflush(stdout);
+}
+
+static void say_progress(void *context, const char *text)
+{
+    (void)context;
+    if (draws_over())
+        fprintf(stderr, "\r%s\033[K", text);
+    else {
+        printf("%s\n", text);
+        fflush(stdout);
+    }
+}
+
+struct listener terminal_listener(void)
+{
+    return (struct listener){say_line, say_progress, NULL};
+}
+
+struct progress_pace terminal_pace(void)
+{
+    return draws_over() ? (struct progress_pace){0.2, 0.0} : (struct progress_pace){2.0, 0.1};
+}

@@ -1,0 +1,12 @@
+/* The list of exact solutions; see choices.h. */
+#include "exact/choices.h"
+
+#include "exact/elastic_plastic_riemann.h"
+#include "exact/gas_riemann.h"
+#include "exact/impedance_match.h"
+
+#define EXACT_CHOICE(identifier, name, help)                              \
+    {name, help, exact_##identifier##_table, sizeof(struct exact_##identifier), \
+     &exact_##identifier##_class},
+
+const struct choice exact_choices[exact_choice_count] = {EXACT_LIST(EXACT_CHOICE)};

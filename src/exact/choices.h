@@ -1,0 +1,24 @@
+/* The list of exact solutions, kind "exact" of the catalogue. The thing of a choice is its struct
+ * exact_class. To add one: its header and file, and its line in the list below. */
+#ifndef BOLIDE_EXACT_CHOICES_H
+#define BOLIDE_EXACT_CHOICES_H
+
+#include "base/parameter.h"
+
+/* X(identifier, name, help): struct exact_<identifier>, exact_<identifier>_table,
+ * exact_<identifier>_class of exact/<identifier>.h. */
+#define EXACT_LIST(X)                                                                    \
+    X(gas_riemann, "gas-riemann",                                                        \
+      "Two ideal gases that meet at a plane: shocks and expansion fans.")                \
+    X(elastic_plastic_riemann, "elastic-plastic-riemann",                                \
+      "Two barotropic, perfectly plastic solids that meet at a plane: elastic and plastic waves.") \
+    X(impedance_match, "impedance-match",                                                \
+      "Planar impact of two materials with linear shock relations.")
+
+#define EXACT_COUNT_ONE(identifier, name, help) +1
+enum { exact_choice_count = 0 EXACT_LIST(EXACT_COUNT_ONE) };
+#undef EXACT_COUNT_ONE
+
+extern const struct choice exact_choices[exact_choice_count];
+
+#endif

@@ -1,0 +1,43 @@
+/* Exact solutions that results are measured against. Each is a choice of the catalogue's kind "exact":
+ * its parameters come from a table, and its thing is a struct exact_class. */
+#ifndef BOLIDE_EXACT_H
+#define BOLIDE_EXACT_H
+
+#include <stdio.h>
+
+#include "base/error.h"
+
+/* The state of a one-dimensional solution at a place and time. SI units. Stress is positive in tension
+ * along x; deviator is its S_xx part. */
+struct exact_state {
+    double density, velocity, pressure, energy, stress, deviator;
+};
+
+/* Which material a point belongs to: an exact solution keeps its contact between SIDE_LEFT and
+ * SIDE_RIGHT, so that a particle is compared with its own material's state wherever it drifted. */
+enum exact_side { SIDE_LEFT, SIDE_RIGHT };
+
+/* A number of the solution with a name, for tables: {"star pressure", "Pa", 1.8e4}. */
+struct exact_number {
+    const char *name, *unit;
+    double value;
+};
+
+enum { EXACT_NUMBERS = 32 };
+
+struct exact_class {
+    size_t size; /* of the solved problem */
+    /* Solves the problem of PARAMETERS (the choice's struct). ERROR_INPUT when it has no solution of
+     * the kind (vacuum, say). */
+    struct error *(*solve)(const void *parameters, void *solved);
+    /* The state at X and TIME (measured from the start, x in the frame of the case) on SIDE. */
+    struct exact_state (*sample)(const void *solved, enum exact_side side, double x, double time);
+    /* The star state beside the contact. */
+    struct exact_state (*star)(const void *solved, enum exact_side side);
+    /* Fills at most EXACT_NUMBERS named numbers; returns how many. TIME > 0 adds the places of fronts. */
+    int (*numbers)(const void *solved, double time, struct exact_number *numbers);
+    /* Place of the contact at TIME. */
+    double (*contact)(const void *solved, double time);
+};
+
+#endif

@@ -1,0 +1,26 @@
+/* What a case may name for a material: the equations of state and the strength models, each with its
+ * parameter table. The index in an array is the enum of the model, so that a choice read from a case
+ * becomes plain data by a copy. */
+#ifndef BOLIDE_CHOICES_H
+#define BOLIDE_CHOICES_H
+
+#include "base/parameter.h"
+#include "material/eos.h"
+#include "material/strength.h"
+
+/* An equation of state's table file (eos/<identifier>.c) defines its name in a case, one line of help
+ * and the parameters of its struct. */
+#define EOS_TABLE(identifier)                \
+    extern const char eos_##identifier##_name[]; \
+    extern const char eos_##identifier##_help[]; \
+    extern const struct parameter eos_##identifier##_parameters[];
+EOS_LIST(EOS_TABLE)
+#undef EOS_TABLE
+
+extern const struct parameter strength_perfect_plastic_parameters[];
+
+/* By enum eos_kind and by enum strength_kind. */
+extern const struct choice eos_choices[EOS_KINDS];
+extern const struct choice strength_choices[STRENGTH_KINDS];
+
+#endif

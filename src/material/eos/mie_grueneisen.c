@@ -1,0 +1,50 @@
+/* What a case says of a Mie-Grüneisen solid; the physics is in mie_grueneisen.h. */
+#include "material/choices.h"
+
+const char eos_mie_grueneisen_name[] = "mie-grueneisen";
+const char eos_mie_grueneisen_help[] =
+    "Mie-Grueneisen about the shock adiabat U_s = sound + slope U_p, linear elastic in tension";
+
+const struct parameter eos_mie_grueneisen_parameters[] = {
+    {.key = "density",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct eos_mie_grueneisen, density),
+     .unit = "kg/m^3",
+     .standard = PARAMETER_REQUIRED,
+     .above = 0.0,
+     .below = INFINITY,
+     .help = "density at zero pressure and energy"},
+    {.key = "sound",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct eos_mie_grueneisen, sound),
+     .unit = "m/s",
+     .standard = PARAMETER_REQUIRED,
+     .above = 0.0,
+     .below = INFINITY,
+     .help = "shock speed of a vanishing shock, C_a of U_s = C_a + S_a U_p"},
+    {.key = "slope",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct eos_mie_grueneisen, slope),
+     .standard = PARAMETER_REQUIRED,
+     .above = 0.0,
+     .below = INFINITY,
+     .closed = true,
+     .help = "slope of the shock adiabat, S_a of U_s = C_a + S_a U_p"},
+    {.key = "gamma",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct eos_mie_grueneisen, gamma),
+     .standard = PARAMETER_REQUIRED,
+     .above = 0.0,
+     .below = INFINITY,
+     .closed = true,
+     .help = "Grueneisen coefficient"},
+    {.key = "bulk_modulus",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct eos_mie_grueneisen, bulk_modulus),
+     .unit = "Pa",
+     .standard = PARAMETER_REQUIRED,
+     .above = 0.0,
+     .below = INFINITY,
+     .help = "bulk modulus in tension"},
+    PARAMETER_END,
+};

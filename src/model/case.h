@@ -1,0 +1,142 @@
+/* A case: what a user asks to be computed, as the case file says it, in SI units. The tables of case.c
+ * declare every key of it. */
+#ifndef BOLIDE_CASE_H
+#define BOLIDE_CASE_H
+
+#include "base/parameter.h"
+#include "material/material.h"
+#include "model/document.h"
+
+/* materials: NAME: {library: aluminium-wilkins} or {eos: ..., strength: ...}; keys beside `library`
+ * replace those of the library's file. */
+struct material_input {
+    char *library;
+    struct one_of eos;      /* "eos" */
+    struct one_of strength; /* "strength"; not given: a fluid */
+    struct material material; /* filled by case_read from the above */
+};
+
+/* bodies: NAME: {material, a shape, velocity, ...} */
+struct body_input {
+    char *material;
+    struct one_of shape; /* "shape", inline */
+    struct vector_value velocity;
+    double density, pressure, energy; /* NAN: not given. Of the three, two at most; see body_state */
+    double resolution;                /* NAN: the case's */
+    struct name_list replaces;        /* bodies whose particles give way inside this shape */
+    int material_index;               /* filled by case_read */
+    struct point start;               /* filled by case_read: density, energy, pressure at the start */
+};
+
+/* walls: NAME: {mirror: x, at: 0 mm, side: low}: a rigid slip wall normal to an axis; the material is on
+ * its high side for `low`, on its low side for `high`. */
+enum wall_side { WALL_LOW, WALL_HIGH };
+struct wall_input {
+    int axis; /* 0, 1, 2 */
+    int side; /* enum wall_side */
+    double at;
+};
+
+/* contacts: NAME: {between: [cube, plate], shear: slip, tension: none}: the law where two bodies meet.
+ * Pairs that no contact names stick in shear and carry tension. */
+enum contact_shear { SHEAR_STICK, SHEAR_SLIP };
+enum contact_tension { TENSION_CARRIED, TENSION_NONE };
+struct contact_input {
+    struct name_list between; /* two bodies */
+    int shear, tension;
+    int body[2]; /* filled by case_read */
+};
+
+/* output: {every, pictures: [pressure, ...], ...} */
+struct output_input {
+    double every;             /* s, between snapshots; NAN: only the first and the last state */
+    double history;           /* s, between rows of history.csv; NAN: a hundredth of the run */
+    double checkpoint;        /* s of wall clock between checkpoints; 0: at the end only */
+    struct name_list pictures; /* fields to draw at every snapshot */
+    bool snapshots;           /* write VTKHDF files */
+};
+
+struct run_input {
+    double until;     /* s */
+    int64_t max_steps; /* 0: no limit */
+    double energy_drift; /* relative, stops the run when exceeded; 0: never */
+};
+
+/* checks: NAME: {a measure, of: body, between: [a, b], axis: x, is: ..., within: ...} */
+struct check_input {
+    struct one_of measure;       /* "measure", inline: `mean: pressure`, `conserved: momentum` */
+    char *of;                    /* a body; NULL: all */
+    struct vector_value between; /* positions along `axis`; count 0: everywhere */
+    int axis;
+    struct one_of against;   /* "exact"; not given: the case's own */
+    struct quantity is;      /* wanted value; NAN: none */
+    struct quantity within;  /* allowed distance from `is`: a fraction of it, or a quantity */
+    struct quantity at_most, at_least;
+    struct quantity scale; /* divides error norms; NAN: the exact solution's own range */
+    char *source;          /* where the wanted value comes from, shown in the table */
+};
+
+struct simulation_case {
+    int64_t format;
+    char *title;
+    int64_t dimension;
+    double resolution;
+    struct one_of solver;       /* "solver" */
+    struct named_map materials; /* struct material_input */
+    struct named_map bodies;    /* struct body_input */
+    struct named_map walls;     /* struct wall_input */
+    struct named_map contacts;  /* struct contact_input */
+    struct run_input run;
+    struct output_input output;
+    struct one_of exact;     /* "exact": what checks measure against; not given: nothing */
+    struct named_map checks; /* struct check_input */
+    char *name;              /* filled by case_read: the name of the case's folder or file */
+    const struct catalogue *catalogue;
+    struct document *document; /* for located messages; owned */
+};
+
+/* Options of the command line that shape a case. */
+struct case_options {
+    const char *const *settings; /* --set */
+    int setting_count;
+    bool quick;                       /* use the `short` form */
+    const char *const *library_paths; /* folders with material files */
+    int library_count;
+};
+
+/* The table of a whole case file, for help and reference. */
+extern const struct parameter case_table[];
+
+/* Reads and checks PATH. Materials are resolved, start states found, references between names checked;
+ * every mistake comes in one ERROR_INPUT. */
+struct error *case_read(const char *path, const struct case_options *options,
+                        const struct catalogue *catalogue, struct simulation_case **result);
+
+void case_free(struct simulation_case *input);
+
+/* Writes the case as run: YAML with every default filled in, that case_read takes again. */
+struct error *case_write(const struct simulation_case *input, FILE *file);
+
+/* The items of a case's maps. */
+static inline struct material_input *case_material(const struct simulation_case *c, int index)
+{
+    return (struct material_input *)c->materials.items + index;
+}
+static inline struct body_input *case_body(const struct simulation_case *c, int index)
+{
+    return (struct body_input *)c->bodies.items + index;
+}
+static inline struct wall_input *case_wall(const struct simulation_case *c, int index)
+{
+    return (struct wall_input *)c->walls.items + index;
+}
+static inline struct contact_input *case_contact(const struct simulation_case *c, int index)
+{
+    return (struct contact_input *)c->contacts.items + index;
+}
+static inline struct check_input *case_check(const struct simulation_case *c, int index)
+{
+    return (struct check_input *)c->checks.items + index;
+}
+
+#endif

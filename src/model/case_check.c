@@ -1,0 +1,191 @@
+/* What the tables cannot say of a case: names that must exist, numbers of components, states at the
+ * start, limits of checks; and what follows from them. */
+#include <string.h>
+
+#include "model/case_internal.h"
+#include "model/shape.h"
+
+/* Where a check stands: a path, to which a key may be added. */
+struct checking {
+    struct simulation_case *input;
+    struct error *error;
+    const char *map, *name; /* "bodies", "flyer" */
+};
+
+static void wrong(struct checking *checking, const char *key, const char *format, ...)
+    BOLIDE_PRINTF(3, 4);
+
+static void wrong(struct checking *checking, const char *key, const char *format, ...)
+{
+    char path[512], message[1024];
+    snprintf(path, sizeof path, "%s%s%s%s%s", checking->map, checking->name ? "." : "",
+             checking->name ? checking->name : "", key[0] ? "." : "", key);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    checking->error = error_join(checking->error,
+                                 document_error(checking->input->document, path, "%s", message));
+}
+
+/* The index of NAME in MAP; -1 after a complaint. WHAT is `body` or `material`. */
+static int find_name(struct checking *checking, const struct named_map *map, const char *what,
+                     const char *name, const char *key)
+{
+    for (int i = 0; i < map->count; i++)
+        if (!strcmp(map->names[i], name))
+            return i;
+    const char *near = nearest_name(name, (const char *const *)map->names, map->count);
+    if (near)
+        wrong(checking, key, "there is no %s \"%s\" (did you mean \"%s\"?)", what, name, near);
+    else
+        wrong(checking, key, "there is no %s \"%s\"", what, name);
+    return -1;
+}
+
+static void check_axis(struct checking *checking, const char *key, int axis)
+{
+    if (axis >= checking->input->dimension)
+        wrong(checking, key, "the case has %d dimension%s", (int)checking->input->dimension,
+              checking->input->dimension == 1 ? "" : "s");
+}
+
+/* The material as plain data: the index of a choice is the enum of its model. */
+static void fill_material(struct material_input *material)
+{
+    struct material *plain = &material->material;
+    memset(plain, 0, sizeof *plain);
+    plain->eos.kind = (enum eos_kind)material->eos.index;
+    memcpy(&plain->eos.of, material->eos.value, material->eos.choice->size);
+    plain->strength.kind = STRENGTH_NONE;
+    if (material->strength.value) {
+        plain->strength.kind = (enum strength_kind)material->strength.index;
+        memcpy(&plain->strength.of, material->strength.value, material->strength.choice->size);
+    }
+}
+
+static void check_replaces(struct checking *checking, const struct body_input *body, int index)
+{
+    for (int i = 0; i < body->replaces.count; i++) {
+        int other = find_name(checking, &checking->input->bodies, "body", body->replaces.names[i],
+                              "replaces");
+        if (other == index)
+            wrong(checking, "replaces", "a body cannot replace itself");
+    }
+}
+
+static void check_body(struct checking *checking, int index)
+{
+    struct simulation_case *input = checking->input;
+    struct body_input *body = case_body(input, index);
+    body->material_index =
+        find_name(checking, &input->materials, "material", body->material, "material");
+    if (body->material_index >= 0) {
+        const char *key;
+        const struct material_input *material = case_material(input, body->material_index);
+        const char *text = body_start_state(body, &material->material, &key);
+        if (text)
+            wrong(checking, key, "%s", text);
+    }
+    const char *text = shape_wrong(&body->shape, (int)input->dimension);
+    if (text)
+        wrong(checking, body->shape.choice->name, "%s", text);
+    if (body->velocity.count == 0)
+        body->velocity.count = (int)input->dimension;
+    else if (body->velocity.count != input->dimension)
+        wrong(checking, "velocity", "%d component%s wanted, one a dimension; found %d",
+              (int)input->dimension, input->dimension == 1 ? " is" : "s are", body->velocity.count);
+    check_replaces(checking, body, index);
+}
+
+static void check_contact(struct checking *checking, int index)
+{
+    struct simulation_case *input = checking->input;
+    struct contact_input *contact = case_contact(input, index);
+    contact->body[0] = contact->body[1] = -1;
+    if (contact->between.count != 2) {
+        wrong(checking, "between", "two bodies are wanted, found %d", contact->between.count);
+        return;
+    }
+    for (int i = 0; i < 2; i++)
+        contact->body[i] =
+            find_name(checking, &input->bodies, "body", contact->between.names[i], "between");
+    if (contact->body[0] < 0 || contact->body[1] < 0)
+        return;
+    if (contact->body[0] == contact->body[1])
+        wrong(checking, "between", "two different bodies are wanted");
+    for (int i = 0; i < index; i++) {
+        const struct contact_input *other = case_contact(input, i);
+        if ((other->body[0] == contact->body[0] && other->body[1] == contact->body[1]) ||
+            (other->body[0] == contact->body[1] && other->body[1] == contact->body[0]))
+            wrong(checking, "between", "\"%s\" already names these two", input->contacts.names[i]);
+    }
+}
+
+static bool is_given(const struct quantity *quantity) { return !isnan(quantity->value); }
+
+static bool is_number(const struct quantity *quantity)
+{
+    return dimension_equal(quantity->dimension, (struct dimension){0});
+}
+
+/* The measure's own dimension is compared with these when the check is prepared. */
+static void check_limits(struct checking *checking, const struct check_input *check)
+{
+    const struct quantity *is = &check->is, *within = &check->within;
+    if (is_given(is) && !is_given(within))
+        wrong(checking, "is", "this needs `within` beside it");
+    else if (!is_given(within) && !is_given(&check->at_most) && !is_given(&check->at_least))
+        wrong(checking, "", "a limit is missing: `is` and `within`, `at_most` or `at_least`");
+    if (!is_given(within))
+        return;
+    if (within->value < 0.0)
+        wrong(checking, "within", "this cannot be negative");
+    if (is_given(is) && is->value != 0.0 && !is_number(within) &&
+        !dimension_equal(is->dimension, within->dimension))
+        wrong(checking, "within", "a fraction, or a quantity of the dimension of `is`, is wanted");
+}
+
+static void check_check(struct checking *checking, int index)
+{
+    const struct check_input *check = case_check(checking->input, index);
+    if (check->of)
+        find_name(checking, &checking->input->bodies, "body", check->of, "of");
+    if (check->between.count != 0 &&
+        !(check->between.count == 2 && check->between.at[0] < check->between.at[1]))
+        wrong(checking, "between", "two positions are wanted, the smaller first");
+    check_axis(checking, "axis", check->axis);
+    check_limits(checking, check);
+}
+
+static void check_wall(struct checking *checking, int index)
+{
+    check_axis(checking, "mirror", case_wall(checking->input, index)->axis);
+}
+
+static void check_map(struct checking *checking, const char *key, const struct named_map *map,
+                      void (*check)(struct checking *, int))
+{
+    checking->map = key;
+    for (int i = 0; i < map->count; i++) {
+        checking->name = map->names[i];
+        check(checking, i);
+    }
+    checking->name = NULL;
+}
+
+struct error *case_check_meaning(struct simulation_case *input)
+{
+    struct checking checking = {.input = input};
+    for (int i = 0; i < input->materials.count; i++)
+        fill_material(case_material(input, i));
+    if (input->bodies.count == 0) {
+        checking.map = "bodies";
+        wrong(&checking, "", "one body at least is wanted");
+    }
+    check_map(&checking, "bodies", &input->bodies, check_body);
+    check_map(&checking, "walls", &input->walls, check_wall);
+    check_map(&checking, "contacts", &input->contacts, check_contact);
+    check_map(&checking, "checks", &input->checks, check_check);
+    return checking.error;
+}

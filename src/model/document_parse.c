@@ -1,0 +1,282 @@
+/* From YAML text to a tree of nodes. libfyaml parses and finds the mistakes of syntax; anchors, aliases
+ * and tags are refused, since a case has `let` for what is used twice. */
+#include <libfyaml.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "model/document_internal.h"
+
+enum { DEPTH_MAX = 48 };
+
+struct parse {
+    struct fy_parser *parser;
+    struct fy_diag *messages;
+    const char *origin;
+    bool located;
+    struct error *twins; /* keys given twice: they do not stop the reading, so that all are told */
+};
+
+struct node *node_new(enum node_kind kind, struct place place)
+{
+    struct node *node = calloc(1, sizeof *node);
+    if (node) {
+        node->kind = kind;
+        node->place = place;
+        node->key_place = place;
+    }
+    return node;
+}
+
+void node_free(struct node *node)
+{
+    if (!node)
+        return;
+    for (int i = 0; i < node->count; i++)
+        node_free(node->child[i]);
+    free(node->child);
+    free(node->text);
+    free(node->key);
+    free(node);
+}
+
+bool node_append(struct node *parent, struct node *child)
+{
+    struct node **grown = realloc(parent->child, ((size_t)parent->count + 1) * sizeof(struct node *));
+    if (!grown) {
+        node_free(child);
+        return false;
+    }
+    parent->child = grown;
+    grown[parent->count++] = child;
+    return true;
+}
+
+struct node *node_take(struct node *parent, int index)
+{
+    struct node *taken = parent->child[index];
+    parent->count--;
+    memmove(parent->child + index, parent->child + index + 1,
+            (size_t)(parent->count - index) * sizeof(struct node *));
+    return taken;
+}
+
+static struct place place_of(const struct parse *parse, const struct fy_mark *mark,
+                             struct place otherwise)
+{
+    if (!mark)
+        return otherwise;
+    struct place place = {parse->origin, 0, 0};
+    if (parse->located) {
+        place.line = mark->line + 1;
+        place.column = mark->column + 1;
+    }
+    return place;
+}
+
+/* What libfyaml found wrong, in our words' form. */
+static struct error *syntax_error(const struct parse *parse)
+{
+    struct error *error = NULL;
+    void *step = NULL;
+    const struct fy_diag_error *found;
+    while ((found = fy_diag_errors_iterate(parse->messages, &step))) {
+        struct place place = {parse->origin, 0, 0};
+        if (parse->located) {
+            place.line = found->line;
+            place.column = found->column;
+        }
+        error = error_join(error, place_error(place, "", "%s", found->msg));
+    }
+    if (!error) {
+        struct place place = {parse->origin, 0, 0};
+        error = place_error(place, "", "this is not YAML");
+    }
+    return error;
+}
+
+static struct error *take_text(struct fy_token *token, struct place place, char **text)
+{
+    size_t length = 0;
+    const char *bytes = token ? fy_token_get_text(token, &length) : "";
+    if (!bytes)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    if (memchr(bytes, '\0', length))
+        return place_error(place, "", "a text cannot hold a zero byte");
+    *text = text_copy_part(bytes, length);
+    return *text ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+}
+
+static struct error *build(struct parse *parse, struct fy_event *event, struct place before,
+                           int depth, struct node **result);
+
+/* The next event, NULL on a mistake of syntax. */
+static struct fy_event *next_event(const struct parse *parse)
+{
+    return fy_parser_get_stream_error(parse->parser) ? NULL : fy_parser_parse(parse->parser);
+}
+
+/* Builds what the event starts and gives the event back to the parser. */
+static struct error *build_and_free(struct parse *parse, struct fy_event *event,
+                                    struct place before, int depth, struct node **result)
+{
+    struct error *error = build(parse, event, before, depth, result);
+    fy_parser_event_free(parse->parser, event);
+    return error;
+}
+
+/* Reads KEY and its value into MAP; the event is the key's. */
+static struct error *build_entry(struct parse *parse, struct fy_event *event, int depth,
+                                 struct node *map)
+{
+    struct place place = place_of(parse, fy_event_start_mark(event), map->place);
+    bool simple = event->type == FYET_SCALAR;
+    char *key = NULL;
+    struct error *error = simple ? take_text(event->scalar.value, place, &key) : NULL;
+    fy_parser_event_free(parse->parser, event);
+    if (error)
+        return error;
+    if (!simple)
+        return place_error(place, "", "a key must be a single name");
+    struct fy_event *next = next_event(parse);
+    struct node *value = NULL;
+    error = next ? build_and_free(parse, next, place, depth + 1, &value) : syntax_error(parse);
+    if (!value) {
+        free(key);
+        return error;
+    }
+    value->key = key;
+    value->key_place = place;
+    const struct node *twin = node_entry(map, key);
+    if (twin) {
+        parse->twins = error_join(parse->twins,
+                                  place_error(place, "", "\"%s\" is given twice, first in line %d",
+                                              key, twin->key_place.line));
+        node_free(value);
+        return NULL;
+    }
+    return node_append(map, value) ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+}
+
+/* Reads entries or items until the end of the collection. */
+static struct error *build_children(struct parse *parse, int depth, struct node *node)
+{
+    for (;;) {
+        struct fy_event *event = next_event(parse);
+        if (!event)
+            return syntax_error(parse);
+        if (event->type == FYET_MAPPING_END || event->type == FYET_SEQUENCE_END) {
+            fy_parser_event_free(parse->parser, event);
+            return NULL;
+        }
+        if (node->kind == NODE_MAP) {
+            TRY(build_entry(parse, event, depth, node));
+            continue;
+        }
+        struct node *item = NULL;
+        TRY(build_and_free(parse, event, node->place, depth + 1, &item));
+        if (!node_append(node, item))
+            return error_new(ERROR_SYSTEM, "out of memory");
+    }
+}
+
+/* BEFORE is the place of the key, for a value of which nothing stands in the file. */
+static struct error *build(struct parse *parse, struct fy_event *event, struct place before,
+                           int depth, struct node **result)
+{
+    struct place place = place_of(parse, fy_event_start_mark(event), before);
+    if (event->type == FYET_ALIAS || fy_event_get_anchor_token(event))
+        return place_error(place, "", "anchors and aliases (& and *) are not known here; "
+                                      "a text that starts with one needs quotes");
+    if (fy_event_get_tag_token(event))
+        return place_error(place, "", "tags (!) are not known here");
+    if (depth > DEPTH_MAX)
+        return place_error(place, "", "nested too deeply");
+    struct node *node = node_new(event->type == FYET_MAPPING_START    ? NODE_MAP
+                                 : event->type == FYET_SEQUENCE_START ? NODE_LIST
+                                                                      : NODE_SCALAR,
+                                 place);
+    if (!node)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error;
+    if (node->kind == NODE_SCALAR) {
+        struct fy_token *token = event->scalar.value;
+        node->plain = !token || fy_token_scalar_style(token) == FYSS_PLAIN;
+        error = take_text(token, place, &node->text);
+    } else {
+        error = build_children(parse, depth, node);
+    }
+    if (error) {
+        node_free(node);
+        return error;
+    }
+    *result = node;
+    return NULL;
+}
+
+/* Runs through the stream: one document, whose only node becomes the root. */
+static struct error *build_document(struct parse *parse, struct node **root)
+{
+    struct place start = {parse->origin, parse->located ? 1 : 0, 1};
+    for (;;) {
+        struct fy_event *event = next_event(parse);
+        if (!event)
+            return syntax_error(parse);
+        enum fy_event_type type = event->type;
+        if (type == FYET_STREAM_START || type == FYET_DOCUMENT_END) {
+            fy_parser_event_free(parse->parser, event);
+            continue;
+        }
+        if (type == FYET_DOCUMENT_START || type == FYET_STREAM_END) {
+            struct place place = place_of(parse, fy_event_start_mark(event), start);
+            fy_parser_event_free(parse->parser, event);
+            if (type == FYET_STREAM_END)
+                break;
+            if (*root)
+                return place_error(place, "", "a second document starts here; one is wanted");
+            continue;
+        }
+        TRY(build_and_free(parse, event, start, 0, root));
+    }
+    if (*root)
+        return NULL;
+    *root = node_new(NODE_SCALAR, start);
+    if (*root)
+        (*root)->text = text_copy("");
+    if (!*root || !(*root)->text)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    (*root)->plain = true;
+    return NULL;
+}
+
+struct error *node_parse(const char *text, size_t length, const char *origin, bool located,
+                         struct node **root)
+{
+    *root = NULL;
+    if (memchr(text, '\0', length))
+        return error_new(ERROR_INPUT, "%s: not a text: it holds a zero byte", origin);
+    struct fy_diag_cfg quiet;
+    fy_diag_cfg_default(&quiet);
+    quiet.fp = NULL;
+    struct parse parse = {.origin = origin, .located = located};
+    parse.messages = fy_diag_create(&quiet);
+    if (!parse.messages)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    fy_diag_set_collect_errors(parse.messages, true);
+    struct fy_parse_cfg how = {.flags = FYPCF_QUIET | FYPCF_JSON_NONE, .diag = parse.messages};
+    parse.parser = fy_parser_create(&how);
+    struct error *error = NULL;
+    if (!parse.parser || fy_parser_set_string(parse.parser, text, length) != 0)
+        error = error_new(ERROR_SYSTEM, "the YAML parser cannot start");
+    else
+        error = build_document(&parse, root);
+    error = error_join(parse.twins, error);
+    if (error) {
+        node_free(*root);
+        *root = NULL;
+    }
+    if (parse.parser)
+        fy_parser_destroy(parse.parser);
+    fy_diag_destroy(parse.messages);
+    return error;
+}

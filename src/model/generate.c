@@ -1,0 +1,365 @@
+/* From bodies to particles. A lattice is walked site by site and never held in memory: once to count
+ * what stays and to find mistakes, once more to make it.
+ * Particle mass and diameter: Parshikov (2013), (1.69). */
+#include "model/generate.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "model/shape.h"
+
+/* An id keeps the index of a site in 48 bits. */
+static const double sites_limit = 281474976710656.0;
+
+/* What becomes of a site that lies in another body too. */
+enum overlap { OVERLAP_KEEP, OVERLAP_DROP, OVERLAP_MISTAKE };
+
+struct rival {
+    int body;
+    enum overlap overlap;
+    struct bounds bounds;
+};
+
+/* A walk over the sites of one body that become particles. */
+struct walk {
+    const struct simulation_case *input;
+    int body;
+    struct lattice lattice;
+    int64_t site, end;    /* the next one to look at */
+    int64_t row;          /* of sites along x, -1 before the first */
+    struct rival *rivals; /* bodies whose bounds meet this one's, */
+    int rival_count;
+    int *near; /* and those among them that meet the row */
+    int near_count;
+    int conflict; /* a body that overlaps by mistake, -1: none found yet */
+    struct vec3 conflict_place;
+};
+
+static bool bounds_meet(const struct bounds *a, const struct bounds *b)
+{
+    return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y &&
+           b->low.y <= a->high.y && a->low.z <= b->high.z && b->low.z <= a->high.z;
+}
+
+struct lattice body_lattice(const struct simulation_case *input, int body)
+{
+    const struct body_input *of = case_body(input, body);
+    const struct bounds bounds = shape_bounds(&of->shape);
+    const double resolution = isnan(of->resolution) ? input->resolution : of->resolution;
+    const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z};
+    const double high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
+    /* An axis that the case has not: one site at zero, of unit width. */
+    double origin[3] = {-0.5, -0.5, -0.5}, spacing[3] = {1.0, 1.0, 1.0};
+    struct lattice lattice = {.sites = {1, 1, 1}};
+    for (int axis = 0; axis < input->dimension; axis++) {
+        const double extent = high[axis] - low[axis];
+        const double count = minimum(maximum(round(extent / resolution), 1.0), sites_limit);
+        lattice.sites[axis] = (int64_t)count;
+        spacing[axis] = extent / count;
+        origin[axis] = low[axis];
+    }
+    lattice.origin = vec3_make(origin[0], origin[1], origin[2]);
+    lattice.spacing = vec3_make(spacing[0], spacing[1], spacing[2]);
+    return lattice;
+}
+
+static double site_volume(const struct lattice *lattice)
+{
+    return lattice->spacing.x * lattice->spacing.y * lattice->spacing.z;
+}
+
+static double site_diameter(const struct lattice *lattice, int dimension)
+{
+    const double volume = site_volume(lattice);
+    return dimension == 1 ? volume : dimension == 2 ? sqrt(volume) : cbrt(volume);
+}
+
+double largest_diameter(const struct simulation_case *input)
+{
+    double largest = 0.0;
+    for (int body = 0; body < input->bodies.count; body++) {
+        const struct lattice lattice = body_lattice(input, body);
+        largest = maximum(largest, site_diameter(&lattice, (int)input->dimension));
+    }
+    return largest;
+}
+
+static bool replaces(const struct simulation_case *input, int body, int other)
+{
+    const struct name_list *list = &case_body(input, body)->replaces;
+    for (int i = 0; i < list->count; i++)
+        if (strcmp(list->names[i], input->bodies.names[other]) == 0)
+            return true;
+    return false;
+}
+
+static enum overlap overlap_of(const struct simulation_case *input, int body, int other)
+{
+    const bool gives_way = replaces(input, other, body);
+    if (replaces(input, body, other))
+        return gives_way ? OVERLAP_MISTAKE : OVERLAP_KEEP;
+    return gives_way ? OVERLAP_DROP : OVERLAP_MISTAKE;
+}
+
+static void walk_end(struct walk *walk)
+{
+    free(walk->rivals);
+    free(walk->near);
+}
+
+/* Begins a walk over the part of BODY's lattice that falls to this rank; walk_end in any case. */
+static struct error *walk_begin(struct walk *walk, const struct simulation_case *input, int body,
+                                const struct ranks *ranks)
+{
+    *walk = (struct walk){.input = input,
+                          .body = body,
+                          .lattice = body_lattice(input, body),
+                          .row = -1,
+                          .conflict = -1};
+    const int64_t *sites = walk->lattice.sites;
+    const double total = (double)sites[0] * (double)sites[1] * (double)sites[2];
+    if (total >= sites_limit)
+        return input_error(input, "bodies", input->bodies.names[body],
+                           "the lattice has %.3g sites, more than the %.3g that ids can tell "
+                           "apart: choose a coarser resolution",
+                           total, sites_limit);
+    const struct slice slice = ranks_slice(ranks, sites[0] * sites[1] * sites[2]);
+    walk->site = slice.begin;
+    walk->end = slice.end;
+
+    walk->rivals = memory_allocate((size_t)input->bodies.count * sizeof *walk->rivals);
+    walk->near = memory_allocate((size_t)input->bodies.count * sizeof *walk->near);
+    if (!walk->rivals || !walk->near)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    const struct bounds own = shape_bounds(&case_body(input, body)->shape);
+    for (int other = 0; other < input->bodies.count; other++) {
+        const struct bounds bounds = shape_bounds(&case_body(input, other)->shape);
+        if (other == body || !bounds_meet(&own, &bounds))
+            continue;
+        const enum overlap overlap = overlap_of(input, body, other);
+        if (overlap != OVERLAP_KEEP)
+            walk->rivals[walk->rival_count++] = (struct rival){other, overlap, bounds};
+    }
+    return NULL;
+}
+
+/* A matrix may hold thousands of grains: a row of sites tests only those that it meets. */
+static void walk_to_row(struct walk *walk, int64_t row, double y, double z)
+{
+    walk->row = row;
+    walk->near_count = 0;
+    for (int i = 0; i < walk->rival_count; i++) {
+        const struct bounds *bounds = &walk->rivals[i].bounds;
+        if (bounds->low.y <= y && y <= bounds->high.y && bounds->low.z <= z && z <= bounds->high.z)
+            walk->near[walk->near_count++] = i;
+    }
+}
+
+static bool site_dropped(struct walk *walk, struct vec3 place)
+{
+    for (int i = 0; i < walk->near_count; i++) {
+        const struct rival *rival = &walk->rivals[walk->near[i]];
+        if (place.x < rival->bounds.low.x || place.x > rival->bounds.high.x ||
+            !shape_inside(&case_body(walk->input, rival->body)->shape, place))
+            continue;
+        if (rival->overlap == OVERLAP_DROP)
+            return true;
+        if (walk->conflict < 0) {
+            walk->conflict = rival->body;
+            walk->conflict_place = place;
+        }
+    }
+    return false;
+}
+
+/* The next site that becomes a particle, and where; false behind the last. */
+static bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place)
+{
+    const struct lattice *lattice = &walk->lattice;
+    const struct one_of *shape = &case_body(walk->input, walk->body)->shape;
+    while (walk->site < walk->end) {
+        *site = walk->site++;
+        const int64_t row = *site / lattice->sites[0], x = *site % lattice->sites[0];
+        const int64_t y = row % lattice->sites[1], z = row / lattice->sites[1];
+        *place = vec3_make(lattice->origin.x + ((double)x + 0.5) * lattice->spacing.x,
+                           lattice->origin.y + ((double)y + 0.5) * lattice->spacing.y,
+                           lattice->origin.z + ((double)z + 0.5) * lattice->spacing.z);
+        if (row != walk->row)
+            walk_to_row(walk, row, place->y, place->z);
+        if (shape_inside(shape, *place) && !site_dropped(walk, *place))
+            return true;
+    }
+    return false;
+}
+
+/* A place as the case writes it, in as many numbers as it has dimensions. */
+enum { PLACE_TEXT = 80 };
+static const char *place_text(const struct simulation_case *input, struct vec3 place, char *buffer)
+{
+    static const char *const formats[3] = {"[%.6g m]", "[%.6g m, %.6g m]",
+                                           "[%.6g m, %.6g m, %.6g m]"};
+    snprintf(buffer, PLACE_TEXT, formats[input->dimension - 1], place.x, place.y, place.z);
+    return buffer;
+}
+
+/* The wall that PLACE lies behind, -1 for none. A particle on a wall would meet its own image. */
+static int wall_before(const struct simulation_case *input, struct vec3 place)
+{
+    const double at[3] = {place.x, place.y, place.z};
+    for (int i = 0; i < input->walls.count; i++) {
+        const struct wall_input *wall = case_wall(input, i);
+        if (wall->side == WALL_LOW ? at[wall->axis] <= wall->at : at[wall->axis] >= wall->at)
+            return i;
+    }
+    return -1;
+}
+
+/* What one walk over a body found. */
+struct finding {
+    int64_t particles;
+    int wall; /* that a particle lies behind, -1: none */
+    struct vec3 wall_place;
+    int conflict;
+    struct vec3 conflict_place;
+};
+
+static struct error *explore_body(const struct simulation_case *input, int body,
+                                  const struct ranks *ranks, struct finding *finding)
+{
+    *finding = (struct finding){.wall = -1, .conflict = -1};
+    struct walk walk;
+    struct error *error = walk_begin(&walk, input, body, ranks);
+    int64_t site;
+    struct vec3 place;
+    while (!error && walk_next(&walk, &site, &place)) {
+        finding->particles++;
+        if (finding->wall < 0) {
+            finding->wall = wall_before(input, place);
+            finding->wall_place = place;
+        }
+    }
+    finding->conflict = walk.conflict;
+    finding->conflict_place = walk.conflict_place;
+    walk_end(&walk);
+    return error;
+}
+
+/* The mistakes that a walk over BODY has shown. Each pair of bodies is told once, by its first. */
+static struct error *judge_body(const struct simulation_case *input, int body,
+                                const struct ranks *ranks, const struct finding *findings)
+{
+    const struct finding *finding = &findings[body];
+    const char *name = input->bodies.names[body];
+    const int other = finding->conflict;
+    char place[PLACE_TEXT];
+    struct error *error = NULL;
+    if (finding->wall >= 0)
+        error = input_error(input, "bodies", name, "the particle at %s lies behind wall \"%s\"",
+                            place_text(input, finding->wall_place, place),
+                            input->walls.names[finding->wall]);
+    if (other >= 0 && !(other < body && findings[other].conflict == body))
+        error = error_join(
+            error, input_error(input, "bodies", name,
+                               "overlaps \"%s\" at %s: let one of the two, and only one, name the "
+                               "other in `replaces`",
+                               input->bodies.names[other],
+                               place_text(input, finding->conflict_place, place)));
+    if (ranks_sum(ranks, finding->particles) == 0)
+        error = error_join(error, input_error(input, "bodies", name,
+                                              "no particle: the shape is smaller than the "
+                                              "resolution, or replaced everywhere"));
+    return error;
+}
+
+/* Collective: walks over all bodies; FINDINGS has an entry for each. */
+static struct error *explore(const struct simulation_case *input, const struct ranks *ranks,
+                             struct finding *findings)
+{
+    struct error *error = NULL;
+    int64_t total = 0;
+    for (int body = 0; body < input->bodies.count; body++)
+        error = error_join(error, explore_body(input, body, ranks, &findings[body]));
+    TRY(ranks_agree(ranks, error));
+    for (int body = 0; body < input->bodies.count; body++) {
+        error = error_join(error, judge_body(input, body, ranks, findings));
+        total += findings[body].particles;
+    }
+    if (total > INT32_MAX)
+        error = error_join(error, input_error(input, "resolution", NULL,
+                                              "%lld particles on one rank, more than %d",
+                                              (long long)total, INT32_MAX));
+    return ranks_agree(ranks, error);
+}
+
+/* Makes the particles of BODY from index *next on, and moves it behind the last. */
+static struct error *fill_body(struct simulation *simulation, int body, int32_t *next)
+{
+    const struct simulation_case *input = simulation->input;
+    const struct body_input *of = case_body(input, body);
+    const struct point *start = &of->start;
+    struct particles *particles = &simulation->particles;
+    struct walk walk;
+    struct error *error = walk_begin(&walk, input, body, simulation->ranks);
+    const double mass = start->density * site_volume(&walk.lattice);
+    int64_t site;
+    struct vec3 place;
+    while (!error && walk_next(&walk, &site, &place)) {
+        const int32_t i = (*next)++;
+        particles->id[i] = particle_id(body, site);
+        particles->body[i] = (uint16_t)body;
+        particles->material[i] = (uint16_t)of->material_index;
+        particles->mass[i] = mass;
+        particles->density[i] = start->density;
+        particles->energy[i] = start->energy;
+        particles->pressure[i] = start->pressure;
+        particles->position[i][0] = place.x;
+        particles->position[i][1] = place.y;
+        particles->position[i][2] = place.z;
+        for (int axis = 0; axis < of->velocity.count; axis++)
+            particles->velocity[i][axis] = of->velocity.at[axis];
+    }
+    walk_end(&walk);
+    return error;
+}
+
+struct error *generate_particles(struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    struct finding *findings = memory_allocate((size_t)input->bodies.count * sizeof *findings);
+    struct error *error =
+        ranks_agree(simulation->ranks, findings ? NULL : error_new(ERROR_SYSTEM, "out of memory"));
+    if (!error)
+        error = explore(input, simulation->ranks, findings);
+    int64_t total = 0;
+    for (int body = 0; !error && body < input->bodies.count; body++)
+        total += findings[body].particles;
+    free(findings);
+    int32_t next = 0;
+    if (!error)
+        error = particles_append(&simulation->particles, (int32_t)total, &next);
+    for (int body = 0; !error && body < input->bodies.count; body++)
+        error = fill_body(simulation, body, &next);
+    if (!error)
+        error = particles_commit(&simulation->particles);
+    return ranks_agree(simulation->ranks, error);
+}
+
+struct error *generate_summary(const struct simulation_case *input, struct body_summary *summary)
+{
+    const struct ranks alone = ranks_alone();
+    struct finding *findings = memory_allocate((size_t)input->bodies.count * sizeof *findings);
+    if (!findings)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = explore(input, &alone, findings);
+    for (int body = 0; body < input->bodies.count; body++) {
+        const struct lattice lattice = body_lattice(input, body);
+        const double particle = case_body(input, body)->start.density * site_volume(&lattice);
+        summary[body].particles = findings[body].particles;
+        summary[body].mass = (double)findings[body].particles * particle;
+        summary[body].diameter = site_diameter(&lattice, (int)input->dimension);
+    }
+    free(findings);
+    return error;
+}

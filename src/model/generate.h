@@ -1,0 +1,35 @@
+/* From bodies to particles: a square or cubic lattice fills each shape. */
+#ifndef BOLIDE_GENERATE_H
+#define BOLIDE_GENERATE_H
+
+#include "model/simulation.h"
+
+/* The lattice of a body: sites at origin + (index + 1/2) spacing, counts per axis. The spacing is the
+ * body's resolution, adjusted on each axis so that a whole number fills the shape's bounds. */
+struct lattice {
+    struct vec3 origin, spacing;
+    int64_t sites[3];
+};
+
+/* What a body will be, for `bolide check`. */
+struct body_summary {
+    int64_t particles;
+    double mass;     /* kg, kg/m or kg/m^2 in 3-D, 2-D, 1-D */
+    double diameter; /* of a particle, m */
+};
+
+struct lattice body_lattice(const struct simulation_case *input, int body);
+
+/* Largest initial particle diameter of a case, m: the store's cell follows from it. */
+double largest_diameter(const struct simulation_case *input);
+
+/* Collective. Appends the particles of all bodies, each rank its slice of every lattice, with id, body,
+ * material, mass, density, energy, position and velocity, and commits. ERROR_INPUT (located) when two
+ * bodies overlap and neither replaces the other, when a body has no particle, or when a particle lies
+ * behind a wall. A particle's mass is rho times the volume of its site. */
+struct error *generate_particles(struct simulation *simulation);
+
+/* Counts without making: SUMMARY has an entry for each body. */
+struct error *generate_summary(const struct simulation_case *input, struct body_summary *summary);
+
+#endif

@@ -1,0 +1,104 @@
+/* The ledger and the totals that it is compared with: exact sums, so that a balance does not depend on
+ * the order of particles, threads or ranks. */
+#include "model/ledger.h"
+
+#include <string.h>
+
+static const char *const cause_names[LEDGER_CAUSES] = {[LEDGER_WALLS] = "walls"};
+
+/* Behind the entries of the ledger, what else particles_totals sums. */
+enum { TOTAL_KINETIC = LEDGER_ENTRIES, TOTAL_INTERNAL, TOTAL_MOMENTUM_SCALE, TOTALS };
+
+const char *ledger_cause_name(enum ledger_cause cause) { return cause_names[cause]; }
+
+static void add_vector(struct exact_sum *sums, struct vec3 value)
+{
+    exact_sum_add(&sums[0], value.x);
+    exact_sum_add(&sums[1], value.y);
+    exact_sum_add(&sums[2], value.z);
+}
+
+void ledger_book(struct ledger *ledger, enum ledger_cause cause, double mass, struct vec3 momentum,
+                 struct vec3 position, double energy)
+{
+    struct exact_sum *sums = ledger->sum[cause];
+    exact_sum_add(&sums[LEDGER_MASS], mass);
+    add_vector(&sums[LEDGER_MOMENTUM_X], momentum);
+    add_vector(&sums[LEDGER_ANGULAR_X], vec3_cross(position, momentum));
+    exact_sum_add(&sums[LEDGER_ENERGY], energy);
+}
+
+void ledger_join(struct ledger *ledger, const struct ledger *other)
+{
+    for (int cause = 0; cause < LEDGER_CAUSES; cause++)
+        for (int entry = 0; entry < LEDGER_ENTRIES; entry++)
+            exact_sum_join(&ledger->sum[cause][entry], &other->sum[cause][entry]);
+}
+
+struct totals ledger_totals(const struct ledger *ledger, const struct ranks *ranks,
+                            enum ledger_cause cause)
+{
+    struct exact_sum sums[LEDGER_ENTRIES] = {0};
+    for (int each = 0; each < LEDGER_CAUSES; each++)
+        for (int entry = 0;
+             entry < LEDGER_ENTRIES && (cause == LEDGER_CAUSES || (int)cause == each); entry++)
+            exact_sum_join(&sums[entry], &ledger->sum[each][entry]);
+    ranks_sum_exact(ranks, sums, LEDGER_ENTRIES);
+    struct totals totals = {0};
+    for (int entry = 0; entry < LEDGER_ENTRIES; entry++)
+        totals.entry[entry] = exact_sum_value(&sums[entry]);
+    return totals;
+}
+
+struct totals particles_totals(const struct particles *particles, const struct ranks *ranks,
+                               int body)
+{
+    struct exact_sum sums[TOTALS] = {0};
+    for (int32_t i = 0; i < particles->count; i++) {
+        if (body >= 0 && particles->body[i] != body)
+            continue;
+        const double *x = particles->position[i], *u = particles->velocity[i];
+        const double mass = particles->mass[i];
+        const struct vec3 velocity = vec3_make(u[0], u[1], u[2]);
+        const struct vec3 momentum = vec3_scale(mass, velocity);
+        const double speed_square = vec3_dot(velocity, velocity);
+        exact_sum_add(&sums[LEDGER_MASS], mass);
+        add_vector(&sums[LEDGER_MOMENTUM_X], momentum);
+        add_vector(&sums[LEDGER_ANGULAR_X], vec3_cross(vec3_make(x[0], x[1], x[2]), momentum));
+        exact_sum_add(&sums[TOTAL_KINETIC], 0.5 * mass * speed_square);
+        exact_sum_add(&sums[TOTAL_INTERNAL], mass * particles->energy[i]);
+        exact_sum_add(&sums[TOTAL_MOMENTUM_SCALE], mass * sqrt(speed_square));
+    }
+    exact_sum_join(&sums[LEDGER_ENERGY], &sums[TOTAL_KINETIC]);
+    exact_sum_join(&sums[LEDGER_ENERGY], &sums[TOTAL_INTERNAL]);
+    ranks_sum_exact(ranks, sums, TOTALS);
+    struct totals totals = {0};
+    for (int entry = 0; entry < LEDGER_ENTRIES; entry++)
+        totals.entry[entry] = exact_sum_value(&sums[entry]);
+    totals.kinetic = exact_sum_value(&sums[TOTAL_KINETIC]);
+    totals.internal = exact_sum_value(&sums[TOTAL_INTERNAL]);
+    totals.momentum_scale = exact_sum_value(&sums[TOTAL_MOMENTUM_SCALE]);
+    return totals;
+}
+
+/* A sum as a row of whole numbers: its digits, its pending additions, whether it is not finite. */
+enum { SUM_NUMBERS = EXACT_SUM_DIGITS + 2, SUMS = LEDGER_CAUSES * LEDGER_ENTRIES };
+
+struct error *ledger_visit(struct ledger *ledger, struct visitor *visitor)
+{
+    int64_t rows[SUMS][SUM_NUMBERS];
+    for (int i = 0; i < SUMS; i++) {
+        const struct exact_sum *sum = &ledger->sum[i / LEDGER_ENTRIES][i % LEDGER_ENTRIES];
+        memcpy(rows[i], sum->digit, sizeof sum->digit);
+        rows[i][EXACT_SUM_DIGITS] = sum->pending;
+        rows[i][EXACT_SUM_DIGITS + 1] = sum->not_finite;
+    }
+    TRY(visitor->visit(visitor, "ledger", NUMBER_INT64, rows, SUMS, SUM_NUMBERS));
+    for (int i = 0; i < SUMS; i++) {
+        struct exact_sum *sum = &ledger->sum[i / LEDGER_ENTRIES][i % LEDGER_ENTRIES];
+        memcpy(sum->digit, rows[i], sizeof sum->digit);
+        sum->pending = rows[i][EXACT_SUM_DIGITS];
+        sum->not_finite = rows[i][EXACT_SUM_DIGITS + 1] != 0;
+    }
+    return NULL;
+}

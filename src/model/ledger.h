@@ -1,0 +1,53 @@
+/* The ledger books what enters or leaves the particles, by cause, as exact sums: a conserved quantity is
+ * the total of the particles less the ledger. */
+#ifndef BOLIDE_LEDGER_H
+#define BOLIDE_LEDGER_H
+
+#include "base/vector.h"
+#include "base/visitor.h"
+#include "parallel/ranks.h"
+#include "particle/particles.h"
+
+enum ledger_cause { LEDGER_WALLS, LEDGER_CAUSES };
+
+/* kg, kg m/s, kg m^2/s, J; in a plane problem per metre of depth, in 1-D per square metre. */
+enum ledger_entry {
+    LEDGER_MASS,
+    LEDGER_MOMENTUM_X,
+    LEDGER_MOMENTUM_Y,
+    LEDGER_MOMENTUM_Z,
+    LEDGER_ANGULAR_X,
+    LEDGER_ANGULAR_Y,
+    LEDGER_ANGULAR_Z,
+    LEDGER_ENERGY,
+    LEDGER_ENTRIES
+};
+
+struct ledger {
+    struct exact_sum sum[LEDGER_CAUSES][LEDGER_ENTRIES];
+};
+
+/* Total of the particles, or of the ledger over all causes and ranks. */
+struct totals {
+    double entry[LEDGER_ENTRIES];
+    double kinetic, internal;
+    double momentum_scale; /* sum of m |u|, against which a drift of momentum is judged */
+};
+
+const char *ledger_cause_name(enum ledger_cause cause);
+
+/* Books COUNT entries' worth of one particle's gain. */
+void ledger_book(struct ledger *ledger, enum ledger_cause cause, double mass, struct vec3 momentum,
+                 struct vec3 position, double energy);
+void ledger_join(struct ledger *ledger, const struct ledger *other);
+
+/* Collective: what all ranks booked under CAUSE, or under all causes for LEDGER_CAUSES. */
+struct totals ledger_totals(const struct ledger *ledger, const struct ranks *ranks,
+                            enum ledger_cause cause);
+
+/* Collective: mass, momentum, angular momentum, energy of the particles of BODY, of all for -1. */
+struct totals particles_totals(const struct particles *particles, const struct ranks *ranks, int body);
+
+struct error *ledger_visit(struct ledger *ledger, struct visitor *visitor);
+
+#endif

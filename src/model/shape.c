@@ -1,0 +1,31 @@
+/* The list of shapes, and questions to whichever shape a case has chosen. */
+#include "model/shape_kinds.h"
+
+#define SHAPE_CHOICE(identifier, help)                                                 \
+    {#identifier, help, shape_##identifier##_table, sizeof(struct shape_##identifier), \
+     &shape_##identifier##_class},
+
+const struct choice shape_choices[] = {SHAPE_LIST(SHAPE_CHOICE)};
+
+const int shape_choice_count = (int)COUNT_OF(shape_choices);
+
+static const struct shape_class *class_of(const struct one_of *shape)
+{
+    assert(shape->choice);
+    return shape->choice->thing;
+}
+
+bool shape_inside(const struct one_of *shape, struct vec3 point)
+{
+    return class_of(shape)->inside(shape->value, point);
+}
+
+struct bounds shape_bounds(const struct one_of *shape)
+{
+    return class_of(shape)->bounds(shape->value);
+}
+
+const char *shape_wrong(const struct one_of *shape, int dimension)
+{
+    return class_of(shape)->wrong(shape->value, dimension);
+}

@@ -1,0 +1,212 @@
+/* What a run knows before it has particles: materials, mirror walls and the contact laws between groups
+ * of bodies, checked against the case. */
+#include "model/simulation.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+struct error *input_error(const struct simulation_case *input, const char *section,
+                          const char *name, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char *text = text_vformat(format, arguments);
+    va_end(arguments);
+    char *path = name ? text_format("%s.%s", section, name) : text_copy(section);
+    struct error *error;
+    if (!text || !path)
+        error = error_new(ERROR_SYSTEM, "out of memory");
+    else if (input->document)
+        error = document_error(input->document, path, "%s", text);
+    else
+        error = error_new(ERROR_INPUT, "%s: %s", path, text);
+    free(text);
+    free(path);
+    return error;
+}
+
+static struct error *set_mirrors(const struct simulation_case *input, struct mirrors *mirrors)
+{
+    static const char axis_names[] = "xyz";
+    struct error *error = NULL;
+    for (int axis = 0; axis < 3; axis++)
+        mirrors->low[axis] = mirrors->high[axis] = NAN;
+    for (int i = 0; i < input->walls.count; i++) {
+        const struct wall_input *wall = case_wall(input, i);
+        const char *name = input->walls.names[i], axis = axis_names[wall->axis];
+        const bool low = wall->side == WALL_LOW;
+        double *at = low ? &mirrors->low[wall->axis] : &mirrors->high[wall->axis];
+        struct error *mistake = NULL;
+        if (wall->axis >= input->dimension)
+            mistake = input_error(input, "walls", name, "the case has no %c axis", axis);
+        else if (!isnan(*at))
+            mistake = input_error(input, "walls", name, "there is another %s wall on the %c axis",
+                                  low ? "low" : "high", axis);
+        *at = wall->at;
+        if (!mistake && mirrors->low[wall->axis] >= mirrors->high[wall->axis])
+            mistake =
+                input_error(input, "walls", name,
+                            "the low wall on the %c axis does not lie below the high wall", axis);
+        error = error_join(error, mistake);
+    }
+    return error;
+}
+
+/* The laws of the bodies that contacts name, by a number of their own from 1 on; 0 stands for all
+ * other bodies. An entry is 0 for a pair that no contact names, else 1 + its law. */
+struct law_table {
+    int count;      /* of numbers, 0 included */
+    int *number;    /* of each body */
+    uint8_t *entry; /* count x count */
+};
+
+static uint8_t *law_entry(const struct law_table *table, int first, int second)
+{
+    return &table->entry[(size_t)first * (size_t)table->count + (size_t)second];
+}
+
+static int law_of(const struct law_table *table, int first, int second)
+{
+    const int entry = *law_entry(table, first, second);
+    return entry ? entry - 1 : 0;
+}
+
+static struct error *law_table_make(const struct simulation_case *input, struct law_table *table)
+{
+    table->number = memory_allocate((size_t)input->bodies.count * sizeof *table->number);
+    if (!table->number)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    table->count = 1;
+    for (int i = 0; i < input->contacts.count; i++)
+        for (int side = 0; side < 2; side++) {
+            int *number = &table->number[case_contact(input, i)->body[side]];
+            if (*number == 0)
+                *number = table->count++;
+        }
+    table->entry = memory_allocate((size_t)table->count * (size_t)table->count);
+    if (!table->entry)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = NULL;
+    for (int i = 0; i < input->contacts.count; i++) {
+        const struct contact_input *contact = case_contact(input, i);
+        const char *name = input->contacts.names[i];
+        const int first = table->number[contact->body[0]], second = table->number[contact->body[1]];
+        const int law = (contact->shear == SHEAR_SLIP ? LAW_SLIP : 0) |
+                        (contact->tension == TENSION_NONE ? LAW_NO_TENSION : 0);
+        struct error *mistake = NULL;
+        if (first == second)
+            mistake = input_error(input, "contacts", name, "`between` wants two different bodies");
+        else if (*law_entry(table, first, second))
+            mistake =
+                input_error(input, "contacts", name, "another contact names the same two bodies");
+        error = error_join(error, mistake);
+        *law_entry(table, first, second) = *law_entry(table, second, first) = (uint8_t)(1 + law);
+    }
+    return error;
+}
+
+/* Two bodies may share a group when nothing tells them apart: full contact with each other, and the
+ * same law towards each third body. */
+static bool same_laws(const struct law_table *table, int first, int second)
+{
+    bool same = law_of(table, first, second) == 0;
+    for (int third = 0; third < table->count && same; third++)
+        if (third != first && third != second)
+            same = law_of(table, first, third) == law_of(table, second, third);
+    return same;
+}
+
+static struct error *group_bodies(const struct law_table *table, struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    int groups = 0, speaker[CONTACT_GROUPS]; /* the number whose laws are those of the group */
+    for (int body = 0; body < input->bodies.count; body++) {
+        const int number = table->number[body];
+        int group = 0;
+        while (group < groups && speaker[group] != number &&
+               !same_laws(table, speaker[group], number))
+            group++;
+        if (group == CONTACT_GROUPS)
+            return input_error(input, "contacts", NULL,
+                               "the bodies fall into more than %d groups of different contact laws",
+                               CONTACT_GROUPS);
+        if (group == groups)
+            speaker[groups++] = number;
+        simulation->group_of_body[body] = (uint8_t)group;
+    }
+    for (int i = 0; i < groups; i++)
+        for (int j = 0; j < groups; j++)
+            simulation->law[i][j] = (uint8_t)law_of(table, speaker[i], speaker[j]);
+    return NULL;
+}
+
+static struct error *set_contacts(struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    simulation->group_of_body = memory_allocate((size_t)input->bodies.count);
+    if (!simulation->group_of_body)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    struct law_table table = {0};
+    struct error *error = law_table_make(input, &table);
+    if (!error)
+        error = group_bodies(&table, simulation);
+    free(table.number);
+    free(table.entry);
+    return error;
+}
+
+/* The store keeps the number of a body in 16 bits. */
+static struct error *check_counts(const struct simulation_case *input)
+{
+    struct error *error = NULL;
+    if (input->bodies.count > UINT16_MAX)
+        error = input_error(input, "bodies", NULL, "a case holds at most %d bodies", UINT16_MAX);
+    if (input->materials.count > MATERIALS_MAX)
+        error = error_join(error, input_error(input, "materials", NULL,
+                                              "a case holds at most %d materials", MATERIALS_MAX));
+    return error;
+}
+
+struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
+                                int threads, struct simulation *simulation)
+{
+    *simulation = (struct simulation){
+        .input = input, .ranks = ranks, .threads = threads, .dimension = (int)input->dimension};
+    TRY(check_counts(input));
+    simulation->materials = input->materials.count;
+    for (int i = 0; i < input->materials.count; i++)
+        simulation->material[i] = case_material(input, i)->material;
+    struct error *error = set_mirrors(input, &simulation->mirrors);
+    error = error_join(error, set_contacts(simulation));
+    if (error)
+        simulation_destroy(simulation);
+    return error;
+}
+
+void simulation_destroy(struct simulation *simulation)
+{
+    particles_destroy(&simulation->particles);
+    free(simulation->group_of_body);
+    simulation->group_of_body = NULL;
+}
+
+void simulation_spend(struct simulation *simulation, const char *name, double seconds)
+{
+    int i = 0;
+    while (i < simulation->phases && strcmp(simulation->phase[i].name, name) != 0)
+        i++;
+    assert(i < PHASES_MAX);
+    if (i == simulation->phases)
+        simulation->phase[simulation->phases++] = (struct phase){name, 0.0};
+    simulation->phase[i].seconds += seconds;
+}
+
+struct error *simulation_visit(struct simulation *simulation, struct visitor *visitor)
+{
+    TRY(visitor->visit(visitor, "time", NUMBER_DOUBLE, &simulation->time, 1, 1));
+    TRY(visitor->visit(visitor, "step", NUMBER_INT64, &simulation->step, 1, 1));
+    TRY(ledger_visit(&simulation->ledger, visitor));
+    return particles_visit(&simulation->particles, visitor);
+}

@@ -1,0 +1,59 @@
+/* A run in progress: what is computed (the case), its state, and what every solver may use. */
+#ifndef BOLIDE_SIMULATION_H
+#define BOLIDE_SIMULATION_H
+
+#include "model/case.h"
+#include "model/ledger.h"
+#include "parallel/ghosts.h"
+#include "particle/particles.h"
+
+enum { CONTACT_GROUPS = 16, MATERIALS_MAX = 256, PHASES_MAX = 16 };
+
+/* Bits of the law between two contact groups; zero is full contact. */
+enum contact_law {
+    LAW_SLIP = 1,       /* no shear traction */
+    LAW_NO_TENSION = 2, /* the contact opens instead of pulling */
+};
+
+/* Wall-clock seconds spent in a named part of the step. */
+struct phase {
+    const char *name;
+    double seconds;
+};
+
+struct simulation {
+    const struct simulation_case *input;
+    const struct ranks *ranks;
+    int threads;
+    int dimension;
+    int materials;
+    struct material material[MATERIALS_MAX];
+    struct mirrors mirrors;                              /* rigid slip walls */
+    uint8_t *group_of_body;                              /* contact group of each body */
+    uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS];         /* symmetric */
+    struct particles particles;
+    struct ledger ledger;
+    double time;
+    int64_t step;
+    int phases;
+    struct phase phase[PHASES_MAX];
+};
+
+/* A mistake in the case at SECTION.NAME ("bodies", "flyer"; NAME may be NULL): located in its file,
+ * or with the path alone when a program made the case without a file. */
+struct error *input_error(const struct simulation_case *input, const char *section,
+                          const char *name, const char *format, ...) BOLIDE_PRINTF(4, 5);
+
+/* Prepares a run of INPUT without particles: materials, walls, contact laws. The solver's create makes
+ * the store, since it knows the fields; generate_particles fills it. */
+struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
+                                int threads, struct simulation *simulation);
+void simulation_destroy(struct simulation *simulation);
+
+/* Adds SECONDS to phase NAME. */
+void simulation_spend(struct simulation *simulation, const char *name, double seconds);
+
+/* Time, step, ledger and particles. */
+struct error *simulation_visit(struct simulation *simulation, struct visitor *visitor);
+
+#endif

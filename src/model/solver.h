@@ -1,0 +1,33 @@
+/* A solver is six functions. The run loop knows no method: it prepares, chooses the step, advances. A
+ * solver is a choice of the catalogue's kind "solver"; its thing is a struct solver_class. */
+#ifndef BOLIDE_SOLVER_H
+#define BOLIDE_SOLVER_H
+
+#include "model/views.h"
+
+/* The largest step, what limits it, and the id of the particle where. */
+struct limit {
+    double dt;
+    const char *why;
+    uint64_t id;
+};
+
+struct solver_class {
+    size_t size; /* bytes of the solver's own state, zeroed before create */
+    /* Makes the store (particles_create) with its fields, from the case's parameters PARAMETERS. The
+     * particles come after; `start` is called once they are there (fresh or loaded). */
+    struct error *(*create)(void *solver, struct simulation *simulation, const void *parameters);
+    struct error *(*start)(void *solver, struct simulation *simulation);
+    /* Everything that level n determines: lists, ghosts, rates; returns the largest step. */
+    struct error *(*prepare)(void *solver, struct simulation *simulation, struct limit *limit);
+    /* All stages; ends at level n + 1 with every derived field up to date. Leaves time and step alone. */
+    struct error *(*advance)(void *solver, struct simulation *simulation, double dt);
+    /* Arrays beyond the simulation's that a resumed run needs. */
+    struct error *(*state)(void *solver, struct visitor *visitor);
+    void (*observe)(const void *solver, const struct simulation *simulation, struct views *views);
+    void (*destroy)(void *solver);
+    /* Bytes a particle, for `bolide check`, at DIMENSION. */
+    double (*bytes)(const void *parameters, int dimension);
+};
+
+#endif

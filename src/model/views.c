@@ -1,0 +1,132 @@
+/* Views of the particle store: its fields as they lie there, and a few quantities computed from them
+ * when they are read. */
+#include "model/views.h"
+
+#include <string.h>
+
+/* Particles that are computed at once when one component of them is wanted. */
+enum { CHUNK = 256, COMPONENTS_MAX = 6 };
+
+static void compute_stress(const void *context, int64_t begin, int64_t end, double *out)
+{
+    const struct particles *particles = context;
+    for (int64_t i = begin; i < end; i++, out += 6)
+        for (int k = 0; k < 6; k++)
+            out[k] = particles->deviator[i][k] - (k < 3 ? particles->pressure[i] : 0.0);
+}
+
+static void compute_equivalent_stress(const void *context, int64_t begin, int64_t end, double *out)
+{
+    const struct particles *particles = context;
+    for (int64_t i = begin; i < end; i++) {
+        const double *s = particles->deviator[i];
+        const struct sym3 deviator = {s[0], s[1], s[2], s[3], s[4], s[5]};
+        *out++ = sym3_mises(deviator);
+    }
+}
+
+static void compute_speed(const void *context, int64_t begin, int64_t end, double *out)
+{
+    const struct particles *particles = context;
+    for (int64_t i = begin; i < end; i++) {
+        const double *u = particles->velocity[i];
+        *out++ = sqrt(square(u[0]) + square(u[1]) + square(u[2]));
+    }
+}
+
+static const struct view computed_views[] = {
+    {.name = "stress",
+     .unit = "Pa",
+     .help = "stress, positive in tension",
+     .components = 6,
+     .compute = compute_stress},
+    {.name = "equivalent_stress",
+     .unit = "Pa",
+     .help = "equivalent (von Mises) stress",
+     .components = 1,
+     .compute = compute_equivalent_stress},
+    {.name = "speed",
+     .unit = "m/s",
+     .help = "magnitude of the velocity",
+     .components = 1,
+     .compute = compute_speed},
+};
+
+void views_add(struct views *views, struct view view)
+{
+    assert(views->count < VIEWS_MAX);
+    views->view[views->count++] = view;
+}
+
+void views_of_particles(struct views *views, const struct simulation *simulation)
+{
+    const struct particles *particles = &simulation->particles;
+    views->particles = particles;
+    for (int i = 0; i < particles->fields; i++) {
+        const struct field_declaration *declaration = &particles->field[i].declaration;
+        if (declaration->number != NUMBER_DOUBLE || !declaration->unit)
+            continue;
+        views_add(views, (struct view){.name = declaration->name,
+                                       .unit = declaration->unit,
+                                       .help = declaration->help,
+                                       .components = declaration->components,
+                                       .data = particles->field[i].data});
+    }
+    for (size_t i = 0; i < COUNT_OF(computed_views); i++) {
+        struct view view = computed_views[i];
+        view.context = particles;
+        views_add(views, view);
+    }
+}
+
+/* The index of component NAME of a vector or tensor, -1 when there is none. */
+static int component_index(int components, const char *name)
+{
+    static const char *const vector_names[3] = {"x", "y", "z"};
+    static const char *const tensor_names[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    const char *const *names = components == 6 ? tensor_names : vector_names;
+    for (int i = 0; i < components && components > 1; i++)
+        if (strcmp(names[i], name) == 0)
+            return i;
+    return -1;
+}
+
+const struct view *views_find(const struct views *views, const char *name, int *component)
+{
+    const char *dot = strrchr(name, '.');
+    const size_t length = dot ? (size_t)(dot - name) : strlen(name);
+    for (int i = 0; i < views->count; i++) {
+        const struct view *view = &views->view[i];
+        if (strlen(view->name) != length || strncmp(view->name, name, length) != 0)
+            continue;
+        *component = dot ? component_index(view->components, dot + 1) : -1;
+        return dot && *component < 0 ? NULL : view;
+    }
+    return NULL;
+}
+
+void view_read(const struct view *view, int64_t begin, int64_t end, double *out)
+{
+    if (view->compute)
+        view->compute(view->context, begin, end, out);
+    else if (end > begin)
+        memcpy(out, view->data + begin * view->components,
+               (size_t)(end - begin) * (size_t)view->components * sizeof *out);
+}
+
+void view_read_component(const struct view *view, int component, int64_t begin, int64_t end,
+                         double *out)
+{
+    assert(component < view->components && (component >= 0 || view->components == 1));
+    if (view->components == 1) {
+        view_read(view, begin, end, out);
+        return;
+    }
+    double chunk[CHUNK * COMPONENTS_MAX];
+    for (int64_t from = begin; from < end; from += CHUNK) {
+        const int64_t to = from + CHUNK < end ? from + CHUNK : end;
+        view_read(view, from, to, chunk);
+        for (int64_t i = from; i < to; i++)
+            out[i - begin] = chunk[(i - from) * view->components + component];
+    }
+}

@@ -1,0 +1,44 @@
+/* What a solver shows to output and checks: named quantities of the particles, read by slices. */
+#ifndef BOLIDE_VIEWS_H
+#define BOLIDE_VIEWS_H
+
+#include "model/simulation.h"
+
+enum { VIEWS_MAX = 40 };
+
+struct view {
+    const char *name, *unit, *help;
+    int components; /* 1, 3 or 6 */
+    /* Either the array itself (as doubles), or a function that fills OUT, components numbers a
+     * particle, for the particles begin .. end - 1. */
+    const double *data;
+    void (*compute)(const void *context, int64_t begin, int64_t end, double *out);
+    const void *context;
+};
+
+/* Views hold until the next step. */
+struct views {
+    const struct particles *particles;
+    int count;
+    struct view view[VIEWS_MAX];
+};
+
+/* Adds the particle core's own views: every double field of the store that is declared with a name, and
+ * from them speed, stress (6), equivalent_stress. */
+void views_of_particles(struct views *views, const struct simulation *simulation);
+
+void views_add(struct views *views, struct view view);
+
+/* Finds "pressure", or one component of a view: "velocity.x", "stress.xx". *component is -1 for a whole
+ * view. NULL when there is none. */
+const struct view *views_find(const struct views *views, const char *name, int *component);
+
+/* Copies the view of particles begin .. end - 1 to OUT. */
+void view_read(const struct view *view, int64_t begin, int64_t end, double *out);
+
+/* The same for one component of it. */
+void view_read_component(const struct view *view, int component, int64_t begin, int64_t end,
+                         double *out);
+
+/* The unit of a view by its name, for case checks before a run. */
+#endif

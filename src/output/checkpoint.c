@@ -1,0 +1,253 @@
+/* checkpoint.h5: one dataset for each array that a visitor is shown, '/' in its name makes groups;
+ * see checkpoint.h. Every dataset carries HDF5's Fletcher32 checksum, and so do the file's own
+ * structures, so that a damaged file is refused instead of believed. */
+#include "output/checkpoint.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "output/hdf5_file.h"
+
+enum { FORMAT = 1, CHUNK_BYTES = 1 << 20 };
+
+static const char case_name[] = "case", format_name[] = "bolide checkpoint format";
+
+/* A visitor must come first in what it stands for: visit() gets the pointer to it. */
+struct file_visitor {
+    struct visitor visitor;
+    hid_t file;
+};
+
+static hid_t number_type(enum number number)
+{
+    switch (number) {
+    case NUMBER_DOUBLE:
+        return H5T_NATIVE_DOUBLE;
+    case NUMBER_INT64:
+        return H5T_NATIVE_INT64;
+    case NUMBER_UINT64:
+        return H5T_NATIVE_UINT64;
+    case NUMBER_UINT16:
+        return H5T_NATIVE_UINT16;
+    }
+    return H5I_INVALID_HID;
+}
+
+/* Chunks of about a megabyte, since checksums belong to chunks; an empty dataset has none. */
+static hid_t creation_list(hid_t type, const hsize_t size[2])
+{
+    hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+    if (size[0] == 0)
+        return list;
+    hsize_t rows = CHUNK_BYTES / (size[1] * H5Tget_size(type));
+    hsize_t chunk[2] = {rows < 1 ? 1 : rows > size[0] ? size[0] : rows, size[1]};
+    H5Pset_chunk(list, 2, chunk);
+    H5Pset_fletcher32(list);
+    return list;
+}
+
+static struct error *write_array(hid_t file, const char *name, hid_t type, const void *data,
+                                 const hsize_t size[2])
+{
+    hid_t space = H5Screate_simple(2, size, NULL);
+    hid_t creation = creation_list(type, size);
+    hid_t link = H5Pcreate(H5P_LINK_CREATE);
+    H5Pset_create_intermediate_group(link, 1);
+    hid_t dataset = H5Dcreate2(file, name, type, space, link, creation, H5P_DEFAULT);
+    struct error *error = NULL;
+    if (dataset < 0 || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+        error = hdf5_error(ERROR_SYSTEM, "%s cannot be written", name);
+    if (dataset >= 0)
+        H5Dclose(dataset);
+    H5Pclose(link);
+    H5Pclose(creation);
+    H5Sclose(space);
+    return error;
+}
+
+static struct error *save(struct visitor *visitor, const char *name, enum number number, void *data,
+                          int64_t count, int components)
+{
+    const struct file_visitor *saver = (const struct file_visitor *)visitor;
+    const hsize_t size[2] = {(hsize_t)count, (hsize_t)components};
+    return write_array(saver->file, name, number_type(number), data, size);
+}
+
+/* The type of a text of LENGTH bytes. */
+static hid_t text_type(size_t length)
+{
+    hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, length ? length : 1);
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    return type;
+}
+
+static struct error *write_head(hid_t file, const char *case_text)
+{
+    static const hsize_t one[2] = {1, 1};
+    const int64_t format = FORMAT;
+    TRY(write_array(file, format_name, H5T_NATIVE_INT64, &format, one));
+    hid_t type = text_type(strlen(case_text));
+    struct error *error = write_array(file, case_name, type, case_text, one);
+    H5Tclose(type);
+    return error;
+}
+
+static struct error *visit_all(const struct checkpoint *checkpoint, struct visitor *visitor)
+{
+    TRY(simulation_visit(checkpoint->simulation, visitor));
+    if (checkpoint->class->state)
+        TRY(checkpoint->class->state(checkpoint->solver, visitor));
+    return checkpoint->extra ? checkpoint->extra(checkpoint->context, visitor) : NULL;
+}
+
+struct error *checkpoint_write(const char *path, const struct checkpoint *checkpoint)
+{
+    struct hdf5_printing printing = hdf5_quiet();
+    hid_t file;
+    struct error *error = hdf5_create(path, true, &file);
+    if (!error) {
+        struct file_visitor saver = {{save}, file};
+        error = write_head(file, checkpoint->case_text);
+        if (!error)
+            error = visit_all(checkpoint, &saver.visitor);
+        error = hdf5_finish(path, file, error_context(error, "%s", path));
+    }
+    hdf5_restore(printing);
+    return error;
+}
+
+/* Opens the dataset NAME, whose size must be SIZE. */
+static struct error *open_array(hid_t file, const char *name, const hsize_t size[2], hid_t *dataset)
+{
+    hsize_t found[2] = {0, 0};
+    *dataset = H5Dopen2(file, name, H5P_DEFAULT);
+    if (*dataset < 0)
+        return hdf5_error(ERROR_SYSTEM, "has no %s, or a damaged one", name);
+    hid_t space = H5Dget_space(*dataset);
+    int rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
+    if (rank == 2)
+        H5Sget_simple_extent_dims(space, found, NULL);
+    H5Sclose(space);
+    if (rank == 2 && found[0] == size[0] && found[1] == size[1])
+        return NULL;
+    H5Dclose(*dataset);
+    return error_new(ERROR_SYSTEM,
+                     "%s has %llu rows of %llu numbers where %llu rows of %llu are wanted", name,
+                     (unsigned long long)found[0], (unsigned long long)found[1],
+                     (unsigned long long)size[0], (unsigned long long)size[1]);
+}
+
+static struct error *load(struct visitor *visitor, const char *name, enum number number, void *data,
+                          int64_t count, int components)
+{
+    const struct file_visitor *loader = (const struct file_visitor *)visitor;
+    const hsize_t size[2] = {(hsize_t)count, (hsize_t)components};
+    hid_t wanted = number_type(number), dataset;
+    TRY(open_array(loader->file, name, size, &dataset));
+    hid_t type = H5Dget_type(dataset);
+    struct error *error = NULL;
+    if (H5Tequal(type, wanted) <= 0)
+        error = error_new(ERROR_SYSTEM, "%s holds another type of number than is wanted", name);
+    else if (H5Dread(dataset, wanted, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+        error = hdf5_error(ERROR_SYSTEM, "%s is damaged", name);
+    H5Tclose(type);
+    H5Dclose(dataset);
+    return error;
+}
+
+/* The case text that is stored, in fresh memory. */
+static struct error *read_case(hid_t file, char **text)
+{
+    static const hsize_t one[2] = {1, 1};
+    hid_t dataset;
+    TRY(open_array(file, case_name, one, &dataset));
+    hid_t type = H5Dget_type(dataset);
+    size_t size = type >= 0 && H5Tget_class(type) == H5T_STRING ? H5Tget_size(type) : 0;
+    *text = memory_allocate(size + 1);
+    struct error *error = NULL;
+    if (!*text)
+        error = error_new(ERROR_SYSTEM, "out of memory");
+    else if (!size || H5Tis_variable_str(type) ||
+             H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *text) < 0)
+        error = hdf5_error(ERROR_SYSTEM, "its case is damaged");
+    if (error)
+        free(*text);
+    H5Tclose(type);
+    H5Dclose(dataset);
+    return error;
+}
+
+/* The text of a line less its indentation, for a message. */
+static int shown_line(const char **line)
+{
+    *line += strspn(*line, " ");
+    return (int)strcspn(*line, "\n");
+}
+
+static struct error *compare_cases(const char *stored, const char *now)
+{
+    if (!strcmp(stored, now))
+        return NULL;
+    int number = 1;
+    for (;; number++) {
+        size_t length = strcspn(stored, "\n"), other = strcspn(now, "\n");
+        if (length != other || memcmp(stored, now, length) || !stored[length] || !now[other])
+            break;
+        stored += length + 1;
+        now += other + 1;
+    }
+    int there = shown_line(&stored), here = shown_line(&now);
+    return error_new(
+        ERROR_INPUT,
+        "this checkpoint is of another case; the first difference is in line %d of the "
+        "case as run: \"%.*s\" there, \"%.*s\" now",
+        number, there, stored, here, now);
+}
+
+static struct error *check_head(hid_t file, const char *case_text)
+{
+    int64_t format = 0;
+    struct file_visitor loader = {{load}, file};
+    if (H5Lexists(file, format_name, H5P_DEFAULT) == 0)
+        return error_new(ERROR_INPUT, "is no checkpoint of bolide");
+    TRY(load(&loader.visitor, format_name, NUMBER_INT64, &format, 1, 1));
+    if (format != FORMAT)
+        return error_new(ERROR_INPUT,
+                         "is a checkpoint of format %lld; this program reads format %d",
+                         (long long)format, FORMAT);
+    char *stored;
+    TRY(read_case(file, &stored));
+    struct error *error = compare_cases(stored, case_text);
+    free(stored);
+    return error;
+}
+
+static struct error *open_to_read(const char *path, hid_t *file)
+{
+    if (access(path, R_OK))
+        return error_new(ERROR_INPUT, "cannot be read: %s", strerror(errno));
+    *file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (*file < 0)
+        return hdf5_error(ERROR_INPUT, "is no HDF5 file, or a damaged one");
+    return NULL;
+}
+
+struct error *checkpoint_read(const char *path, const struct checkpoint *checkpoint)
+{
+    struct hdf5_printing printing = hdf5_quiet();
+    hid_t file = H5I_INVALID_HID;
+    struct error *error = open_to_read(path, &file);
+    if (!error) {
+        struct file_visitor loader = {{load}, file};
+        error = check_head(file, checkpoint->case_text);
+        if (!error)
+            error = visit_all(checkpoint, &loader.visitor);
+        H5Fclose(file);
+    }
+    hdf5_restore(printing);
+    return error_context(error, "%s", path);
+}

@@ -1,0 +1,22 @@
+/* checkpoint.h5: every array that a resumed run needs, through visitors. */
+#ifndef BOLIDE_CHECKPOINT_H
+#define BOLIDE_CHECKPOINT_H
+
+#include "model/solver.h"
+
+/* EXTRA shows what the run loop itself must keep (next output times, ...). CASE_TEXT is the case as
+ * run; it is stored, and checkpoint_read refuses a checkpoint whose case differs (ERROR_INPUT). */
+struct checkpoint {
+    struct simulation *simulation;
+    const struct solver_class *class;
+    void *solver;
+    struct error *(*extra)(void *context, struct visitor *visitor);
+    void *context;
+    const char *case_text;
+};
+
+/* Writes beside and renames, so that PATH is whole at every moment. */
+struct error *checkpoint_write(const char *path, const struct checkpoint *checkpoint);
+struct error *checkpoint_read(const char *path, const struct checkpoint *checkpoint);
+
+#endif

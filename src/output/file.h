@@ -1,0 +1,32 @@
+/* Files that are never half there: written beside, flushed to disk, renamed into place; and the
+ * folder that holds a run's results. */
+#ifndef BOLIDE_FILE_H
+#define BOLIDE_FILE_H
+
+#include <stdio.h>
+
+#include "base/error.h"
+
+/* The name to write to before PATH: PATH.part. Free it. */
+char *file_beside(const char *path);
+
+/* Flushes the finished file PATH.part to disk and renames it to PATH. */
+struct error *file_publish(const char *path);
+
+/* Opens PATH.part for writing text. */
+struct error *file_begin(const char *path, FILE **file);
+/* Closes FILE (an error of any earlier write shows here) and publishes PATH. */
+struct error *file_end(const char *path, FILE *file);
+
+/* Makes FOLDER and its parents where missing. */
+struct error *folder_make(const char *folder);
+
+/* Readies FOLDER for the results of a fresh run: makes it, or, when it holds results of a run
+ * already, removes those when OVERWRITE is set and refuses with ERROR_INPUT otherwise. Other files
+ * stay. */
+struct error *folder_ready(const char *folder, bool overwrite);
+
+/* FOLDER/NAME in fresh memory. */
+char *path_join(const char *folder, const char *name);
+
+#endif

@@ -1,0 +1,90 @@
+/* HDF5's errors as values, and its files written beside and published whole; see hdf5_file.h. */
+#include "output/hdf5_file.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/file.h"
+
+/* A file that a full disk kept from closing would crash HDF5's own clean-up at exit; files are
+ * closed here, so that the clean-up has nothing to do but harm. The call works before HDF5's first
+ * use only. */
+struct hdf5_printing hdf5_quiet(void)
+{
+    H5dont_atexit();
+    struct hdf5_printing printing = {NULL, NULL};
+    H5Eget_auto2(H5E_DEFAULT, &printing.function, &printing.context);
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    return printing;
+}
+
+void hdf5_restore(struct hdf5_printing printing)
+{
+    H5Eset_auto2(H5E_DEFAULT, printing.function, printing.context);
+}
+
+/* The stack's first entry, walked upward, is the root cause. Of a failed system call it tells
+ * addresses and times too; the system's own words are what a user needs. */
+static herr_t take_cause(unsigned index, const H5E_error2_t *entry, void *context)
+{
+    static const char mark[] = "error message = '";
+    if (index > 0 || !entry->desc)
+        return 0;
+    char **cause = context;
+    const char *words = strstr(entry->desc, mark);
+    if (words)
+        words += strlen(mark);
+    else
+        words = entry->desc;
+    *cause = text_copy_part(words, strcspn(words, words == entry->desc ? "\n" : "'"));
+    return 0;
+}
+
+struct error *hdf5_error(enum error_kind kind, const char *format, ...)
+{
+    char *cause = NULL;
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_cause, &cause);
+    H5Eclear2(H5E_DEFAULT);
+    va_list arguments;
+    va_start(arguments, format);
+    char *text = text_vformat(format, arguments);
+    va_end(arguments);
+    struct error *error = error_new(kind, "%s%s%s%s", text ? text : "HDF5 failed",
+                                    cause ? " (" : "", cause ? cause : "", cause ? ")" : "");
+    free(text);
+    free(cause);
+    return error;
+}
+
+struct error *hdf5_create(const char *path, bool checksums, hid_t *file)
+{
+    char *beside = file_beside(path);
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    bool ready = beside && access >= 0;
+    if (ready && checksums)
+        ready = H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110) >= 0;
+    *file = ready ? H5Fcreate(beside, H5F_ACC_TRUNC, H5P_DEFAULT, access) : H5I_INVALID_HID;
+    struct error *error = NULL;
+    if (*file < 0)
+        error = hdf5_error(ERROR_SYSTEM, "%s: cannot be written", path);
+    H5Pclose(access);
+    free(beside);
+    return error;
+}
+
+struct error *hdf5_finish(const char *path, hid_t file, struct error *error)
+{
+    if (H5Fclose(file) < 0 && !error)
+        error = hdf5_error(ERROR_SYSTEM, "%s: cannot be written", path);
+    H5Eclear2(H5E_DEFAULT);
+    if (!error)
+        return file_publish(path);
+    char *beside = file_beside(path);
+    if (beside)
+        remove(beside);
+    free(beside);
+    return error;
+}

@@ -1,0 +1,30 @@
+/* What snapshots and checkpoints share of HDF5: its errors as struct error instead of printed
+ * lines, and files that are written beside and published whole. */
+#ifndef BOLIDE_HDF5_FILE_H
+#define BOLIDE_HDF5_FILE_H
+
+#include <hdf5.h>
+
+#include "base/error.h"
+
+/* HDF5 prints its errors unless told otherwise. hdf5_quiet stops that and keeps the former setting,
+ * which belongs to the whole process, for hdf5_restore. */
+struct hdf5_printing {
+    H5E_auto2_t function;
+    void *context;
+};
+struct hdf5_printing hdf5_quiet(void);
+void hdf5_restore(struct hdf5_printing printing);
+
+/* An error that ends with the root cause in HDF5's own words, and clears HDF5's error stack. */
+struct error *hdf5_error(enum error_kind kind, const char *format, ...) BOLIDE_PRINTF(2, 3);
+
+/* Creates PATH.part in the format of HDF5 1.10 when CHECKSUMS is set (its metadata carry
+ * checksums), in the format that every version reads otherwise. */
+struct error *hdf5_create(const char *path, bool checksums, hid_t *file);
+
+/* Closes FILE and publishes PATH; after an earlier ERROR, or when closing fails, removes PATH.part
+ * instead. Takes ERROR and returns what went wrong. */
+struct error *hdf5_finish(const char *path, hid_t file, struct error *error);
+
+#endif

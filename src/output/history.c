@@ -1,0 +1,239 @@
+/* history.csv; see history.h. Numbers have as many digits as reading the same bits again takes. */
+#include "output/history.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+
+struct history {
+    FILE *file;
+    char *path;
+    int64_t rows;
+};
+
+static struct error *system_error(const char *path, int number)
+{
+    return error_new(ERROR_SYSTEM, "%s: %s", path, number ? strerror(number) : "cannot be written");
+}
+
+/* The place behind the head and the first KEEP rows; a last line without its end is no row. */
+static struct error *place_behind(FILE *file, const char *path, int64_t keep, off_t *place)
+{
+    int64_t lines = 0;
+    *place = 0;
+    for (int c; lines < keep + 1 && (c = getc(file)) != EOF;) {
+        ++*place;
+        lines += c == '\n';
+    }
+    if (ferror(file))
+        return system_error(path, errno);
+    if (lines < keep + 1)
+        return error_new(ERROR_INPUT, "%s: has %lld rows where %lld were written: cannot go on",
+                         path, (long long)(lines ? lines - 1 : 0), (long long)keep);
+    return NULL;
+}
+
+/* Opens PATH to go on behind KEEP rows. What an interrupted run wrote behind them is cut off. */
+static struct error *open_behind(const char *path, int64_t keep, FILE **file)
+{
+    *file = fopen(path, "r+e");
+    if (!*file)
+        return system_error(path, errno);
+    off_t place;
+    struct error *error = place_behind(*file, path, keep, &place);
+    if (!error && (fseeko(*file, place, SEEK_SET) || ftruncate(fileno(*file), place)))
+        error = system_error(path, errno);
+    if (error)
+        fclose(*file);
+    return error;
+}
+
+struct error *history_open(const char *path, int64_t keep, struct history **history)
+{
+    struct history *made = calloc(1, sizeof *made);
+    char *copy = text_copy(path);
+    struct error *error = made && copy ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    FILE *file = NULL;
+    if (!error && keep > 0)
+        error = open_behind(path, keep, &file);
+    else if (!error && !(file = fopen(path, "we")))
+        error = system_error(path, errno);
+    if (error) {
+        free(copy);
+        free(made);
+        return error;
+    }
+    *made = (struct history){file, copy, keep > 0 ? keep : 0};
+    *history = made;
+    return NULL;
+}
+
+int64_t history_rows(const struct history *history) { return history->rows; }
+
+struct error *history_close(struct history *history)
+{
+    if (!history)
+        return NULL;
+    struct error *error = fclose(history->file) ? system_error(history->path, errno) : NULL;
+    free(history->path);
+    free(history);
+    return error;
+}
+
+/* Writes columns one behind the other: the head's names or a row's numbers. */
+struct line {
+    FILE *file;
+    bool head, begun;
+};
+
+static void column(struct line *line, const char *name, const char *part, const char *unit,
+                   double value)
+{
+    if (line->begun)
+        putc(',', line->file);
+    line->begun = true;
+    if (line->head) {
+        fprintf(line->file, *unit ? "%s%s [%s]" : "%s%s", name, part, unit);
+        return;
+    }
+    char text[32];
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, value);
+        if (strtod(text, NULL) == value)
+            break;
+    }
+    fputs(text, line->file);
+}
+
+/* What the entries of a ledger are called, and their units in 1-D, 2-D and 3-D. */
+static const struct {
+    const char *name, *unit[3];
+} entries[LEDGER_ENTRIES] = {
+    [LEDGER_MASS] = {"mass", {"kg/m^2", "kg/m", "kg"}},
+    [LEDGER_MOMENTUM_X] = {"momentum.x", {"kg/(m*s)", "kg/s", "kg*m/s"}},
+    [LEDGER_MOMENTUM_Y] = {"momentum.y", {"kg/(m*s)", "kg/s", "kg*m/s"}},
+    [LEDGER_MOMENTUM_Z] = {"momentum.z", {"kg/(m*s)", "kg/s", "kg*m/s"}},
+    [LEDGER_ANGULAR_X] = {"angular_momentum.x", {"kg/s", "kg*m/s", "kg*m^2/s"}},
+    [LEDGER_ANGULAR_Y] = {"angular_momentum.y", {"kg/s", "kg*m/s", "kg*m^2/s"}},
+    [LEDGER_ANGULAR_Z] = {"angular_momentum.z", {"kg/s", "kg*m/s", "kg*m^2/s"}},
+    [LEDGER_ENERGY] = {"energy", {"J/m^2", "J/m", "J"}},
+};
+
+static void totals_columns(struct line *line, const char *prefix, const struct totals *totals,
+                           int dimension)
+{
+    for (int i = 0; i < LEDGER_ENTRIES; i++)
+        column(line, prefix, entries[i].name, entries[i].unit[dimension - 1], totals->entry[i]);
+}
+
+struct range {
+    double low, high;
+};
+
+static void widen(struct range *range, double value)
+{
+    range->low = value < range->low ? value : range->low;
+    range->high = value > range->high ? value : range->high;
+}
+
+static void range_columns(struct line *line, const char *name, const char *unit, struct range range)
+{
+    column(line, name, ".min", unit, range.low);
+    column(line, name, ".max", unit, range.high);
+}
+
+/* What a row says; write_line shows it as the head or as numbers. */
+struct row {
+    const struct simulation *simulation;
+    double dt, drift;
+    int64_t count;
+    struct totals now, booked[LEDGER_CAUSES];
+    struct range density, pressure, speed;
+};
+
+static struct range over_ranks(const struct ranks *ranks, struct range range)
+{
+    return (struct range){ranks_minimum(ranks, range.low), ranks_maximum(ranks, range.high)};
+}
+
+static void find_extremes(const struct simulation *simulation, struct row *row)
+{
+    const struct particles *particles = &simulation->particles;
+    struct range density = {INFINITY, -INFINITY}, pressure = density, speed = density;
+    for (int32_t i = 0; i < particles->count; i++) {
+        const double *u = particles->velocity[i];
+        widen(&density, particles->density[i]);
+        widen(&pressure, particles->pressure[i]);
+        widen(&speed, sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+    }
+    row->density = over_ranks(simulation->ranks, density);
+    row->pressure = over_ranks(simulation->ranks, pressure);
+    row->speed = over_ranks(simulation->ranks, speed);
+}
+
+/* The energy that is neither there nor booked, against the larger of the start's energy and what is
+ * there of both kinds, since a sum of opposite energies may be next to nothing. */
+static double energy_drift(const struct totals *now, const struct totals *booked,
+                           const struct totals *start)
+{
+    double lost =
+        now->entry[LEDGER_ENERGY] - booked->entry[LEDGER_ENERGY] - start->entry[LEDGER_ENERGY];
+    double scale = maximum(fabs(start->entry[LEDGER_ENERGY]), now->kinetic + fabs(now->internal));
+    return scale > 0.0 ? lost / scale : 0.0;
+}
+
+static struct row find_row(const struct simulation *simulation, double dt,
+                           const struct totals *start)
+{
+    struct row row = {.simulation = simulation, .dt = dt};
+    row.count = ranks_sum(simulation->ranks, simulation->particles.count);
+    row.now = particles_totals(&simulation->particles, simulation->ranks, -1);
+    for (int i = 0; i < LEDGER_CAUSES; i++)
+        row.booked[i] = ledger_totals(&simulation->ledger, simulation->ranks, (enum ledger_cause)i);
+    struct totals all = ledger_totals(&simulation->ledger, simulation->ranks, LEDGER_CAUSES);
+    row.drift = energy_drift(&row.now, &all, start);
+    find_extremes(simulation, &row);
+    return row;
+}
+
+static void write_line(FILE *file, bool head, const struct row *row)
+{
+    const struct simulation *simulation = row->simulation;
+    int dimension = simulation->dimension;
+    const char *joule = entries[LEDGER_ENERGY].unit[dimension - 1];
+    struct line line = {file, head, false};
+    column(&line, "time", "", "s", simulation->time);
+    column(&line, "step", "", "", (double)simulation->step);
+    column(&line, "dt", "", "s", row->dt);
+    column(&line, "particles", "", "", (double)row->count);
+    totals_columns(&line, "", &row->now, dimension);
+    column(&line, "kinetic_energy", "", joule, row->now.kinetic);
+    column(&line, "internal_energy", "", joule, row->now.internal);
+    column(&line, "energy_drift", "", "", row->drift);
+    for (int i = 0; i < LEDGER_CAUSES; i++) {
+        char prefix[32];
+        snprintf(prefix, sizeof prefix, "%s.", ledger_cause_name((enum ledger_cause)i));
+        totals_columns(&line, prefix, &row->booked[i], dimension);
+    }
+    range_columns(&line, "density", "kg/m^3", row->density);
+    range_columns(&line, "pressure", "Pa", row->pressure);
+    range_columns(&line, "speed", "m/s", row->speed);
+    putc('\n', file);
+}
+
+struct error *history_row(struct history *history, const struct simulation *simulation, double dt,
+                          const struct totals *start)
+{
+    const struct row row = find_row(simulation, dt, start);
+    if (history->rows == 0)
+        write_line(history->file, true, &row);
+    write_line(history->file, false, &row);
+    if (fflush(history->file) || ferror(history->file))
+        return system_error(history->path, errno);
+    history->rows++;
+    return NULL;
+}

@@ -1,0 +1,23 @@
+/* history.csv: one row a moment with energies, momentum, ledger and extremes; column names carry
+ * units. */
+#ifndef BOLIDE_HISTORY_H
+#define BOLIDE_HISTORY_H
+
+#include "model/views.h"
+
+struct history;
+
+/* Starts FOLDER/history.csv; with KEEP >= 0 goes on behind the first KEEP rows of an interrupted
+ * run. */
+struct error *history_open(const char *path, int64_t keep, struct history **history);
+
+/* One row: time, step, dt, count, mass, momentum, angular momentum, kinetic, internal and total
+ * energy, relative energy drift (ledger counted), the ledger's causes, smallest and largest
+ * density, pressure and speed. START are the totals at time zero. Rows reach the disk at once. */
+struct error *history_row(struct history *history, const struct simulation *simulation, double dt,
+                          const struct totals *start);
+
+int64_t history_rows(const struct history *history);
+struct error *history_close(struct history *history);
+
+#endif

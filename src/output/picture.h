@@ -1,0 +1,38 @@
+/* Pictures, as PNG by Cairo: particles coloured by a field, and line plots. */
+#ifndef BOLIDE_PICTURE_H
+#define BOLIDE_PICTURE_H
+
+#include "model/views.h"
+
+/* Draws the particles coloured by FIELD ("pressure", "velocity.x") with axes in a readable unit (mm, µm),
+ * colour scale with unit, title, time and outline-free discs of the particle's diameter. In 3-D the
+ * particles in the slab about the middle plane (of the smallest extent) are drawn; in 1-D it is a plot of FIELD over x.
+ * FIELD may be "material" or "body" too: one colour each, with a legend of their names.
+ * LOW and HIGH fix the colour scale (in 1-D the y axis); NAN: the field's own range. A particle at a place
+ * that is not finite is left out, one whose value is NaN is grey. ERROR_INPUT when FIELD is unknown or
+ * has several components, ERROR_SYSTEM when PATH cannot be written; then PATH is as it was. */
+struct error *picture_particles(const char *path, const struct simulation *simulation,
+                                const struct views *views, const char *field, double low,
+                                double high);
+
+/* One series of a line plot. */
+struct series {
+    const char *label; /* for the legend; NULL: none */
+    int64_t count;
+    const double *x, *y; /* SI units; a point that is not finite interrupts a line */
+    bool line;           /* a line; else dots */
+};
+
+struct plot {
+    const char *title;
+    const char *x_name, *x_unit, *y_name, *y_unit; /* SI units; drawn in a readable multiple */
+    int count;
+    const struct series *series; /* drawn in order: the first lies behind */
+    bool log_x, log_y;
+    const char *note;     /* a line under the title, the time for example; NULL: none */
+    double y_low, y_high; /* fix the y axis; equal: the series' own range */
+};
+
+struct error *picture_plot(const char *path, const struct plot *plot);
+
+#endif

@@ -1,0 +1,89 @@
+/* What the pictures share: a canvas, text, axes and legends, drawn by Cairo. Lengths are points; a point
+ * is PIXELS_PER_POINT pixels, y runs downwards. */
+#ifndef BOLIDE_PICTURE_INTERNAL_H
+#define BOLIDE_PICTURE_INTERNAL_H
+
+#include <cairo.h>
+
+#include "base/error.h"
+#include "output/picture_scale.h"
+
+enum { PIXELS_PER_POINT = 2, HEADER_HEIGHT = 56, LEGEND_ROW = 18, LABEL_TEXT = 128 };
+
+struct canvas {
+    cairo_surface_t *surface;
+    cairo_t *pen;
+    double width, height;
+};
+
+/* A white canvas; destroy it in every case, after failure too. */
+struct error *canvas_create(double width, double height, struct canvas *canvas);
+void canvas_destroy(struct canvas *canvas);
+
+/* Writes the picture to PATH as PNG. */
+struct error *canvas_publish(const struct canvas *canvas, const char *path);
+
+enum text_style { TEXT_TITLE, TEXT_NOTE, TEXT_LABEL, TEXT_TICK };
+
+/* Writes TEXT with its base line at y; ALONG says which part of it stands at x: 0 its start, 0.5 its middle,
+ * 1 its end. What is wider than ROOM is made smaller, then cut. */
+void canvas_text(const struct canvas *canvas, enum text_style style, double x, double y,
+                 double along, double room, const char *text);
+double canvas_text_width(const struct canvas *canvas, enum text_style style, const char *text);
+
+void canvas_colour(const struct canvas *canvas, struct colour colour);
+
+/* Title and note at the top, from LEFT on. NULL leaves one out. */
+void canvas_header(const struct canvas *canvas, double left, const char *title, const char *note);
+
+/* One axis: RANGE (SI units) lies between the points START and END. */
+struct axis {
+    char label[LABEL_TEXT];
+    struct range range;
+    double scale;
+    bool logarithmic;
+    double start, end;
+    struct ticks ticks;
+};
+
+/* Names AXIS "NAME (multiple of UNIT)", the multiple fit for MAGNITUDE; a logarithmic axis keeps UNIT. */
+void axis_name(struct axis *axis, const char *name, const char *unit, double magnitude);
+
+/* Finds as many ticks as fit between start and end without touching. */
+void axis_ticks(struct axis *axis, const struct canvas *canvas);
+
+/* The point where VALUE stands. */
+double axis_place(const struct axis *axis, double value);
+
+/* Grid lines, behind the data; frame, ticks and labels, before the data. */
+void axes_grid(const struct canvas *canvas, const struct axis *x, const struct axis *y);
+void axes_frame(const struct canvas *canvas, const struct axis *x, const struct axis *y);
+
+/* Ticks of a horizontal axis below y, with its label. */
+void axis_draw_below(const struct canvas *canvas, const struct axis *axis, double y);
+
+/* The pixels of an image that may be painted: columns left .. right - 1, rows top .. bottom - 1. */
+struct pixels {
+    uint32_t *data;
+    int64_t stride; /* in pixels */
+    int left, right, top, bottom;
+};
+
+/* Paints a particle of DIAMETER pixels about (x, y): a disc with a smooth rim, or, where that would be no more
+ * than a few pixels, a square. */
+void paint_particle(const struct pixels *pixels, double x, double y, double diameter,
+                    struct colour colour);
+
+enum legend_mark { MARK_NONE, MARK_DOT, MARK_LINE, MARK_SQUARE };
+struct legend_entry {
+    enum legend_mark mark;
+    struct colour colour;
+    const char *text;
+};
+
+/* Draws entries in rows from LEFT, TOP on, no wider than WIDTH; returns the number of rows. With DRAW unset
+ * it counts the rows only. */
+int legend_draw(const struct canvas *canvas, const struct legend_entry *entries, int count,
+                double left, double top, double width, bool draw);
+
+#endif

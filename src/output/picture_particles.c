@@ -1,0 +1,486 @@
+/* Pictures of particles coloured by a field: what is in the picture, how it fills the page, and what stands
+ * around the particles. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/units.h"
+#include "output/picture.h"
+#include "output/picture_internal.h"
+
+/* The layout, in points. */
+enum {
+    PAGE_WIDTH = 800,
+    PAGE_WIDTH_MIN = 420,
+    PAGE_WIDTH_MAX = 1200, /* of long strips */
+    BOX_HEIGHT_MIN = 32,
+    BOX_HEIGHT_MAX = 820,
+    BOX_WIDTH_MIN = 60,
+    LEFT = 68,
+    RIGHT = 22,
+    AXIS_HEIGHT = 42,
+    BAR_GAP = 10,
+    BAR_THICKNESS = 11,
+    MARGIN = 4, /* between the particles and the frame */
+};
+
+enum { SLICE = 4096 };
+
+/* What is shown: a component of a view, or a category of the particles. */
+struct shown {
+    const struct view *view;
+    int component;
+    const uint16_t *category; /* NULL: the view */
+    const struct named_map *names;
+};
+
+/* The plane of the picture, and what of space is in it. */
+struct plane {
+    int across, up, normal;      /* axes of space; normal -1: none */
+    struct range extent[3];      /* of the particles with their size */
+    double middle;               /* of the slab, along the normal */
+    double diameter;             /* geometric mean of the particles' */
+};
+
+/* A particle in the picture, in metres from the middle of the extents: floats halve the memory. */
+struct dot {
+    float across, up, depth, diameter, value;
+};
+
+struct dots {
+    int64_t count, capacity;
+    struct dot *dot;
+    struct range values;
+};
+
+static struct error *unknown_field(const struct views *views, const char *field)
+{
+    const char *names[VIEWS_MAX + 2] = {"material", "body"};
+    for (int i = 0; i < views->count; ++i)
+        names[i + 2] = views->view[i].name;
+    const char *nearest = nearest_name(field, names, views->count + 2);
+    if (nearest)
+        return error_new(ERROR_INPUT, "picture: unknown field \"%s\" (did you mean \"%s\"?)", field,
+                         nearest);
+    return error_new(ERROR_INPUT, "picture: unknown field \"%s\"", field);
+}
+
+static struct error *find_shown(const struct simulation *simulation, const struct views *views,
+                                const char *field, struct shown *shown)
+{
+    *shown = (struct shown){0};
+    bool material = strcmp(field, "material") == 0;
+    if (material || strcmp(field, "body") == 0) {
+        const struct simulation_case *input = simulation->input;
+        shown->category =
+            material ? simulation->particles.material : simulation->particles.body;
+        shown->names = !input ? NULL : material ? &input->materials : &input->bodies;
+        return NULL;
+    }
+    shown->view = views_find(views, field, &shown->component);
+    if (!shown->view)
+        return unknown_field(views, field);
+    if (shown->component < 0 && shown->view->components > 1)
+        return error_new(ERROR_INPUT, "picture: \"%s\" has %d components; name one, like \"%s.%s\"",
+                         field, shown->view->components, field,
+                         shown->view->components == 3 ? "x" : "xx");
+    shown->component = shown->component < 0 ? 0 : shown->component;
+    return NULL;
+}
+
+static void read_shown(const struct shown *shown, int64_t begin, int64_t end, double *out)
+{
+    if (shown->category)
+        for (int64_t i = begin; i < end; ++i)
+            out[i - begin] = shown->category[i];
+    else
+        view_read_component(shown->view, shown->component, begin, end, out);
+}
+
+/* The edge of the square or cube that a particle fills. */
+static double particle_diameter(const struct particles *particles, int64_t i)
+{
+    double volume = particles->mass[i] / particles->density[i];
+    return particles->dimension == 3   ? cbrt(volume)
+           : particles->dimension == 2 ? sqrt(volume)
+                                       : volume;
+}
+
+static double middle_of(struct range range) { return 0.5 * (range.low + range.high); }
+static double length_of(struct range range) { return range.high - range.low; }
+
+/* Finds extents, mean diameter, and in 3-D the two longest axes. */
+static struct plane survey(const struct particles *particles)
+{
+    struct plane plane = {0, 1, -1, {range_empty(), range_empty(), range_empty()}, 0.0, 0.0};
+    double logarithms = 0.0;
+    int64_t counted = 0;
+    for (int64_t i = 0; i < particles->count; ++i) {
+        for (int axis = 0; axis < 3; ++axis)
+            range_include(&plane.extent[axis], particles->position[i][axis]);
+        double logarithm = log(particle_diameter(particles, i));
+        if (isfinite(logarithm)) {
+            logarithms += logarithm;
+            ++counted;
+        }
+    }
+    plane.diameter = counted > 0 ? exp(logarithms / (double)counted) : 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        struct range *extent = &plane.extent[axis];
+        if (!(extent->low <= extent->high))
+            *extent = (struct range){0.0, plane.diameter > 0.0 ? 0.0 : 1.0};
+        extent->low -= 0.5 * plane.diameter;
+        extent->high += 0.5 * plane.diameter;
+    }
+    if (particles->dimension == 3) {
+        /* Of equal axes the last, but for rounding, so that x and y are the picture's. */
+        plane.normal = 2;
+        for (int axis = 1; axis >= 0; --axis)
+            if (length_of(plane.extent[axis]) < 0.99 * length_of(plane.extent[plane.normal]))
+                plane.normal = axis;
+        plane.across = plane.normal == 0;
+        plane.up = plane.normal == 2 ? 1 : 2;
+        plane.middle = middle_of(plane.extent[plane.normal]);
+    }
+    return plane;
+}
+
+/* Adds particle I, unless it lies outside of the slab: its centre within 3/4 of its diameter of the middle,
+ * so that a lattice shows one or two layers and never a gap. */
+static bool gather_one(const struct particles *particles, const struct plane *plane, int64_t i,
+                       double value, struct dots *dots)
+{
+    const double *position = particles->position[i];
+    double depth = plane->normal < 0 ? 0.0 : position[plane->normal] - plane->middle;
+    double diameter = particle_diameter(particles, i);
+    /* A particle blown to next to nothing would cover all others. */
+    diameter = minimum(isfinite(diameter) ? diameter : plane->diameter, 4.0 * plane->diameter);
+    if (!isfinite(position[plane->across]) || !isfinite(position[plane->up]) ||
+        !(fabs(depth) <= 0.75 * diameter || plane->normal < 0))
+        return true;
+    if (dots->count == dots->capacity &&
+        !memory_reserve((void **)&dots->dot, &dots->capacity, dots->count + 1, dots->count,
+                        sizeof *dots->dot))
+        return false;
+    struct dot *dot = &dots->dot[dots->count++];
+    dot->across = (float)(position[plane->across] - middle_of(plane->extent[plane->across]));
+    dot->up = (float)(position[plane->up] - middle_of(plane->extent[plane->up]));
+    dot->depth = (float)depth;
+    dot->diameter = (float)diameter;
+    dot->value = (float)value;
+    range_include(&dots->values, value);
+    return true;
+}
+
+static int compare_depth(const void *a, const void *b)
+{
+    float first = ((const struct dot *)a)->depth, second = ((const struct dot *)b)->depth;
+    return (first > second) - (first < second);
+}
+
+static struct error *gather(const struct particles *particles, const struct shown *shown,
+                            const struct plane *plane, struct dots *dots)
+{
+    double values[SLICE];
+    *dots = (struct dots){.values = range_empty()};
+    for (int64_t begin = 0; begin < particles->count; begin += SLICE) {
+        int64_t end = begin + SLICE < particles->count ? begin + SLICE : particles->count;
+        read_shown(shown, begin, end, values);
+        for (int64_t i = begin; i < end; ++i)
+            if (!gather_one(particles, plane, i, values[i - begin], dots))
+                return error_new(ERROR_SYSTEM, "picture: out of memory");
+    }
+    if (plane->normal >= 0 && dots->count > 0)
+        qsort(dots->dot, (size_t)dots->count, sizeof *dots->dot, compare_depth);
+    return NULL;
+}
+
+/* How the picture fills its page. */
+struct page {
+    struct axis x, y;
+    double scale; /* points a metre */
+    double width, height;
+};
+
+/* Paints every dot at FACTOR times its diameter. */
+static void paint_layer(const struct pixels *pixels, const struct page *page,
+                        const struct dots *dots, const struct shown *shown,
+                        const struct colour_scale *colours, double factor)
+{
+    double scale = page->scale * PIXELS_PER_POINT;
+    double x = 0.5 * (page->x.start + page->x.end) * PIXELS_PER_POINT;
+    double y = 0.5 * (page->y.start + page->y.end) * PIXELS_PER_POINT;
+    for (int64_t i = 0; i < dots->count; ++i) {
+        const struct dot *dot = &dots->dot[i];
+        double diameter = factor * dot->diameter * scale;
+        struct colour colour = shown->category ? colour_of_category((int)dot->value)
+                                               : colour_of(colours, dot->value);
+        paint_particle(pixels, x + dot->across * scale, y - dot->up * scale, diameter, colour);
+    }
+}
+
+static void paint(const struct canvas *canvas, const struct page *page, const struct dots *dots,
+                  const struct shown *shown, const struct colour_scale *colours, double diameter)
+{
+    cairo_surface_flush(canvas->surface);
+    struct pixels pixels = {
+        .data = (uint32_t *)(void *)cairo_image_surface_get_data(canvas->surface),
+        .stride = cairo_image_surface_get_stride(canvas->surface) / 4,
+        .left = (int)floor(page->x.start * PIXELS_PER_POINT),
+        .right = (int)floor(page->x.end * PIXELS_PER_POINT),
+        .top = (int)floor(page->y.end * PIXELS_PER_POINT),
+        .bottom = (int)floor(page->y.start * PIXELS_PER_POINT),
+    };
+    /* Small discs of one body should read as a solid: larger ones behind them fill the gaps, which a
+     * lattice has at its corners and wherever it is compressed along one axis. */
+    if (diameter * page->scale * PIXELS_PER_POINT < 14.0)
+        paint_layer(&pixels, page, dots, shown, colours, 1.4);
+    paint_layer(&pixels, page, dots, shown, colours, 1.05);
+    cairo_surface_mark_dirty(canvas->surface);
+}
+
+/* Places the frame: equal axes, as large as the page allows; only the page's height follows the
+ * particles, but for long strips and tall columns. FOOT is the height of what comes below. */
+static struct page lay_out(const struct plane *plane, double head, double foot)
+{
+    double across = length_of(plane->extent[plane->across]);
+    double up = length_of(plane->extent[plane->up]);
+    double room = PAGE_WIDTH - LEFT - RIGHT, most = PAGE_WIDTH_MAX - LEFT - RIGHT;
+    double width = minimum(maximum(room, BOX_HEIGHT_MIN * across / up), most);
+    double height = minimum(maximum(width * up / across, BOX_HEIGHT_MIN), BOX_HEIGHT_MAX);
+    width = minimum(width, maximum(height * across / up, BOX_WIDTH_MIN));
+
+    struct page page = {0};
+    page.scale = minimum((width - 2 * MARGIN) / across, (height - 2 * MARGIN) / up);
+    page.width = ceil(maximum(width + LEFT + RIGHT, PAGE_WIDTH_MIN));
+    page.height = ceil(head + height + AXIS_HEIGHT + foot);
+    page.x.start = LEFT + 0.5 * (page.width - LEFT - RIGHT - width);
+    page.x.end = page.x.start + width;
+    page.y.end = head;
+    page.y.start = head + height;
+    double x = middle_of(plane->extent[plane->across]), y = middle_of(plane->extent[plane->up]);
+    page.x.range = (struct range){x - 0.5 * width / page.scale, x + 0.5 * width / page.scale};
+    page.y.range = (struct range){y - 0.5 * height / page.scale, y + 0.5 * height / page.scale};
+
+    static const char *const axis_names[] = {"x", "y", "z"};
+    double reach = maximum(range_reach(page.x.range), range_reach(page.y.range));
+    axis_name(&page.x, axis_names[plane->across], "m", reach);
+    axis_name(&page.y, axis_names[plane->up], "m", reach);
+    return page;
+}
+
+/* A pointed end tells that values lie beyond the scale. */
+static void bar_end(const struct canvas *canvas, const struct colour_scale *colours, double value,
+                    double x, double y, double point)
+{
+    canvas_colour(canvas, colour_of(colours, value));
+    cairo_move_to(canvas->pen, x, y);
+    cairo_line_to(canvas->pen, x + point, y + 0.5 * BAR_THICKNESS);
+    cairo_line_to(canvas->pen, x, y + BAR_THICKNESS);
+    cairo_fill(canvas->pen);
+}
+
+static void draw_colour_bar(const struct canvas *canvas, const struct page *page, double top,
+                            const struct colour_scale *colours, const struct dots *dots,
+                            const char *name, const char *unit)
+{
+    double middle = 0.5 * (page->x.start + page->x.end);
+    double half = 0.5 * minimum(maximum(0.7 * (page->x.end - page->x.start), 300.0), 480.0);
+    struct axis bar = {.range = colours->range, .start = middle - half, .end = middle + half};
+    axis_name(&bar, name, unit, range_reach(bar.range));
+    axis_ticks(&bar, canvas);
+    cairo_pattern_t *shades = cairo_pattern_create_linear(bar.start, 0.0, bar.end, 0.0);
+    enum { shade_count = 96 };
+    for (int i = 0; i <= shade_count; ++i) {
+        double part = (double)i / shade_count;
+        struct colour colour =
+            colour_of(colours, bar.range.low + part * (bar.range.high - bar.range.low));
+        cairo_pattern_add_color_stop_rgb(shades, part, colour.red, colour.green, colour.blue);
+    }
+    cairo_set_source(canvas->pen, shades);
+    cairo_rectangle(canvas->pen, bar.start, top, bar.end - bar.start, BAR_THICKNESS);
+    cairo_fill(canvas->pen);
+    cairo_pattern_destroy(shades);
+    if (dots->values.low < bar.range.low)
+        bar_end(canvas, colours, bar.range.low, bar.start - 1.0, top, -8.0);
+    if (dots->values.high > bar.range.high)
+        bar_end(canvas, colours, bar.range.high, bar.end + 1.0, top, 8.0);
+    axis_draw_below(canvas, &bar, top + BAR_THICKNESS);
+}
+
+/* The categories that are in the picture; returns their number, at most LEGEND_MAX. */
+enum { LEGEND_MAX = 24, CATEGORIES_MAX = UINT16_MAX + 1 };
+static int category_entries(const struct dots *dots, const struct named_map *names,
+                            struct legend_entry *entries)
+{
+    static const struct legend_entry more = {MARK_NONE, {0.0, 0.0, 0.0}, "and others"};
+    bool present[CATEGORIES_MAX] = {false};
+    for (int64_t i = 0; i < dots->count; ++i)
+        present[(int)dots->dot[i].value] = true;
+    int count = 0;
+    for (int i = 0; i < CATEGORIES_MAX; ++i) {
+        if (!present[i])
+            continue;
+        if (count == LEGEND_MAX) {
+            entries[count - 1] = more;
+            break;
+        }
+        entries[count++] = (struct legend_entry){
+            MARK_SQUARE, colour_of_category(i),
+            names && i < names->count && names->names[i] ? names->names[i] : "?"};
+    }
+    return count;
+}
+
+/* "plastic strain" of "plastic_strain", "velocity x" of "velocity.x". */
+static void field_text(const char *field, char *buffer, size_t size)
+{
+    snprintf(buffer, size, "%s", field);
+    for (char *letter = buffer; *letter; ++letter)
+        if (*letter == '_' || *letter == '.')
+            *letter = ' ';
+}
+
+static const char *title_of(const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    return !input ? NULL : input->title ? input->title : input->name;
+}
+
+/* "t = 3.1 µs, plane z = 2 mm". */
+static void note_text(const struct simulation *simulation, const struct plane *plane, char *buffer,
+                      size_t size)
+{
+    char time[UNIT_TEXT], place[UNIT_TEXT];
+    multiple_text(simulation->time, "s", time, sizeof time);
+    if (plane && plane->normal >= 0) {
+        double middle = plane->middle;
+        /* What is zero but for rounding is zero. */
+        if (fabs(middle) < 1e-6 * range_reach(plane->extent[plane->normal]))
+            middle = 0.0;
+        multiple_text(middle, "m", place, sizeof place);
+        snprintf(buffer, size, "t = %s, plane %c = %s", time, "xyz"[plane->normal], place);
+    } else {
+        snprintf(buffer, size, "t = %s", time);
+    }
+}
+
+/* The frame with the particles in it; below it the colour bar, unless SHOWN is a category. */
+static void draw_page(const struct canvas *canvas, struct page *page, const struct dots *dots,
+                      const struct shown *shown, const struct colour_scale *colours,
+                      double diameter, const char *field)
+{
+    axis_ticks(&page->x, canvas);
+    axis_ticks(&page->y, canvas);
+    paint(canvas, page, dots, shown, colours, diameter);
+    axes_frame(canvas, &page->x, &page->y);
+    if (!shown->category) {
+        char name[LABEL_TEXT];
+        field_text(field, name, sizeof name);
+        draw_colour_bar(canvas, page, page->y.start + AXIS_HEIGHT + BAR_GAP, colours, dots, name,
+                        shown->view->unit);
+    }
+    if (dots->count == 0)
+        canvas_text(canvas, TEXT_NOTE, 0.5 * (page->x.start + page->x.end),
+                    0.5 * (page->y.start + page->y.end) + 4.0, 0.5,
+                    page->x.end - page->x.start - 8.0, "no particles");
+}
+
+/* Counts the rows that a legend takes in a page of WIDTH, before there is a canvas of the right height. */
+static struct error *count_legend_rows(const struct legend_entry *entries, int count, double width,
+                                       int *rows)
+{
+    struct canvas probe;
+    struct error *error = canvas_create(1.0, 1.0, &probe);
+    *rows = error ? 0 : legend_draw(&probe, entries, count, 0.0, 0.0, width, false);
+    canvas_destroy(&probe);
+    return error;
+}
+
+static struct error *draw_plane(const char *path, const struct simulation *simulation,
+                                const struct plane *plane, const struct shown *shown,
+                                const struct dots *dots, const char *field, struct range fixed)
+{
+    struct legend_entry entries[LEGEND_MAX];
+    int count = shown->category ? category_entries(dots, shown->names, entries) : 0, rows;
+    double bar = shown->category ? 4.0 : BAR_GAP + BAR_THICKNESS + AXIS_HEIGHT;
+    struct page page = lay_out(plane, HEADER_HEIGHT, bar);
+    double width = page.width - LEFT - RIGHT;
+    TRY(count_legend_rows(entries, count, width, &rows));
+    if (rows > 0)
+        page = lay_out(plane, HEADER_HEIGHT + 4.0 + rows * LEGEND_ROW, bar);
+
+    struct range range = range_drawable(dots->values, false);
+    range.low = isnan(fixed.low) ? range.low : fixed.low;
+    range.high = isnan(fixed.high) ? range.high : fixed.high;
+    struct colour_scale colours = colour_scale_make(range);
+    char note[2 * UNIT_TEXT + 32];
+    note_text(simulation, plane, note, sizeof note);
+
+    struct canvas canvas;
+    struct error *error = canvas_create(page.width, page.height, &canvas);
+    if (!error) {
+        canvas_header(&canvas, LEFT, title_of(simulation), note);
+        legend_draw(&canvas, entries, count, LEFT, HEADER_HEIGHT - 4.0, width, true);
+        draw_page(&canvas, &page, dots, shown, &colours, plane->diameter, field);
+        error = canvas_publish(&canvas, path);
+    }
+    canvas_destroy(&canvas);
+    return error;
+}
+
+/* In 1-D: the field over x, as dots. */
+static struct error *draw_line_problem(const char *path, const struct simulation *simulation,
+                                       const struct shown *shown, const char *field,
+                                       struct range fixed)
+{
+    const struct particles *particles = &simulation->particles;
+    int64_t count = particles->count;
+    double *x = memory_allocate((size_t)(count + 1) * sizeof *x);
+    double *y = memory_allocate((size_t)(count + 1) * sizeof *y);
+    struct error *error = NULL;
+    if (x && y) {
+        char note[2 * UNIT_TEXT + 32], name[LABEL_TEXT];
+        note_text(simulation, NULL, note, sizeof note);
+        field_text(field, name, sizeof name);
+        for (int64_t i = 0; i < count; ++i)
+            x[i] = particles->position[i][0];
+        read_shown(shown, 0, count, y);
+        struct series series = {.count = count, .x = x, .y = y};
+        struct plot plot = {.title = title_of(simulation),
+                            .x_name = "x",
+                            .x_unit = "m",
+                            .y_name = name,
+                            .y_unit = shown->view ? shown->view->unit : "",
+                            .count = 1,
+                            .series = &series,
+                            .note = note,
+                            .y_low = isnan(fixed.high) ? NAN : fixed.low,
+                            .y_high = fixed.high};
+        error = picture_plot(path, &plot);
+    } else {
+        error = error_new(ERROR_SYSTEM, "picture: out of memory");
+    }
+    free(x);
+    free(y);
+    return error;
+}
+
+struct error *picture_particles(const char *path, const struct simulation *simulation,
+                                const struct views *views, const char *field, double low,
+                                double high)
+{
+    struct shown shown;
+    struct range fixed = {low, high};
+    TRY(find_shown(simulation, views, field, &shown));
+    if (simulation->particles.dimension == 1)
+        return draw_line_problem(path, simulation, &shown, field, fixed);
+    struct plane plane = survey(&simulation->particles);
+    struct dots dots;
+    struct error *error = gather(&simulation->particles, &shown, &plane, &dots);
+    if (!error)
+        error = draw_plane(path, simulation, &plane, &shown, &dots, field, fixed);
+    free(dots.dot);
+    return error;
+}

@@ -1,0 +1,178 @@
+/* Line plots: several series over one pair of axes, lines (exact solutions) and dots (particles). */
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "output/picture.h"
+#include "output/picture_internal.h"
+
+enum { PLOT_WIDTH = 800, PLOT_HEIGHT = 520, LEFT = 76, RIGHT = 22, BOTTOM = 46 };
+
+static bool drawable(double value, bool logarithmic)
+{
+    return isfinite(value) && (!logarithmic || value > 0.0);
+}
+
+/* The ranges of the points that can be drawn. */
+static void find_ranges(const struct plot *plot, struct range *x, struct range *y)
+{
+    *x = *y = range_empty();
+    for (int s = 0; s < plot->count; ++s) {
+        const struct series *series = &plot->series[s];
+        for (int64_t i = 0; i < series->count; ++i) {
+            if (!drawable(series->x[i], plot->log_x) || !drawable(series->y[i], plot->log_y))
+                continue;
+            range_include(x, series->x[i]);
+            range_include(y, series->y[i]);
+        }
+    }
+}
+
+/* An exact solution among particles is drawn in black, so that the particles have the colours. */
+static struct colour series_colour(const struct plot *plot, int index)
+{
+    bool lines = false, dots = false;
+    int lines_before = 0;
+    for (int s = 0; s < plot->count; ++s) {
+        lines |= plot->series[s].line;
+        dots |= !plot->series[s].line;
+        lines_before += s < index && plot->series[s].line;
+    }
+    if (!(lines && dots))
+        return colour_of_category(index);
+    if (plot->series[index].line && lines_before == 0)
+        return (struct colour){0.1, 0.1, 0.1};
+    bool black_before = lines_before > 0;
+    return colour_of_category(index - black_before);
+}
+
+static void draw_line(const struct canvas *canvas, const struct axis *x, const struct axis *y,
+                      const struct series *series)
+{
+    double last_x = NAN, last_y = NAN;
+    bool pen_down = false;
+    for (int64_t i = 0; i < series->count; ++i) {
+        if (!drawable(series->x[i], x->logarithmic) || !drawable(series->y[i], y->logarithmic)) {
+            pen_down = false;
+            continue;
+        }
+        double at_x = axis_place(x, series->x[i]), at_y = axis_place(y, series->y[i]);
+        /* Cairo's coordinates end at 2^23 pixels; what leaves a fixed y axis ends far outside of it. */
+        at_y = minimum(maximum(at_y, -1e5), 1e5);
+        /* Nobody sees steps of a fifth of a pixel, but a million of them take seconds. */
+        bool near = fabs(at_x - last_x) + fabs(at_y - last_y) < 0.1;
+        if (pen_down && near && i + 1 < series->count)
+            continue;
+        if (pen_down)
+            cairo_line_to(canvas->pen, at_x, at_y);
+        else
+            cairo_move_to(canvas->pen, at_x, at_y);
+        pen_down = true;
+        last_x = at_x;
+        last_y = at_y;
+    }
+    cairo_set_line_width(canvas->pen, 1.6);
+    cairo_set_line_join(canvas->pen, CAIRO_LINE_JOIN_ROUND);
+    cairo_stroke(canvas->pen);
+}
+
+/* Draws each dot that would not lie on another one of the series: TAKEN has a byte for every pixel. */
+static void draw_dots(const struct canvas *canvas, const struct axis *x, const struct axis *y,
+                      const struct series *series, uint8_t *taken)
+{
+    int columns = (int)canvas->width * PIXELS_PER_POINT, rows = (int)canvas->height * PIXELS_PER_POINT;
+    double radius = series->count <= 60 ? 3.0 : series->count <= 400 ? 2.2 : 1.6;
+    for (int64_t i = 0; i < series->count; ++i) {
+        if (!drawable(series->x[i], x->logarithmic) || !drawable(series->y[i], y->logarithmic))
+            continue;
+        double at_x = axis_place(x, series->x[i]), at_y = axis_place(y, series->y[i]);
+        double column = floor(at_x * PIXELS_PER_POINT), row = floor(at_y * PIXELS_PER_POINT);
+        if (!(column >= 0.0 && column < columns && row >= 0.0 && row < rows))
+            continue;
+        uint8_t *pixel = &taken[(int64_t)row * columns + (int64_t)column];
+        if (*pixel)
+            continue;
+        *pixel = 1;
+        cairo_new_path(canvas->pen);
+        cairo_arc(canvas->pen, at_x, at_y, radius, 0.0, 4.0 * acos(0.0));
+        cairo_fill(canvas->pen);
+    }
+}
+
+static struct error *draw_series(const struct canvas *canvas, const struct plot *plot,
+                                 const struct axis *x, const struct axis *y)
+{
+    size_t pixels = (size_t)PLOT_WIDTH * PLOT_HEIGHT * PIXELS_PER_POINT * PIXELS_PER_POINT;
+    cairo_save(canvas->pen);
+    cairo_rectangle(canvas->pen, x->start, y->end, x->end - x->start, y->start - y->end);
+    cairo_clip(canvas->pen);
+    struct error *error = NULL;
+    for (int s = 0; s < plot->count && !error; ++s) {
+        canvas_colour(canvas, series_colour(plot, s));
+        if (plot->series[s].line) {
+            draw_line(canvas, x, y, &plot->series[s]);
+            continue;
+        }
+        uint8_t *taken = memory_allocate(pixels);
+        if (taken)
+            draw_dots(canvas, x, y, &plot->series[s], taken);
+        else
+            error = error_new(ERROR_SYSTEM, "picture: out of memory");
+        free(taken);
+    }
+    cairo_restore(canvas->pen);
+    return error;
+}
+
+/* Returns the height of the legend, whose place is under the header. */
+static double draw_legend(const struct canvas *canvas, const struct plot *plot)
+{
+    enum { entries_max = 24 };
+    struct legend_entry entries[entries_max];
+    int count = 0;
+    for (int s = 0; s < plot->count && count < entries_max; ++s) {
+        const struct series *series = &plot->series[s];
+        if (!series->label)
+            continue;
+        entries[count++] = (struct legend_entry){series->line ? MARK_LINE : MARK_DOT,
+                                                 series_colour(plot, s), series->label};
+    }
+    return LEGEND_ROW * legend_draw(canvas, entries, count, LEFT, HEADER_HEIGHT - 4.0,
+                                    PLOT_WIDTH - LEFT - RIGHT, true);
+}
+
+static struct error *draw_plot(const struct canvas *canvas, const struct plot *plot)
+{
+    struct axis x = {.logarithmic = plot->log_x}, y = {.logarithmic = plot->log_y};
+    find_ranges(plot, &x.range, &y.range);
+    x.range = range_padded(range_drawable(x.range, plot->log_x), 0.02, plot->log_x);
+    y.range = range_padded(range_drawable(y.range, plot->log_y), 0.05, plot->log_y);
+    if (plot->y_high > plot->y_low && (!plot->log_y || plot->y_low > 0.0))
+        y.range = (struct range){plot->y_low, plot->y_high};
+    axis_name(&x, plot->x_name, plot->x_unit, range_reach(x.range));
+    axis_name(&y, plot->y_name, plot->y_unit, range_reach(y.range));
+
+    canvas_header(canvas, LEFT, plot->title, plot->note);
+    double legend = draw_legend(canvas, plot);
+    x.start = LEFT;
+    x.end = PLOT_WIDTH - RIGHT;
+    y.start = PLOT_HEIGHT - BOTTOM;
+    y.end = minimum(HEADER_HEIGHT + (legend > 0.0 ? legend + 2.0 : 0.0), y.start - 100.0);
+    axis_ticks(&x, canvas);
+    axis_ticks(&y, canvas);
+    axes_grid(canvas, &x, &y);
+    TRY(draw_series(canvas, plot, &x, &y));
+    axes_frame(canvas, &x, &y);
+    return NULL;
+}
+
+struct error *picture_plot(const char *path, const struct plot *plot)
+{
+    struct canvas canvas;
+    struct error *error = canvas_create(PLOT_WIDTH, PLOT_HEIGHT, &canvas);
+    if (!error)
+        error = draw_plot(&canvas, plot);
+    if (!error)
+        error = canvas_publish(&canvas, path);
+    canvas_destroy(&canvas);
+    return error;
+}

@@ -1,0 +1,18 @@
+/* Snapshots: the particles of one moment as VTKHDF 1.0 (UnstructuredGrid of vertex cells), which
+ * VTK 9.1 and ParaView 5.11 open. */
+#ifndef BOLIDE_SNAPSHOT_H
+#define BOLIDE_SNAPSHOT_H
+
+#include "model/views.h"
+
+/* Writes all views to PATH, by slices, so that memory does not grow with the particles. Field names
+ * carry their unit: "pressure [Pa]". */
+struct error *snapshot_write(const char *path, const struct simulation *simulation,
+                             const struct views *views);
+
+/* Writes FOLDER/snapshots.vtkhdf.series that lists COUNT snapshots, file names as given, with their
+ * times in seconds. */
+struct error *snapshot_series_write(const char *path, int count, const char *const *files,
+                                    const double *times);
+
+#endif

@@ -1,0 +1,49 @@
+/* Cells for a neighbour search among points of very different reach: levels of cells whose edges are powers of
+ * two apart, only occupied cells kept, found by hashing. */
+#ifndef BOLIDE_CELLS_H
+#define BOLIDE_CELLS_H
+
+#include "base/error.h"
+#include "particle/radix.h"
+
+enum { CELL_LEVELS = 32, CELL_LEVEL_ZERO = 8 };
+
+/* A point in the order of cells. */
+struct cell_point {
+    double x, y, z, reach;
+    int32_t index; /* record: owned particle or ghost */
+    uint16_t body;
+    uint16_t image; /* 1 for a ghost behind a wall */
+};
+
+/* Points first .. first + count - 1 of the cell. */
+struct cell {
+    uint64_t key;
+    int32_t first, count;
+};
+
+struct cells {
+    int dimension;
+    double edge, skin; /* of level CELL_LEVEL_ZERO */
+    int32_t points;
+    struct cell_point *point;
+    int32_t count;
+    struct cell *cell;
+    uint64_t slots; /* a power of two */
+    int32_t *slot;  /* cell index + 1, 0 for an empty slot */
+    int32_t level_begin[CELL_LEVELS + 1]; /* cells are sorted by level */
+};
+
+/* Makes the cells of COUNT points, given in any order; takes over no memory. EDGE is the cell edge of
+ * level zero. */
+struct error *cells_make(struct cells *cells, int dimension, double edge, double skin,
+                         const struct cell_point *points, int32_t count);
+void cells_free(struct cells *cells);
+
+int cell_level(const struct cells *cells, int32_t cell);
+
+/* The cells that may hold neighbours of the points of CELL: calls RUN with each one's points. */
+typedef void cells_run(void *context, const struct cell_point *point, int32_t count);
+void cells_around(const struct cells *cells, int32_t cell, cells_run *run, void *context);
+
+#endif

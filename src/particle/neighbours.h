@@ -1,0 +1,88 @@
+/* Neighbour rows: for each particle the particles and images that may come within its support before
+ * the rows are built again.
+ *
+ * The support of a pair is the sum of the two particles' reaches, reach = smoothing * diameter. A row
+ * holds every neighbour nearer than that sum times (1 + skin), sorted by (part, id, image), so that what a
+ * pair loop adds up, and in which order, does not depend on storage, on the age of the rows or on the skin,
+ * once the loop has dropped those out of support. */
+#ifndef BOLIDE_NEIGHBOURS_H
+#define BOLIDE_NEIGHBOURS_H
+
+#include "parallel/ghosts.h"
+#include "particle/particles.h"
+
+/* The two top bits of a row's entry say which part of the row it belongs to, the others which record: an
+ * owned particle below count, a ghost above. */
+enum { ENTRY_PART_SHIFT = 30 };
+#define ENTRY_INDEX 0x3fffffffu
+enum entry_part {
+    PART_LAW = 1,   /* the two bodies have a contact law of their own */
+    PART_IMAGE = 2, /* the neighbour is an image behind a wall */
+};
+
+/* Which bodies meet under a law of their own. */
+struct contact_groups {
+    const uint8_t *of_body;  /* group of each body */
+    const uint8_t *law;      /* groups x groups, zero where there is none */
+    int groups;
+};
+
+/* Where a row stands: entries row[begin] .. row[begin + count - 1] of a segment. */
+struct row {
+    uint32_t begin_low;
+    uint16_t begin_high; /* begin = begin_high << 32 | begin_low */
+    uint16_t segment;
+    uint32_t count;
+};
+
+struct segment {
+    uint32_t *entry;
+    int64_t capacity, count;
+};
+
+struct block_motion;
+
+struct neighbours {
+    double skin; /* relative to the support */
+    int32_t count;
+    int64_t row_capacity;
+    struct row *row; /* one a particle */
+    int segments;    /* one a thread */
+    struct segment *segment;
+    struct ghosts ghosts;
+    int64_t builds;
+
+    /* When the rows were built: places, reaches, and what the blocks need to judge them by. */
+    int64_t reference_capacity;
+    double (*origin)[3], *origin_reach;
+    struct block_motion *motion;
+};
+
+/* Of the particles: what the rows follow from. */
+struct reach {
+    const double *diameter;
+    double smoothing; /* reach = smoothing * diameter */
+};
+
+/* Builds all rows and the plan of ghosts, with THREADS threads. The store must be sorted. */
+struct error *neighbours_build(struct neighbours *neighbours, const struct particles *particles,
+                               struct reach reach, const struct mirrors *mirrors,
+                               const struct contact_groups *groups, int threads);
+
+/* True while every pair within support is certain to be in the rows: judged block by block from the motion
+ * of neighbouring blocks against each other, so that common motion costs nothing. */
+bool neighbours_hold(struct neighbours *neighbours, const struct particles *particles,
+                     struct reach reach, int threads);
+
+void neighbours_free(struct neighbours *neighbours);
+
+/* Bytes held, for reports. */
+size_t neighbours_bytes(const struct neighbours *neighbours);
+
+BOLIDE_INLINE const uint32_t *neighbours_row(const struct neighbours *n, int32_t i)
+{
+    struct row row = n->row[i];
+    return n->segment[row.segment].entry + ((int64_t)row.begin_high << 32 | row.begin_low);
+}
+
+#endif

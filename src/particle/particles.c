@@ -1,0 +1,189 @@
+/* The particle store; see particles.h. */
+#include "particle/particles.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static const struct field_declaration core_fields[] = {
+    {"id", "", "what made the particle", NUMBER_UINT64, 1, FIELD_STATE},
+    {"material", "", "index of the material", NUMBER_UINT16, 1, FIELD_STATE},
+    {"body", "", "index of the body", NUMBER_UINT16, 1, FIELD_STATE},
+    {"mass", "kg", "mass", NUMBER_DOUBLE, 1, FIELD_STATE},
+    {"density", "kg/m^3", "density", NUMBER_DOUBLE, 1, FIELD_STATE},
+    {"energy", "J/kg", "specific internal energy", NUMBER_DOUBLE, 1, FIELD_STATE},
+    {"pressure", "Pa", "pressure, positive in compression", NUMBER_DOUBLE, 1, FIELD_DERIVED},
+    {"position", "m", "place", NUMBER_DOUBLE, 3, FIELD_STATE},
+    {"velocity", "m/s", "material velocity", NUMBER_DOUBLE, 3, FIELD_STATE},
+    {"deviator", "Pa", "stress deviator, positive in tension", NUMBER_DOUBLE, 6, FIELD_STATE},
+    {"plastic_strain", "", "equivalent plastic strain", NUMBER_DOUBLE, 1, FIELD_STATE},
+};
+
+/* A particle of no body waits for its deletion. */
+enum { BODY_DELETED = 0xffff };
+
+static size_t field_bytes(const struct field *field)
+{
+    return number_size(field->declaration.number) * (size_t)field->declaration.components;
+}
+
+/* Points the core's members at their fields, after any of them has moved. */
+static void bind_core(struct particles *p)
+{
+    void **member[] = {(void **)&p->id,       (void **)&p->material, (void **)&p->body,
+                       (void **)&p->mass,     (void **)&p->density,  (void **)&p->energy,
+                       (void **)&p->pressure, (void **)&p->position, (void **)&p->velocity,
+                       (void **)&p->deviator, (void **)&p->plastic_strain};
+    static_assert(COUNT_OF(member) == COUNT_OF(core_fields), "one member for each core field");
+    for (size_t k = 0; k < COUNT_OF(member); k++)
+        *member[k] = p->field[k].data;
+}
+
+struct error *particles_create(int dimension, double cell, const struct field_declaration *more,
+                               int count, struct particles *particles)
+{
+    assert(COUNT_OF(core_fields) + (size_t)count <= PARTICLES_FIELDS);
+    *particles = (struct particles){.dimension = dimension, .cell = cell};
+    for (size_t k = 0; k < COUNT_OF(core_fields); k++)
+        particles->field[particles->fields++].declaration = core_fields[k];
+    for (int k = 0; k < count; k++)
+        particles->field[particles->fields++].declaration = more[k];
+    return NULL;
+}
+
+void particles_destroy(struct particles *particles)
+{
+    for (int k = 0; k < particles->fields; k++)
+        free(particles->field[k].data);
+    free(particles->block);
+    *particles = (struct particles){0};
+}
+
+void *particles_field(const struct particles *particles, const char *name)
+{
+    for (int k = 0; k < particles->fields; k++)
+        if (strcmp(particles->field[k].declaration.name, name) == 0)
+            return particles->field[k].data;
+    assert(!"a field that exists");
+    return NULL;
+}
+
+static struct error *particles_reserve(struct particles *particles, int64_t needed)
+{
+    if (needed > INT32_MAX / 2)
+        return error_new(ERROR_INPUT, "%lld particles are too many for one rank",
+                         (long long)needed);
+    int64_t kept = (int64_t)particles->count + particles->pending;
+    int64_t capacity = particles->capacity;
+    for (int k = 0; k < particles->fields; k++) {
+        struct field *field = &particles->field[k];
+        capacity = particles->capacity;
+        if (!memory_reserve(&field->data, &capacity, needed, kept, field_bytes(field)))
+            return error_new(ERROR_SYSTEM, "out of memory for %lld particles", (long long)needed);
+    }
+    particles->capacity = capacity;
+    bind_core(particles);
+    return NULL;
+}
+
+struct error *particles_append(struct particles *particles, int32_t count, int32_t *first)
+{
+    int64_t end = (int64_t)particles->count + particles->pending;
+    TRY(particles_reserve(particles, end + count));
+    for (int k = 0; k < particles->fields; k++) {
+        size_t bytes = field_bytes(&particles->field[k]);
+        memset((char *)particles->field[k].data + (size_t)end * bytes, 0, (size_t)count * bytes);
+    }
+    particles->pending += count;
+    *first = (int32_t)end;
+    return NULL;
+}
+
+void particles_delete(struct particles *particles, int32_t index)
+{
+    particles->body[index] = BODY_DELETED;
+}
+
+struct error *particles_commit(struct particles *particles)
+{
+    int32_t total = particles->count + particles->pending, kept = 0;
+    for (int32_t i = 0; i < total; i++) {
+        if (particles->body[i] == BODY_DELETED)
+            continue;
+        for (int k = 0; k < particles->fields && kept != i; k++) {
+            size_t bytes = field_bytes(&particles->field[k]);
+            char *data = particles->field[k].data;
+            memcpy(data + (size_t)kept * bytes, data + (size_t)i * bytes, bytes);
+        }
+        kept++;
+    }
+    particles->count = kept;
+    particles->pending = 0;
+    return particles_sort(particles);
+}
+
+struct error *particles_visit(struct particles *particles, struct visitor *visitor)
+{
+    int64_t count = particles->count;
+    TRY(visitor->visit(visitor, "particles/count", NUMBER_INT64, &count, 1, 1));
+    if (count != particles->count) {
+        particles->count = particles->pending = 0;
+        int32_t first;
+        TRY(particles_append(particles, (int32_t)count, &first));
+        particles->count = (int32_t)count;
+        particles->pending = 0;
+    }
+    for (int k = 0; k < particles->fields; k++) {
+        const struct field_declaration *field = &particles->field[k].declaration;
+        if (!(field->kind & FIELD_STATE))
+            continue;
+        char *name = text_format("particles/%s", field->name);
+        if (!name)
+            return error_new(ERROR_SYSTEM, "out of memory");
+        struct error *error = visitor->visit(visitor, name, field->number,
+                                             particles->field[k].data, count, field->components);
+        free(name);
+        TRY(error);
+    }
+    return NULL;
+}
+
+/* The finaliser of splitmix64: every bit of WORD reaches every bit of the result. */
+static uint64_t mix(uint64_t word)
+{
+    word = (word ^ word >> 30) * 0xbf58476d1ce4e5b9u;
+    word = (word ^ word >> 27) * 0x94d049bb133111ebu;
+    return word ^ word >> 31;
+}
+
+uint64_t particles_hash(const struct particles *particles)
+{
+    uint64_t sum = 0;
+    for (int32_t i = 0; i < particles->count; i++) {
+        uint64_t hash = 0;
+        for (int k = 0; k < particles->fields; k++) {
+            const struct field *field = &particles->field[k];
+            if (!(field->declaration.kind & FIELD_STATE))
+                continue;
+            size_t size = number_size(field->declaration.number);
+            int components = field->declaration.components;
+            const char *data = (const char *)field->data + (size_t)i * field_bytes(field);
+            for (int c = 0; c < components; c++) {
+                uint64_t word = 0;
+                memcpy(&word, data + (size_t)c * size, size);
+                hash = mix(hash * 0x9e3779b97f4a7c15u + word + 1);
+            }
+        }
+        sum += hash;
+    }
+    return sum;
+}
+
+size_t particles_bytes(const struct particles *particles)
+{
+    size_t bytes = 0;
+    for (int k = 0; k < particles->fields; k++)
+        bytes += field_bytes(&particles->field[k]);
+    return bytes;
+}

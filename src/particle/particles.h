@@ -1,0 +1,96 @@
+/* The particle store: every field of the particles that a rank owns, one array each, sorted by block.
+ *
+ * Fields are declared in tables: the core's here, a solver's by the solver. Allocation, sorting,
+ * checkpoints and snapshots are loops over them. Positions and vectors have three components in every
+ * dimension, symmetric tensors six (xx, yy, zz, xy, yz, zx). Only owned particles are here; images
+ * behind mirror walls exist as the solver's records alone (neighbours.h). */
+#ifndef BOLIDE_PARTICLES_H
+#define BOLIDE_PARTICLES_H
+
+#include "base/vector.h"
+#include "base/visitor.h"
+#include "parallel/ranks.h"
+
+enum field_kind {
+    FIELD_STATE = 1,   /* saved, migrated */
+    FIELD_DERIVED = 2, /* found again from the state */
+};
+
+struct field_declaration {
+    const char *name, *unit, *help;
+    enum number number;
+    int components;
+    unsigned kind;
+};
+
+struct field {
+    struct field_declaration declaration;
+    void *data;
+};
+
+/* The particles first .. first + count - 1 lie in the block of this key (see particles_sort). */
+struct block {
+    uint64_t key;
+    int32_t first, count;
+};
+
+enum { PARTICLES_FIELDS = 48 };
+
+struct particles {
+    int dimension;
+    int32_t count, pending; /* owned; appended since the last commit, behind them */
+    int64_t capacity;
+    int32_t blocks;
+    int64_t block_capacity;
+    struct block *block;
+    double cell; /* edge of a cell of the global grid, m; fixed for a run */
+    int fields;
+    struct field field[PARTICLES_FIELDS];
+
+    /* The core's fields, as field[].data. */
+    uint64_t *id;
+    uint16_t *material, *body;
+    double *mass, *density, *energy, *pressure;
+    double (*position)[3], (*velocity)[3], (*deviator)[6];
+    double *plastic_strain;
+};
+
+/* An empty store of a run in DIMENSION dimensions, with the core's fields and COUNT more. CELL is the
+ * edge of a grid cell in metres. */
+struct error *particles_create(int dimension, double cell, const struct field_declaration *more,
+                               int count, struct particles *particles);
+void particles_destroy(struct particles *particles);
+
+/* The data of field NAME; the field must exist. The pointer holds until the next append or commit. */
+void *particles_field(const struct particles *particles, const char *name);
+
+/* Makes room for COUNT new particles behind the old; *first is the index of the first. They are zeroed, and
+ * count as particles from the next commit on. */
+struct error *particles_append(struct particles *particles, int32_t count, int32_t *first);
+
+/* Marks a particle for deletion at the next commit. */
+void particles_delete(struct particles *particles, int32_t index);
+
+/* Takes appended particles in and deleted ones out, then sorts. */
+struct error *particles_commit(struct particles *particles);
+
+/* Sorts all fields by (block, material, cell, id) and finds the blocks anew. A block is a cube of 64 cells
+ * (64, 8 x 8, 4 x 4 x 4) of the global grid, whose origin is the origin of space. */
+struct error *particles_sort(struct particles *particles);
+
+/* Loads or saves: count first, then every STATE field, as "particles/NAME". */
+struct error *particles_visit(struct particles *particles, struct visitor *visitor);
+
+/* One number for the bits of all STATE fields, whatever the order of storage. */
+uint64_t particles_hash(const struct particles *particles);
+
+/* Bytes that the store holds for each particle. */
+size_t particles_bytes(const struct particles *particles);
+
+/* An id tells what made the particle: a body and the index of its lattice site. */
+BOLIDE_INLINE uint64_t particle_id(int body, int64_t site)
+{
+    return (uint64_t)body << 48 | (uint64_t)site;
+}
+
+#endif

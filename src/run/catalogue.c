@@ -1,0 +1,23 @@
+/* The catalogue; each list stands in its own room. */
+#include "run/catalogue.h"
+
+#include "exact/choices.h"
+#include "material/choices.h"
+#include "model/shape_kinds.h"
+#include "run/measure.h"
+#include "sph/sph.h"
+
+#define COUNT_SHAPE(identifier, help) +1
+enum { SHAPES = 0 SHAPE_LIST(COUNT_SHAPE) };
+
+static const struct choice_list lists[] = {
+    {"solver", "the method of solution", &sph_choice, 1},
+    {"eos", "the equation of state of a material", eos_choices, EOS_KINDS},
+    {"strength", "what a material does with shear", strength_choices, STRENGTH_KINDS},
+    {"shape", "where a body is", shape_choices, SHAPES},
+    {"exact", "an exact solution that results are measured against", exact_choices, exact_choice_count},
+    {"measure", "what a check measures", measure_choices, MEASURES},
+    {0},
+};
+
+const struct catalogue bolide_catalogue = {lists};

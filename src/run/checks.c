@@ -1,0 +1,195 @@
+/* Checks from the case to verdicts; see checks.h. */
+#include "run/checks.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/file.h"
+#include "run/checks_internal.h"
+
+static const struct measure_class *class_of(const struct check_input *check)
+{
+    return check->measure.choice->thing;
+}
+
+static bool given(const struct quantity *quantity) { return !isnan(quantity->value); }
+
+/* QUANTITY must have the dimension of what is measured; not given is right too. */
+static struct error *same_dimension(const struct measurement *measurement, const char *key,
+                                    const struct quantity *quantity, struct dimension wanted)
+{
+    if (!given(quantity) || dimension_equal(quantity->dimension, wanted))
+        return NULL;
+    char is[DIMENSION_TEXT], must[DIMENSION_TEXT];
+    dimension_text(quantity->dimension, is);
+    dimension_text(wanted, must);
+    return measure_error(measurement, "`%s` is in %s, but the measure `%s` is in %s", key,
+                         is[0] ? is : "plain numbers", measurement->check->measure.choice->name,
+                         must[0] ? must : "plain numbers");
+}
+
+/* The interval that the check allows. A `within` without dimension is a fraction of `is`; where `is` is
+ * zero or not given and the measure is a plain number, it is the distance itself. */
+static struct error *find_limits(struct prepared_check *prepared, struct dimension dimension)
+{
+    const struct measurement *m = &prepared->measurement;
+    const struct check_input *check = m->check;
+    const struct dimension none = {0, 0, 0, 0};
+    TRY(same_dimension(m, "is", &check->is, dimension));
+    TRY(same_dimension(m, "at_most", &check->at_most, dimension));
+    TRY(same_dimension(m, "at_least", &check->at_least, dimension));
+    prepared->wanted = NAN;
+    prepared->low = given(&check->at_least) ? check->at_least.value : -INFINITY;
+    prepared->high = given(&check->at_most) ? check->at_most.value : INFINITY;
+    if (given(&check->is) != given(&check->within) && given(&check->is))
+        return measure_error(m, "`is` wants `within`");
+    if (given(&check->within)) {
+        double is = given(&check->is) ? check->is.value : 0.0, distance = check->within.value;
+        if (dimension_equal(check->within.dimension, none) && is != 0.0)
+            distance *= fabs(is);
+        else
+            TRY(same_dimension(m, "within", &check->within, dimension));
+        prepared->wanted = is;
+        prepared->low = maximum(prepared->low, is - distance);
+        prepared->high = minimum(prepared->high, is + distance);
+    }
+    if (isinf(prepared->low) && isinf(prepared->high))
+        return measure_error(m, "nothing to compare with: give `is` and `within`, `at_most` or "
+                                "`at_least`");
+    return NULL;
+}
+
+static struct error *solve_exact(struct prepared_check *prepared)
+{
+    struct measurement *m = &prepared->measurement;
+    const struct simulation_case *input = m->simulation->input;
+    const struct one_of *against = m->check->against.choice ? &m->check->against : &input->exact;
+    if (!class_of(m->check)->needs_exact)
+        return NULL;
+    if (!against->choice)
+        return measure_error(m, "`%s` needs an exact solution: `exact` of the case, or `against`",
+                             m->check->measure.choice->name);
+    const struct measure_field *parameters = m->check->measure.value;
+    const struct exact_state some = {0};
+    if (isnan(exact_field(&some, parameters->field)))
+        return measure_error(m, "exact solutions know density, velocity.x, pressure, energy, "
+                                "stress.xx and deviator.xx, not \"%s\"",
+                             parameters->field);
+    m->exact = against->choice->thing;
+    prepared->solved = memory_allocate(m->exact->size);
+    if (!prepared->solved)
+        return error_new(ERROR_SYSTEM, "out of memory for an exact solution");
+    m->solved = prepared->solved;
+    struct error *error = m->exact->solve(against->value, prepared->solved);
+    if (error) {
+        struct error *located = measure_error(m, "%s", error_message(error, 0));
+        error_free(error);
+        return located;
+    }
+    return NULL;
+}
+
+static struct error *prepare_check(struct prepared_check *prepared)
+{
+    const struct measurement *m = &prepared->measurement;
+    const struct measure_class *class = class_of(m->check);
+    struct unit unit, field_unit;
+    TRY(class->unit(m, &prepared->unit));
+    TRY(unit_parse(prepared->unit, &unit));
+    if (m->check->between.count != 0 && m->check->between.count != 2)
+        return measure_error(m, "`between` wants two positions");
+    if (class->needs_exact) {
+        const char *text;
+        TRY(measure_field_unit(m, &text));
+        TRY(unit_parse(text, &field_unit));
+        TRY(same_dimension(m, "scale", &m->check->scale, field_unit.dimension));
+    } else if (given(&m->check->scale))
+        return measure_error(m, "`scale` has no meaning for `%s`", m->check->measure.choice->name);
+    TRY(find_limits(prepared, unit.dimension));
+    return solve_exact(prepared);
+}
+
+struct error *checks_prepare(const struct simulation *simulation, const struct views *views,
+                             struct checks **result)
+{
+    const struct simulation_case *input = simulation->input;
+    struct checks *checks = memory_allocate(sizeof *checks);
+    struct prepared_check *items =
+        memory_allocate(((size_t)input->checks.count + 1) * sizeof *items);
+    if (!checks || !items) {
+        free(checks);
+        free(items);
+        return error_new(ERROR_SYSTEM, "out of memory for checks");
+    }
+    *checks = (struct checks){input->checks.count, items};
+    struct error *error = NULL;
+    for (int i = 0; i < checks->count; i++) {
+        items[i].measurement = (struct measurement){
+            simulation, views, NULL, case_check(input, i), input->checks.names[i], NULL, NULL};
+        error = error_join(error, prepare_check(&items[i]));
+    }
+    if (error) {
+        checks_free(checks);
+        checks = NULL;
+    }
+    *result = checks;
+    return error;
+}
+
+void checks_free(struct checks *checks)
+{
+    for (int i = 0; checks && i < checks->count; i++)
+        free(checks->item[i].solved);
+    free(checks ? checks->item : NULL);
+    free(checks);
+}
+
+static struct error *evaluate(const struct prepared_check *prepared,
+                              const struct measurement *measurement, struct check_result *result)
+{
+    result->name = text_copy(measurement->name);
+    result->source = text_copy(measurement->check->source);
+    result->measure = measurement->check->measure.choice->name;
+    snprintf(result->unit, sizeof result->unit, "%s", prepared->unit);
+    result->wanted = prepared->wanted;
+    result->low = prepared->low;
+    result->high = prepared->high;
+    if (!result->name)
+        return error_new(ERROR_SYSTEM, "out of memory for checks");
+    TRY(class_of(measurement->check)->measure(measurement, &result->measured));
+    result->passed = result->measured >= result->low && result->measured <= result->high;
+    return NULL;
+}
+
+struct error *checks_evaluate(const struct checks *checks, const struct simulation *simulation,
+                              const struct views *views, const struct totals *start,
+                              struct check_results *results)
+{
+    results->failed = 0;
+    results->count = 0;
+    results->item = memory_allocate(((size_t)checks->count + 1) * sizeof *results->item);
+    if (!results->item)
+        return error_new(ERROR_SYSTEM, "out of memory for checks");
+    for (int i = 0; i < checks->count; i++) {
+        struct measurement measurement = checks->item[i].measurement;
+        measurement.simulation = simulation;
+        measurement.views = views;
+        measurement.start = start;
+        struct check_result *result = &results->item[results->count++];
+        TRY(evaluate(&checks->item[i], &measurement, result));
+        results->failed += !result->passed;
+    }
+    return NULL;
+}
+
+void check_results_free(struct check_results *results)
+{
+    for (int i = 0; i < results->count; i++) {
+        free(results->item[i].name);
+        free(results->item[i].source);
+    }
+    free(results->item);
+    *results = (struct check_results){0, 0, NULL};
+}

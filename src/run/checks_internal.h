@@ -1,0 +1,19 @@
+/* Checks made ready; private to the checks_*.c files. */
+#ifndef BOLIDE_CHECKS_INTERNAL_H
+#define BOLIDE_CHECKS_INTERNAL_H
+
+#include "run/checks.h"
+
+struct prepared_check {
+    struct measurement measurement; /* without the totals at the start */
+    const char *unit;
+    void *solved; /* owned */
+    double wanted, low, high;
+};
+
+struct checks {
+    int count;
+    struct prepared_check *item;
+};
+
+#endif

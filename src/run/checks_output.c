@@ -1,0 +1,202 @@
+/* Checks on paper: the table as CSV, its entries as a person reads them, and the pictures that lay the
+ * particles over the exact solution. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/file.h"
+#include "output/picture.h"
+#include "run/checks_internal.h"
+
+enum { CURVE_POINTS = 2000 };
+
+/* The power of 1000 that brings VALUE to 1 .. 1000, for units that take prefixes. */
+static void quantity_text(double value, const char *unit, char *buffer, size_t size)
+{
+    static const struct {
+        const char *prefix;
+        double factor;
+    } prefixes[] = {{"G", 1e9},  {"M", 1e6},  {"k", 1e3},  {"", 1.0},
+                    {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}, {"p", 1e-12}};
+    bool takes_prefix = !strcmp(unit, "Pa") || !strcmp(unit, "m") || !strcmp(unit, "s") ||
+                        !strcmp(unit, "J/kg") || !strcmp(unit, "J");
+    size_t last = COUNT_OF(prefixes) - 1, i = takes_prefix ? 0 : 3;
+    if (takes_prefix && isfinite(value) && value != 0.0)
+        while (i < last && fabs(value) < 0.9999995 * prefixes[i].factor)
+            i++;
+    else
+        i = 3;
+    snprintf(buffer, size, "%.5g%s%s%s", value / prefixes[i].factor, unit[0] ? " " : "",
+             prefixes[i].prefix, unit);
+}
+
+void check_measured_text(const struct check_result *result, char *buffer, size_t size)
+{
+    if (isnan(result->measured))
+        snprintf(buffer, size, "nothing");
+    else
+        quantity_text(result->measured, result->unit, buffer, size);
+}
+
+void check_allowed_text(const struct check_result *result, char *buffer, size_t size)
+{
+    char low[48], high[48], wanted[48], distance[48];
+    quantity_text(result->low, result->unit, low, sizeof low);
+    quantity_text(result->high, result->unit, high, sizeof high);
+    if (!isnan(result->wanted) && result->wanted != 0.0) {
+        quantity_text(result->wanted, result->unit, wanted, sizeof wanted);
+        quantity_text(result->high - result->wanted, result->unit, distance, sizeof distance);
+        snprintf(buffer, size, "%s +- %s", wanted, distance);
+    } else if (result->wanted == 0.0)
+        snprintf(buffer, size, "0 +- %s", high);
+    else if (isinf(result->low))
+        snprintf(buffer, size, "at most %s", high);
+    else if (isinf(result->high))
+        snprintf(buffer, size, "at least %s", low);
+    else
+        snprintf(buffer, size, "%s .. %s", low, high);
+}
+
+/* A CSV field in quotes, quotes inside doubled. */
+static void write_quoted(FILE *file, const char *text)
+{
+    fputc('"', file);
+    for (; text && *text; text++) {
+        if (*text == '"')
+            fputc('"', file);
+        fputc(*text, file);
+    }
+    fputc('"', file);
+}
+
+struct error *check_results_write(const struct check_results *results, const char *path)
+{
+    FILE *file;
+    TRY(file_begin(path, &file));
+    fprintf(file, "check,measure,unit,measured,wanted,low,high,verdict,source\n");
+    for (int i = 0; i < results->count; i++) {
+        const struct check_result *r = &results->item[i];
+        write_quoted(file, r->name);
+        fprintf(file, ",%s,%s,%.17g,%.17g,%.17g,%.17g,%s,", r->measure, r->unit, r->measured,
+                r->wanted, r->low, r->high, r->passed ? "passed" : "failed");
+        write_quoted(file, r->source);
+        fputc('\n', file);
+    }
+    return file_end(path, file);
+}
+
+/* Arrays of a picture: the particles' places and values, and the curve's. */
+struct drawing {
+    double *x, *value, *curve_x, *curve;
+};
+
+static void drawing_free(struct drawing *drawing)
+{
+    free(drawing->x);
+    free(drawing->value);
+    free(drawing->curve_x);
+    free(drawing->curve);
+}
+
+static bool drawing_allocate(struct drawing *drawing, int64_t count)
+{
+    size_t room = ((size_t)count + 1) * sizeof(double), curve = CURVE_POINTS * sizeof(double);
+    drawing->x = memory_allocate(room);
+    drawing->value = memory_allocate(room);
+    drawing->curve_x = memory_allocate(curve);
+    drawing->curve = memory_allocate(curve);
+    return drawing->x && drawing->value && drawing->curve_x && drawing->curve;
+}
+
+static struct error *draw(const struct measurement *m, const struct samples *samples,
+                          const char *unit, const char *path)
+{
+    const struct measure_field *parameters = m->check->measure.value;
+    struct drawing drawing = {0};
+    if (!drawing_allocate(&drawing, samples->count)) {
+        drawing_free(&drawing);
+        return error_new(ERROR_SYSTEM, "out of memory for a picture");
+    }
+    for (int64_t i = 0; i < samples->count; i++) {
+        drawing.x[i] = samples->at[i].at;
+        drawing.value[i] = samples->at[i].value;
+    }
+    double time = m->simulation->time, contact = m->exact->contact(m->solved, time);
+    double low = samples->at[0].at, high = samples->at[samples->count - 1].at;
+    for (int i = 0; i < CURVE_POINTS; i++) {
+        double x = low + (high - low) * i / (CURVE_POINTS - 1);
+        struct exact_state state =
+            m->exact->sample(m->solved, x < contact ? SIDE_LEFT : SIDE_RIGHT, x, time);
+        drawing.curve_x[i] = x;
+        drawing.curve[i] = exact_field(&state, parameters->field);
+    }
+    struct series series[] = {
+        {"exact", CURVE_POINTS, drawing.curve_x, drawing.curve, true},
+        {"particles", samples->count, drawing.x, drawing.value, false},
+    };
+    struct plot plot = {.title = m->simulation->input->title,
+                        .x_name = "x",
+                        .x_unit = "m",
+                        .y_name = parameters->field,
+                        .y_unit = unit,
+                        .count = 2,
+                        .series = series};
+    struct error *error = picture_plot(path, &plot);
+    drawing_free(&drawing);
+    return error;
+}
+
+/* Takes the samples of a whole field (not of a check's window) and draws them. */
+static struct error *draw_field(const struct measurement *measurement, const char *folder)
+{
+    struct check_input everywhere = *measurement->check;
+    everywhere.of = NULL;
+    everywhere.between.count = 0;
+    struct measurement m = *measurement;
+    m.check = &everywhere;
+    const struct measure_field *parameters = m.check->measure.value;
+    const char *unit;
+    struct samples samples;
+    TRY(measure_field_unit(&m, &unit));
+    TRY(samples_take(&m, &samples));
+    samples_sort(&samples);
+    char *name = text_format("check-%s.png", parameters->field);
+    char *path = name ? path_join(folder, name) : NULL;
+    struct error *error = path ? NULL : error_new(ERROR_SYSTEM, "out of memory for a picture");
+    if (!error && samples.count > 1)
+        error = draw(&m, &samples, unit, path);
+    free(name);
+    free(path);
+    samples_free(&samples);
+    return error;
+}
+
+/* True when an earlier check has drawn this one's field. */
+static bool drawn_before(const struct checks *checks, int index)
+{
+    const struct measure_field *field = checks->item[index].measurement.check->measure.value;
+    for (int i = 0; i < index; i++) {
+        const struct measurement *m = &checks->item[i].measurement;
+        const struct measure_field *other = m->check->measure.value;
+        if (m->exact && !strcmp(other->field, field->field))
+            return true;
+    }
+    return false;
+}
+
+struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,
+                          const struct views *views, const char *folder)
+{
+    if (simulation->dimension != 1)
+        return NULL;
+    for (int i = 0; i < checks->count; i++) {
+        struct measurement m = checks->item[i].measurement;
+        m.simulation = simulation;
+        m.views = views;
+        if (m.exact && !drawn_before(checks, i))
+            TRY(draw_field(&m, folder));
+    }
+    return NULL;
+}

@@ -1,0 +1,28 @@
+/* What a run would take, for `bolide check`: nothing is computed but the lattice. */
+#ifndef BOLIDE_ESTIMATE_H
+#define BOLIDE_ESTIMATE_H
+
+#include "model/generate.h"
+
+/* A material as it stands in one body at the start. */
+struct body_estimate {
+    struct body_summary summary;
+    double sound_long, sound_shear; /* m/s */
+};
+
+struct estimate {
+    int bodies;
+    struct body_estimate *body;
+    int64_t particles, steps;
+    double mass;
+    double step;    /* s: the Courant number times the smallest D/C_l of a body at the start */
+    int step_body;  /* whose it is */
+    double bytes;   /* of all particles */
+    double seconds; /* rough: a million updates a second and thread */
+};
+
+struct error *estimate_run(const struct simulation_case *input, int threads,
+                           struct estimate *estimate);
+void estimate_free(struct estimate *estimate);
+
+#endif

@@ -1,0 +1,63 @@
+/* contact_max, contact_rms: Cmax and L2c, the largest and the root mean square of |f_i/f* - 1| over the
+ * 20 particles nearest the contact, 10 a side; f* is the exact star value of the side. */
+#include "run/measure.h"
+
+enum { NEAREST = 10 };
+
+struct ratio {
+    double largest, square_sum;
+    int count;
+};
+
+static void add_ratio(const struct measurement *measurement, const struct sample *sample,
+                      enum exact_side side, struct ratio *ratio)
+{
+    const struct measure_field *parameters = measurement->check->measure.value;
+    struct exact_state star = measurement->exact->star(measurement->solved, side);
+    double off = fabs(sample->value / exact_field(&star, parameters->field) - 1.0);
+    ratio->largest = off > ratio->largest || isnan(off) ? off : ratio->largest;
+    ratio->square_sum += square(off);
+    ratio->count++;
+}
+
+/* Nearest the contact are the last ones of the left side and the first ones of the right. */
+static struct error *measure_ratio(const struct measurement *measurement, struct ratio *ratio)
+{
+    struct samples samples;
+    TRY(samples_take(measurement, &samples));
+    samples_sort(&samples);
+    *ratio = (struct ratio){0.0, 0.0, 0};
+    int found = 0;
+    for (int64_t i = samples.count; i-- > 0 && found < NEAREST;)
+        if (measure_side(measurement, samples.at[i].body) == SIDE_LEFT) {
+            add_ratio(measurement, &samples.at[i], SIDE_LEFT, ratio);
+            found++;
+        }
+    found = 0;
+    for (int64_t i = 0; i < samples.count && found < NEAREST; i++)
+        if (measure_side(measurement, samples.at[i].body) == SIDE_RIGHT) {
+            add_ratio(measurement, &samples.at[i], SIDE_RIGHT, ratio);
+            found++;
+        }
+    samples_free(&samples);
+    return NULL;
+}
+
+static struct error *contact_max(const struct measurement *measurement, double *value)
+{
+    struct ratio ratio;
+    TRY(measure_ratio(measurement, &ratio));
+    *value = ratio.count == 2 * NEAREST ? ratio.largest : NAN;
+    return NULL;
+}
+
+static struct error *contact_rms(const struct measurement *measurement, double *value)
+{
+    struct ratio ratio;
+    TRY(measure_ratio(measurement, &ratio));
+    *value = ratio.count == 2 * NEAREST ? sqrt(ratio.square_sum / ratio.count) : NAN;
+    return NULL;
+}
+
+const struct measure_class measure_contact_max = {true, true, measure_no_unit, contact_max};
+const struct measure_class measure_contact_rms = {true, true, measure_no_unit, contact_rms};

@@ -1,0 +1,250 @@
+/* The run loop of the design: prepare, choose the step, advance, commit, observe. It knows no method. */
+#include "run/run.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "model/generate.h"
+#include "run/run_internal.h"
+
+static int threads_of(const struct run_options *options)
+{
+    if (options->threads > 0)
+        return options->threads;
+#ifdef _OPENMP
+    return omp_get_max_threads();
+#else
+    return 1;
+#endif
+}
+
+double step_towards(double limit, double time, double until)
+{
+    double remains = until - time;
+    if (remains <= limit)
+        return remains;
+    return remains < 2.0 * limit ? 0.5 * remains : limit;
+}
+
+/* What the particle of the step's limit was when the step made no sense. */
+static struct error *no_step(const struct run *run)
+{
+    const struct particles *p = &run->simulation.particles;
+    int32_t i = 0;
+    while (i < p->count && p->id[i] != run->limit.id)
+        i++;
+    if (i == p->count)
+        return error_new(ERROR_STATE, "no step is possible: %g s (%s)", run->limit.dt,
+                         run->limit.why ? run->limit.why : "unknown");
+    return error_new(ERROR_STATE,
+                     "no step is possible: %g s (%s), particle %llu of body \"%s\" at (%g, %g, %g) m: "
+                     "density %g kg/m^3, energy %g J/kg, pressure %g Pa, velocity (%g, %g, %g) m/s",
+                     run->limit.dt, run->limit.why ? run->limit.why : "unknown",
+                     (unsigned long long)p->id[i], run->input->bodies.names[p->body[i]],
+                     p->position[i][0], p->position[i][1], p->position[i][2], p->density[i],
+                     p->energy[i], p->pressure[i], p->velocity[i][0], p->velocity[i][1],
+                     p->velocity[i][2]);
+}
+
+static struct error *take_step(struct run *run)
+{
+    struct simulation *simulation = &run->simulation;
+    double until = run->input->run.until;
+    TRY(run->class->prepare(run->solver, simulation, &run->limit));
+    double dt = step_towards(run->limit.dt, simulation->time, until);
+    double after = dt == until - simulation->time ? until : simulation->time + dt;
+    if (!(dt > 0.0) || !(after > simulation->time))
+        return no_step(run);
+    TRY(run->class->advance(run->solver, simulation, dt));
+    simulation->time = after;
+    simulation->step++;
+    run->step = dt;
+    run->result->updates += ranks_sum(&run->ranks, simulation->particles.count);
+    if (ranks_sum(&run->ranks, simulation->particles.pending) > 0)
+        TRY(particles_commit(&simulation->particles));
+    return NULL;
+}
+
+/* True at the end of the run as the case says it. */
+static bool at_end(const struct run *run)
+{
+    int64_t most = run->input->run.max_steps;
+    return run->simulation.time >= run->input->run.until ||
+           (most > 0 && run->simulation.step >= most);
+}
+
+static bool told_to_stop(const struct run *run)
+{
+    const struct run_options *options = run->options;
+    bool stop = (options->stop && *options->stop) ||
+                (options->max_steps > 0 &&
+                 run->simulation.step - run->first_step >= options->max_steps);
+    return ranks_maximum(&run->ranks, stop) > 0.0;
+}
+
+static struct error *loop(struct run *run)
+{
+    TRY(run_watch(run, false));
+    while (!at_end(run) && !told_to_stop(run)) {
+        TRY(take_step(run));
+        run_observe(run);
+        TRY(run_watch(run, at_end(run)));
+        TRY(run_checkpoint_if_due(run));
+        run_progress(run);
+    }
+    run->result->finished = at_end(run);
+    return NULL;
+}
+
+/* State, solver and particles, fresh or loaded. */
+static struct error *begin(struct run *run)
+{
+    TRY(simulation_create(run->input, &run->ranks, threads_of(run->options), &run->simulation));
+    run->class = run->input->solver.choice->thing;
+    run->solver = memory_allocate(run->class->size);
+    if (!run->solver)
+        return error_new(ERROR_SYSTEM, "out of memory for the solver");
+    TRY(run->class->create(run->solver, &run->simulation, run->input->solver.value));
+    if (run->options->resume)
+        TRY(run_load(run));
+    else
+        TRY(generate_particles(&run->simulation));
+    TRY(run->class->start(run->solver, &run->simulation));
+    if (!run->options->resume)
+        run->start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    run->first_step = run->simulation.step;
+    run->start_time = run->last_progress_time = run->simulation.time;
+    run_observe(run);
+    return checks_prepare(&run->simulation, &run->views, &run->checks);
+}
+
+static void tell_beginning(struct run *run)
+{
+    const struct simulation *s = &run->simulation;
+    char until[48];
+    readable(run->input->run.until, "s", until, sizeof until);
+    run_say(run, "%s: %s", run->input->name ? run->input->name : "case",
+            run->input->title ? run->input->title : "");
+    run_say(run, "%lld particles, %d-D, %s, until %s, %d thread%s%s",
+            (long long)ranks_sum(&run->ranks, s->particles.count), s->dimension,
+            run->input->solver.choice->name, until, s->threads, s->threads == 1 ? "" : "s",
+            run->options->resume ? ", resumed" : "");
+    if (run->options->resume)
+        run_say(run, "resumed at step %lld, t = %.9g s", (long long)s->step, s->time);
+}
+
+/* Checks, the last files and the words about how it went. */
+static struct error *conclude(struct run *run)
+{
+    struct run_result *result = run->result;
+    if (result->finished) {
+        TRY(checks_evaluate(run->checks, &run->simulation, &run->views, &run->start,
+                            &result->checks));
+        char *path = run_path(run, "checks.csv");
+        char *pictures = run_path(run, "pictures");
+        struct error *error = NULL;
+        if (path && result->checks.count)
+            error = check_results_write(&result->checks, path);
+        if (!error && pictures)
+            error = checks_draw(run->checks, &run->simulation, &run->views, pictures);
+        free(path);
+        free(pictures);
+        TRY(error);
+    }
+    return run_checkpoint(run);
+}
+
+static void measure_speed(struct run *run)
+{
+    struct run_result *result = run->result;
+    const struct simulation *s = &run->simulation;
+    result->steps = s->step;
+    result->time = s->time;
+    result->particles = ranks_sum(&run->ranks, s->particles.count);
+    result->seconds = clock_seconds() - run->began;
+    double stepping = result->seconds - run->watching;
+    result->updates_per_second = result->updates > 0 ? (double)result->updates / stepping : 0.0;
+}
+
+static void tell_end(struct run *run)
+{
+    const struct run_result *result = run->result;
+    const struct simulation *s = &run->simulation;
+    run_say(run, "%s at step %lld, t = %.9g s, after %.1f s; %.3g M particle updates/s; energy drift %.2g",
+            result->finished ? "finished" : "stopped", (long long)result->steps, result->time,
+            result->seconds, 1e-6 * result->updates_per_second, result->energy_drift);
+    for (int i = 0; i < s->phases; i++)
+        run_say(run, "  %-16s %8.2f s  %4.1f %%", s->phase[i].name, s->phase[i].seconds,
+                100.0 * s->phase[i].seconds / maximum(result->seconds, 1e-9));
+    for (int i = 0; i < result->checks.count; i++) {
+        char measured[96], allowed[96];
+        const struct check_result *check = &result->checks.item[i];
+        check_measured_text(check, measured, sizeof measured);
+        check_allowed_text(check, allowed, sizeof allowed);
+        run_say(run, "  check %s: %s: %s (%s)", check->passed ? "passed" : "FAILED", check->name,
+                measured, allowed);
+    }
+}
+
+static struct error *run_through(struct run *run)
+{
+    TRY(begin(run));
+    TRY(run_open_history(run));
+    tell_beginning(run);
+    run->began = run->last_checkpoint = run->last_progress = clock_seconds();
+    struct error *error = loop(run);
+    if (error && error_kind(error) == ERROR_STATE) {
+        error = error_context(error, "step %lld, t = %.9g s", (long long)run->simulation.step,
+                              run->simulation.time);
+        error = error_join(error, run_snapshot_of_failure(run));
+    }
+    if (!error)
+        error = conclude(run);
+    measure_speed(run);
+    if (!error) {
+        run->result->hash = particles_hash(&run->simulation.particles);
+        tell_end(run);
+    } else
+        for (int i = 0; run->log && i < error_count(error); i++)
+            run_log_line(run->log, "error: %s", error_message(error, i));
+    return error;
+}
+
+static void destroy(struct run *run)
+{
+    checks_free(run->checks);
+    if (run->solver && run->class)
+        run->class->destroy(run->solver);
+    free(run->solver);
+    simulation_destroy(&run->simulation);
+    free(run->snapshot_times);
+    free(run->case_text);
+    free(run);
+}
+
+struct error *run_case(const struct simulation_case *input, const struct run_options *options,
+                       struct run_result *result)
+{
+    memset(result, 0, sizeof *result);
+    struct run *run = memory_allocate(sizeof *run);
+    if (!run)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    run->input = input;
+    run->options = options;
+    run->result = result;
+    run->ranks = ranks_alone();
+    struct error *error = run_open_folder(run);
+    if (!error)
+        error = run_through(run);
+    error = run_close_files(run, error);
+    destroy(run);
+    return error;
+}
+
+void run_result_free(struct run_result *result) { check_results_free(&result->checks); }

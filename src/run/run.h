@@ -1,0 +1,47 @@
+/* The run loop: from a case to its last state, its files and its verdicts. */
+#ifndef BOLIDE_RUN_H
+#define BOLIDE_RUN_H
+
+#include <signal.h>
+
+#include "output/report.h"
+#include "run/checks.h"
+
+/* How often progress is told: at least this many seconds of wall clock and this fraction of the run since
+ * the last time. */
+struct progress_pace {
+    double seconds, fraction;
+};
+
+struct run_options {
+    const char *output; /* folder of the results; NULL: nothing is written */
+    bool overwrite;     /* results that are there already give way */
+    bool resume;        /* go on from the folder's checkpoint */
+    int threads;        /* 0: as many as OpenMP would take */
+    int64_t max_steps;  /* of this call, which then stops as if told to; 0: no limit */
+    const volatile sig_atomic_t *stop; /* not zero: write a checkpoint and stop; may be NULL */
+    const struct listener *listener;   /* may be NULL */
+    struct progress_pace progress;
+};
+
+struct run_result {
+    bool finished; /* false: stopped early; a run with a folder can be resumed */
+    int64_t steps, particles, updates; /* steps since time zero; updates of particles in this call */
+    double time, seconds, updates_per_second;
+    double energy_drift;
+    uint64_t hash;               /* of all particles' bits */
+    struct check_results checks; /* empty unless finished */
+};
+
+/* Runs INPUT to its end, or until told to stop. Watching a run never changes it. A failed check is no error.
+ * ERROR_INPUT, ERROR_STATE (the folder then has snapshots/failed.vtkhdf) or ERROR_SYSTEM; RESULT is
+ * then as far as the run came. Collective. */
+struct error *run_case(const struct simulation_case *input, const struct run_options *options,
+                       struct run_result *result);
+void run_result_free(struct run_result *result);
+
+/* The step from TIME towards UNTIL where LIMIT is the largest allowed: what remains is spread over the
+ * last two steps, so that no tiny step comes last. */
+double step_towards(double limit, double time, double until);
+
+#endif

@@ -1,0 +1,67 @@
+/* A run in progress; private to run.c and run_output.c. */
+#ifndef BOLIDE_RUN_INTERNAL_H
+#define BOLIDE_RUN_INTERNAL_H
+
+#include "output/checkpoint.h"
+#include "output/history.h"
+#include "run/run.h"
+
+struct run {
+    const struct simulation_case *input;
+    const struct run_options *options;
+    struct run_result *result;
+    struct ranks ranks;
+    struct simulation simulation;
+    const struct solver_class *class;
+    void *solver;
+    struct views views;
+    struct checks *checks;
+    struct limit limit;
+    double step; /* the last one taken, s */
+
+    /* What a resumed run needs beside the state: the totals at time zero, how many times each output has
+     * been due and been written, and when. */
+    struct totals start;
+    int64_t history_due, snapshots_due; /* times the interval has passed */
+    int64_t history_rows, snapshots;
+    double *snapshot_times;
+    int64_t snapshot_room;
+
+    char *case_text;
+    struct run_log *log;
+    struct history *history;
+    double began, last_checkpoint, last_progress; /* clock_seconds() */
+    double start_time, last_progress_time;        /* of the simulation */
+    double watching;                              /* wall-clock seconds spent in outputs */
+    int64_t first_step;
+};
+
+/* The folder's path of NAME; NULL without a folder. Free it. */
+char *run_path(const struct run *run, const char *name);
+
+/* A line for the log and the user. */
+void run_say(struct run *run, const char *format, ...) BOLIDE_PRINTF(2, 3);
+
+/* Readies the folder, the log and the case as run. A resumed run's history is opened later, when the
+ * checkpoint has told how many rows it has. */
+struct error *run_open_folder(struct run *run);
+struct error *run_open_history(struct run *run);
+struct error *run_close_files(struct run *run, struct error *error);
+
+/* Fills run->views with what the solver shows now. */
+void run_observe(struct run *run);
+
+/* Takes the outputs that are due at this moment: history, snapshot, pictures; those of the last moment
+ * with LAST. Also looks at what is conserved. */
+struct error *run_watch(struct run *run, bool last);
+void run_progress(struct run *run);
+
+/* checkpoint.h5, now, or when its wall-clock time has come. */
+struct error *run_checkpoint(struct run *run);
+struct error *run_checkpoint_if_due(struct run *run);
+struct error *run_load(struct run *run);
+
+/* snapshots/failed.vtkhdf: the moment of an impossible state. */
+struct error *run_snapshot_of_failure(struct run *run);
+
+#endif

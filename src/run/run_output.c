@@ -1,0 +1,345 @@
+/* What a run writes while it goes: outputs take the first step at or past their time and only look. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "output/file.h"
+#include "output/picture.h"
+#include "output/snapshot.h"
+#include "run/run_internal.h"
+
+static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
+
+char *run_path(const struct run *run, const char *name)
+{
+    return run->options->output ? path_join(run->options->output, name) : NULL;
+}
+
+void run_say(struct run *run, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char *text = text_vformat(format, arguments);
+    va_end(arguments);
+    const struct listener *listener = run->options->listener;
+    if (text && run->log)
+        run_log_line(run->log, "%s", text);
+    else if (text && listener && listener->line)
+        listener->line(listener->context, text);
+    free(text);
+}
+
+/* ---- the folder ---- */
+
+static struct error *make_case_text(struct run *run)
+{
+    size_t size;
+    FILE *memory = open_memstream(&run->case_text, &size);
+    if (!memory)
+        return out_of_memory();
+    struct error *error = case_write(run->input, memory);
+    if (fclose(memory) && !error)
+        error = out_of_memory();
+    return error;
+}
+
+static struct error *make_folder(struct run *run, const char *name)
+{
+    char *path = run_path(run, name);
+    struct error *error = path ? folder_make(path) : out_of_memory();
+    free(path);
+    return error;
+}
+
+static struct error *write_case(struct run *run)
+{
+    FILE *file;
+    char *path = run_path(run, "case.yaml");
+    struct error *error = path ? file_begin(path, &file) : out_of_memory();
+    if (!error) {
+        fputs(run->case_text, file);
+        error = file_end(path, file);
+    }
+    free(path);
+    return error;
+}
+
+/* A run that is resumed must have left a checkpoint. */
+static struct error *look_for_checkpoint(struct run *run)
+{
+    char *path = run_path(run, "checkpoint.h5");
+    if (!path)
+        return out_of_memory();
+    struct error *error = NULL;
+    if (access(path, R_OK))
+        error = error_new(ERROR_INPUT, "%s: nothing to resume: there is no checkpoint.h5",
+                          run->options->output);
+    free(path);
+    return error;
+}
+
+struct error *run_open_folder(struct run *run)
+{
+    const struct run_options *options = run->options;
+    if (!options->output)
+        return options->resume ? error_new(ERROR_INPUT, "a run without a folder cannot be resumed")
+                               : NULL;
+    TRY(make_case_text(run));
+    TRY(options->resume ? look_for_checkpoint(run)
+                        : folder_ready(options->output, options->overwrite));
+    TRY(make_folder(run, "snapshots"));
+    TRY(make_folder(run, "pictures"));
+    if (!options->resume)
+        TRY(write_case(run));
+    char *path = run_path(run, "run.log");
+    struct error *error = path ? run_log_open(path, options->resume, options->listener, &run->log)
+                               : out_of_memory();
+    free(path);
+    return error;
+}
+
+struct error *run_open_history(struct run *run)
+{
+    if (!run->options->output)
+        return NULL;
+    char *path = run_path(run, "history.csv");
+    int64_t keep = run->options->resume ? run->history_rows : -1;
+    struct error *error = path ? history_open(path, keep, &run->history) : out_of_memory();
+    free(path);
+    return error;
+}
+
+struct error *run_close_files(struct run *run, struct error *error)
+{
+    if (run->history)
+        error = error_join(error, history_close(run->history));
+    if (run->log)
+        error = error_join(error, run_log_close(run->log));
+    return error;
+}
+
+/* ---- outputs ---- */
+
+void run_observe(struct run *run)
+{
+    memset(&run->views, 0, sizeof run->views);
+    run->views.particles = &run->simulation.particles;
+    run->class->observe(run->solver, &run->simulation, &run->views);
+}
+
+static double history_interval(const struct run *run)
+{
+    double given = run->input->output.history;
+    return isnan(given) ? 0.01 * run->input->run.until : given;
+}
+
+/* True when TIME has reached the next multiple of INTERVAL, of which DUE have been; counts it. */
+static bool is_due(double time, double interval, int64_t *due)
+{
+    if (isnan(interval) || time < (double)*due * interval)
+        return false;
+    *due = (int64_t)floor(time / interval) + 1;
+    if (time >= (double)*due * interval) /* the quotient was rounded down */
+        ++*due;
+    return true;
+}
+
+/* Energy that appears from nowhere is an impossible state. */
+static struct error *watch_energy(struct run *run)
+{
+    double drift = conserved_change(&run->simulation, &run->start, CONSERVED_ENERGY);
+    double allowed = run->input->run.energy_drift;
+    run->result->energy_drift = drift;
+    if (isnan(drift))
+        return error_new(ERROR_STATE, "the total energy is not a number");
+    if (allowed > 0.0 && drift > allowed)
+        return error_new(ERROR_STATE,
+                         "the total energy has drifted by %.3g of itself; `run.energy_drift` allows %.3g",
+                         drift, allowed);
+    return NULL;
+}
+
+/* Draws the fields that the case wants, as FIELD-NNNNNN.png. */
+static struct error *draw_pictures(struct run *run, int64_t number)
+{
+    const struct name_list *fields = &run->input->output.pictures;
+    struct error *error = NULL;
+    for (int i = 0; i < fields->count && !error; i++) {
+        char *name =
+            text_format("pictures/%s-%06lld.png", fields->names[i], (long long)number);
+        char *path = name ? run_path(run, name) : NULL;
+        error = path ? picture_particles(path, &run->simulation, &run->views, fields->names[i], NAN,
+                                         NAN)
+                     : out_of_memory();
+        free(name);
+        free(path);
+    }
+    return error;
+}
+
+static struct error *write_series(struct run *run)
+{
+    char **names = memory_allocate(((size_t)run->snapshots + 1) * sizeof *names);
+    char *path = run_path(run, "snapshots.vtkhdf.series");
+    struct error *error = names && path ? NULL : out_of_memory();
+    for (int64_t i = 0; i < run->snapshots && !error; i++) {
+        names[i] = text_format("snapshots/%06lld.vtkhdf", (long long)i);
+        error = names[i] ? NULL : out_of_memory();
+    }
+    if (!error)
+        error = snapshot_series_write(path, (int)run->snapshots, (const char *const *)names,
+                                      run->snapshot_times);
+    for (int64_t i = 0; names && i < run->snapshots; i++)
+        free(names[i]);
+    free(names);
+    free(path);
+    return error;
+}
+
+static struct error *write_snapshot(struct run *run)
+{
+    int64_t number = run->snapshots;
+    if (!memory_reserve((void **)&run->snapshot_times, &run->snapshot_room, number + 1, number,
+                        sizeof *run->snapshot_times))
+        return out_of_memory();
+    run->snapshot_times[run->snapshots++] = run->simulation.time;
+    if (!run->options->output)
+        return NULL;
+    TRY(draw_pictures(run, number));
+    if (!run->input->output.snapshots)
+        return NULL;
+    char *name = text_format("snapshots/%06lld.vtkhdf", (long long)number);
+    char *path = name ? run_path(run, name) : NULL;
+    struct error *error =
+        path ? snapshot_write(path, &run->simulation, &run->views) : out_of_memory();
+    free(name);
+    free(path);
+    return error ? error : write_series(run);
+}
+
+/* A resumed run stands where an output was already taken: its counters tell. */
+struct error *run_watch(struct run *run, bool last)
+{
+    double clock = clock_seconds(), time = run->simulation.time;
+    bool first = run->snapshots == 0;
+    bool row = is_due(time, history_interval(run), &run->history_due) || last;
+    bool snapshot = is_due(time, run->input->output.every, &run->snapshots_due) || last || first;
+    struct error *error = row ? watch_energy(run) : NULL;
+    if (!error && row && run->history)
+        error = history_row(run->history, &run->simulation, run->step, &run->start);
+    if (run->history)
+        run->history_rows = history_rows(run->history);
+    if (!error && snapshot)
+        error = write_snapshot(run);
+    double spent = clock_seconds() - clock;
+    run->watching += spent;
+    if (row || snapshot)
+        simulation_spend(&run->simulation, "output", spent);
+    return ranks_agree(&run->ranks, error);
+}
+
+void run_progress(struct run *run)
+{
+    const struct listener *listener = run->options->listener;
+    if (!listener || !listener->progress)
+        return;
+    double now = clock_seconds(), time = run->simulation.time, until = run->input->run.until;
+    const struct progress_pace *pace = &run->options->progress;
+    if (now - run->last_progress < pace->seconds ||
+        time - run->last_progress_time < pace->fraction * until)
+        return;
+    run->last_progress = now;
+    run->last_progress_time = time;
+    double elapsed = now - run->began, done = time - run->start_time;
+    char text[256];
+    progress_text(&run->simulation, &run->limit,
+                  (double)run->result->updates / maximum(elapsed - run->watching, 1e-9),
+                  elapsed * (until - time) / done, text, sizeof text);
+    listener->progress(listener->context, text);
+}
+
+struct error *run_snapshot_of_failure(struct run *run)
+{
+    char *path = run_path(run, "snapshots/failed.vtkhdf");
+    if (!path)
+        return run->options->output ? out_of_memory() : NULL;
+    run_observe(run);
+    struct error *error = snapshot_write(path, &run->simulation, &run->views);
+    free(path);
+    return error;
+}
+
+/* ---- checkpoints ---- */
+
+/* Shows what the run loop keeps beside the state. */
+static struct error *visit_extra(void *context, struct visitor *visitor)
+{
+    struct run *run = context;
+    struct {
+        const char *name;
+        void *data;
+        enum number number;
+        int64_t count;
+    } arrays[] = {
+        {"run/history_due", &run->history_due, NUMBER_INT64, 1},
+        {"run/snapshots_due", &run->snapshots_due, NUMBER_INT64, 1},
+        {"run/history_rows", &run->history_rows, NUMBER_INT64, 1},
+        {"run/snapshots", &run->snapshots, NUMBER_INT64, 1},
+        {"run/start_totals", run->start.entry, NUMBER_DOUBLE, LEDGER_ENTRIES},
+        {"run/start_kinetic", &run->start.kinetic, NUMBER_DOUBLE, 1},
+        {"run/start_internal", &run->start.internal, NUMBER_DOUBLE, 1},
+        {"run/start_momentum_scale", &run->start.momentum_scale, NUMBER_DOUBLE, 1},
+    };
+    int64_t known = run->snapshots;
+    for (size_t i = 0; i < COUNT_OF(arrays); i++)
+        TRY(visitor->visit(visitor, arrays[i].name, arrays[i].number, arrays[i].data,
+                           arrays[i].count, 1));
+    if (run->snapshots < 1)
+        return error_new(ERROR_SYSTEM, "a checkpoint without a first snapshot");
+    if (!memory_reserve((void **)&run->snapshot_times, &run->snapshot_room, run->snapshots,
+                        minimum(known, run->snapshots), sizeof *run->snapshot_times))
+        return out_of_memory();
+    return visitor->visit(visitor, "run/snapshot_times", NUMBER_DOUBLE, run->snapshot_times,
+                          run->snapshots, 1);
+}
+
+static struct checkpoint checkpoint_of(struct run *run)
+{
+    return (struct checkpoint){&run->simulation, run->class, run->solver,
+                               visit_extra,      run,        run->case_text};
+}
+
+struct error *run_checkpoint(struct run *run)
+{
+    if (!run->options->output)
+        return NULL;
+    char *path = run_path(run, "checkpoint.h5");
+    struct checkpoint checkpoint = checkpoint_of(run);
+    struct error *error = path ? checkpoint_write(path, &checkpoint) : out_of_memory();
+    free(path);
+    return error;
+}
+
+struct error *run_checkpoint_if_due(struct run *run)
+{
+    double interval = run->input->output.checkpoint, now = clock_seconds();
+    bool due = interval > 0.0 && now - run->last_checkpoint >= interval;
+    if (!(ranks_maximum(&run->ranks, due) > 0.0))
+        return NULL;
+    run->last_checkpoint = now;
+    struct error *error = run_checkpoint(run);
+    run->watching += clock_seconds() - now;
+    return error;
+}
+
+struct error *run_load(struct run *run)
+{
+    char *path = run_path(run, "checkpoint.h5");
+    struct checkpoint checkpoint = checkpoint_of(run);
+    struct error *error = path ? checkpoint_read(path, &checkpoint) : out_of_memory();
+    free(path);
+    return error;
+}

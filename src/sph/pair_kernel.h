@@ -1,0 +1,71 @@
+/* The pair loop: sums over neighbours of what the contact problems between particles give.
+ *
+ * A neighbour is seen through its record alone, a few doubles packed once a stage:
+ *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear]
+ * where stress is sigma_xx alone for fluids and in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz, zx) in 3-D.
+ * The loop is compiled for several instruction sets with the same result to the last bit. */
+#ifndef BOLIDE_SPH_PAIR_KERNEL_H
+#define BOLIDE_SPH_PAIR_KERNEL_H
+
+#include "particle/neighbours.h"
+
+enum pair_star {
+    STAR_ACOUSTIC, /* contact SPH */
+    STAR_MEAN,     /* standard SPH */
+};
+
+/* What instantiates a kernel. `shear`: stress is a tensor and shear impedances count. */
+struct pair_kind {
+    int dimension;
+    bool shear;
+    enum pair_star star;
+};
+
+/* Offsets in a record, of the doubles after position. */
+BOLIDE_INLINE int record_diameter(int dimension) { return dimension; }
+BOLIDE_INLINE int record_volume(int dimension) { return dimension + 1; }
+BOLIDE_INLINE int record_velocity(int dimension) { return dimension + 2; }
+BOLIDE_INLINE int record_stress(int dimension) { return 2 * dimension + 2; }
+BOLIDE_INLINE int record_stresses(int dimension, bool shear)
+{
+    return !shear || dimension == 1 ? 1 : dimension == 2 ? 3 : 6;
+}
+BOLIDE_INLINE int record_impedance(int dimension, bool shear)
+{
+    return record_stress(dimension) + record_stresses(dimension, shear);
+}
+/* Doubles used, and doubles from one record to the next: a half or a whole pair of cache lines. */
+BOLIDE_INLINE int record_used(int dimension, bool shear)
+{
+    return record_impedance(dimension, shear) + 1 + (shear && dimension > 1);
+}
+BOLIDE_INLINE int record_stride(int dimension, bool shear)
+{
+    return record_used(dimension, shear) <= 8 ? 8 : 16;
+}
+
+/* Sums for particle i, with V = m/rho, W' = dW/dr, e from i to j, t* = sigma*.e, and U* as i sees it. */
+struct pair_rates {
+    double (*acceleration)[3]; /* -(2/rho) sum V W' t*                (1.39), m/s^2 */
+    double *power;             /* -(2/rho) sum V W' t*.(U* - U)       (1.40) less U.(1.39), W/kg */
+    double (*strain_rate)[6];  /* symmetric part of dU^a/dx^b = 2 sum V W' (U - U*)^a e^b, 1/s */
+    double (*spin)[3];         /* half the curl of U (1.57), (1.58), rad/s */
+    double (*wall)[3];         /* the part of the acceleration that images gave; NULL without walls */
+};
+
+struct pair_loop {
+    struct pair_kind kind;
+    const double *record; /* owned, ghosts, and one of zeros behind them */
+    int32_t empty;        /* index of the record of zeros */
+    double smoothing;     /* alpha: h = alpha (D_i + D_j)/2 (1.19) */
+    const struct neighbours *neighbours;
+    const struct contact_groups *groups;
+    const uint16_t *body;   /* of owned particles */
+    const double *density;
+    struct pair_rates rates;
+};
+
+/* Fills the rates of particles begin .. end - 1 with the best instruction set of this processor. */
+void pair_loop_run(const struct pair_loop *loop, int32_t begin, int32_t end);
+
+#endif

@@ -1,0 +1,258 @@
+/* What happens to a particle on its own: records from states, and the step from level n to n + 1 once its sums
+ * are known. Source: Parshikov (2013), section 1.5, block 2. */
+#include <string.h>
+
+#include "sph/sph_internal.h"
+
+/* D = V^(1/dimension). */
+BOLIDE_INLINE double diameter_of(double volume, int dimension)
+{
+    return dimension == 1 ? volume : dimension == 2 ? sqrt(volume) : cbrt(volume);
+}
+
+void sph_evaluate(const struct sph *sph, struct simulation *simulation)
+{
+    struct particles *p = &simulation->particles;
+    struct sph_fields f = sph_fields_of(sph, simulation);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < p->count; i++) {
+        struct point point = {.density = p->density[i], .energy = p->energy[i]};
+        point.history[0] = p->plastic_strain[i];
+        struct response r = material_evaluate(&simulation->material[p->material[i]], &point);
+        p->pressure[i] = point.pressure;
+        f.sound_long[i] = r.sound_long;
+        f.sound_shear[i] = r.sound_shear;
+        f.diameter[i] = diameter_of(p->mass[i] / p->density[i], simulation->dimension);
+    }
+}
+
+/* Record of particle I; see pair_kernel.h for the order. */
+static void pack_owned(const struct simulation *simulation, const struct sph_fields *f, bool shear,
+                       int32_t i, double *record)
+{
+    const struct particles *p = &simulation->particles;
+    int dimension = simulation->dimension, k = 0;
+    for (int axis = 0; axis < dimension; axis++)
+        record[k++] = p->position[i][axis];
+    record[k++] = f->diameter[i];
+    record[k++] = p->mass[i] / p->density[i];
+    for (int axis = 0; axis < dimension; axis++)
+        record[k++] = p->velocity[i][axis];
+    const double *s = p->deviator[i];
+    double pressure = p->pressure[i] + (f->viscosity ? f->viscosity[i] : 0.0);
+    record[k++] = s[0] - pressure;
+    if (shear && dimension == 2) {
+        record[k++] = s[1] - pressure;
+        record[k++] = s[3];
+    }
+    if (shear && dimension == 3) {
+        record[k++] = s[1] - pressure;
+        record[k++] = s[2] - pressure;
+        memcpy(record + k, s + 3, 3 * sizeof *s);
+        k += 3;
+    }
+    record[k++] = p->density[i] * f->sound_long[i];
+    if (shear && dimension > 1)
+        record[k] = p->density[i] * f->sound_shear[i];
+}
+
+/* Turns the record of a particle into that of its image: place mirrored, normal velocity and the shear
+ * stresses with one normal index negated. */
+static void reflect(const struct simulation *simulation, bool shear, image_code image,
+                    double *record)
+{
+    int dimension = simulation->dimension;
+    struct vec3 sign = image_sign(image);
+    double x[3] = {0.0, 0.0, 0.0}, signs[3] = {sign.x, sign.y, sign.z};
+    memcpy(x, record, (size_t)dimension * sizeof *x);
+    struct vec3 place =
+        image_position(&simulation->mirrors, image, vec3_make(x[0], x[1], x[2]));
+    double at[3] = {place.x, place.y, place.z};
+    double *velocity = record + record_velocity(dimension);
+    for (int axis = 0; axis < dimension; axis++) {
+        record[axis] = at[axis];
+        velocity[axis] *= signs[axis];
+    }
+    double *stress = record + record_stress(dimension);
+    if (shear && dimension == 2)
+        stress[2] *= sign.x * sign.y;
+    if (shear && dimension == 3) {
+        stress[3] *= sign.x * sign.y;
+        stress[4] *= sign.y * sign.z;
+        stress[5] *= sign.z * sign.x;
+    }
+}
+
+void sph_pack(struct sph *sph, const struct simulation *simulation)
+{
+    const struct particles *p = &simulation->particles;
+    const struct ghosts *ghosts = &sph->neighbours.ghosts;
+    struct sph_fields f = sph_fields_of(sph, simulation);
+    int dimension = simulation->dimension;
+    bool shear = sph->shear && dimension > 1;
+    size_t stride = (size_t)record_stride(dimension, shear);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < p->count; i++)
+        pack_owned(simulation, &f, shear, i, sph->record + (size_t)i * stride);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t g = 0; g < ghosts->count; g++) {
+        double *record = sph->record + (size_t)(p->count + g) * stride;
+        memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
+        reflect(simulation, shear, ghosts->image[g], record);
+    }
+    memset(sph->record + (size_t)(p->count + ghosts->count) * stride, 0, stride * sizeof(double));
+}
+
+/* The particle with the smallest id whose new state is impossible. */
+struct failure {
+    bool any;
+    uint64_t id;
+    int32_t index;
+};
+
+static void note_failure(struct failure *failure, uint64_t id, int32_t index)
+{
+    if (!failure->any || id < failure->id)
+        *failure = (struct failure){true, id, index};
+}
+
+/* A run of particles of one material. MATERIAL's kinds are constants where this is inlined. */
+BOLIDE_INLINE void update_run(const struct material *material, struct particles *p,
+                              const struct sph_fields *f, int dimension, bool total, double dt,
+                              int32_t begin, int32_t end, struct failure *failure)
+{
+    for (int32_t i = begin; i < end; i++) {
+        const double *a = f->rates.acceleration[i], *rate = f->rates.strain_rate[i];
+        double *u = p->velocity[i], *x = p->position[i], *s = p->deviator[i];
+        double divergence = rate[0] + rate[1] + rate[2], a2 = 0.0;
+        for (int axis = 0; axis < dimension; axis++) {
+            double next = u[axis] + dt * a[axis];
+            x[axis] += 0.5 * dt * (u[axis] + next); /* (1.86) */
+            u[axis] = next;
+            a2 += square(a[axis]);
+        }
+        struct motion motion;
+        motion.dt = dt;
+        motion.density =
+            p->density[i] * (2.0 - divergence * dt) / (2.0 + divergence * dt); /* (1.82) */
+        /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2, without taking differences. */
+        motion.energy =
+            p->energy[i] + dt * f->rates.power[i] - (total ? 0.5 * square(dt) * a2 : 0.0);
+        struct sym3 strain = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]};
+        motion.strain_rate = strain;
+        motion.spin =
+            vec3_make(f->rates.spin[i][0], f->rates.spin[i][1], f->rates.spin[i][2]);
+        struct point point = {.deviator = {s[0], s[1], s[2], s[3], s[4], s[5]},
+                              .history = {p->plastic_strain[i]}};
+        struct response r = material_step(material, &point, &motion);
+        p->density[i] = point.density;
+        p->energy[i] = point.energy;
+        p->pressure[i] = point.pressure;
+        p->plastic_strain[i] = point.history[0];
+        s[0] = point.deviator.xx;
+        s[1] = point.deviator.yy;
+        s[2] = point.deviator.zz;
+        s[3] = point.deviator.xy;
+        s[4] = point.deviator.yz;
+        s[5] = point.deviator.zx;
+        f->sound_long[i] = r.sound_long;
+        f->sound_shear[i] = r.sound_shear;
+        f->diameter[i] = diameter_of(p->mass[i] / point.density, dimension);
+        bool possible = point.density > 0.0 && isfinite(point.density) &&
+                        isfinite(point.pressure) && isfinite(point.energy) && isfinite(a2) &&
+                        !(r.status & POINT_NO_SOUND);
+        if (!possible)
+            note_failure(failure, p->id[i], i);
+    }
+}
+
+/* One switch a run: in each branch the kinds of the material are constants. */
+static void update_batch(const struct material *material, struct particles *p,
+                         const struct sph_fields *f, int dimension, bool total, double dt,
+                         int32_t begin, int32_t end, struct failure *failure)
+{
+    struct material m = *material;
+    bool solid = material_has_strength(material);
+    switch (material->eos.kind) {
+#define UPDATE_CASE(name)                                                                  \
+    case EOS_##name:                                                                       \
+        m.eos.kind = EOS_##name;                                                           \
+        if (solid) {                                                                       \
+            m.strength.kind = STRENGTH_PERFECT_PLASTIC;                                    \
+            update_run(&m, p, f, dimension, total, dt, begin, end, failure);               \
+        } else {                                                                           \
+            m.strength.kind = STRENGTH_NONE;                                               \
+            update_run(&m, p, f, dimension, total, dt, begin, end, failure);               \
+        }                                                                                  \
+        break;
+        EOS_LIST(UPDATE_CASE)
+#undef UPDATE_CASE
+    default:
+        break;
+    }
+}
+
+static void update_block(const struct sph *sph, struct simulation *simulation,
+                         const struct sph_fields *f, const struct block *block, double dt,
+                         struct failure *failure)
+{
+    struct particles *p = &simulation->particles;
+    bool total = sph->parameters.energy == SPH_ENERGY_TOTAL;
+    int32_t end = block->first + block->count;
+    for (int32_t begin = block->first, next; begin < end; begin = next) {
+        uint16_t material = p->material[begin];
+        for (next = begin + 1; next < end && p->material[next] == material;)
+            next++;
+        update_batch(&simulation->material[material], p, f, simulation->dimension, total, dt, begin,
+                     next, failure);
+    }
+}
+
+/* Walls push on particles: the impulse is booked, the work of a slip wall at rest is zero. */
+static void book_walls(struct simulation *simulation, const struct sph_fields *f, double dt)
+{
+    const struct particles *p = &simulation->particles;
+    for (int32_t i = 0; i < p->count; i++) {
+        const double *a = f->rates.wall[i];
+        if (a[0] == 0.0 && a[1] == 0.0 && a[2] == 0.0)
+            continue;
+        struct vec3 impulse =
+            vec3_scale(dt * p->mass[i], vec3_make(a[0], a[1], a[2]));
+        struct vec3 place = vec3_make(p->position[i][0], p->position[i][1], p->position[i][2]);
+        ledger_book(&simulation->ledger, LEDGER_WALLS, 0.0, impulse, place, 0.0);
+    }
+}
+
+static struct error *impossible(const struct simulation *simulation, const struct failure *failure)
+{
+    const struct particles *p = &simulation->particles;
+    int32_t i = failure->index;
+    return error_new(ERROR_STATE,
+                     "step %lld, t = %.6g s: the state of particle %llu (body %s, site %llu) at "
+                     "(%.6g, %.6g, %.6g) m became impossible: density %.6g kg/m^3, energy %.6g J/kg, "
+                     "pressure %.6g Pa, velocity (%.6g, %.6g, %.6g) m/s",
+                     (long long)simulation->step + 1, simulation->time,
+                     (unsigned long long)p->id[i], simulation->input->bodies.names[p->body[i]],
+                     (unsigned long long)(p->id[i] & 0xffffffffffff), p->position[i][0],
+                     p->position[i][1], p->position[i][2], p->density[i], p->energy[i],
+                     p->pressure[i], p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
+}
+
+struct error *sph_update(const struct sph *sph, struct simulation *simulation, double dt)
+{
+    struct sph_fields f = sph_fields_of(sph, simulation);
+    if (f.rates.wall)
+        book_walls(simulation, &f, dt);
+    struct failure failure = {false, 0, 0};
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct failure own = {false, 0, 0};
+#pragma omp for schedule(dynamic, 8)
+        for (int32_t b = 0; b < simulation->particles.blocks; b++)
+            update_block(sph, simulation, &f, &simulation->particles.block[b], dt, &own);
+#pragma omp critical(bolide_sph_failure)
+        if (own.any)
+            note_failure(&failure, own.id, own.index);
+    }
+    return failure.any ? impossible(simulation, &failure) : NULL;
+}

@@ -1,0 +1,330 @@
+/* The SPH solver as the run loop sees it: its parameters, its fields, and the order of a step.
+ *
+ * prepare: rows (when they no longer hold), records, pair sums, step limit; advance: all particles to the next
+ * level. Source: Parshikov (2013), sections 1.2 to 1.5; the step of section 1.5. */
+#include "sph/sph.h"
+
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "model/generate.h"
+#include "sph/sph_internal.h"
+
+static const char *const method_names[] = {"contact", "standard", NULL};
+static const char *const contact_names[] = {"acoustic", NULL};
+static const char *const energy_names[] = {"total", "internal", NULL};
+
+static const struct parameter sph_table[] = {
+    {.key = "method",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct sph_parameters, method),
+     .standard = "contact",
+     .names = method_names,
+     .help = "contact: Riemann problems between particles; standard: with artificial viscosity"},
+    {.key = "contact",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct sph_parameters, contact),
+     .standard = "acoustic",
+     .names = contact_names,
+     .help = "solver of the contact problem of the contact method"},
+    {.key = "smoothing",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct sph_parameters, smoothing),
+     .standard = "1.2",
+     .above = 0.5,
+     .below = 3.0,
+     .closed = true,
+     .help = "alpha of h = alpha (D_i + D_j)/2; the support of a pair is 2h"},
+    {.key = "courant",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct sph_parameters, courant),
+     .standard = "0.4",
+     .above = 0.0,
+     .below = 1.0,
+     .help = "K of dt = min K D/sqrt(C^2 + (4 D div U)^2); stable up to 0.8 for smoothing 1"},
+    {.key = "energy",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct sph_parameters, energy),
+     .standard = "total",
+     .names = energy_names,
+     .help = "total: conserved to round-off; internal: the rate of internal energy alone"},
+    {.key = "viscosity_quadratic",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct sph_parameters, viscosity_quadratic),
+     .standard = "20",
+     .above = 0.0,
+     .below = 1e3,
+     .closed = true,
+     .help = "coefficient of D^2 rho k^2 in the artificial viscosity of the standard method"},
+    {.key = "viscosity_linear",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct sph_parameters, viscosity_linear),
+     .standard = "0.5",
+     .above = 0.0,
+     .below = 1e3,
+     .closed = true,
+     .help = "coefficient of D rho C k in the artificial viscosity of the standard method"},
+    {.key = "skin",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct sph_parameters, skin),
+     .standard = "0.15",
+     .above = 0.0,
+     .below = 1.0,
+     .help = "margin of neighbour rows, relative to the support; a matter of speed, not of result"},
+    {.key = "rebuild",
+     .kind = PARAMETER_INTEGER,
+     .offset = offsetof(struct sph_parameters, rebuild),
+     .standard = "0",
+     .above = 0,
+     .below = 1e9,
+     .closed = true,
+     .help = "build neighbour rows at least every so many steps; 0: when they no longer hold"},
+    PARAMETER_END};
+
+/* A field without unit is not shown: it belongs to the middle of a step. */
+static const struct field_declaration sph_field_table[] = {
+    {"diameter", "m", "particle diameter (m/rho)^(1/dimension)", NUMBER_DOUBLE, 1, FIELD_DERIVED},
+    {"sound_long", "m/s", "longitudinal sound speed", NUMBER_DOUBLE, 1, FIELD_DERIVED},
+    {"sound_shear", "m/s", "shear wave speed", NUMBER_DOUBLE, 1, FIELD_DERIVED},
+    {"acceleration", NULL, "acceleration", NUMBER_DOUBLE, 3, FIELD_DERIVED},
+    {"power", NULL, "specific power of the contact forces", NUMBER_DOUBLE, 1, FIELD_DERIVED},
+    {"strain_rate", NULL, "symmetric velocity gradient", NUMBER_DOUBLE, 6, FIELD_DERIVED},
+    {"spin", NULL, "half the curl of velocity", NUMBER_DOUBLE, 3, FIELD_DERIVED},
+};
+static const struct field_declaration wall_field = {
+    "wall_acceleration", NULL, "acceleration by walls", NUMBER_DOUBLE, 3, FIELD_DERIVED};
+static const struct field_declaration viscosity_field = {
+    "viscosity", "Pa", "artificial viscous pressure", NUMBER_DOUBLE, 1, FIELD_DERIVED};
+
+static bool has_walls(const struct simulation *simulation)
+{
+    for (int axis = 0; axis < 3; axis++)
+        if (!isnan(simulation->mirrors.low[axis]) || !isnan(simulation->mirrors.high[axis]))
+            return true;
+    return false;
+}
+
+static bool is_standard(const struct sph *sph) { return sph->parameters.method == SPH_STANDARD; }
+
+struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *simulation)
+{
+    const struct particles *p = &simulation->particles;
+    struct sph_fields f = {
+        .diameter = particles_field(p, "diameter"),
+        .sound_long = particles_field(p, "sound_long"),
+        .sound_shear = particles_field(p, "sound_shear"),
+        .viscosity = is_standard(sph) ? particles_field(p, "viscosity") : NULL,
+        .rates = {.acceleration = particles_field(p, "acceleration"),
+                  .power = particles_field(p, "power"),
+                  .strain_rate = particles_field(p, "strain_rate"),
+                  .spin = particles_field(p, "spin"),
+                  .wall = has_walls(simulation) ? particles_field(p, "wall_acceleration") : NULL}};
+    return f;
+}
+
+static struct error *sph_create(void *solver, struct simulation *simulation, const void *parameters)
+{
+    struct sph *sph = solver;
+    sph->parameters = *(const struct sph_parameters *)parameters;
+    sph->neighbours.skin = sph->parameters.skin;
+    for (int m = 0; m < simulation->materials; m++)
+        sph->shear |= material_has_strength(&simulation->material[m]);
+    sph->groups = (struct contact_groups){simulation->group_of_body, &simulation->law[0][0],
+                                          CONTACT_GROUPS};
+    struct field_declaration fields[COUNT_OF(sph_field_table) + 2];
+    int count = 0;
+    for (size_t k = 0; k < COUNT_OF(sph_field_table); k++)
+        fields[count++] = sph_field_table[k];
+    if (has_walls(simulation))
+        fields[count++] = wall_field;
+    if (is_standard(sph))
+        fields[count++] = viscosity_field;
+    double support = 2.0 * sph->parameters.smoothing * largest_diameter(simulation->input);
+    return particles_create(simulation->dimension, support * (1.0 + sph->parameters.skin), fields,
+                            count, &simulation->particles);
+}
+
+static struct error *sph_start(void *solver, struct simulation *simulation)
+{
+    sph_evaluate(solver, simulation);
+    return NULL;
+}
+
+static struct error *reserve_records(struct sph *sph, const struct simulation *simulation)
+{
+    int64_t count = (int64_t)simulation->particles.count + sph->neighbours.ghosts.count + 1;
+    size_t stride = (size_t)record_stride(simulation->dimension, sph->shear);
+    if (!memory_reserve((void **)&sph->record, &sph->record_capacity, count, 0,
+                        stride * sizeof(double)))
+        return error_new(ERROR_SYSTEM, "out of memory for the records of %lld particles",
+                         (long long)count);
+    return NULL;
+}
+
+static struct error *refresh_rows(struct sph *sph, struct simulation *simulation)
+{
+    struct particles *p = &simulation->particles;
+    struct reach reach = {particles_field(p, "diameter"), sph->parameters.smoothing};
+    int64_t most = sph->parameters.rebuild;
+    if (!(most && sph->steps_since_build >= most) &&
+        neighbours_hold(&sph->neighbours, p, reach, simulation->threads))
+        return NULL;
+    double begin = clock_seconds();
+    TRY(particles_sort(p));
+    TRY(neighbours_build(&sph->neighbours, p, reach, &simulation->mirrors, &sph->groups,
+                         simulation->threads));
+    sph->steps_since_build = 0;
+    simulation_spend(simulation, "neighbours", clock_seconds() - begin);
+    return reserve_records(sph, simulation);
+}
+
+/* Pair sums of all particles from the records. */
+static void sum_pairs(struct sph *sph, struct simulation *simulation,
+                      const struct sph_fields *fields)
+{
+    const struct particles *p = &simulation->particles;
+    struct pair_loop loop = {
+        .kind = {simulation->dimension, sph->shear && simulation->dimension > 1,
+                 is_standard(sph) ? STAR_MEAN : STAR_ACOUSTIC},
+        .record = sph->record,
+        .empty = p->count + sph->neighbours.ghosts.count,
+        .smoothing = sph->parameters.smoothing,
+        .neighbours = &sph->neighbours,
+        .groups = &sph->groups,
+        .body = p->body,
+        .density = p->density,
+        .rates = fields->rates};
+#pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
+    for (int32_t b = 0; b < p->blocks; b++)
+        pair_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
+}
+
+/* q = a D^2 rho k|k| + b D rho C k in compression, k = -div U (2.5). */
+static void find_viscosity(const struct sph *sph, const struct simulation *simulation,
+                           const struct sph_fields *f)
+{
+    const struct particles *p = &simulation->particles;
+    double quadratic = sph->parameters.viscosity_quadratic, linear = sph->parameters.viscosity_linear;
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < p->count; i++) {
+        const double *rate = f->rates.strain_rate[i];
+        double k = maximum(-(rate[0] + rate[1] + rate[2]), 0.0), d = f->diameter[i];
+        f->viscosity[i] = p->density[i] * d * k * (quadratic * d * k + linear * f->sound_long[i]);
+    }
+}
+
+/* dt = K D / sqrt(C^2 + (4 D div U)^2) (1.87), the smallest, of equal ones that of the smallest id. */
+static void limit_step(const struct sph *sph, const struct simulation *simulation,
+                       const struct sph_fields *f, struct limit *limit)
+{
+    const struct particles *p = &simulation->particles;
+    double courant = sph->parameters.courant;
+    struct limit smallest = {(double)INFINITY, "sound speed", 0};
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct limit own = smallest;
+#pragma omp for schedule(static)
+        for (int32_t i = 0; i < p->count; i++) {
+            const double *rate = f->rates.strain_rate[i];
+            double divergence = rate[0] + rate[1] + rate[2], d = f->diameter[i];
+            double stretch = 4.0 * d * divergence;
+            double dt = courant * d / sqrt(square(f->sound_long[i]) + square(stretch));
+            if (dt < own.dt || (dt == own.dt && p->id[i] < own.id)) {
+                own.dt = dt;
+                own.id = p->id[i];
+                own.why = fabs(stretch) > f->sound_long[i] ? "volume rate" : "sound speed";
+            }
+        }
+#pragma omp critical(bolide_sph_limit)
+        if (own.dt < smallest.dt || (own.dt == smallest.dt && own.id < smallest.id))
+            smallest = own;
+    }
+    *limit = smallest;
+}
+
+static struct error *sph_prepare(void *solver, struct simulation *simulation, struct limit *limit)
+{
+    struct sph *sph = solver;
+    TRY(ranks_agree(simulation->ranks, refresh_rows(sph, simulation)));
+    struct sph_fields fields = sph_fields_of(sph, simulation);
+    double begin = clock_seconds();
+    if (is_standard(sph)) {
+        /* Viscosity needs the divergence of the same level first. */
+        for (int32_t i = 0; i < simulation->particles.count; i++)
+            fields.viscosity[i] = 0.0;
+        sph_pack(sph, simulation);
+        sum_pairs(sph, simulation, &fields);
+        find_viscosity(sph, simulation, &fields);
+    }
+    sph_pack(sph, simulation);
+    simulation_spend(simulation, "records", clock_seconds() - begin);
+    begin = clock_seconds();
+    sum_pairs(sph, simulation, &fields);
+    simulation_spend(simulation, "pairs", clock_seconds() - begin);
+    begin = clock_seconds();
+    limit_step(sph, simulation, &fields, limit);
+    limit->dt = ranks_minimum(simulation->ranks, limit->dt);
+    simulation_spend(simulation, "points", clock_seconds() - begin);
+    return NULL;
+}
+
+static struct error *sph_advance(void *solver, struct simulation *simulation, double dt)
+{
+    struct sph *sph = solver;
+    double begin = clock_seconds();
+    struct error *error = sph_update(sph, simulation, dt);
+    sph->steps_since_build++;
+    simulation_spend(simulation, "points", clock_seconds() - begin);
+    return ranks_agree(simulation->ranks, error);
+}
+
+static struct error *sph_state(void *solver, struct visitor *visitor)
+{
+    (void)solver;
+    (void)visitor;
+    return NULL;
+}
+
+static void sph_observe(const void *solver, const struct simulation *simulation,
+                        struct views *views)
+{
+    (void)solver;
+    views_of_particles(views, simulation);
+}
+
+static void sph_destroy(void *solver)
+{
+    struct sph *sph = solver;
+    neighbours_free(&sph->neighbours);
+    free(sph->record);
+}
+
+static double sph_bytes(const void *parameters, int dimension)
+{
+    const struct sph_parameters *sph = parameters;
+    struct particles store;
+    error_free(particles_create(dimension, 1.0, sph_field_table, COUNT_OF(sph_field_table), &store));
+    double fields = (double)particles_bytes(&store);
+    particles_destroy(&store);
+    /* Neighbours of a regular lattice: the volume of the support, skin included. */
+    double reach = 2.0 * sph->smoothing * (1.0 + sph->skin);
+    double neighbours = dimension == 1   ? 2.0 * reach
+                        : dimension == 2 ? 3.14159 * square(reach)
+                                         : 4.18879 * reach * square(reach);
+    return fields + 16 * sizeof(double) + 4 * sizeof(double) + sizeof(struct row) +
+           1.25 * neighbours * sizeof(uint32_t);
+}
+
+static const struct solver_class sph_class = {.size = sizeof(struct sph),
+                                       .create = sph_create,
+                                       .start = sph_start,
+                                       .prepare = sph_prepare,
+                                       .advance = sph_advance,
+                                       .state = sph_state,
+                                       .observe = sph_observe,
+                                       .destroy = sph_destroy,
+                                       .bytes = sph_bytes};
+
+const struct choice sph_choice = {"sph", "smoothed particle hydrodynamics, contact or standard",
+                                  sph_table, sizeof(struct sph_parameters), &sph_class};

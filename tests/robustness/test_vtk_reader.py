@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Runs a shipped case and opens its last snapshot with VTK's own reader.
+
+The program is found in $BOLIDE, the repository in $BOLIDE_SOURCE_DIR. What VTK reads must be a grid
+of vertices with the fields that the case has, and agree with the last row of history.csv.
+"""
+import csv
+import glob
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOHDF import vtkHDFReader
+
+VERTEX = 1
+SINGLE = 1e-6  # relative rounding of the 32-bit fields
+
+# Components of the fields that every solver shows.
+FIELDS = {
+    "id": 1,
+    "material": 1,
+    "body": 1,
+    "mass [kg]": 1,
+    "density [kg m-3]": 1,
+    "energy [J kg-1]": 1,
+    "pressure [Pa]": 1,
+    "velocity [m s-1]": 3,
+    "stress [Pa]": 6,
+    "speed [m s-1]": 1,
+}
+
+
+def expect(condition, message):
+    if not condition:
+        sys.exit("test_vtk_reader: " + message)
+
+
+def close(value, wanted):
+    return math.isclose(value, wanted, rel_tol=SINGLE, abs_tol=1e-30)
+
+
+def read_grid(path):
+    reader = vtkHDFReader()
+    expect(reader.CanReadFile(path), path + ": VTK does not take it for a VTKHDF file")
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def check_cells(grid):
+    count = grid.GetNumberOfPoints()
+    expect(count > 0, "there are no points")
+    expect(grid.GetNumberOfCells() == count, "there is not one cell for each point")
+    connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    expect((connectivity == numpy.arange(count)).all(), "a vertex is not its own point")
+    expect((offsets == numpy.arange(count + 1)).all(), "a cell has not one point")
+    expect((vtk_to_numpy(grid.GetCellTypesArray()) == VERTEX).all(), "a cell is no vertex")
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    expect(points.dtype == numpy.float64, "the points are not 64-bit floats")
+    expect(numpy.isfinite(points).all(), "a point is not finite")
+    return count
+
+
+def check_fields(grid, count):
+    fields = {}
+    data = grid.GetPointData()
+    for index in range(data.GetNumberOfArrays()):
+        values = vtk_to_numpy(data.GetArray(index))
+        name = data.GetArrayName(index)
+        expect(len(values) == count, name + ": has another number of values than there are points")
+        expect(numpy.isfinite(values).all(), name + ": is not finite")
+        fields[name] = values
+    for name, components in FIELDS.items():
+        expect(name in fields, "there is no field " + name)
+        found = 1 if fields[name].ndim == 1 else fields[name].shape[1]
+        expect(found == components, f"{name}: has {found} components, not {components}")
+    expect(len(numpy.unique(fields["id"])) == count, "two particles have one id")
+    expect((fields["density [kg m-3]"] > 0).all(), "a density is not positive")
+    expect((fields["mass [kg]"] > 0).all(), "a mass is not positive")
+    speed = numpy.linalg.norm(fields["velocity [m s-1]"].astype(float), axis=1)
+    expect(numpy.allclose(speed, fields["speed [m s-1]"], rtol=1e-5, atol=1e-6),
+           "the speed is not the velocity's magnitude")
+    return fields
+
+
+def check_snapshot(path):
+    """The fields of the snapshot PATH by name, and its time in seconds."""
+    grid = read_grid(path)
+    fields = check_fields(grid, check_cells(grid))
+    time = grid.GetFieldData().GetArray("time [s]")
+    expect(time is not None and time.GetNumberOfTuples() == 1, "the snapshot has no time")
+    return fields, time.GetValue(0)
+
+
+def check_history(folder, fields, time):
+    with open(os.path.join(folder, "history.csv"), encoding="utf-8") as file:
+        last = list(csv.DictReader(file))[-1]
+    expect(close(float(last["time [s]"]), time), "history and snapshots do not end at one time")
+    expect(int(last["particles"]) == len(fields["id"]), "the history counts other particles")
+    for column, field in (("density", "density [kg m-3]"), ("pressure", "pressure [Pa]"),
+                          ("speed", "speed [m s-1]")):
+        unit = {"density": "kg/m^3", "pressure": "Pa", "speed": "m/s"}[column]
+        low, high = fields[field].min(), fields[field].max()
+        wanted = [float(last[f"{column}.{end} [{unit}]"]) for end in ("min", "max")]
+        expect(close(low, wanted[0]) and close(high, wanted[1]),
+               f"{field}: from {low} to {high}, but the history says {wanted}")
+
+
+def check_series(folder, snapshots, time):
+    found = glob.glob(os.path.join(folder, "**", "*.vtkhdf.series"), recursive=True)
+    expect(len(found) == 1, "there is not one .vtkhdf.series")
+    with open(found[0], encoding="utf-8") as file:
+        series = json.load(file)
+    home = os.path.dirname(found[0])
+    listed = [os.path.realpath(os.path.join(home, entry["name"])) for entry in series["files"]]
+    expect(listed == [os.path.realpath(path) for path in snapshots],
+           "the series does not list the snapshots")
+    times = [entry["time"] for entry in series["files"]]
+    expect(times == sorted(times), "the times of the series do not rise")
+    expect(times[-1] == time, "the series tells another time than the snapshot")
+
+
+def main():
+    program = os.environ["BOLIDE"]
+    case = os.path.join(os.environ["BOLIDE_SOURCE_DIR"], "examples/riemann/gas/case.yaml")
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([program, "run", case, "--output", folder, "--overwrite", "--short"],
+                       check=True, stdout=subprocess.DEVNULL)
+        snapshots = sorted(glob.glob(os.path.join(folder, "snapshots", "*.vtkhdf")))
+        expect(len(snapshots) >= 2, "the run left fewer than two snapshots")
+        fields, time = check_snapshot(snapshots[-1])
+        check_history(folder, fields, time)
+        check_series(folder, snapshots, time)
+    print(f"VTK reads {len(fields['id'])} particles with {len(fields)} fields")
+
+
+if __name__ == "__main__":
+    main()

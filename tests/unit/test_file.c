@@ -1,0 +1,248 @@
+/* Files written beside and renamed, and the folder of a run's results. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "output/file.h"
+
+static char folder[64];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    strcpy(folder, "/tmp/bolide-test-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[96];
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    return system(command);
+}
+
+/* FOLDER/NAME; four texts at a time. */
+static const char *in_folder(const char *name)
+{
+    static char text[4][256];
+    static int next;
+    next = (next + 1) % 4;
+    snprintf(text[next], sizeof text[next], "%s/%s", folder, name);
+    return text[next];
+}
+
+static void put(const char *name, const char *content)
+{
+    FILE *file = fopen(in_folder(name), "w");
+    assert_non_null(file);
+    fputs(content, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static bool there(const char *name) { return access(in_folder(name), F_OK) == 0; }
+
+static void assert_content(const char *name, const char *wanted)
+{
+    char text[256];
+    FILE *file = fopen(in_folder(name), "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    assert_string_equal(text, wanted);
+}
+
+static void assert_fails(struct error *error, enum error_kind kind, const char *part)
+{
+    assert_non_null(error);
+    assert_int_equal(error_kind(error), kind);
+    if (!strstr(error_message(error, 0), part))
+        fail_msg("\"%s\" has no \"%s\"", error_message(error, 0), part);
+    error_free(error);
+}
+
+static void a_file_appears_only_when_it_is_whole(void **state)
+{
+    (void)state;
+    FILE *file;
+    put("a.txt", "old");
+    assert_null(file_begin(in_folder("a.txt"), &file));
+    fputs("new", file);
+    fflush(file);
+    assert_content("a.txt", "old");
+    assert_content("a.txt.part", "new");
+    assert_null(file_end(in_folder("a.txt"), file));
+    assert_content("a.txt", "new");
+    assert_false(there("a.txt.part"));
+}
+
+static void a_full_disk_leaves_the_old_file_and_tells_why(void **state)
+{
+    (void)state;
+    put("a.txt", "old");
+    signal(SIGXFSZ, SIG_IGN);
+    struct rlimit before, few;
+    getrlimit(RLIMIT_FSIZE, &before);
+    few = before;
+    few.rlim_cur = 1000;
+    FILE *file;
+    assert_null(file_begin(in_folder("a.txt"), &file));
+    setrlimit(RLIMIT_FSIZE, &few);
+    for (int i = 0; i < 1000; i++)
+        fputs("0123456789", file);
+    struct error *error = file_end(in_folder("a.txt"), file);
+    setrlimit(RLIMIT_FSIZE, &before);
+    assert_fails(error, ERROR_SYSTEM, "a.txt: ");
+    assert_content("a.txt", "old");
+    assert_false(there("a.txt.part"));
+}
+
+static void an_unwritable_place_is_an_error(void **state)
+{
+    (void)state;
+    FILE *file;
+    assert_fails(file_begin(in_folder("none/a.txt"), &file), ERROR_SYSTEM, "No such file");
+    assert_fails(file_publish(in_folder("none.txt")), ERROR_SYSTEM, "No such file");
+}
+
+static void folders_are_made_with_their_parents(void **state)
+{
+    (void)state;
+    assert_null(folder_make(in_folder("a//b/c/")));
+    assert_true(there("a/b/c"));
+    assert_null(folder_make(in_folder("a/b")));
+    put("a/file", "");
+    assert_fails(folder_make(in_folder("a/file")), ERROR_INPUT, "is a file");
+    assert_fails(folder_make(in_folder("a/file/b")), ERROR_INPUT, "is a file");
+}
+
+static void put_a_run(void)
+{
+    static const char *const names[] = {
+        "case.yaml",
+        "run.log",
+        "history.csv",
+        "checkpoint.h5",
+        "checkpoint.h5.part",
+        "checks.csv",
+        "report.html",
+        "snapshots/000000.vtkhdf",
+        "pictures/p.png",
+        "probes/a.csv",
+        "snapshots/000001.vtkhdf.part",
+    };
+    assert_null(folder_make(in_folder("snapshots")));
+    assert_null(folder_make(in_folder("pictures")));
+    assert_null(folder_make(in_folder("probes")));
+    for (size_t i = 0; i < COUNT_OF(names); i++)
+        put(names[i], "result");
+}
+
+static void a_fresh_folder_is_made_and_marked(void **state)
+{
+    (void)state;
+    assert_null(folder_ready(in_folder("results/one"), false));
+    assert_content("results/one/run.log", "");
+}
+
+static void results_are_kept_unless_overwriting(void **state)
+{
+    (void)state;
+    put_a_run();
+    assert_fails(folder_ready(folder, false), ERROR_INPUT, "results of a run already");
+    assert_content("history.csv", "result");
+    assert_content("snapshots/000000.vtkhdf", "result");
+}
+
+static void overwriting_removes_results_and_nothing_else(void **state)
+{
+    (void)state;
+    put_a_run();
+    put("thesis.tex", "mine");
+    put("my.vtkhdf", "mine");
+    put("pictures/cat.jpg", "mine");
+    assert_null(folder_make(in_folder("probes/old")));
+    assert_null(folder_ready(folder, true));
+    assert_content("run.log", "");
+    assert_content("thesis.tex", "mine");
+    assert_content("my.vtkhdf", "mine");
+    assert_content("pictures/cat.jpg", "mine");
+    assert_true(there("probes/old"));
+    static const char *const gone[] = {"case.yaml",      "history.csv", "checkpoint.h5",
+                                       "checks.csv",     "report.html", "checkpoint.h5.part",
+                                       "pictures/p.png", "snapshots",   "probes/a.csv"};
+    for (size_t i = 0; i < COUNT_OF(gone); i++)
+        if (there(gone[i]))
+            fail_msg("%s is there yet", gone[i]);
+}
+
+static void foreign_files_of_the_same_name_are_never_touched(void **state)
+{
+    (void)state;
+    put("case.yaml", "input of a user");
+    assert_fails(folder_ready(folder, false), ERROR_INPUT, "case.yaml");
+    assert_fails(folder_ready(folder, true), ERROR_INPUT, "case.yaml");
+    assert_content("case.yaml", "input of a user");
+    unlink(in_folder("case.yaml"));
+    assert_null(folder_make(in_folder("pictures")));
+    put("pictures/holiday.png", "of a user");
+    assert_fails(folder_ready(folder, true), ERROR_INPUT, "pictures");
+    assert_content("pictures/holiday.png", "of a user");
+}
+
+static void foreign_files_of_other_names_do_not_matter(void **state)
+{
+    (void)state;
+    put("notes.txt", "mine");
+    assert_null(folder_ready(folder, false));
+    assert_content("notes.txt", "mine");
+}
+
+static void a_file_in_place_of_the_folder_is_a_mistake(void **state)
+{
+    (void)state;
+    put("file", "");
+    assert_fails(folder_ready(in_folder("file"), true), ERROR_INPUT, "is a file");
+}
+
+static void paths_are_joined_with_one_slash(void **state)
+{
+    (void)state;
+    static const char *const cases[][3] = {
+        {"a", "b", "a/b"}, {"a/", "b", "a/b"}, {"", "b", "b"}, {"/", "b", "/b"}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        char *path = path_join(cases[i][0], cases[i][1]);
+        assert_string_equal(path, cases[i][2]);
+        free(path);
+    }
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_folder, remove_folder)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(a_file_appears_only_when_it_is_whole),
+        IN_FOLDER(a_full_disk_leaves_the_old_file_and_tells_why),
+        IN_FOLDER(an_unwritable_place_is_an_error),
+        IN_FOLDER(folders_are_made_with_their_parents),
+        IN_FOLDER(a_fresh_folder_is_made_and_marked),
+        IN_FOLDER(results_are_kept_unless_overwriting),
+        IN_FOLDER(overwriting_removes_results_and_nothing_else),
+        IN_FOLDER(foreign_files_of_the_same_name_are_never_touched),
+        IN_FOLDER(foreign_files_of_other_names_do_not_matter),
+        IN_FOLDER(a_file_in_place_of_the_folder_is_a_mistake),
+        cmocka_unit_test(paths_are_joined_with_one_slash),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,285 @@
+/* From bodies to particles: lattices, masses, replacement, and the mistakes that are found on the way. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+
+#include "build_case.h"
+#include "model/generate.h"
+
+enum { BODIES = 3, WALLS = 2 };
+
+/* A case under construction, with room for a few bodies and walls. */
+struct workshop {
+    struct simulation_case input;
+    char *body_names[BODIES], *wall_names[WALLS];
+    struct body_input bodies[BODIES];
+    struct wall_input walls[WALLS];
+    struct material_input material;
+};
+
+static void open_workshop(struct workshop *w, int dimension, double resolution)
+{
+    *w = (struct workshop){.body_names = {"matrix", "grain", "flyer"},
+                           .wall_names = {"floor", "lid"}};
+    w->input.dimension = dimension;
+    w->input.resolution = resolution;
+    w->input.materials = (struct named_map){1, (char *[]){"iron"}, &w->material};
+    w->input.bodies = (struct named_map){0, w->body_names, w->bodies};
+    w->input.walls = (struct named_map){0, w->wall_names, w->walls};
+}
+
+static struct body_input *add_body(struct workshop *w, const char *shape, void *value)
+{
+    struct body_input *body = &w->bodies[w->input.bodies.count++];
+    body->shape = shape_of(shape, value);
+    body->resolution = NAN;
+    body->start.density = 8.0;
+    return body;
+}
+
+static void add_wall(struct workshop *w, int axis, enum wall_side side, double at)
+{
+    w->walls[w->input.walls.count++] = (struct wall_input){axis, side, at};
+}
+
+/* The generated particles of RANK of SIZE; the simulation is destroyed by the caller. */
+static struct error *generate(const struct workshop *w, const struct ranks *ranks,
+                              struct simulation *simulation)
+{
+    assert_null(simulation_create(&w->input, ranks, 1, simulation));
+    assert_null(particles_create(simulation->dimension, 4.0 * largest_diameter(&w->input), NULL, 0,
+                                 &simulation->particles));
+    return generate_particles(simulation);
+}
+
+static void assert_made(const struct workshop *w, const struct ranks *ranks,
+                        struct simulation *simulation)
+{
+    struct error *error = generate(w, ranks, simulation);
+    if (error)
+        fail_msg("%s", error_message(error, 0));
+}
+
+/* Generation fails with COUNT messages, one of which holds WORDS. */
+static void assert_refused(const struct workshop *w, int count, const char *words)
+{
+    const struct ranks alone = ranks_alone();
+    struct simulation simulation;
+    struct error *error = generate(w, &alone, &simulation);
+    assert_non_null(error);
+    assert_int_equal(error_kind(error), ERROR_INPUT);
+    assert_int_equal(error_count(error), count);
+    bool found = false;
+    for (int i = 0; i < count; i++)
+        found = found || strstr(error_message(error, i), words);
+    if (!found)
+        fail_msg("\"%s\" does not tell of \"%s\"", error_message(error, 0), words);
+    assert_int_equal(simulation.particles.count, 0);
+    error_free(error);
+    simulation_destroy(&simulation);
+}
+
+static int count_of_body(const struct particles *particles, int body)
+{
+    int count = 0;
+    for (int i = 0; i < particles->count; i++)
+        count += particles->body[i] == body;
+    return count;
+}
+
+static void a_box_has_its_exact_mass_and_every_particle_its_start_state(void **state)
+{
+    (void)state;
+    const struct ranks alone = ranks_alone();
+    struct workshop w;
+    struct simulation simulation;
+    struct shape_box box = {VECTOR(-1.0, 0.0, 2.0), VECTOR(1.0, 0.5, 3.0)};
+    open_workshop(&w, 3, 0.125);
+    struct body_input *body = add_body(&w, "box", &box);
+    body->velocity = (struct vector_value)VECTOR(1.0, -2.0, 3.0);
+    body->start = (struct point){.density = 8.0, .energy = 5.0, .pressure = 7.0};
+    assert_made(&w, &alone, &simulation);
+    const struct particles *p = &simulation.particles;
+    assert_int_equal(p->count, 16 * 4 * 8);
+    assert_true(particles_totals(p, &alone, -1).entry[LEDGER_MASS] == 8.0);
+    for (int i = 0; i < p->count; i++) {
+        assert_true(p->mass[i] == 8.0 / 512.0 && p->density[i] == 8.0 && p->energy[i] == 5.0);
+        assert_true(p->pressure[i] == 7.0 && p->material[i] == 0 && p->body[i] == 0);
+        assert_true(p->velocity[i][0] == 1.0 && p->velocity[i][1] == -2.0 &&
+                    p->velocity[i][2] == 3.0);
+        const int64_t site = (int64_t)p->id[i];
+        assert_true(p->position[i][0] == -1.0 + ((double)(site % 16) + 0.5) * 0.125);
+        assert_true(p->position[i][1] == ((double)(site / 16 % 4) + 0.5) * 0.125);
+        assert_true(p->position[i][2] == 2.0 + ((double)(site / 64) + 0.5) * 0.125);
+    }
+    simulation_destroy(&simulation);
+}
+
+static void the_spacing_is_adjusted_to_fill_the_bounds(void **state)
+{
+    (void)state;
+    const struct ranks alone = ranks_alone();
+    struct workshop w;
+    struct simulation simulation;
+    struct shape_box box = {VECTOR(0.0), VECTOR(1.0)};
+    open_workshop(&w, 1, 0.3);
+    add_body(&w, "box", &box);
+    assert_made(&w, &alone, &simulation);
+    const struct particles *p = &simulation.particles;
+    assert_int_equal(p->count, 3);
+    assert_true(largest_diameter(&w.input) == 1.0 / 3.0);
+    for (int i = 0; i < p->count; i++)
+        assert_true(p->position[i][1] == 0.0 && p->position[i][2] == 0.0);
+    simulation_destroy(&simulation);
+
+    w.bodies[0].resolution = 5.0;
+    assert_true(body_lattice(&w.input, 0).sites[0] == 1);
+    assert_true(largest_diameter(&w.input) == 1.0);
+}
+
+static void a_grain_that_replaces_its_matrix_cuts_a_hole_of_its_own_form(void **state)
+{
+    (void)state;
+    const struct ranks alone = ranks_alone();
+    struct workshop w;
+    struct simulation simulation;
+    struct shape_box box = {VECTOR(0.0, 0.0), VECTOR(1.0, 1.0)};
+    struct shape_ball ball = {VECTOR(0.5, 0.4), 0.25};
+    open_workshop(&w, 2, 0.01);
+    add_body(&w, "box", &box);
+    add_body(&w, "ball", &ball)->replaces = (struct name_list){1, (char *[]){"matrix"}};
+    assert_made(&w, &alone, &simulation);
+    const struct particles *p = &simulation.particles;
+    const double disc = M_PI * square(0.25) * 1e4;
+    assert_true(fabs(count_of_body(p, 0) - (1e4 - disc)) < 0.01 * disc);
+    assert_true(fabs(count_of_body(p, 1) - disc) < 0.01 * disc);
+    for (int i = 0; i < p->count; i++) {
+        const double *x = p->position[i];
+        assert_int_equal(shape_inside(&w.bodies[1].shape, vec3_make(x[0], x[1], 0.0)), p->body[i]);
+    }
+
+    struct body_summary summary[2];
+    assert_null(generate_summary(&w.input, summary));
+    for (int body = 0; body < 2; body++) {
+        assert_int_equal(summary[body].particles, count_of_body(p, body));
+        const double mass = particles_totals(p, &alone, body).entry[LEDGER_MASS];
+        assert_true(fabs(summary[body].mass - mass) <= 1e-14 * mass);
+        assert_true(fabs(summary[body].diameter - 0.01) < 1e-15);
+    }
+    simulation_destroy(&simulation);
+}
+
+static void an_overlap_without_replacement_is_told_once(void **state)
+{
+    (void)state;
+    struct workshop w;
+    struct shape_box box = {VECTOR(0.0, 0.0), VECTOR(1.0, 1.0)};
+    struct shape_ball ball = {VECTOR(0.5, 0.4), 0.25};
+    open_workshop(&w, 2, 0.05);
+    struct body_input *matrix = add_body(&w, "box", &box), *grain = add_body(&w, "ball", &ball);
+    assert_refused(&w, 1, "bodies.matrix: overlaps \"grain\"");
+    matrix->replaces = (struct name_list){1, (char *[]){"grain"}};
+    grain->replaces = (struct name_list){1, (char *[]){"matrix"}};
+    assert_refused(&w, 1, "only one");
+    grain->replaces.count = 0;
+    assert_refused(&w, 1, "bodies.grain: no particle");
+}
+
+static void bodies_that_touch_do_not_overlap(void **state)
+{
+    (void)state;
+    const struct ranks alone = ranks_alone();
+    struct workshop w;
+    struct simulation simulation;
+    struct shape_box left = {VECTOR(0.0), VECTOR(0.1)}, right = {VECTOR(0.1), VECTOR(0.7)};
+    open_workshop(&w, 1, 0.001);
+    add_body(&w, "box", &left);
+    add_body(&w, "box", &right);
+    assert_made(&w, &alone, &simulation);
+    assert_int_equal(count_of_body(&simulation.particles, 0), 100);
+    assert_int_equal(count_of_body(&simulation.particles, 1), 600);
+    simulation_destroy(&simulation);
+}
+
+static void all_mistakes_of_a_case_come_in_one_go(void **state)
+{
+    (void)state;
+    struct workshop w;
+    struct shape_box low = {VECTOR(-0.1, 0.0), VECTOR(1.0, 1.0)};
+    struct shape_box high = {VECTOR(0.0, 2.0), VECTOR(1.0, 3.0)};
+    struct shape_repeat sparse = {shape_of("ball", &(struct shape_ball){VECTOR(5.0, 1.0), 0.01}),
+                                  VECTOR(2.0, 1.0), VECTOR(1.0, 0.0)};
+    open_workshop(&w, 2, 0.1);
+    add_body(&w, "box", &low);
+    add_body(&w, "box", &high);
+    add_body(&w, "repeat", &sparse);
+    add_wall(&w, 0, WALL_LOW, 0.0);
+    add_wall(&w, 1, WALL_HIGH, 2.95);
+    assert_refused(&w, 3,
+                   "bodies.matrix: the particle at [-0.05 m, 0.05 m] lies behind wall \"floor\"");
+    assert_refused(&w, 3, "lies behind wall \"lid\"");
+    assert_refused(&w, 3, "bodies.flyer: no particle");
+}
+
+static void a_lattice_beyond_the_ids_is_refused(void **state)
+{
+    (void)state;
+    struct workshop w;
+    struct shape_box box = {VECTOR(0.0, 0.0, 0.0), VECTOR(1.0, 1.0, 1.0)};
+    open_workshop(&w, 3, 1e-5);
+    add_body(&w, "box", &box);
+    assert_refused(&w, 1, "choose a coarser resolution");
+    w.input.resolution = 1e-200;
+    assert_refused(&w, 1, "choose a coarser resolution");
+}
+
+static int compare_ids(const void *a, const void *b)
+{
+    const uint64_t first = *(const uint64_t *)a, second = *(const uint64_t *)b;
+    return (first > second) - (first < second);
+}
+
+static void the_slices_of_three_ranks_make_the_particles_of_one(void **state)
+{
+    (void)state;
+    struct workshop w;
+    struct shape_box box = {VECTOR(0.0, 0.0), VECTOR(1.0, 1.0)};
+    struct shape_ball ball = {VECTOR(0.5, 0.5), 0.25};
+    open_workshop(&w, 2, 0.03);
+    add_body(&w, "box", &box);
+    add_body(&w, "ball", &ball)->replaces = (struct name_list){1, (char *[]){"matrix"}};
+    uint64_t ids[2][4000];
+    int counts[2] = {0, 0};
+    for (int size = 1, run = 0; size <= 3; size += 2, run++)
+        for (int rank = 0; rank < size; rank++) {
+            const struct ranks ranks = {rank, size};
+            struct simulation simulation;
+            assert_made(&w, &ranks, &simulation);
+            for (int i = 0; i < simulation.particles.count; i++)
+                ids[run][counts[run]++] = simulation.particles.id[i];
+            simulation_destroy(&simulation);
+        }
+    assert_int_equal(counts[0], counts[1]);
+    for (int run = 0; run < 2; run++)
+        qsort(ids[run], (size_t)counts[run], sizeof ids[run][0], compare_ids);
+    assert_memory_equal(ids[0], ids[1], (size_t)counts[0] * sizeof ids[0][0]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_box_has_its_exact_mass_and_every_particle_its_start_state),
+        cmocka_unit_test(the_spacing_is_adjusted_to_fill_the_bounds),
+        cmocka_unit_test(a_grain_that_replaces_its_matrix_cuts_a_hole_of_its_own_form),
+        cmocka_unit_test(an_overlap_without_replacement_is_told_once),
+        cmocka_unit_test(bodies_that_touch_do_not_overlap),
+        cmocka_unit_test(all_mistakes_of_a_case_come_in_one_go),
+        cmocka_unit_test(a_lattice_beyond_the_ids_is_refused),
+        cmocka_unit_test(the_slices_of_three_ranks_make_the_particles_of_one),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

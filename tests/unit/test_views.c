@@ -1,0 +1,127 @@
+/* Views: the fields of the store by name, quantities computed from them, and single components. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <string.h>
+
+#include "model/views.h"
+
+enum { COUNT = 700 };
+
+static const struct field_declaration solver_fields[] = {
+    {"sound_speed", "m/s", "longitudinal sound speed", NUMBER_DOUBLE, 1, FIELD_DERIVED},
+    {"hidden", NULL, "not shown", NUMBER_DOUBLE, 1, FIELD_STATE},
+};
+
+static void set_up(struct simulation *simulation, struct views *views)
+{
+    *simulation = (struct simulation){.dimension = 3};
+    *views = (struct views){0};
+    struct particles *p = &simulation->particles;
+    int32_t first;
+    assert_null(particles_create(3, 1.0, solver_fields, (int)COUNT_OF(solver_fields), p));
+    assert_null(particles_append(p, COUNT, &first));
+    double *sound_speed = particles_field(p, "sound_speed");
+    for (int i = 0; i < COUNT; i++) {
+        p->pressure[i] = 100.0 + i;
+        sound_speed[i] = 5000.0 + i;
+        for (int k = 0; k < 3; k++)
+            p->velocity[i][k] = (i + 1) * (k + 1);
+        for (int k = 0; k < 6; k++)
+            p->deviator[i][k] = i * (k + 1);
+    }
+    p->count = COUNT;
+    views_of_particles(views, simulation);
+}
+
+static void every_double_field_with_a_unit_is_a_view(void **state)
+{
+    (void)state;
+    struct simulation simulation;
+    struct views views;
+    set_up(&simulation, &views);
+    static const char *const shown[] = {"mass",     "density",  "energy",      "pressure",
+                                        "position", "velocity", "deviator",    "plastic_strain",
+                                        "stress",   "speed",    "sound_speed", "equivalent_stress"};
+    int component;
+    for (size_t i = 0; i < COUNT_OF(shown); i++) {
+        assert_non_null(views_find(&views, shown[i], &component));
+        assert_int_equal(component, -1);
+    }
+    assert_int_equal(views.count, (int)COUNT_OF(shown));
+    assert_ptr_equal(views_find(&views, "pressure", &component)->data,
+                     simulation.particles.pressure);
+    assert_string_equal(views_find(&views, "sound_speed", &component)->unit, "m/s");
+    particles_destroy(&simulation.particles);
+}
+
+static void names_that_are_no_view_are_not_found(void **state)
+{
+    (void)state;
+    struct simulation simulation;
+    struct views views;
+    set_up(&simulation, &views);
+    static const char *const unknown[] = {
+        "id",         "hidden",   "press",     "pressures", "pressure.x", "velocity.xx",
+        "velocity.w", "stress.x", "velocity.", "",          ".x"};
+    int component;
+    for (size_t i = 0; i < COUNT_OF(unknown); i++)
+        assert_null(views_find(&views, unknown[i], &component));
+    particles_destroy(&simulation.particles);
+}
+
+static void a_component_reads_as_a_column_of_the_whole(void **state)
+{
+    (void)state;
+    struct simulation simulation;
+    struct views views;
+    set_up(&simulation, &views);
+    static const char *const names[] = {"velocity.x", "velocity.z", "stress.xx",
+                                        "stress.zz",  "stress.zx",  "pressure"};
+    for (size_t n = 0; n < COUNT_OF(names); n++) {
+        int component;
+        const struct view *view = views_find(&views, names[n], &component);
+        assert_non_null(view);
+        double whole[6 * COUNT], column[COUNT];
+        const int64_t begin = 13, end = COUNT - 5;
+        view_read(view, begin, end, whole);
+        view_read_component(view, component, begin, end, column);
+        for (int64_t i = 0; i < end - begin; i++)
+            assert_true(column[i] == whole[i * view->components + (component < 0 ? 0 : component)]);
+    }
+    particles_destroy(&simulation.particles);
+}
+
+static void stress_and_speed_follow_from_the_fields(void **state)
+{
+    (void)state;
+    struct simulation simulation;
+    struct views views;
+    set_up(&simulation, &views);
+    int component;
+    double stress[6], mises, speed;
+    const int i = 2;
+    view_read(views_find(&views, "stress", &component), i, i + 1, stress);
+    view_read(views_find(&views, "equivalent_stress", &component), i, i + 1, &mises);
+    view_read(views_find(&views, "speed", &component), i, i + 1, &speed);
+    const double wanted[6] = {2.0 - 102.0, 4.0 - 102.0, 6.0 - 102.0, 8.0, 10.0, 12.0};
+    assert_memory_equal(stress, wanted, sizeof wanted);
+    const double square_sum = 4.0 + 16.0 + 36.0 + 2.0 * (64.0 + 100.0 + 144.0);
+    assert_true(fabs(mises - sqrt(1.5 * square_sum)) < 1e-12);
+    assert_true(fabs(speed - 3.0 * sqrt(14.0)) < 1e-12);
+    particles_destroy(&simulation.particles);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_double_field_with_a_unit_is_a_view),
+        cmocka_unit_test(names_that_are_no_view_are_not_found),
+        cmocka_unit_test(a_component_reads_as_a_column_of_the_whole),
+        cmocka_unit_test(stress_and_speed_follow_from_the_fields),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
