@@ -61,15 +61,29 @@ struct node *node_take(struct node *parent, int index)
     return taken;
 }
 
-static struct place place_of(const struct parse *parse, const struct fy_mark *mark,
+static enum fy_scalar_style style_of(const struct fy_event *event)
+{
+    struct fy_token *token = event->type == FYET_SCALAR ? event->scalar.value : NULL;
+    return token ? fy_token_scalar_style(token) : FYSS_PLAIN;
+}
+
+static bool is_quoted(const struct fy_event *event)
+{
+    enum fy_scalar_style style = style_of(event);
+    return style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED;
+}
+
+/* Where EVENT starts, OTHERWISE when nothing of it stands in the text. */
+static struct place place_of(const struct parse *parse, struct fy_event *event,
                              struct place otherwise)
 {
+    const struct fy_mark *mark = fy_event_start_mark(event);
     if (!mark)
         return otherwise;
     struct place place = {parse->origin, 0, 0};
     if (parse->located) {
         place.line = mark->line + 1;
-        place.column = mark->column + 1;
+        place.column = mark->column + 1 - is_quoted(event); /* the mark stands behind a quote */
     }
     return place;
 }
@@ -129,7 +143,7 @@ static struct error *build_and_free(struct parse *parse, struct fy_event *event,
 static struct error *build_entry(struct parse *parse, struct fy_event *event, int depth,
                                  struct node *map)
 {
-    struct place place = place_of(parse, fy_event_start_mark(event), map->place);
+    struct place place = place_of(parse, event, map->place);
     bool simple = event->type == FYET_SCALAR;
     char *key = NULL;
     struct error *error = simple ? take_text(event->scalar.value, place, &key) : NULL;
@@ -184,7 +198,7 @@ static struct error *build_children(struct parse *parse, int depth, struct node 
 static struct error *build(struct parse *parse, struct fy_event *event, struct place before,
                            int depth, struct node **result)
 {
-    struct place place = place_of(parse, fy_event_start_mark(event), before);
+    struct place place = place_of(parse, event, before);
     if (event->type == FYET_ALIAS || fy_event_get_anchor_token(event))
         return place_error(place, "", "anchors and aliases (& and *) are not known here; "
                                       "a text that starts with one needs quotes");
@@ -200,9 +214,8 @@ static struct error *build(struct parse *parse, struct fy_event *event, struct p
         return error_new(ERROR_SYSTEM, "out of memory");
     struct error *error;
     if (node->kind == NODE_SCALAR) {
-        struct fy_token *token = event->scalar.value;
-        node->plain = !token || fy_token_scalar_style(token) == FYSS_PLAIN;
-        error = take_text(token, place, &node->text);
+        node->plain = style_of(event) == FYSS_PLAIN;
+        error = take_text(event->scalar.value, place, &node->text);
     } else {
         error = build_children(parse, depth, node);
     }
@@ -228,7 +241,7 @@ static struct error *build_document(struct parse *parse, struct node **root)
             continue;
         }
         if (type == FYET_DOCUMENT_START || type == FYET_STREAM_END) {
-            struct place place = place_of(parse, fy_event_start_mark(event), start);
+            struct place place = place_of(parse, event, start);
             fy_parser_event_free(parse->parser, event);
             if (type == FYET_STREAM_END)
                 break;
@@ -249,12 +262,58 @@ static struct error *build_document(struct parse *parse, struct node **root)
     return NULL;
 }
 
+/* Bytes of the UTF-8 character that TEXT starts with, 0 where there is none. */
+static size_t character_length(const char *text, size_t length)
+{
+    static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
+    const unsigned char *byte = (const unsigned char *)text;
+    size_t size = byte[0] < 0x80   ? 1
+                  : byte[0] < 0xc0 ? 0
+                  : byte[0] < 0xe0 ? 2
+                  : byte[0] < 0xf0 ? 3
+                  : byte[0] < 0xf8 ? 4
+                                   : 0;
+    if (size < 2 || size > length)
+        return size > length ? 0 : size;
+    uint32_t code = byte[0] & (0x7f >> size);
+    for (size_t i = 1; i < size; i++) {
+        if ((byte[i] & 0xc0) != 0x80)
+            return 0;
+        code = code << 6 | (byte[i] & 0x3f);
+    }
+    bool surrogate = code >= 0xd800 && code < 0xe000;
+    return code < least[size] || code > 0x10ffff || surrogate ? 0 : size;
+}
+
+/* What libfyaml 0.7.12 does not survive (a directive with malformed UTF-8 keeps it busy for ever) or
+ * takes for an end (a zero byte). No case has a use for directives. */
+static struct error *check_bytes(const char *text, size_t length, const char *origin, bool located)
+{
+    struct place place = {origin, 1, 1};
+    const char *wrong = NULL;
+    for (size_t at = 0, size; at < length && !wrong; at += size) {
+        size = character_length(text + at, length - at);
+        if (size == 0)
+            wrong = "this is not UTF-8 text";
+        else if (text[at] == '\0')
+            wrong = "a text cannot hold a zero byte";
+        else if (text[at] == '%' && place.column == 1)
+            wrong = "a line cannot start with %";
+        else if (text[at] == '\n')
+            place = (struct place){origin, place.line + 1, 1};
+        else
+            place.column++;
+    }
+    if (!located)
+        place.line = 0;
+    return wrong ? place_error(place, "", "%s", wrong) : NULL;
+}
+
 struct error *node_parse(const char *text, size_t length, const char *origin, bool located,
                          struct node **root)
 {
     *root = NULL;
-    if (memchr(text, '\0', length))
-        return error_new(ERROR_INPUT, "%s: not a text: it holds a zero byte", origin);
+    TRY(check_bytes(text, length, origin, located));
     struct fy_diag_cfg quiet;
     fy_diag_cfg_default(&quiet);
     quiet.fp = NULL;

@@ -133,8 +133,8 @@ struct error *folder_make(const char *folder)
  * folder from any other, so it is removed last. */
 static const char log_name[] = "run.log";
 static const char *const result_files[] = {
-    "case.yaml",  "history.csv", "checkpoint.h5",           "checks.csv",
-    "checks.txt", "report.html", "snapshots.vtkhdf.series",
+    "case.yaml",  "history.csv", "checkpoint.h5",
+    "checks.csv", "report.html", "snapshots.vtkhdf.series",
 };
 static const struct {
     const char *name, *endings[2];
@@ -240,8 +240,8 @@ struct error *folder_ready(const char *folder, bool overwrite)
     if (is_there(folder, log_name)) {
         if (!overwrite)
             return error_new(ERROR_INPUT,
-                             "%s: holds the results of a run already (overwrite replaces them, "
-                             "resume goes on with them)",
+                             "%s: holds the results of a run already (--overwrite replaces them, "
+                             "--resume goes on with them)",
                              folder);
         TRY(remove_run(folder));
     } else if ((name = name_in_the_way(folder))) {

@@ -175,15 +175,20 @@ static void find_extremes(const struct simulation *simulation, struct row *row)
     row->speed = over_ranks(simulation->ranks, speed);
 }
 
-/* The energy that is neither there nor booked, against the larger of the start's energy and what is
- * there of both kinds, since a sum of opposite energies may be next to nothing. */
+static double largest_energy(const struct totals *totals)
+{
+    double parts = maximum(totals->kinetic, fabs(totals->internal));
+    return maximum(fabs(totals->entry[LEDGER_ENERGY]), parts);
+}
+
+/* The energy that is neither there nor booked, against the largest energy at the start or now; the
+ * total alone may be next to nothing, a sum of opposites. */
 static double energy_drift(const struct totals *now, const struct totals *booked,
                            const struct totals *start)
 {
     double lost =
         now->entry[LEDGER_ENERGY] - booked->entry[LEDGER_ENERGY] - start->entry[LEDGER_ENERGY];
-    double scale = maximum(fabs(start->entry[LEDGER_ENERGY]), now->kinetic + fabs(now->internal));
-    return scale > 0.0 ? lost / scale : 0.0;
+    return lost == 0.0 ? 0.0 : lost / maximum(largest_energy(start), largest_energy(now));
 }
 
 static struct row find_row(const struct simulation *simulation, double dt,

@@ -169,13 +169,14 @@ void canvas_text(const struct canvas *canvas, enum text_style style, double x, d
     cairo_show_text(canvas->pen, clean);
 }
 
-void canvas_header(const struct canvas *canvas, double left, const char *title, const char *note)
+double canvas_header(const struct canvas *canvas, double left, const char *title, const char *note)
 {
     double room = canvas->width - left - 12.0;
     if (title)
         canvas_text(canvas, TEXT_TITLE, left, 25.0, 0.0, room, title);
     if (note)
         canvas_text(canvas, TEXT_NOTE, left, 44.0, 0.0, room, note);
+    return note ? 52.0 : 36.0;
 }
 
 void axis_name(struct axis *axis, const char *name, const char *unit, double magnitude)
@@ -189,8 +190,8 @@ void axis_name(struct axis *axis, const char *name, const char *unit, double mag
 double axis_place(const struct axis *axis, double value)
 {
     double low = axis->range.low, high = axis->range.high;
-    double part = axis->logarithmic ? log(value / low) / log(high / low)
-                                    : (value - low) / (high - low);
+    double part =
+        axis->logarithmic ? log(value / low) / log(high / low) : (value - low) / (high - low);
     return axis->start + part * (axis->end - axis->start);
 }
 
@@ -337,8 +338,8 @@ static void draw_mark(const struct canvas *canvas, const struct legend_entry *en
     }
 }
 
-int legend_draw(const struct canvas *canvas, const struct legend_entry *entries, int count,
-                double left, double top, double width, bool draw)
+double legend_draw(const struct canvas *canvas, const struct legend_entry *entries, int count,
+                   double left, double top, double width, bool draw)
 {
     int rows = count > 0;
     double x = 0.0;
@@ -358,5 +359,5 @@ int legend_draw(const struct canvas *canvas, const struct legend_entry *entries,
         }
         x += mark + text + 20.0;
     }
-    return rows;
+    return rows * LEGEND_ROW;
 }

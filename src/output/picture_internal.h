@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "output/picture_scale.h"
 
-enum { PIXELS_PER_POINT = 2, HEADER_HEIGHT = 56, LEGEND_ROW = 18, LABEL_TEXT = 128 };
+enum { PIXELS_PER_POINT = 2, LEGEND_ROW = 18, LABEL_TEXT = 128 };
 
 struct canvas {
     cairo_surface_t *surface;
@@ -33,8 +33,8 @@ double canvas_text_width(const struct canvas *canvas, enum text_style style, con
 
 void canvas_colour(const struct canvas *canvas, struct colour colour);
 
-/* Title and note at the top, from LEFT on. NULL leaves one out. */
-void canvas_header(const struct canvas *canvas, double left, const char *title, const char *note);
+/* Title and note at the top, from LEFT on; NULL leaves one out. Returns the height that they take. */
+double canvas_header(const struct canvas *canvas, double left, const char *title, const char *note);
 
 /* One axis: RANGE (SI units) lies between the points START and END. */
 struct axis {
@@ -69,10 +69,11 @@ struct pixels {
     int left, right, top, bottom;
 };
 
-/* Paints a particle of DIAMETER pixels about (x, y): a disc with a smooth rim, or, where that would be no more
- * than a few pixels, a square. */
-void paint_particle(const struct pixels *pixels, double x, double y, double diameter,
-                    struct colour colour);
+/* Paint a square (edges rounded to pixels, one at least), or a disc with a smooth rim (a square, where it
+ * would be no more than a few pixels), about (x, y) in pixels. */
+typedef void paint_function(const struct pixels *pixels, double x, double y, double diameter,
+                            struct colour colour);
+paint_function paint_square, paint_disc;
 
 enum legend_mark { MARK_NONE, MARK_DOT, MARK_LINE, MARK_SQUARE };
 struct legend_entry {
@@ -81,9 +82,9 @@ struct legend_entry {
     const char *text;
 };
 
-/* Draws entries in rows from LEFT, TOP on, no wider than WIDTH; returns the number of rows. With DRAW unset
- * it counts the rows only. */
-int legend_draw(const struct canvas *canvas, const struct legend_entry *entries, int count,
-                double left, double top, double width, bool draw);
+/* Draws entries in rows from LEFT, TOP on, no wider than WIDTH; returns the height that they take. With DRAW
+ * unset it only measures. */
+double legend_draw(const struct canvas *canvas, const struct legend_entry *entries, int count,
+                   double left, double top, double width, bool draw);
 
 #endif

@@ -2,16 +2,22 @@
  * minutes. */
 #include "output/picture_internal.h"
 
+static uint32_t pack(struct colour colour)
+{
+    return (uint32_t)(colour.red * 255.0 + 0.5) << 16 |
+           (uint32_t)(colour.green * 255.0 + 0.5) << 8 | (uint32_t)(colour.blue * 255.0 + 0.5);
+}
+
 static int clamp(double value, int low, int high)
 {
     return (int)minimum(maximum(value, low), high);
 }
 
-/* A square with edges rounded to pixels, one at least. Neighbours round alike, so that packed squares
- * leave no gap. */
-static void paint_square(const struct pixels *pixels, double x, double y, double edge,
-                         uint32_t colour)
+/* Neighbours round their common edge alike, so that packed squares leave no gap. */
+void paint_square(const struct pixels *pixels, double x, double y, double edge,
+                  struct colour colour)
 {
+    uint32_t packed = pack(colour);
     double left = floor(x - 0.5 * edge + 0.5), right = floor(x + 0.5 * edge + 0.5);
     double top = floor(y - 0.5 * edge + 0.5), bottom = floor(y + 0.5 * edge + 0.5);
     if (right <= left)
@@ -22,7 +28,7 @@ static void paint_square(const struct pixels *pixels, double x, double y, double
     int last_row = clamp(bottom, pixels->top, pixels->bottom);
     for (int row = clamp(top, pixels->top, pixels->bottom); row < last_row; ++row)
         for (int column = first; column < end; ++column)
-            pixels->data[row * pixels->stride + column] = colour;
+            pixels->data[row * pixels->stride + column] = packed;
 }
 
 static uint32_t blend(uint32_t behind, uint32_t front, double part)
@@ -33,10 +39,15 @@ static uint32_t blend(uint32_t behind, uint32_t front, double part)
     return (red_blue & 0xff00ff) | (green & 0x00ff00);
 }
 
-/* A disc with a smooth rim. */
-static void paint_disc(const struct pixels *pixels, double x, double y, double diameter,
-                       uint32_t colour)
+void paint_disc(const struct pixels *pixels, double x, double y, double diameter,
+                struct colour colour)
 {
+    enum { square_below = 4 };
+    if (diameter < square_below) {
+        paint_square(pixels, x, y, diameter, colour);
+        return;
+    }
+    uint32_t packed = pack(colour);
     double radius = 0.5 * diameter, reach = radius + 1.0;
     int first = clamp(floor(x - reach), pixels->left, pixels->right);
     int end = clamp(ceil(x + reach), first, pixels->right);
@@ -47,20 +58,7 @@ static void paint_disc(const struct pixels *pixels, double x, double y, double d
             double distance = hypot(column + 0.5 - x, row + 0.5 - y);
             double cover = minimum(radius + 0.5 - distance, 1.0);
             if (cover > 0.0)
-                line[column] = blend(line[column], colour, cover);
+                line[column] = blend(line[column], packed, cover);
         }
     }
-}
-
-void paint_particle(const struct pixels *pixels, double x, double y, double diameter,
-                    struct colour colour)
-{
-    enum { square_below = 4 };
-    uint32_t packed = (uint32_t)(colour.red * 255.0 + 0.5) << 16 |
-                      (uint32_t)(colour.green * 255.0 + 0.5) << 8 |
-                      (uint32_t)(colour.blue * 255.0 + 0.5);
-    if (diameter < square_below)
-        paint_square(pixels, x, y, diameter, packed);
-    else
-        paint_disc(pixels, x, y, diameter, packed);
 }

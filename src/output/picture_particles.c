@@ -14,9 +14,9 @@ enum {
     PAGE_WIDTH = 800,
     PAGE_WIDTH_MIN = 420,
     PAGE_WIDTH_MAX = 1200, /* of long strips */
-    BOX_HEIGHT_MIN = 32,
-    BOX_HEIGHT_MAX = 820,
-    BOX_WIDTH_MIN = 60,
+    HEIGHT_MIN = 24,       /* of the particles */
+    HEIGHT_MAX = 820,
+    WIDTH_MIN = 50,
     LEFT = 68,
     RIGHT = 22,
     AXIS_HEIGHT = 42,
@@ -37,10 +37,10 @@ struct shown {
 
 /* The plane of the picture, and what of space is in it. */
 struct plane {
-    int across, up, normal;      /* axes of space; normal -1: none */
-    struct range extent[3];      /* of the particles with their size */
-    double middle;               /* of the slab, along the normal */
-    double diameter;             /* geometric mean of the particles' */
+    int across, up, normal; /* axes of space; normal -1: none */
+    struct range extent[3]; /* of the particles with their size */
+    double middle;          /* of the slab, along the normal */
+    double diameter;        /* geometric mean of the particles' */
 };
 
 /* A particle in the picture, in metres from the middle of the extents: floats halve the memory. */
@@ -73,8 +73,7 @@ static struct error *find_shown(const struct simulation *simulation, const struc
     bool material = strcmp(field, "material") == 0;
     if (material || strcmp(field, "body") == 0) {
         const struct simulation_case *input = simulation->input;
-        shown->category =
-            material ? simulation->particles.material : simulation->particles.body;
+        shown->category = material ? simulation->particles.material : simulation->particles.body;
         shown->names = !input ? NULL : material ? &input->materials : &input->bodies;
         return NULL;
     }
@@ -203,10 +202,11 @@ struct page {
     double width, height;
 };
 
-/* Paints every dot at FACTOR times its diameter. */
+/* Paints every dot at FACTOR times its diameter by PAINT_ONE. */
 static void paint_layer(const struct pixels *pixels, const struct page *page,
                         const struct dots *dots, const struct shown *shown,
-                        const struct colour_scale *colours, double factor)
+                        const struct colour_scale *colours, double factor,
+                        paint_function *paint_one)
 {
     double scale = page->scale * PIXELS_PER_POINT;
     double x = 0.5 * (page->x.start + page->x.end) * PIXELS_PER_POINT;
@@ -214,9 +214,9 @@ static void paint_layer(const struct pixels *pixels, const struct page *page,
     for (int64_t i = 0; i < dots->count; ++i) {
         const struct dot *dot = &dots->dot[i];
         double diameter = factor * dot->diameter * scale;
-        struct colour colour = shown->category ? colour_of_category((int)dot->value)
-                                               : colour_of(colours, dot->value);
-        paint_particle(pixels, x + dot->across * scale, y - dot->up * scale, diameter, colour);
+        struct colour colour =
+            shown->category ? colour_of_category((int)dot->value) : colour_of(colours, dot->value);
+        paint_one(pixels, x + dot->across * scale, y - dot->up * scale, diameter, colour);
     }
 }
 
@@ -232,11 +232,11 @@ static void paint(const struct canvas *canvas, const struct page *page, const st
         .top = (int)floor(page->y.end * PIXELS_PER_POINT),
         .bottom = (int)floor(page->y.start * PIXELS_PER_POINT),
     };
-    /* Small discs of one body should read as a solid: larger ones behind them fill the gaps, which a
-     * lattice has at its corners and wherever it is compressed along one axis. */
+    /* Small particles of one body should read as a solid: squares behind them fill the gaps, which a lattice of
+     * discs has at its corners, and wherever it is compressed along one axis. */
     if (diameter * page->scale * PIXELS_PER_POINT < 14.0)
-        paint_layer(&pixels, page, dots, shown, colours, 1.4);
-    paint_layer(&pixels, page, dots, shown, colours, 1.05);
+        paint_layer(&pixels, page, dots, shown, colours, 1.3, paint_square);
+    paint_layer(&pixels, page, dots, shown, colours, 1.05, paint_disc);
     cairo_surface_mark_dirty(canvas->surface);
 }
 
@@ -246,14 +246,15 @@ static struct page lay_out(const struct plane *plane, double head, double foot)
 {
     double across = length_of(plane->extent[plane->across]);
     double up = length_of(plane->extent[plane->up]);
-    double room = PAGE_WIDTH - LEFT - RIGHT, most = PAGE_WIDTH_MAX - LEFT - RIGHT;
-    double width = minimum(maximum(room, BOX_HEIGHT_MIN * across / up), most);
-    double height = minimum(maximum(width * up / across, BOX_HEIGHT_MIN), BOX_HEIGHT_MAX);
-    width = minimum(width, maximum(height * across / up, BOX_WIDTH_MIN));
-
-    struct page page = {0};
-    page.scale = minimum((width - 2 * MARGIN) / across, (height - 2 * MARGIN) / up);
-    page.width = ceil(maximum(width + LEFT + RIGHT, PAGE_WIDTH_MIN));
+    struct page page = {.scale = (PAGE_WIDTH - LEFT - RIGHT - 2 * MARGIN) / across};
+    if (page.scale * up < HEIGHT_MIN)
+        page.scale =
+            minimum(HEIGHT_MIN / up, (PAGE_WIDTH_MAX - LEFT - RIGHT - 2 * MARGIN) / across);
+    if (page.scale * up > HEIGHT_MAX)
+        page.scale = HEIGHT_MAX / up;
+    double width = maximum(page.scale * across, WIDTH_MIN) + 2 * MARGIN;
+    double height = maximum(page.scale * up, HEIGHT_MIN) + 2 * MARGIN;
+    page.width = ceil(maximum(width + LEFT + RIGHT, PAGE_WIDTH_MIN) - 1e-6);
     page.height = ceil(head + height + AXIS_HEIGHT + foot);
     page.x.start = LEFT + 0.5 * (page.width - LEFT - RIGHT - width);
     page.x.end = page.x.start + width;
@@ -387,13 +388,16 @@ static void draw_page(const struct canvas *canvas, struct page *page, const stru
                     page->x.end - page->x.start - 8.0, "no particles");
 }
 
-/* Counts the rows that a legend takes in a page of WIDTH, before there is a canvas of the right height. */
-static struct error *count_legend_rows(const struct legend_entry *entries, int count, double width,
-                                       int *rows)
+/* How tall the header is, with the legend of a page of WIDTH; needed before there is a canvas of the right
+ * height. */
+static struct error *measure_head(const struct legend_entry *entries, int count, double width,
+                                  double *head)
 {
     struct canvas probe;
     struct error *error = canvas_create(1.0, 1.0, &probe);
-    *rows = error ? 0 : legend_draw(&probe, entries, count, 0.0, 0.0, width, false);
+    *head = canvas_header(&probe, 0.0, "", "") + 4.0;
+    if (!error)
+        *head += legend_draw(&probe, entries, count, 0.0, 0.0, width, false);
     canvas_destroy(&probe);
     return error;
 }
@@ -403,17 +407,18 @@ static struct error *draw_plane(const char *path, const struct simulation *simul
                                 const struct dots *dots, const char *field, struct range fixed)
 {
     struct legend_entry entries[LEGEND_MAX];
-    int count = shown->category ? category_entries(dots, shown->names, entries) : 0, rows;
-    double bar = shown->category ? 4.0 : BAR_GAP + BAR_THICKNESS + AXIS_HEIGHT;
-    struct page page = lay_out(plane, HEADER_HEIGHT, bar);
-    double width = page.width - LEFT - RIGHT;
-    TRY(count_legend_rows(entries, count, width, &rows));
-    if (rows > 0)
-        page = lay_out(plane, HEADER_HEIGHT + 4.0 + rows * LEGEND_ROW, bar);
+    int count = shown->category ? category_entries(dots, shown->names, entries) : 0;
+    double head = 0.0, foot = shown->category ? 4.0 : BAR_GAP + BAR_THICKNESS + AXIS_HEIGHT;
+    /* The width of the page does not depend on its head. */
+    double width = lay_out(plane, head, foot).width - LEFT - RIGHT;
+    TRY(measure_head(entries, count, width, &head));
+    struct page page = lay_out(plane, head, foot);
 
     struct range range = range_drawable(dots->values, false);
-    range.low = isnan(fixed.low) ? range.low : fixed.low;
-    range.high = isnan(fixed.high) ? range.high : fixed.high;
+    if (!isnan(fixed.low))
+        range = (struct range){fixed.low, maximum(range.high, fixed.low)};
+    if (!isnan(fixed.high))
+        range = (struct range){minimum(range.low, fixed.high), fixed.high};
     struct colour_scale colours = colour_scale_make(range);
     char note[2 * UNIT_TEXT + 32];
     note_text(simulation, plane, note, sizeof note);
@@ -421,8 +426,8 @@ static struct error *draw_plane(const char *path, const struct simulation *simul
     struct canvas canvas;
     struct error *error = canvas_create(page.width, page.height, &canvas);
     if (!error) {
-        canvas_header(&canvas, LEFT, title_of(simulation), note);
-        legend_draw(&canvas, entries, count, LEFT, HEADER_HEIGHT - 4.0, width, true);
+        double top = canvas_header(&canvas, LEFT, title_of(simulation), note);
+        legend_draw(&canvas, entries, count, LEFT, top, width, true);
         draw_page(&canvas, &page, dots, shown, &colours, plane->diameter, field);
         error = canvas_publish(&canvas, path);
     }

@@ -27,51 +27,103 @@ static void find_ranges(const struct plot *plot, struct range *x, struct range *
     }
 }
 
-/* An exact solution among particles is drawn in black, so that the particles have the colours. */
-static struct colour series_colour(const struct plot *plot, int index)
+/* Whether the plot compares lines (exact solutions) with dots (particles). */
+static bool compares(const struct plot *plot)
 {
     bool lines = false, dots = false;
-    int lines_before = 0;
     for (int s = 0; s < plot->count; ++s) {
         lines |= plot->series[s].line;
         dots |= !plot->series[s].line;
-        lines_before += s < index && plot->series[s].line;
     }
-    if (!(lines && dots))
+    return lines && dots;
+}
+
+/* An exact solution among particles is grey, so that the particles have the colours. */
+static struct colour series_colour(const struct plot *plot, int index)
+{
+    static const struct colour grey = {0.60, 0.60, 0.60};
+    int first_line = 0;
+    while (first_line < plot->count && !plot->series[first_line].line)
+        ++first_line;
+    if (!compares(plot))
         return colour_of_category(index);
-    if (plot->series[index].line && lines_before == 0)
-        return (struct colour){0.1, 0.1, 0.1};
-    bool black_before = lines_before > 0;
-    return colour_of_category(index - black_before);
+    return index == first_line ? grey : colour_of_category(index - (index > first_line));
+}
+
+/* A line as it is drawn: the points that fall one after the other on one column of pixels become their
+ * first, lowest, highest and last, since Cairo would take minutes over a million segments. */
+struct stroke {
+    cairo_t *pen;
+    bool down;    /* a column is begun */
+    bool started; /* the path has a point */
+    int points;   /* in the path */
+    double column, x, first, low, high, last;
+};
+
+static void stroke_to(struct stroke *stroke, double y)
+{
+    enum { path_max = 500 }; /* crossing segments cost more than in proportion */
+    if (stroke->started)
+        cairo_line_to(stroke->pen, stroke->x, y);
+    else
+        cairo_move_to(stroke->pen, stroke->x, y);
+    stroke->started = true;
+    if (++stroke->points >= path_max) {
+        cairo_stroke(stroke->pen);
+        cairo_move_to(stroke->pen, stroke->x, y);
+        stroke->points = 0;
+    }
+}
+
+/* Ends the column. */
+static void stroke_flush(struct stroke *stroke)
+{
+    if (!stroke->down)
+        return;
+    stroke_to(stroke, stroke->first);
+    if (stroke->low < minimum(stroke->first, stroke->last))
+        stroke_to(stroke, stroke->low);
+    if (stroke->high > maximum(stroke->first, stroke->last))
+        stroke_to(stroke, stroke->high);
+    if (stroke->last != stroke->first)
+        stroke_to(stroke, stroke->last);
+    stroke->down = false;
+}
+
+static void stroke_add(struct stroke *stroke, double x, double y)
+{
+    double column = floor(x * PIXELS_PER_POINT);
+    if (stroke->down && stroke->column == column) {
+        stroke->low = minimum(stroke->low, y);
+        stroke->high = maximum(stroke->high, y);
+        stroke->last = y;
+        return;
+    }
+    stroke_flush(stroke);
+    stroke->down = true;
+    stroke->column = column;
+    stroke->x = x;
+    stroke->first = stroke->low = stroke->high = stroke->last = y;
 }
 
 static void draw_line(const struct canvas *canvas, const struct axis *x, const struct axis *y,
-                      const struct series *series)
+                      const struct series *series, double width)
 {
-    double last_x = NAN, last_y = NAN;
-    bool pen_down = false;
+    struct stroke stroke = {.pen = canvas->pen};
+    cairo_new_path(canvas->pen);
+    cairo_set_line_width(canvas->pen, width);
+    cairo_set_line_join(canvas->pen, CAIRO_LINE_JOIN_ROUND);
     for (int64_t i = 0; i < series->count; ++i) {
         if (!drawable(series->x[i], x->logarithmic) || !drawable(series->y[i], y->logarithmic)) {
-            pen_down = false;
+            stroke_flush(&stroke);
+            stroke.started = false;
             continue;
         }
-        double at_x = axis_place(x, series->x[i]), at_y = axis_place(y, series->y[i]);
         /* Cairo's coordinates end at 2^23 pixels; what leaves a fixed y axis ends far outside of it. */
-        at_y = minimum(maximum(at_y, -1e5), 1e5);
-        /* Nobody sees steps of a fifth of a pixel, but a million of them take seconds. */
-        bool near = fabs(at_x - last_x) + fabs(at_y - last_y) < 0.1;
-        if (pen_down && near && i + 1 < series->count)
-            continue;
-        if (pen_down)
-            cairo_line_to(canvas->pen, at_x, at_y);
-        else
-            cairo_move_to(canvas->pen, at_x, at_y);
-        pen_down = true;
-        last_x = at_x;
-        last_y = at_y;
+        double at_y = minimum(maximum(axis_place(y, series->y[i]), -1e5), 1e5);
+        stroke_add(&stroke, axis_place(x, series->x[i]), at_y);
     }
-    cairo_set_line_width(canvas->pen, 1.6);
-    cairo_set_line_join(canvas->pen, CAIRO_LINE_JOIN_ROUND);
+    stroke_flush(&stroke);
     cairo_stroke(canvas->pen);
 }
 
@@ -79,8 +131,9 @@ static void draw_line(const struct canvas *canvas, const struct axis *x, const s
 static void draw_dots(const struct canvas *canvas, const struct axis *x, const struct axis *y,
                       const struct series *series, uint8_t *taken)
 {
-    int columns = (int)canvas->width * PIXELS_PER_POINT, rows = (int)canvas->height * PIXELS_PER_POINT;
-    double radius = series->count <= 60 ? 3.0 : series->count <= 400 ? 2.2 : 1.6;
+    int columns = (int)canvas->width * PIXELS_PER_POINT,
+        rows = (int)canvas->height * PIXELS_PER_POINT;
+    double radius = series->count <= 60 ? 2.6 : series->count <= 200 ? 1.8 : 1.3;
     for (int64_t i = 0; i < series->count; ++i) {
         if (!drawable(series->x[i], x->logarithmic) || !drawable(series->y[i], y->logarithmic))
             continue;
@@ -109,7 +162,8 @@ static struct error *draw_series(const struct canvas *canvas, const struct plot 
     for (int s = 0; s < plot->count && !error; ++s) {
         canvas_colour(canvas, series_colour(plot, s));
         if (plot->series[s].line) {
-            draw_line(canvas, x, y, &plot->series[s]);
+            /* Broad behind dots, so that it is seen where they lie on it. */
+            draw_line(canvas, x, y, &plot->series[s], compares(plot) ? 3.4 : 1.6);
             continue;
         }
         uint8_t *taken = memory_allocate(pixels);
@@ -123,8 +177,8 @@ static struct error *draw_series(const struct canvas *canvas, const struct plot 
     return error;
 }
 
-/* Returns the height of the legend, whose place is under the header. */
-static double draw_legend(const struct canvas *canvas, const struct plot *plot)
+/* Returns the height of the legend. */
+static double draw_legend(const struct canvas *canvas, const struct plot *plot, double top)
 {
     enum { entries_max = 24 };
     struct legend_entry entries[entries_max];
@@ -136,8 +190,7 @@ static double draw_legend(const struct canvas *canvas, const struct plot *plot)
         entries[count++] = (struct legend_entry){series->line ? MARK_LINE : MARK_DOT,
                                                  series_colour(plot, s), series->label};
     }
-    return LEGEND_ROW * legend_draw(canvas, entries, count, LEFT, HEADER_HEIGHT - 4.0,
-                                    PLOT_WIDTH - LEFT - RIGHT, true);
+    return legend_draw(canvas, entries, count, LEFT, top, PLOT_WIDTH - LEFT - RIGHT, true);
 }
 
 static struct error *draw_plot(const struct canvas *canvas, const struct plot *plot)
@@ -151,12 +204,12 @@ static struct error *draw_plot(const struct canvas *canvas, const struct plot *p
     axis_name(&x, plot->x_name, plot->x_unit, range_reach(x.range));
     axis_name(&y, plot->y_name, plot->y_unit, range_reach(y.range));
 
-    canvas_header(canvas, LEFT, plot->title, plot->note);
-    double legend = draw_legend(canvas, plot);
+    double head = canvas_header(canvas, LEFT, plot->title, plot->note);
+    head += draw_legend(canvas, plot, head) + 6.0;
     x.start = LEFT;
     x.end = PLOT_WIDTH - RIGHT;
     y.start = PLOT_HEIGHT - BOTTOM;
-    y.end = minimum(HEADER_HEIGHT + (legend > 0.0 ? legend + 2.0 : 0.0), y.start - 100.0);
+    y.end = minimum(head, y.start - 100.0);
     axis_ticks(&x, canvas);
     axis_ticks(&y, canvas);
     axes_grid(canvas, &x, &y);

@@ -13,14 +13,14 @@ static const struct {
     double scale;
     const char *name;
 } multiples[] = {
-    {"m", 1e-9, "nm"},       {"m", 1e-6, "µm"},         {"m", 1e-3, "mm"},
-    {"m", 1.0, "m"},         {"m", 1e3, "km"},          {"s", 1e-9, "ns"},
-    {"s", 1e-6, "µs"},       {"s", 1e-3, "ms"},         {"s", 1.0, "s"},
-    {"Pa", 1.0, "Pa"},       {"Pa", 1e3, "kPa"},        {"Pa", 1e6, "MPa"},
-    {"Pa", 1e9, "GPa"},      {"m/s", 1.0, "m/s"},       {"m/s", 1e3, "km/s"},
+    {"m", 1e-9, "nm"},        {"m", 1e-6, "µm"},        {"m", 1e-3, "mm"},
+    {"m", 1.0, "m"},          {"m", 1e3, "km"},         {"s", 1e-9, "ns"},
+    {"s", 1e-6, "µs"},        {"s", 1e-3, "ms"},        {"s", 1.0, "s"},
+    {"Pa", 1.0, "Pa"},        {"Pa", 1e3, "kPa"},       {"Pa", 1e6, "MPa"},
+    {"Pa", 1e9, "GPa"},       {"m/s", 1.0, "m/s"},      {"m/s", 1e3, "km/s"},
     {"kg/m^3", 1.0, "kg/m³"}, {"kg/m^3", 1e3, "g/cm³"}, {"J/kg", 1.0, "J/kg"},
-    {"J/kg", 1e3, "kJ/kg"},  {"J/kg", 1e6, "MJ/kg"},    {"J", 1.0, "J"},
-    {"J", 1e3, "kJ"},        {"J", 1e6, "MJ"},
+    {"J/kg", 1e3, "kJ/kg"},   {"J/kg", 1e6, "MJ/kg"},   {"J", 1.0, "J"},
+    {"J", 1e3, "kJ"},         {"J", 1e6, "MJ"},
 };
 
 /* Adds TEXT to BUFFER, which stays a whole string of at most SIZE bytes. */

@@ -1,5 +1,4 @@
-/* Levels of cells; see cells.h. A level's edge is at least the support of two of its points, skin included,
- * so that points of one level are found in adjacent cells; between levels the range is the mean of the two edges. */
+/* Levels of cells; see cells.h. A level's edge is at least the sum of the reaches of two of its points, so that points of one level are found in adjacent cells; between levels the range is the mean of the two edges. */
 #include "particle/cells.h"
 
 #include <stdlib.h>
@@ -35,7 +34,7 @@ static int level_of_key(const struct cells *cells, uint64_t key)
 static int level_of_reach(const struct cells *cells, double reach)
 {
     int exponent;
-    double ratio = 2.0 * reach * (1.0 + cells->skin) / cells->edge;
+    double ratio = 2.0 * reach / cells->edge;
     double fraction = frexp(ratio, &exponent); /* ratio = fraction 2^exponent, 1/2 <= fraction < 1 */
     int level = CELL_LEVEL_ZERO + exponent - (fraction == 0.5);
     return level < 0 ? 0 : level >= CELL_LEVELS ? CELL_LEVELS - 1 : level;
@@ -113,10 +112,10 @@ static struct error *fill_cells(struct cells *cells, const struct cell_point *po
     return NULL;
 }
 
-struct error *cells_make(struct cells *cells, int dimension, double edge, double skin,
+struct error *cells_make(struct cells *cells, int dimension, double edge,
                          const struct cell_point *points, int32_t count)
 {
-    *cells = (struct cells){.dimension = dimension, .edge = edge, .skin = skin, .points = count};
+    *cells = (struct cells){.dimension = dimension, .edge = edge, .points = count};
     struct keyed *entry = memory_allocate((size_t)count * sizeof *entry);
     struct keyed *scratch = memory_allocate((size_t)count * sizeof *scratch);
     cells->point = memory_allocate((size_t)count * sizeof *cells->point);

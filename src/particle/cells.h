@@ -11,9 +11,8 @@ enum { CELL_LEVELS = 32, CELL_LEVEL_ZERO = 8 };
 /* A point in the order of cells. */
 struct cell_point {
     double x, y, z, reach;
-    int32_t index; /* record: owned particle or ghost */
-    uint16_t body;
-    uint16_t image; /* 1 for a ghost behind a wall */
+    uint64_t word;  /* what a row keeps of it; see neighbours.c */
+    uint16_t group; /* contact group */
 };
 
 /* Points first .. first + count - 1 of the cell. */
@@ -24,7 +23,7 @@ struct cell {
 
 struct cells {
     int dimension;
-    double edge, skin; /* of level CELL_LEVEL_ZERO */
+    double edge; /* of level CELL_LEVEL_ZERO */
     int32_t points;
     struct cell_point *point;
     int32_t count;
@@ -35,8 +34,8 @@ struct cells {
 };
 
 /* Makes the cells of COUNT points, given in any order; takes over no memory. EDGE is the cell edge of
- * level zero. */
-struct error *cells_make(struct cells *cells, int dimension, double edge, double skin,
+ * level zero. Points are neighbours when nearer than the sum of their reaches. */
+struct error *cells_make(struct cells *cells, int dimension, double edge,
                          const struct cell_point *points, int32_t count);
 void cells_free(struct cells *cells);
 

@@ -1,5 +1,5 @@
-/* Building neighbour rows; see neighbours.h. A row entry is put together as one 64-bit word, part | rank of
- * (id, image) | record, so that sorting a row is sorting words. */
+/* Building neighbour rows; see neighbours.h. A row entry is put together as one 64-bit word, part (2 bits) | rank
+ * of (id, image) (32) | record (30), so that sorting a row is sorting words. */
 #include "particle/neighbours.h"
 
 #include <omp.h>
@@ -22,7 +22,6 @@ struct build {
     const struct mirrors *mirrors;
     const struct contact_groups *groups;
     struct cell_point *point; /* owned, then ghosts */
-    uint32_t *order;          /* rank of each point's (id, image) */
     struct cells cells;
 };
 
@@ -49,18 +48,20 @@ static double largest_reach(const struct particles *p, struct reach reach)
     return largest;
 }
 
+static uint16_t group_of(const struct build *b, uint16_t body)
+{
+    return b->groups->groups > 1 ? b->groups->of_body[body] : 0;
+}
+
 static void place_points(struct build *b)
 {
     const struct particles *p = b->p;
     const struct ghosts *ghosts = &b->n->ghosts;
-    for (int32_t i = 0; i < p->count; i++)
-        b->point[i] = (struct cell_point){p->position[i][0],
-                                          p->position[i][1],
-                                          p->position[i][2],
-                                          b->reach.smoothing * b->reach.diameter[i],
-                                          i,
-                                          p->body[i],
-                                          0};
+    for (int32_t i = 0; i < p->count; i++) {
+        const double *x = p->position[i];
+        double own = (1.0 + b->n->skin) * b->reach.smoothing * b->reach.diameter[i];
+        b->point[i] = (struct cell_point){x[0], x[1], x[2], own, 0, group_of(b, p->body[i])};
+    }
     for (int32_t g = 0; g < ghosts->count; g++) {
         struct cell_point point = b->point[ghosts->source[g]];
         struct vec3 x = image_position(b->mirrors, ghosts->image[g],
@@ -68,13 +69,11 @@ static void place_points(struct build *b)
         point.x = x.x;
         point.y = x.y;
         point.z = x.z;
-        point.index = p->count + g;
-        point.image = 1;
         b->point[p->count + g] = point;
     }
 }
 
-/* Ranks all points by id, then image. */
+/* Ranks all points by id, then image, and puts their words together. */
 static struct error *rank_points(struct build *b, int32_t count)
 {
     struct keyed *entry = memory_allocate((size_t)count * sizeof *entry);
@@ -91,7 +90,9 @@ static struct error *rank_points(struct build *b, int32_t count)
         }
         radix_sort(entry, scratch, count);
         for (int32_t k = 0; k < count; k++)
-            b->order[entry[k].index] = (uint32_t)k;
+            b->point[entry[k].index].word =
+                (uint64_t)(entry[k].index < owned ? 0 : PART_IMAGE) << 62 |
+                (uint64_t)k << ENTRY_PART_SHIFT | (uint64_t)entry[k].index;
     }
     bool done = entry && scratch;
     free(entry);
@@ -154,36 +155,32 @@ static void sort_words(uint64_t *word, uint64_t *scratch, int64_t count)
         memcpy(word, from, (size_t)count * sizeof *word);
 }
 
-/* The laws that group of BODY has with all groups, NULL when there are no laws. */
-static const uint8_t *laws_of(const struct contact_groups *groups, uint16_t body)
+/* Finds the neighbours of one owned point among the runs; returns how many words were written. Every candidate
+ * is written and the next one overwrites it unless it counts: no branch to mispredict. */
+BOLIDE_INLINE int64_t find_row_with(const struct workspace *w, const struct cell_point *own,
+                                    bool with_law, const uint8_t *law)
 {
-    if (groups->groups < 2)
-        return NULL;
-    return groups->law + (size_t)groups->of_body[body] * (size_t)groups->groups;
+    uint64_t *word = w->word;
+    for (int64_t r = 0; r < w->runs; r++) {
+        const struct cell_point *other = w->run[r], *end = other + w->length[r];
+        for (; other < end; other++) {
+            double dx = other->x - own->x, dy = other->y - own->y, dz = other->z - own->z;
+            double range = own->reach + other->reach;
+            *word = other->word;
+            if (with_law)
+                *word |= (uint64_t)(law[other->group] != 0) << 62;
+            word += dx * dx + dy * dy + dz * dz < range * range && other != own;
+        }
+    }
+    return word - w->word;
 }
 
-/* Finds the neighbours of one owned point among the runs; returns how many words were written. */
 static int64_t find_row(const struct build *b, const struct workspace *w,
                         const struct cell_point *own)
 {
-    const uint8_t *law = laws_of(b->groups, own->body);
-    double widen = 1.0 + b->n->skin;
-    int64_t count = 0;
-    for (int64_t r = 0; r < w->runs; r++) {
-        const struct cell_point *other = w->run[r];
-        for (int32_t k = 0; k < w->length[r]; k++, other++) {
-            double dx = other->x - own->x, dy = other->y - own->y, dz = other->z - own->z;
-            double range = widen * (own->reach + other->reach);
-            if (dx * dx + dy * dy + dz * dz >= range * range || other->index == own->index)
-                continue;
-            uint64_t part = other->image ? PART_IMAGE : 0;
-            if (law && law[b->groups->of_body[other->body]])
-                part |= PART_LAW;
-            w->word[count++] = part << 62 | (uint64_t)b->order[other->index] << ENTRY_PART_SHIFT |
-                               (uint64_t)other->index;
-        }
-    }
-    return count;
+    size_t groups = (size_t)b->groups->groups;
+    return groups > 1 ? find_row_with(w, own, true, b->groups->law + own->group * groups)
+                      : find_row_with(w, own, false, NULL);
 }
 
 static bool store_row(struct neighbours *n, int thread, int32_t i, const uint64_t *word,
@@ -202,6 +199,11 @@ static bool store_row(struct neighbours *n, int thread, int32_t i, const uint64_
     return true;
 }
 
+static int32_t index_of(const struct cell_point *point)
+{
+    return (int32_t)(point->word & ENTRY_INDEX);
+}
+
 /* Rows of the owned points of one cell. */
 static bool build_cell(struct build *b, struct workspace *w, int thread, int32_t cell)
 {
@@ -209,7 +211,7 @@ static bool build_cell(struct build *b, struct workspace *w, int thread, int32_t
     const struct cell_point *own = b->cells.point + c->first;
     bool any = false;
     for (int32_t k = 0; k < c->count; k++)
-        any |= own[k].index < b->p->count;
+        any |= index_of(&own[k]) < b->p->count;
     if (!any)
         return true;
     w->runs = 0;
@@ -217,14 +219,14 @@ static bool build_cell(struct build *b, struct workspace *w, int thread, int32_t
     int64_t candidates = 0;
     for (int64_t r = 0; r < w->runs; r++)
         candidates += w->length[r];
-    if (w->failed || !workspace_reserve_words(w, candidates))
+    if (w->failed || !workspace_reserve_words(w, candidates + 1))
         return false;
     for (int32_t k = 0; k < c->count; k++, own++) {
-        if (own->index >= b->p->count)
+        if (index_of(own) >= b->p->count)
             continue;
         int64_t count = find_row(b, w, own);
         sort_words(w->word, w->scratch, count);
-        if (!store_row(b->n, thread, own->index, w->word, count))
+        if (!store_row(b->n, thread, index_of(own), w->word, count))
             return false;
     }
     return true;
@@ -280,12 +282,11 @@ static struct error *build_with(struct build *b, int threads)
     if ((uint32_t)count >= ENTRY_INDEX)
         return error_new(ERROR_INPUT, "%d particles and images are too many for one rank", count);
     b->point = memory_allocate((size_t)count * sizeof *b->point);
-    b->order = memory_allocate((size_t)count * sizeof *b->order);
-    if (!b->point || !b->order)
+    if (!b->point)
         return out_of_memory(b->p);
     place_points(b);
     TRY(rank_points(b, count));
-    TRY(cells_make(&b->cells, b->p->dimension, b->p->cell, n->skin, b->point, count));
+    TRY(cells_make(&b->cells, b->p->dimension, b->p->cell, b->point, count));
     return build_rows(b, threads);
 }
 
@@ -304,7 +305,6 @@ struct error *neighbours_build(struct neighbours *neighbours, const struct parti
                           .groups = groups};
     struct error *error = build_with(&build, threads);
     free(build.point);
-    free(build.order);
     cells_free(&build.cells);
     TRY(error);
     neighbours->builds++;

@@ -47,11 +47,9 @@ struct error *measure_error(const struct measurement *measurement, const char *f
     va_start(arguments, format);
     char *text = text_vformat(format, arguments);
     va_end(arguments);
-    char *path = text_format("checks.%s", measurement->name);
-    struct error *error = document_error(measurement->simulation->input->document, path ? path : "",
-                                         "%s", text ? text : "");
+    struct error *error = input_error(measurement->simulation->input, "checks", measurement->name,
+                                      "%s", text ? text : "");
     free(text);
-    free(path);
     return error;
 }
 

@@ -13,7 +13,10 @@
 #include "model/generate.h"
 #include "run/run_internal.h"
 
-static int threads_of(const struct run_options *options)
+/* Fewer particles than this a thread cost more in waiting than they gain in work. */
+enum { PARTICLES_A_THREAD = 2000 };
+
+static int threads_at_most(const struct run_options *options)
 {
     if (options->threads > 0)
         return options->threads;
@@ -22,6 +25,14 @@ static int threads_of(const struct run_options *options)
 #else
     return 1;
 #endif
+}
+
+/* Unless told how many, a small case takes few threads. */
+static int threads_for(const struct run *run)
+{
+    int most = run->simulation.threads;
+    int32_t useful = 1 + run->simulation.particles.count / PARTICLES_A_THREAD;
+    return run->options->threads > 0 || most < useful ? most : useful;
 }
 
 double step_towards(double limit, double time, double until)
@@ -40,12 +51,14 @@ static struct error *no_step(const struct run *run)
     while (i < p->count && p->id[i] != run->limit.id)
         i++;
     if (i == p->count)
-        return error_new(ERROR_STATE, "no step is possible: %g s (%s)", run->limit.dt,
+        return error_new(ERROR_STATE, "step %lld, t = %.6g s: no step is possible: %g s (%s)",
+                         (long long)run->simulation.step + 1, run->simulation.time, run->limit.dt,
                          run->limit.why ? run->limit.why : "unknown");
     return error_new(ERROR_STATE,
-                     "no step is possible: %g s (%s), particle %llu of body \"%s\" at (%g, %g, %g) m: "
-                     "density %g kg/m^3, energy %g J/kg, pressure %g Pa, velocity (%g, %g, %g) m/s",
-                     run->limit.dt, run->limit.why ? run->limit.why : "unknown",
+                     "step %lld, t = %.6g s: no step is possible: %g s (%s), particle %llu of body "
+                     "\"%s\" at (%g, %g, %g) m: density %g kg/m^3, energy %g J/kg, pressure %g Pa, "
+                     "velocity (%g, %g, %g) m/s",
+                     (long long)run->simulation.step + 1, run->simulation.time, run->limit.dt, run->limit.why ? run->limit.why : "unknown",
                      (unsigned long long)p->id[i], run->input->bodies.names[p->body[i]],
                      p->position[i][0], p->position[i][1], p->position[i][2], p->density[i],
                      p->energy[i], p->pressure[i], p->velocity[i][0], p->velocity[i][1],
@@ -105,7 +118,8 @@ static struct error *loop(struct run *run)
 /* State, solver and particles, fresh or loaded. */
 static struct error *begin(struct run *run)
 {
-    TRY(simulation_create(run->input, &run->ranks, threads_of(run->options), &run->simulation));
+    TRY(simulation_create(run->input, &run->ranks, threads_at_most(run->options),
+                          &run->simulation));
     run->class = run->input->solver.choice->thing;
     run->solver = memory_allocate(run->class->size);
     if (!run->solver)
@@ -115,6 +129,7 @@ static struct error *begin(struct run *run)
         TRY(run_load(run));
     else
         TRY(generate_particles(&run->simulation));
+    run->simulation.threads = threads_for(run);
     TRY(run->class->start(run->solver, &run->simulation));
     if (!run->options->resume)
         run->start = particles_totals(&run->simulation.particles, &run->ranks, -1);
@@ -139,7 +154,7 @@ static void tell_beginning(struct run *run)
         run_say(run, "resumed at step %lld, t = %.9g s", (long long)s->step, s->time);
 }
 
-/* Checks, the last files and the words about how it went. */
+/* Checks and the last files. */
 static struct error *conclude(struct run *run)
 {
     struct run_result *result = run->result;
@@ -168,7 +183,7 @@ static void measure_speed(struct run *run)
     result->time = s->time;
     result->particles = ranks_sum(&run->ranks, s->particles.count);
     result->seconds = clock_seconds() - run->began;
-    double stepping = result->seconds - run->watching;
+    double stepping = maximum(result->seconds - run->watching, 1e-9);
     result->updates_per_second = result->updates > 0 ? (double)result->updates / stepping : 0.0;
 }
 
@@ -199,14 +214,11 @@ static struct error *run_through(struct run *run)
     tell_beginning(run);
     run->began = run->last_checkpoint = run->last_progress = clock_seconds();
     struct error *error = loop(run);
-    if (error && error_kind(error) == ERROR_STATE) {
-        error = error_context(error, "step %lld, t = %.9g s", (long long)run->simulation.step,
-                              run->simulation.time);
+    measure_speed(run);
+    if (error && error_kind(error) == ERROR_STATE)
         error = error_join(error, run_snapshot_of_failure(run));
-    }
     if (!error)
         error = conclude(run);
-    measure_speed(run);
     if (!error) {
         run->result->hash = particles_hash(&run->simulation.particles);
         tell_end(run);

@@ -153,13 +153,12 @@ static struct error *watch_energy(struct run *run)
     double drift = conserved_change(&run->simulation, &run->start, CONSERVED_ENERGY);
     double allowed = run->input->run.energy_drift;
     run->result->energy_drift = drift;
-    if (isnan(drift))
-        return error_new(ERROR_STATE, "the total energy is not a number");
-    if (allowed > 0.0 && drift > allowed)
-        return error_new(ERROR_STATE,
-                         "the total energy has drifted by %.3g of itself; `run.energy_drift` allows %.3g",
-                         drift, allowed);
-    return NULL;
+    if (drift <= allowed || (allowed == 0.0 && !isnan(drift)))
+        return NULL;
+    return error_new(ERROR_STATE,
+                     "step %lld, t = %.6g s: the total energy has drifted by %.3g of itself; "
+                     "`run.energy_drift` allows %.3g",
+                     (long long)run->simulation.step, run->simulation.time, drift, allowed);
 }
 
 /* Draws the fields that the case wants, as FIELD-NNNNNN.png. */

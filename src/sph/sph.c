@@ -97,11 +97,24 @@ static const struct field_declaration wall_field = {
 static const struct field_declaration viscosity_field = {
     "viscosity", "Pa", "artificial viscous pressure", NUMBER_DOUBLE, 1, FIELD_DERIVED};
 
+/* Cells are this much wider than the support at the start, so that a little growth of the particles does not
+ * put them on the next level of cells, twice as wide. */
+static const double growth_room = 1.08;
+
 static bool has_walls(const struct simulation *simulation)
 {
     for (int axis = 0; axis < 3; axis++)
         if (!isnan(simulation->mirrors.low[axis]) || !isnan(simulation->mirrors.high[axis]))
             return true;
+    return false;
+}
+
+static bool has_laws(const struct simulation *simulation)
+{
+    for (int a = 0; a < CONTACT_GROUPS; a++)
+        for (int b = 0; b < CONTACT_GROUPS; b++)
+            if (simulation->law[a][b])
+                return true;
     return false;
 }
 
@@ -131,7 +144,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     for (int m = 0; m < simulation->materials; m++)
         sph->shear |= material_has_strength(&simulation->material[m]);
     sph->groups = (struct contact_groups){simulation->group_of_body, &simulation->law[0][0],
-                                          CONTACT_GROUPS};
+                                          has_laws(simulation) ? CONTACT_GROUPS : 1};
     struct field_declaration fields[COUNT_OF(sph_field_table) + 2];
     int count = 0;
     for (size_t k = 0; k < COUNT_OF(sph_field_table); k++)
@@ -141,8 +154,8 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     if (is_standard(sph))
         fields[count++] = viscosity_field;
     double support = 2.0 * sph->parameters.smoothing * largest_diameter(simulation->input);
-    return particles_create(simulation->dimension, support * (1.0 + sph->parameters.skin), fields,
-                            count, &simulation->particles);
+    double cell = growth_room * support * (1.0 + sph->parameters.skin);
+    return particles_create(simulation->dimension, cell, fields, count, &simulation->particles);
 }
 
 static struct error *sph_start(void *solver, struct simulation *simulation)
