@@ -1,5 +1,5 @@
-/* What the subcommands share: options, words to the user, folders of shared files. This is the one room
- * that prints, exits and holds a static variable (the signal's flag). */
+/* What the subcommands share: options, words to the user, folders of shared files. This is the one
+ * room that prints, exits and holds a static variable (the signal's flag). */
 #ifndef BOLIDE_CLI_H
 #define BOLIDE_CLI_H
 
@@ -35,7 +35,7 @@ enum command_bit {
 struct command {
     enum command_bit bit;
     const char *name, *usage, *help;
-    int least_names, most_names; /* arguments beside the options */
+    int least_names, most_names;                   /* arguments beside the options */
     int (*run)(const struct cli_options *options); /* gives the exit status */
 };
 
@@ -62,8 +62,8 @@ void options_print(const struct command *command);
 /* Prints the messages of ERROR on stderr, one a line, frees it, and gives its exit status. */
 int report_error(struct error *error);
 
-/* Words and progress of a run; on a terminal the progress line is drawn over, elsewhere it is a line every
- * ten per cent. */
+/* Words and progress of a run; on a terminal the progress line is drawn over, elsewhere it is a
+ * line every ten per cent. */
 struct listener terminal_listener(void);
 struct progress_pace terminal_pace(void);
 void terminal_clear_line(void);

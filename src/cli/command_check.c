@@ -20,8 +20,8 @@ static void print_bodies(const struct simulation_case *input, const struct estim
         readable(of->summary.diameter, "m", diameter, sizeof diameter);
         printf("  %-20s %-16s %12lld %10.5g %-5s %12s %7.5g %s %8.5g %s %8.5g %s\n",
                input->bodies.names[i], body->material, (long long)of->summary.particles,
-               of->summary.mass, mass_unit(input->dimension), diameter, body->start.density, "kg/m3",
-               of->sound_long, "m/s", of->sound_shear, "m/s");
+               of->summary.mass, mass_unit(input->dimension), diameter, body->start.density,
+               "kg/m3", of->sound_long, "m/s", of->sound_shear, "m/s");
     }
 }
 

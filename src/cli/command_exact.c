@@ -53,8 +53,8 @@ static void print_profile(const struct exact_class *class, const void *solved, d
     for (int64_t i = 0; i < points; i++) {
         double x = low + (high - low) * ((double)i + 0.5) / (double)points;
         struct exact_state s = class->sample(solved, x < contact ? SIDE_LEFT : SIDE_RIGHT, x, time);
-        printf("%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", x, s.density, s.velocity, s.pressure, s.energy,
-               s.stress, s.deviator);
+        printf("%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", x, s.density, s.velocity, s.pressure,
+               s.energy, s.stress, s.deviator);
     }
 }
 

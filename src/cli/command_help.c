@@ -22,12 +22,18 @@ static void print_commands(void)
 static void kind_text(const struct parameter *p, char *text, size_t size)
 {
     static const char *const words[] = {
-        [PARAMETER_NUMBER] = "number",     [PARAMETER_QUANTITY] = "quantity",
-        [PARAMETER_INTEGER] = "integer",   [PARAMETER_FLAG] = "yes or no",
-        [PARAMETER_TEXT] = "text",         [PARAMETER_VECTOR] = "list of numbers",
-        [PARAMETER_NAMES] = "list of names", [PARAMETER_TABLE] = "map",
-        [PARAMETER_MAP] = "map by name",   [PARAMETER_CHOICE] = "",
-        [PARAMETER_ONE_OF] = "",           [PARAMETER_LIST] = "",
+        [PARAMETER_NUMBER] = "number",
+        [PARAMETER_QUANTITY] = "quantity",
+        [PARAMETER_INTEGER] = "integer",
+        [PARAMETER_FLAG] = "yes or no",
+        [PARAMETER_TEXT] = "text",
+        [PARAMETER_VECTOR] = "list of numbers",
+        [PARAMETER_NAMES] = "list of names",
+        [PARAMETER_TABLE] = "map",
+        [PARAMETER_MAP] = "map by name",
+        [PARAMETER_CHOICE] = "",
+        [PARAMETER_ONE_OF] = "",
+        [PARAMETER_LIST] = "",
     };
     const char *unit = p->unit ? p->unit : "";
     size_t used = 0;
@@ -37,7 +43,8 @@ static void kind_text(const struct parameter *p, char *text, size_t size)
     else if (p->kind == PARAMETER_VECTOR && unit[0])
         snprintf(text, size, "list of %s", unit);
     else if (p->kind == PARAMETER_ONE_OF || p->kind == PARAMETER_LIST)
-        snprintf(text, size, "%s %s", p->kind == PARAMETER_LIST ? "list of" : "a", p->kind_of_thing);
+        snprintf(text, size, "%s %s", p->kind == PARAMETER_LIST ? "list of" : "a",
+                 p->kind_of_thing);
     else if (p->kind == PARAMETER_CHOICE)
         for (const char *const *name = p->names; *name && used < size; name++)
             used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " | " : "", *name);
@@ -147,10 +154,9 @@ static int unknown_topic(const char *topic)
         if (p->key)
             names[count++] = p->key;
     const char *nearest = nearest_name(topic, names, count);
-    return report_error(nearest ? error_new(ERROR_INPUT,
-                                            "no help on \"%s\" (did you mean \"%s\"?)", topic, nearest)
-                                : error_new(ERROR_INPUT, "no help on \"%s\"; see `bolide help`",
-                                            topic));
+    return report_error(
+        nearest ? error_new(ERROR_INPUT, "no help on \"%s\" (did you mean \"%s\"?)", topic, nearest)
+                : error_new(ERROR_INPUT, "no help on \"%s\"; see `bolide help`", topic));
 }
 
 int command_help(const struct cli_options *options)

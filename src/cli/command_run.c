@@ -27,8 +27,8 @@ static int run_input(const struct simulation_case *input, const struct cli_optio
     else if (result.checks.failed)
         status = ERROR_CHECK;
     if (!error) {
-        char *words = text_format("results in %s%s", folder,
-                                  result.finished ? "" : "; go on with --resume");
+        char *words =
+            text_format("results in %s%s", folder, result.finished ? "" : "; go on with --resume");
         if (words)
             listener.line(listener.context, words);
         free(words);
@@ -43,8 +43,8 @@ int command_run(const struct cli_options *options)
     struct error *error = read_case(options->names.text[0], options, &input);
     if (error)
         return report_error(error);
-    char *folder = options->output ? text_copy(options->output)
-                                   : text_format("results/%s", input->name);
+    char *folder =
+        options->output ? text_copy(options->output) : text_format("results/%s", input->name);
     int status = folder ? run_input(input, options, folder)
                         : report_error(error_new(ERROR_SYSTEM, "out of memory"));
     free(folder);

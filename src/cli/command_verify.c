@@ -18,7 +18,9 @@ static void case_ended(void *context, const struct verify_case *verified)
     terminal_clear_line();
     printf("%s: %s%s%s, %.1f s, %.3g M updates/s, energy drift %.2g\n", verified->name,
            colour(verified->passed ? COLOUR_GOOD : COLOUR_BAD),
-           verified->error ? "could not run" : verified->passed ? "passed" : "FAILED",
+           verified->error    ? "could not run"
+           : verified->passed ? "passed"
+                              : "FAILED",
            colour(COLOUR_NONE), verified->result.seconds,
            1e-6 * verified->result.updates_per_second, verified->result.energy_drift);
     fflush(stdout);
@@ -54,8 +56,8 @@ static void print_table(const struct verify_result *result)
             allowed = longer(allowed, row.allowed);
         }
     }
-    printf("\n%-*s  %-*s  %-*s  %-*s  verdict\n", name, "case", check, "check", measured, "measured",
-           allowed, "allowed");
+    printf("\n%-*s  %-*s  %-*s  %-*s  verdict\n", name, "case", check, "check", measured,
+           "measured", allowed, "allowed");
     print_rule(name + check + measured + allowed + 15);
     for (int i = 0; i < result->count; i++) {
         const struct verify_case *verified = &result->item[i];
@@ -63,8 +65,8 @@ static void print_table(const struct verify_result *result)
             const struct check_result *r = &verified->result.checks.item[k];
             check_measured_text(r, row.measured, sizeof row.measured);
             check_allowed_text(r, row.allowed, sizeof row.allowed);
-            printf("%-*s  %-*s  %-*s  %-*s  %s%s%s\n", name, k ? "" : verified->name, check, r->name,
-                   measured, row.measured, allowed, row.allowed,
+            printf("%-*s  %-*s  %-*s  %-*s  %s%s%s\n", name, k ? "" : verified->name, check,
+                   r->name, measured, row.measured, allowed, row.allowed,
                    colour(r->passed ? COLOUR_GOOD : COLOUR_BAD), r->passed ? "passed" : "FAILED",
                    colour(COLOUR_NONE));
         }

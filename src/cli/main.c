@@ -1,5 +1,6 @@
-/* bolide: the command line. Exit status: 0 all is well, 1 a check failed, 2 bad input or usage, 3 an
- * impossible state in a run, 4 a disk, memory or library that failed; 128 + the signal when stopped. */
+/* bolide: the command line. Exit status: 0 all is well, 1 a check failed, 2 bad input or usage, 3
+ * an impossible state in a run, 4 a disk, memory or library that failed; 128 + the signal when
+ * stopped. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,14 +8,14 @@
 
 const struct command commands[] = {
     {COMMAND_RUN, "run", "CASE", "Run a case and judge its checks.", 1, 1, command_run},
-    {COMMAND_CHECK, "check", "CASE...", "Say what would be computed, without computing it.", 1, 1000,
-     command_check},
-    {COMMAND_VERIFY, "verify", "CASE... | --all", "Run cases and print all their checks as one table.",
-     0, 1000, command_verify},
-    {COMMAND_EXACT, "exact", "[NAME]", "Print an exact solution: its numbers, and its profile.", 0, 1,
-     command_exact},
-    {COMMAND_HELP, "help", "[TOPIC]", "Explain a command, a key of a case, or anything it can name.", 0, 1,
-     command_help},
+    {COMMAND_CHECK, "check", "CASE...", "Say what would be computed, without computing it.", 1,
+     1000, command_check},
+    {COMMAND_VERIFY, "verify", "CASE... | --all",
+     "Run cases and print all their checks as one table.", 0, 1000, command_verify},
+    {COMMAND_EXACT, "exact", "[NAME]", "Print an exact solution: its numbers, and its profile.", 0,
+     1, command_exact},
+    {COMMAND_HELP, "help", "[TOPIC]",
+     "Explain a command, a key of a case, or anything it can name.", 0, 1, command_help},
 };
 const int command_count = COUNT_OF(commands);
 
@@ -33,8 +34,8 @@ static int unknown_command(const char *word)
         names[i] = commands[i].name;
     const char *nearest = nearest_name(word, names, command_count);
     if (nearest)
-        return report_error(error_new(ERROR_INPUT, "unknown command \"%s\" (did you mean \"%s\"?)",
-                                      word, nearest));
+        return report_error(
+            error_new(ERROR_INPUT, "unknown command \"%s\" (did you mean \"%s\"?)", word, nearest));
     return report_error(
         error_new(ERROR_INPUT, "unknown command \"%s\"; `bolide help` lists them", word));
 }

@@ -26,8 +26,8 @@ static const struct option option_table[] = {
     {"--resume", NULL, "go on from the folder's checkpoint", OPTION_FLAG, AT(resume), COMMAND_RUN},
     {"--threads", "N", "number of threads (all processors)", OPTION_COUNT, AT(threads),
      COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY},
-    {"--set", "PATH=VALUE", "replace a value of the case: run.until=3us; may be repeated", OPTION_LIST,
-     AT(settings), COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
+    {"--set", "PATH=VALUE", "replace a value of the case: run.until=3us; may be repeated",
+     OPTION_LIST, AT(settings), COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
     {"--short", NULL, "use the short form of cases that have one", OPTION_FLAG, AT(quick),
      COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY},
     {"--all", NULL, "all cases that come with bolide", OPTION_FLAG, AT(all), COMMAND_VERIFY},
@@ -49,8 +49,8 @@ static struct error *unknown_option(const struct command *command, const char *w
     char *name = text_copy_part(word, (size_t)length);
     const char *nearest = name ? nearest_name(name, names, count) : NULL;
     struct error *error =
-        nearest ? error_new(ERROR_INPUT, "%s: unknown option %.*s (did you mean %s?)", command->name,
-                            length, word, nearest)
+        nearest ? error_new(ERROR_INPUT, "%s: unknown option %.*s (did you mean %s?)",
+                            command->name, length, word, nearest)
                 : error_new(ERROR_INPUT, "%s: unknown option %.*s; see `bolide help %s`",
                             command->name, length, word, command->name);
     free(name);
@@ -139,8 +139,8 @@ struct error *options_read(const struct command *command, int count, char **word
         else
             error = error_join(error, append(&options->names, words[at]));
     }
-    if (!error && (options->names.count < command->least_names ||
-                   options->names.count > command->most_names))
+    if (!error &&
+        (options->names.count < command->least_names || options->names.count > command->most_names))
         error = error_new(ERROR_INPUT, "usage: bolide %s %s [options]; see `bolide help %s`",
                           command->name, command->usage, command->name);
     if (!error && options->overwrite && options->resume)

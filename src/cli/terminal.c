@@ -1,4 +1,5 @@
-/* Words to the user: errors, lines of a run, the progress line, colours, and the signals that stop a run. */
+/* Words to the user: errors, lines of a run, the progress line, colours, and the signals that stop
+ * a run. */
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -33,7 +34,8 @@ void terminal_clear_line(void)
 
 const char *colour(enum colour which)
 {
-    static const char *const sequences[] = {"\033[0m", "\033[32m", "\033[1;31m", "\033[2m", "\033[1m"};
+    static const char *const sequences[] = {"\033[0m", "\033[32m", "\033[1;31m", "\033[2m",
+                                            "\033[1m"};
     return isatty(STDOUT_FILENO) ? sequences[which] : "";
 }
 
@@ -68,10 +70,7 @@ static void say_progress(void *context, const char *text)
     }
 }
 
-struct listener terminal_listener(void)
-{
-    return (struct listener){say_line, say_progress, NULL};
-}
+struct listener terminal_listener(void) { return (struct listener){say_line, say_progress, NULL}; }
 
 struct progress_pace terminal_pace(void)
 {

@@ -5,7 +5,7 @@
 #include "exact/gas_riemann.h"
 #include "exact/impedance_match.h"
 
-#define EXACT_CHOICE(identifier, name, help)                              \
+#define EXACT_CHOICE(identifier, name, help)                                    \
     {name, help, exact_##identifier##_table, sizeof(struct exact_##identifier), \
      &exact_##identifier##_class},
 

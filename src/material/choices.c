@@ -1,8 +1,8 @@
 /* The lists of equations of state and strength models; see choices.h. */
 #include "material/choices.h"
 
-#define EOS_CHOICE(identifier)                                                           \
-    [EOS_##identifier] = {eos_##identifier##_name, eos_##identifier##_help,              \
+#define EOS_CHOICE(identifier)                                              \
+    [EOS_##identifier] = {eos_##identifier##_name, eos_##identifier##_help, \
                           eos_##identifier##_parameters, sizeof(struct eos_##identifier), NULL},
 
 const struct choice eos_choices[EOS_KINDS] = {EOS_LIST(EOS_CHOICE)};

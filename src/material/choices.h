@@ -10,7 +10,7 @@
 
 /* An equation of state's table file (eos/<identifier>.c) defines its name in a case, one line of help
  * and the parameters of its struct. */
-#define EOS_TABLE(identifier)                \
+#define EOS_TABLE(identifier)                    \
     extern const char eos_##identifier##_name[]; \
     extern const char eos_##identifier##_help[]; \
     extern const struct parameter eos_##identifier##_parameters[];

@@ -9,10 +9,11 @@
 #include "material/eos/barotropic.h"
 #include "material/eos/ideal_gas.h"
 #include "material/eos/mie_grueneisen.h"
+#include "material/eos/tillotson.h"
 
 /* X(identifier): struct eos_<identifier>, eos_<identifier>() in eos/<identifier>.h, its table in
  * eos/<identifier>.c (see choices.h). */
-#define EOS_LIST(X) X(ideal_gas) X(barotropic) X(mie_grueneisen)
+#define EOS_LIST(X) X(ideal_gas) X(barotropic) X(mie_grueneisen) X(tillotson)
 
 #define EOS_ENUM(name) EOS_##name,
 enum eos_kind { EOS_LIST(EOS_ENUM) EOS_KINDS };

@@ -84,13 +84,13 @@ static struct error *no_such_material(const struct case_options *options,
     struct name_list names = {0};
     for (int i = 0; i < options->library_count; i++)
         library_list(options->library_paths[i], &names);
-    const char *near =
-        nearest_name(library->text, (const char *const *)names.names, names.count);
+    const char *near = nearest_name(library->text, (const char *const *)names.names, names.count);
     struct error *error =
-        near ? place_error(library->place, path,
-                           "no material \"%s\" in the library (did you mean \"%s\"?)",
-                           library->text, near)
-             : place_error(library->place, path, "no material \"%s\" in the library", library->text);
+        near
+            ? place_error(library->place, path,
+                          "no material \"%s\" in the library (did you mean \"%s\"?)", library->text,
+                          near)
+            : place_error(library->place, path, "no material \"%s\" in the library", library->text);
     for (int i = 0; i < names.count; i++)
         free(names.names[i]);
     free(names.names);
@@ -118,8 +118,7 @@ static struct error *include_material(struct document *document, struct node *ma
     char *file = library_file(options, library->text);
     if (!file) {
         char *path = text_format("materials.%s.library", material->key);
-        struct error *error =
-            path ? no_such_material(options, library, path) : out_of_memory();
+        struct error *error = path ? no_such_material(options, library, path) : out_of_memory();
         free(path);
         return error;
     }
@@ -151,12 +150,12 @@ static struct error *include_library(struct document *document, const struct cas
     return all;
 }
 
-static struct error *read_document(struct simulation_case *input, const struct case_options *options)
+static struct error *read_document(struct simulation_case *input,
+                                   const struct case_options *options)
 {
     TRY(check_format(input->document));
     struct error *error = include_library(input->document, options);
-    error =
-        error_join(error, document_read(input->document, case_table, input->catalogue, input));
+    error = error_join(error, document_read(input->document, case_table, input->catalogue, input));
     return error ? error : case_check_meaning(input);
 }
 
@@ -169,10 +168,10 @@ struct error *case_read(const char *path, const struct case_options *options,
         return out_of_memory();
     input->catalogue = catalogue;
     input->name = case_name(path);
-    struct error *error =
-        input->name ? document_open(path, options->settings, options->setting_count,
-                                    options->quick ? "short" : NULL, &input->document)
-                    : out_of_memory();
+    struct error *error = input->name
+                              ? document_open(path, options->settings, options->setting_count,
+                                              options->quick ? "short" : NULL, &input->document)
+                              : out_of_memory();
     if (!error)
         error = read_document(input, options);
     if (error)

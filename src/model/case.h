@@ -11,8 +11,8 @@
  * replace those of the library's file. */
 struct material_input {
     char *library;
-    struct one_of eos;      /* "eos" */
-    struct one_of strength; /* "strength"; not given: a fluid */
+    struct one_of eos;        /* "eos" */
+    struct one_of strength;   /* "strength"; not given: a fluid */
     struct material material; /* filled by case_read from the above */
 };
 
@@ -21,11 +21,11 @@ struct body_input {
     char *material;
     struct one_of shape; /* "shape", inline */
     struct vector_value velocity;
-    double density, pressure, energy; /* NAN: not given. Of the three, two at most; see body_state */
+    double density, pressure, energy; /* NAN: not given; of the three, two at most */
     double resolution;                /* NAN: the case's */
     struct name_list replaces;        /* bodies whose particles give way inside this shape */
     int material_index;               /* filled by case_read */
-    struct point start;               /* filled by case_read: density, energy, pressure at the start */
+    struct point start; /* filled by case_read: density, energy, pressure at the start */
 };
 
 /* walls: NAME: {mirror: x, at: 0 mm, side: low}: a rigid slip wall normal to an axis; the material is on
@@ -49,16 +49,16 @@ struct contact_input {
 
 /* output: {every, pictures: [pressure, ...], ...} */
 struct output_input {
-    double every;             /* s, between snapshots; NAN: only the first and the last state */
-    double history;           /* s, between rows of history.csv; NAN: a hundredth of the run */
-    double checkpoint;        /* s of wall clock between checkpoints; 0: at the end only */
+    double every;              /* s, between snapshots; NAN: only the first and the last state */
+    double history;            /* s, between rows of history.csv; NAN: a hundredth of the run */
+    double checkpoint;         /* s of wall clock between checkpoints; 0: at the end only */
     struct name_list pictures; /* fields to draw at every snapshot */
-    bool snapshots;           /* write VTKHDF files */
+    bool snapshots;            /* write VTKHDF files */
 };
 
 struct run_input {
-    double until;     /* s */
-    int64_t max_steps; /* 0: no limit */
+    double until;        /* s */
+    int64_t max_steps;   /* 0: no limit */
     double energy_drift; /* relative, stops the run when exceeded; 0: never */
 };
 
@@ -68,9 +68,9 @@ struct check_input {
     char *of;                    /* a body; NULL: all */
     struct vector_value between; /* positions along `axis`; count 0: everywhere */
     int axis;
-    struct one_of against;   /* "exact"; not given: the case's own */
-    struct quantity is;      /* wanted value; NAN: none */
-    struct quantity within;  /* allowed distance from `is`: a fraction of it, or a quantity */
+    struct one_of against;  /* "exact"; not given: the case's own */
+    struct quantity is;     /* wanted value; NAN: none */
+    struct quantity within; /* allowed distance from `is`: a fraction of it, or a quantity */
     struct quantity at_most, at_least;
     struct quantity scale; /* divides error norms; NAN: the exact solution's own range */
     char *source;          /* where the wanted value comes from, shown in the table */

@@ -24,8 +24,8 @@ static void wrong(struct checking *checking, const char *key, const char *format
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    checking->error = error_join(checking->error,
-                                 document_error(checking->input->document, path, "%s", message));
+    checking->error =
+        error_join(checking->error, document_error(checking->input->document, path, "%s", message));
 }
 
 /* The index of NAME in MAP; -1 after a complaint. WHAT is `body` or `material`. */

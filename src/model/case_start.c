@@ -75,7 +75,8 @@ static const char *from_pressure(const struct body_input *body, const struct eos
     *key = "pressure";
     if (!isnan(body->density)) {
         if (!depends_on_energy(eos))
-            return "pressure follows from density here, as the equation of state has no energy: give "
+            return "pressure follows from density here, as the equation of state has no energy: "
+                   "give "
                    "one of the two";
         point->energy = energy_of_pressure(eos, body->pressure, point->density);
         return isnan(point->energy) ? "no energy gives this pressure at this density" : NULL;
@@ -117,7 +118,8 @@ const char *body_start_state(struct body_input *body, const struct material *mat
     if (response.status & POINT_NO_SOUND)
         return isnan(body->pressure) && isnan(body->energy)
                    ? "at this start state sound does not travel: give `pressure` or `energy`"
-                   : "at this start state sound does not travel: give a larger `pressure` or `energy`";
+                   : "at this start state sound does not travel: give a larger `pressure` or "
+                     "`energy`";
     body->start = point;
     return NULL;
 }

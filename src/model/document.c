@@ -221,7 +221,8 @@ static struct error *no_such_key(const struct node *map, const char *path, const
     const char *near = nearest_name(segment, names, map->count);
     struct error *error = NULL;
     if (near)
-        error = place_error(place, path, "there is no \"%s\" (did you mean \"%s\"?)", segment, near);
+        error =
+            place_error(place, path, "there is no \"%s\" (did you mean \"%s\"?)", segment, near);
     free(names);
     return error;
 }

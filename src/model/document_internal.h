@@ -16,10 +16,10 @@ struct place {
 
 struct node {
     enum node_kind kind;
-    bool plain;    /* SCALAR without quotes */
-    bool implied;  /* MAP that a setting's path made on its way */
-    char *text;    /* SCALAR */
-    char *key;     /* of an entry of a map */
+    bool plain;   /* SCALAR without quotes */
+    bool implied; /* MAP that a setting's path made on its way */
+    char *text;   /* SCALAR */
+    char *key;    /* of an entry of a map */
     struct place place, key_place;
     int count;
     struct node **child; /* LIST, MAP */

@@ -42,7 +42,8 @@ void node_free(struct node *node)
 
 bool node_append(struct node *parent, struct node *child)
 {
-    struct node **grown = realloc(parent->child, ((size_t)parent->count + 1) * sizeof(struct node *));
+    struct node **grown =
+        realloc(parent->child, ((size_t)parent->count + 1) * sizeof(struct node *));
     if (!grown) {
         node_free(child);
         return false;
@@ -200,8 +201,9 @@ static struct error *build(struct parse *parse, struct fy_event *event, struct p
 {
     struct place place = place_of(parse, event, before);
     if (event->type == FYET_ALIAS || fy_event_get_anchor_token(event))
-        return place_error(place, "", "anchors and aliases (& and *) are not known here; "
-                                      "a text that starts with one needs quotes");
+        return place_error(place, "",
+                           "anchors and aliases (& and *) are not known here; "
+                           "a text that starts with one needs quotes");
     if (fy_event_get_tag_token(event))
         return place_error(place, "", "tags (!) are not known here");
     if (depth > DEPTH_MAX)

@@ -90,8 +90,11 @@ static void read_one_of(struct reading *reading, const struct node *node, const 
         return;
     }
     struct path inside = {path, choice->name, 0};
-    struct node nothing = {
-        .kind = NODE_SCALAR, .plain = true, .text = "", .place = node->place, .key_place = node->place};
+    struct node nothing = {.kind = NODE_SCALAR,
+                           .plain = true,
+                           .text = "",
+                           .place = node->place,
+                           .key_place = node->place};
     read_thing(reading, is_map ? node->child[0] : &nothing, &inside, list, choice, value);
 }
 
@@ -203,8 +206,8 @@ static void read_standard(struct reading *reading, const struct path *path,
     if (!parameter->standard[0])
         return;
     struct node *node = NULL;
-    struct error *error = node_parse(parameter->standard, strlen(parameter->standard),
-                                     "the default", false, &node);
+    struct error *error =
+        node_parse(parameter->standard, strlen(parameter->standard), "the default", false, &node);
     reading->error = error_join(reading->error, error);
     if (node)
         read_value(reading, node, path, parameter, value);

@@ -21,7 +21,7 @@ static size_t path_text(const struct path *path, char *text, size_t size)
 }
 
 void complain(struct reading *reading, struct place place, const struct path *path,
-                     const char *format, ...)
+              const char *format, ...)
 {
     char text[1024];
     path_text(path, text, sizeof text);
@@ -50,7 +50,7 @@ static const char *found_text(const struct node *node, char *buffer)
 }
 
 void complain_kind(struct reading *reading, const struct node *node, const struct path *path,
-                          const char *wanted)
+                   const char *wanted)
 {
     char buffer[TEXT_MAX];
     complain(reading, node_place(node), path, "%s is wanted, found %s", wanted,
@@ -68,8 +68,7 @@ void list_text(const char *const *names, int count, char *text, size_t size)
 }
 
 void complain_unknown(struct reading *reading, struct place place, const struct path *path,
-                             const char *what, const char *word, const char *const *names,
-                             int count)
+                      const char *what, const char *word, const char *const *names, int count)
 {
     const char *near = nearest_name(word, names, count);
     char known[1024];
@@ -89,12 +88,18 @@ struct dimension_name {
 static const char *quantity_text(struct dimension dimension, char *buffer)
 {
     static const struct dimension_name names[] = {
-        {{1, 0, 0, 0}, "a length"},       {{0, 1, 0, 0}, "a mass"},
-        {{0, 0, 1, 0}, "a time"},         {{0, 0, 0, 1}, "a temperature"},
-        {{1, 0, -1, 0}, "a velocity"},    {{1, 0, -2, 0}, "an acceleration"},
-        {{-3, 1, 0, 0}, "a density"},     {{-1, 1, -2, 0}, "a pressure"},
-        {{2, 0, -2, 0}, "an energy per mass"}, {{2, 1, -2, 0}, "an energy"},
-        {{1, 1, -2, 0}, "a force"},       {{2, 0, 0, 0}, "an area"},
+        {{1, 0, 0, 0}, "a length"},
+        {{0, 1, 0, 0}, "a mass"},
+        {{0, 0, 1, 0}, "a time"},
+        {{0, 0, 0, 1}, "a temperature"},
+        {{1, 0, -1, 0}, "a velocity"},
+        {{1, 0, -2, 0}, "an acceleration"},
+        {{-3, 1, 0, 0}, "a density"},
+        {{-1, 1, -2, 0}, "a pressure"},
+        {{2, 0, -2, 0}, "an energy per mass"},
+        {{2, 1, -2, 0}, "an energy"},
+        {{1, 1, -2, 0}, "a force"},
+        {{2, 0, 0, 0}, "an area"},
         {{3, 0, 0, 0}, "a volume"},
     };
     char unit[DIMENSION_TEXT];
@@ -130,7 +135,7 @@ static bool rests_on_mistake(const struct reading *reading, const char *text)
 }
 
 bool read_quantity(struct reading *reading, const struct node *node, const struct path *path,
-                          const char *wanted, struct quantity *quantity)
+                   const char *wanted, struct quantity *quantity)
 {
     if (node->kind != NODE_SCALAR || node_is_empty(node)) {
         complain_kind(reading, node, path, wanted);
@@ -305,7 +310,7 @@ static void read_names(struct reading *reading, const struct node *node, const s
 }
 
 void read_scalar(struct reading *reading, const struct node *node, const struct path *path,
-                       const struct parameter *parameter, void *value)
+                 const struct parameter *parameter, void *value)
 {
     switch (parameter->kind) {
     case PARAMETER_NUMBER:

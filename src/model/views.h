@@ -39,6 +39,4 @@ void view_read(const struct view *view, int64_t begin, int64_t end, double *out)
 /* The same for one component of it. */
 void view_read_component(const struct view *view, int component, int64_t begin, int64_t end,
                          double *out);
-
-/* The unit of a view by its name, for case checks before a run. */
 #endif

@@ -99,8 +99,8 @@ static struct error *write_head(hid_t file, const char *case_text)
 static struct error *visit_all(const struct checkpoint *checkpoint, struct visitor *visitor)
 {
     TRY(simulation_visit(checkpoint->simulation, visitor));
-    if (checkpoint->class->state)
-        TRY(checkpoint->class->state(checkpoint->solver, visitor));
+    if (checkpoint->method->state)
+        TRY(checkpoint->method->state(checkpoint->solver, visitor));
     return checkpoint->extra ? checkpoint->extra(checkpoint->context, visitor) : NULL;
 }
 

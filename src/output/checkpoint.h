@@ -8,7 +8,7 @@
  * run; it is stored, and checkpoint_read refuses a checkpoint whose case differs (ERROR_INPUT). */
 struct checkpoint {
     struct simulation *simulation;
-    const struct solver_class *class;
+    const struct solver_class *method;
     void *solver;
     struct error *(*extra)(void *context, struct visitor *visitor);
     void *context;

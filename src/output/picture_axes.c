@@ -298,13 +298,15 @@ static void axis_draw_left(const struct canvas *canvas, const struct axis *axis,
     minor_marks(canvas, axis, x, 0.0);
     stroke_frame(canvas);
     for (int i = 0; i < axis->ticks.count; ++i) {
-        widest = maximum(widest, canvas_text_width(canvas, TEXT_TICK, axis->ticks.text[i]));
+        double width = canvas_text_width(canvas, TEXT_TICK, axis->ticks.text[i]);
+        widest = maximum(widest, minimum(width, room));
+        /* A long number may become small, but never loses digits. */
         canvas_text(canvas, TEXT_TICK, x - 7.0, axis_place(axis, axis->ticks.at[i]) + 4.0, 1.0,
-                    room, axis->ticks.text[i]);
+                    maximum(room, 0.76 * width), axis->ticks.text[i]);
     }
     double middle = 0.5 * (axis->start + axis->end);
     cairo_save(canvas->pen);
-    cairo_translate(canvas->pen, x - 7.0 - minimum(widest, room) - 9.0, middle);
+    cairo_translate(canvas->pen, x - 7.0 - widest - 9.0, middle);
     cairo_rotate(canvas->pen, -acos(0.0));
     canvas_text(canvas, TEXT_LABEL, 0.0, 0.0, 0.5,
                 2.0 * minimum(middle, canvas->height - middle) - 8.0, axis->label);

@@ -17,7 +17,7 @@ enum {
     HEIGHT_MIN = 24,       /* of the particles */
     HEIGHT_MAX = 820,
     WIDTH_MIN = 50,
-    LEFT = 68,
+    LEFT = 76,
     RIGHT = 22,
     AXIS_HEIGHT = 42,
     BAR_GAP = 10,
@@ -265,9 +265,11 @@ static struct page lay_out(const struct plane *plane, double head, double foot)
     page.y.range = (struct range){y - 0.5 * height / page.scale, y + 0.5 * height / page.scale};
 
     static const char *const axis_names[] = {"x", "y", "z"};
-    double reach = maximum(range_reach(page.x.range), range_reach(page.y.range));
-    axis_name(&page.x, axis_names[plane->across], "m", reach);
-    axis_name(&page.y, axis_names[plane->up], "m", reach);
+    /* One unit for both, unless one of them would need a thousandth of it. */
+    double reach_x = range_reach(page.x.range), reach_y = range_reach(page.y.range);
+    double reach = maximum(reach_x, reach_y);
+    axis_name(&page.x, axis_names[plane->across], "m", reach_x > 1e-3 * reach ? reach : reach_x);
+    axis_name(&page.y, axis_names[plane->up], "m", reach_y > 1e-3 * reach ? reach : reach_y);
     return page;
 }
 

@@ -58,8 +58,8 @@ struct ticks {
     char text[TICKS_MAX][TICK_TEXT];
 };
 
-/* At most MOST ticks (but always those of two round values where they lie inside) at multiples of 1, 2 or 5
- * times a power of ten, written in units of SCALE. */
+/* Ticks at multiples of 1, 2 or 5 times a power of ten, in at most MOST intervals, written in units of
+ * SCALE. */
 struct ticks ticks_linear(struct range range, double scale, int most);
 
 /* Ticks at powers of ten, and at 2 and 5 times them where the range is short. */

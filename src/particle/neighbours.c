@@ -308,7 +308,7 @@ struct error *neighbours_build(struct neighbours *neighbours, const struct parti
     cells_free(&build.cells);
     TRY(error);
     neighbours->builds++;
-    return motion_start(neighbours, particles, reach, mirrors, distance);
+    return motion_start(neighbours, particles, reach, mirrors, distance, threads);
 }
 
 void neighbours_free(struct neighbours *neighbours)

@@ -1,8 +1,9 @@
 /* Do the rows still hold every pair within support? A pair was listed when its distance at building was below
  * (1 + skin) times its support; it may have come into support since only if the two have approached each other, or
- * their supports have grown, by more than the difference. Motion is judged by blocks: a block's mean displacement,
- * the spread about it, and the growth of reach. Blocks that touch are compared pair by pair, also with each other's
- * images behind walls; blocks that do not touch have an edge of a block between them to eat up first. */
+ * their supports have grown, by more than the difference. Motion is judged by groups, the cubes of two cells that a
+ * block falls into: a group's mean displacement, the spread about it, the growth of reach. Groups that touch are
+ * compared pair by pair, also with each other's images behind walls; groups that do not touch have an edge of a group
+ * between them to eat up first, which is judged by their blocks, and blocks that do not touch have an edge of a block. */
 #include "particle/neighbours_hold.h"
 
 #include <stdlib.h>
@@ -11,25 +12,37 @@
 #include "base/memory.h"
 #include "particle/block.h"
 
-/* One block since the rows were built. */
+/* A group or a block since the rows were built. */
 struct moved {
+    bool any;              /* it has particles */
     double smallest_reach; /* at building */
     double low[3];         /* nearest to each low wall, at building; NAN without wall */
     double high[3];
     unsigned walls;        /* bit 2 axis + side: had images behind this wall */
     double mean[3], spread, growth, largest_reach; /* now */
-    int32_t first_neighbour, neighbours;
 };
 
+enum { GROUPS_MAX = 32, TOUCHING_MAX = 27 };
+
 struct block_motion {
-    int32_t blocks;
-    int64_t capacity;
-    struct moved *block;
-    int64_t neighbour_count, neighbour_capacity;
-    int32_t *neighbour; /* blocks that touch, itself included */
-    double distance;    /* of the plan of images */
-    bool touching;      /* supports fit into blocks, so that only blocks that touch could meet */
+    int groups; /* of a block: 32, 4 x 4, 2 x 2 x 2 */
+    int64_t block_capacity, group_capacity, touching_capacity, group_of_capacity;
+    struct moved *block, *group;      /* one a block; `groups` a block */
+    int32_t (*touching)[TOUCHING_MAX]; /* blocks that touch, by offset, itself included; -1 for none */
+    uint8_t *group_of;                /* group of each particle within its block */
+    double distance;                  /* of the plan of images */
+    bool local; /* supports fit into groups, so that only groups that touch could meet */
 };
+
+/* Groups along each axis of a block. */
+static int groups_along(int dimension) { return block_cells(dimension) / 2; }
+
+static double group_edge(const struct particles *p) { return 2.0 * p->cell; }
+
+static double block_edge(const struct particles *p)
+{
+    return p->cell * block_cells(p->dimension);
+}
 
 static struct error *out_of_memory(void)
 {
@@ -48,35 +61,80 @@ static struct error *reserve(struct neighbours *n, const struct particles *p)
     n->reference_capacity = capacity;
     if (!n->motion)
         n->motion = memory_allocate(sizeof *n->motion);
-    if (!n->motion || !memory_reserve((void **)&n->motion->block, &n->motion->capacity, p->blocks,
-                                      0, sizeof *n->motion->block))
+    struct block_motion *m = n->motion;
+    if (!m)
         return out_of_memory();
-    n->motion->blocks = p->blocks;
+    m->groups = 1;
+    for (int axis = 0; axis < p->dimension; axis++)
+        m->groups *= groups_along(p->dimension);
+    if (!memory_reserve((void **)&m->block, &m->block_capacity, p->blocks, 0, sizeof *m->block) ||
+        !memory_reserve((void **)&m->group, &m->group_capacity, (int64_t)p->blocks * m->groups, 0,
+                        sizeof *m->group) ||
+        !memory_reserve((void **)&m->touching, &m->touching_capacity, p->blocks, 0,
+                        sizeof *m->touching) ||
+        !memory_reserve((void **)&m->group_of, &m->group_of_capacity, p->count, 0, 1))
+        return out_of_memory();
     return NULL;
+}
+
+/* The group of a particle within its block at AT. */
+static int group_of_place(const struct particles *p, const int64_t at[3], const double x[3])
+{
+    int64_t along = groups_along(p->dimension), group = 0;
+    for (int axis = 0; axis < p->dimension; axis++) {
+        int64_t index = cell_index(x[axis], group_edge(p), along * BLOCK_MIDDLE);
+        group = group * along + (index - at[axis] * along);
+    }
+    return (int)group;
+}
+
+static void start_at_walls(struct moved *m, const struct mirrors *mirrors, double distance)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        m->low[axis] -= mirrors->low[axis];
+        m->high[axis] = mirrors->high[axis] - m->high[axis];
+        m->walls |= (unsigned)(m->low[axis] < distance) << (2 * axis);
+        m->walls |= (unsigned)(m->high[axis] < distance) << (2 * axis + 1);
+    }
+}
+
+static struct moved nothing_moved(void)
+{
+    struct moved m = {.smallest_reach = (double)INFINITY};
+    for (int axis = 0; axis < 3; axis++) {
+        m.low[axis] = (double)INFINITY;
+        m.high[axis] = -(double)INFINITY;
+    }
+    return m;
 }
 
 static void start_block(struct neighbours *n, const struct particles *p, struct reach reach,
                         const struct mirrors *mirrors, int32_t b)
 {
-    struct moved *m = &n->motion->block[b];
-    *m = (struct moved){.smallest_reach = (double)INFINITY};
-    double low[3] = {(double)INFINITY, (double)INFINITY, (double)INFINITY};
-    double high[3] = {-(double)INFINITY, -(double)INFINITY, -(double)INFINITY};
+    struct block_motion *motion = n->motion;
+    struct moved *group = motion->group + (int64_t)b * motion->groups;
+    int64_t at[3];
+    block_coordinates(p->block[b].key, at);
+    for (int g = 0; g < motion->groups; g++)
+        group[g] = nothing_moved();
+    motion->block[b] = nothing_moved();
     for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++) {
+        motion->group_of[i] = (uint8_t)group_of_place(p, at, p->position[i]);
         n->origin_reach[i] = reach.smoothing * reach.diameter[i];
-        m->smallest_reach = minimum(m->smallest_reach, n->origin_reach[i]);
-        for (int axis = 0; axis < 3; axis++) {
-            n->origin[i][axis] = p->position[i][axis];
-            low[axis] = minimum(low[axis], p->position[i][axis]);
-            high[axis] = maximum(high[axis], p->position[i][axis]);
+        struct moved *both[] = {&group[motion->group_of[i]], &motion->block[b]};
+        for (int k = 0; k < 2; k++) {
+            both[k]->any = true;
+            both[k]->smallest_reach = minimum(both[k]->smallest_reach, n->origin_reach[i]);
+            for (int axis = 0; axis < 3; axis++) {
+                n->origin[i][axis] = p->position[i][axis];
+                both[k]->low[axis] = minimum(both[k]->low[axis], p->position[i][axis]);
+                both[k]->high[axis] = maximum(both[k]->high[axis], p->position[i][axis]);
+            }
         }
     }
-    for (int axis = 0; axis < 3; axis++) {
-        m->low[axis] = low[axis] - mirrors->low[axis];
-        m->high[axis] = mirrors->high[axis] - high[axis];
-        m->walls |= (unsigned)(m->low[axis] < n->motion->distance) << (2 * axis);
-        m->walls |= (unsigned)(m->high[axis] < n->motion->distance) << (2 * axis + 1);
-    }
+    for (int g = 0; g < motion->groups; g++)
+        start_at_walls(&group[g], mirrors, motion->distance);
+    start_at_walls(&motion->block[b], mirrors, motion->distance);
 }
 
 static int compare_keys(const void *a, const void *b)
@@ -86,52 +144,41 @@ static int compare_keys(const void *a, const void *b)
 }
 
 /* The blocks that touch block B, found by key: blocks are sorted by it. */
-static struct error *list_touching(struct block_motion *motion, const struct particles *p,
-                                   int32_t b)
+static void list_touching(struct block_motion *motion, const struct particles *p, int32_t b)
 {
-    struct moved *m = &motion->block[b];
-    if (!memory_reserve((void **)&motion->neighbour, &motion->neighbour_capacity,
-                        motion->neighbour_count + 27, motion->neighbour_count,
-                        sizeof *motion->neighbour))
-        return out_of_memory();
     int64_t own[3], at[3];
     block_coordinates(p->block[b].key, own);
-    m->first_neighbour = (int32_t)motion->neighbour_count;
     int y = p->dimension > 1, z = p->dimension > 2;
-    for (at[0] = own[0] - 1; at[0] <= own[0] + 1; at[0]++)
-        for (at[1] = own[1] - y; at[1] <= own[1] + y; at[1]++)
-            for (at[2] = own[2] - z; at[2] <= own[2] + z; at[2]++) {
-                uint64_t key = block_key(at);
-                const struct block *found =
-                    bsearch(&key, p->block, (size_t)p->blocks, sizeof *p->block, compare_keys);
-                if (found)
-                    motion->neighbour[motion->neighbour_count++] = (int32_t)(found - p->block);
-            }
-    m->neighbours = (int32_t)motion->neighbour_count - m->first_neighbour;
-    return NULL;
-}
-
-static double block_edge(const struct particles *p)
-{
-    return p->cell * block_cells(p->dimension);
+    for (int k = 0; k < TOUCHING_MAX; k++) {
+        int offset[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+        motion->touching[b][k] = -1;
+        if ((offset[1] && !y) || (offset[2] && !z))
+            continue;
+        for (int axis = 0; axis < 3; axis++)
+            at[axis] = own[axis] + offset[axis];
+        uint64_t key = block_key(at);
+        const struct block *found =
+            bsearch(&key, p->block, (size_t)p->blocks, sizeof *p->block, compare_keys);
+        if (found)
+            motion->touching[b][k] = (int32_t)(found - p->block);
+    }
 }
 
 struct error *motion_start(struct neighbours *n, const struct particles *p, struct reach reach,
-                           const struct mirrors *mirrors, double distance)
+                           const struct mirrors *mirrors, double distance, int threads)
 {
     TRY(reserve(n, p));
     struct block_motion *motion = n->motion;
     motion->distance = distance;
-    motion->neighbour_count = 0;
     double largest = 0.0;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : largest)
     for (int32_t b = 0; b < p->blocks; b++) {
         start_block(n, p, reach, mirrors, b);
-        TRY(list_touching(motion, p, b));
+        list_touching(motion, p, b);
+        for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++)
+            largest = maximum(largest, n->origin_reach[i]);
     }
-    for (int32_t i = 0; i < p->count; i++)
-        largest = maximum(largest, n->origin_reach[i]);
-    motion->touching = 2.0 * (1.0 + n->skin) * largest < block_edge(p) &&
-                       distance < block_edge(p);
+    motion->local = 2.0 * (1.0 + n->skin) * largest < group_edge(p) && distance < group_edge(p);
     return NULL;
 }
 
@@ -141,35 +188,66 @@ void motion_free(struct neighbours *neighbours)
     free(neighbours->origin_reach);
     if (neighbours->motion) {
         free(neighbours->motion->block);
-        free(neighbours->motion->neighbour);
+        free(neighbours->motion->group);
+        free(neighbours->motion->touching);
+        free(neighbours->motion->group_of);
     }
     free(neighbours->motion);
 }
 
-/* Brings a block's motion up to date. */
+/* The box of displacements of a group, then of a block. */
+struct box {
+    double low[3], high[3];
+};
+
+static const struct box empty_box = {{INFINITY, INFINITY, INFINITY},
+                                     {-INFINITY, -INFINITY, -INFINITY}};
+
+static void take_box(struct moved *m, const struct box *box)
+{
+    double spread = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        m->mean[axis] = 0.5 * (box->low[axis] + box->high[axis]);
+        spread += square(0.5 * (box->high[axis] - box->low[axis]));
+    }
+    m->spread = sqrt(spread);
+}
+
+/* Brings the motion of a block and its groups up to date. */
 static void follow_block(struct neighbours *n, const struct particles *p, struct reach reach,
                          int32_t b)
 {
-    struct moved *m = &n->motion->block[b];
-    double low[3] = {(double)INFINITY, (double)INFINITY, (double)INFINITY};
-    double high[3] = {-(double)INFINITY, -(double)INFINITY, -(double)INFINITY};
-    m->growth = m->largest_reach = 0.0;
+    struct block_motion *motion = n->motion;
+    struct moved *group = motion->group + (int64_t)b * motion->groups, *block = &motion->block[b];
+    struct box box[GROUPS_MAX], whole = empty_box;
+    block->growth = block->largest_reach = 0.0;
+    for (int g = 0; g < motion->groups; g++) {
+        group[g].growth = group[g].largest_reach = 0.0;
+        box[g] = empty_box;
+    }
     for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++) {
+        int g = motion->group_of[i];
         double now = reach.smoothing * reach.diameter[i];
-        m->growth = maximum(m->growth, now - n->origin_reach[i]);
-        m->largest_reach = maximum(m->largest_reach, now);
+        group[g].growth = maximum(group[g].growth, now - n->origin_reach[i]);
+        group[g].largest_reach = maximum(group[g].largest_reach, now);
         for (int axis = 0; axis < 3; axis++) {
             double moved = p->position[i][axis] - n->origin[i][axis];
-            low[axis] = minimum(low[axis], moved);
-            high[axis] = maximum(high[axis], moved);
+            box[g].low[axis] = minimum(box[g].low[axis], moved);
+            box[g].high[axis] = maximum(box[g].high[axis], moved);
         }
     }
-    double spread = 0.0;
-    for (int axis = 0; axis < 3; axis++) {
-        m->mean[axis] = 0.5 * (low[axis] + high[axis]);
-        spread += square(0.5 * (high[axis] - low[axis]));
+    for (int g = 0; g < motion->groups; g++) {
+        if (!group[g].any)
+            continue;
+        take_box(&group[g], &box[g]);
+        block->growth = maximum(block->growth, group[g].growth);
+        block->largest_reach = maximum(block->largest_reach, group[g].largest_reach);
+        for (int axis = 0; axis < 3; axis++) {
+            whole.low[axis] = minimum(whole.low[axis], box[g].low[axis]);
+            whole.high[axis] = maximum(whole.high[axis], box[g].high[axis]);
+        }
     }
-    m->spread = sqrt(spread);
+    take_box(block, &whole);
 }
 
 /* Approach of A to B, whose motion is reflected on the axes of bit mask MIRRORED, and growth of both. */
@@ -183,7 +261,7 @@ static double approach(const struct moved *a, const struct moved *b, unsigned mi
     return sqrt(sum) + a->spread + b->spread + a->growth + b->growth;
 }
 
-/* The axes on which both blocks have images behind one wall. */
+/* The axes on which both have images behind one wall. */
 static unsigned common_walls(const struct moved *a, const struct moved *b)
 {
     unsigned both = a->walls & b->walls, axes = 0;
@@ -192,17 +270,53 @@ static unsigned common_walls(const struct moved *a, const struct moved *b)
     return axes;
 }
 
-static bool touching_hold(const struct neighbours *n, int32_t b)
+/* No approach of the two, or of one to the other's images, beyond SLACK. */
+static bool pair_holds(const struct moved *a, const struct moved *b, double slack)
 {
-    const struct moved *a = &n->motion->block[b];
-    for (int32_t k = 0; k < a->neighbours; k++) {
-        int32_t c = n->motion->neighbour[a->first_neighbour + k];
-        const struct moved *other = &n->motion->block[c];
-        double slack = n->skin * (a->smallest_reach + other->smallest_reach);
-        unsigned walls = common_walls(a, other);
-        for (unsigned mirrored = 0; mirrored < 8; mirrored++)
-            if (!(mirrored & ~walls) && approach(a, other, mirrored) > slack)
-                return false;
+    unsigned walls = common_walls(a, b);
+    for (unsigned mirrored = 0; mirrored < 8; mirrored++)
+        if (!(mirrored & ~walls) && approach(a, b, mirrored) > slack)
+            return false;
+    return true;
+}
+
+/* Group G of block B against the groups that touch it. */
+static bool group_holds(const struct neighbours *n, int dimension, int32_t b, int g)
+{
+    const struct block_motion *motion = n->motion;
+    const struct moved *own = motion->group + (int64_t)b * motion->groups + g;
+    int along = groups_along(dimension), at[3] = {0, 0, 0}, rest = g;
+    for (int axis = dimension - 1; axis >= 0; axis--, rest /= along)
+        at[axis] = rest % along;
+    for (int k = 0; k < TOUCHING_MAX; k++) {
+        int offset[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1}, block = 0, group = 0;
+        if ((dimension < 2 && offset[1]) || (dimension < 3 && offset[2]))
+            continue;
+        for (int axis = 0, weight = 1; axis < 3; axis++, weight *= 3) {
+            int there = at[axis] + offset[axis];
+            int step = axis >= dimension ? 0 : there < 0 ? -1 : there >= along;
+            block += weight * (step + 1);
+            if (axis < dimension)
+                group = group * along + there - step * along;
+        }
+        int32_t c = motion->touching[b][block];
+        if (c < 0)
+            continue;
+        const struct moved *other = motion->group + (int64_t)c * motion->groups + group;
+        double slack = n->skin * (own->smallest_reach + other->smallest_reach);
+        if (other->any && !pair_holds(own, other, slack))
+            return false;
+    }
+    return true;
+}
+
+/* Block B against the blocks that touch it, as far as their groups do not touch. */
+static bool block_holds(const struct block_motion *motion, int32_t b, double room)
+{
+    for (int k = 0; k < TOUCHING_MAX; k++) {
+        int32_t c = motion->touching[b][k];
+        if (c >= 0 && !pair_holds(&motion->block[b], &motion->block[c], room))
+            return false;
     }
     return true;
 }
@@ -221,11 +335,11 @@ static bool walls_hold(const struct block_motion *motion, int32_t b, double larg
     return true;
 }
 
-/* Without blocks to compare: the motion of all against all. */
-static bool all_hold(const struct neighbours *n)
+/* Where supports outgrow groups: the motion of all against all. */
+static bool all_hold(const struct neighbours *n, const struct particles *p)
 {
     double motion = 0.0, slack = (double)INFINITY;
-    for (int32_t b = 0; b < n->motion->blocks; b++) {
+    for (int32_t b = 0; b < p->blocks; b++) {
         const struct moved *m = &n->motion->block[b];
         double mean = sqrt(square(m->mean[0]) + square(m->mean[1]) + square(m->mean[2]));
         motion = maximum(motion, mean + m->spread + m->growth);
@@ -235,25 +349,37 @@ static bool all_hold(const struct neighbours *n)
 }
 
 /* Blocks that do not touch have come no nearer to each other than supports reach. */
-static bool apart_hold(const struct block_motion *motion, double largest, double edge)
+static bool apart_hold(const struct block_motion *motion, const struct particles *p, double largest)
 {
-    double low[3] = {(double)INFINITY, (double)INFINITY, (double)INFINITY};
-    double high[3] = {-(double)INFINITY, -(double)INFINITY, -(double)INFINITY}, sum = 0.0;
-    for (int32_t b = 0; b < motion->blocks; b++)
+    struct box span = empty_box;
+    double sum = 0.0;
+    for (int32_t b = 0; b < p->blocks; b++)
         for (int axis = 0; axis < 3; axis++) {
             const struct moved *m = &motion->block[b];
-            low[axis] = minimum(low[axis], m->mean[axis] - m->spread);
-            high[axis] = maximum(high[axis], m->mean[axis] + m->spread);
+            span.low[axis] = minimum(span.low[axis], m->mean[axis] - m->spread);
+            span.high[axis] = maximum(span.high[axis], m->mean[axis] + m->spread);
         }
     for (int axis = 0; axis < 3; axis++)
-        sum += square(high[axis] - low[axis]);
-    return sqrt(sum) + 2.0 * largest <= edge;
+        sum += square(span.high[axis] - span.low[axis]);
+    return sqrt(sum) + 2.0 * largest <= block_edge(p);
+}
+
+static bool local_hold(const struct neighbours *n, const struct particles *p, int32_t b,
+                       double largest)
+{
+    if (!block_holds(n->motion, b, group_edge(p) - 2.0 * largest))
+        return false;
+    for (int g = 0; g < n->motion->groups; g++)
+        if (n->motion->group[(int64_t)b * n->motion->groups + g].any &&
+            !group_holds(n, p->dimension, b, g))
+            return false;
+    return true;
 }
 
 bool neighbours_hold(struct neighbours *n, const struct particles *p, struct reach reach,
                      int threads)
 {
-    if (n->builds == 0 || n->count != p->count || n->motion->blocks != p->blocks)
+    if (n->builds == 0 || n->count != p->count)
         return false;
     double largest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : largest)
@@ -261,14 +387,10 @@ bool neighbours_hold(struct neighbours *n, const struct particles *p, struct rea
         follow_block(n, p, reach, b);
         largest = maximum(largest, n->motion->block[b].largest_reach);
     }
-    bool hold = true;
-    if (!n->motion->touching)
-        hold = all_hold(n);
-    else
-        hold = apart_hold(n->motion, largest, block_edge(p));
+    bool local = n->motion->local;
+    bool hold = local ? apart_hold(n->motion, p, largest) : all_hold(n, p);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(&& : hold)
     for (int32_t b = 0; b < p->blocks; b++)
-        hold = hold && walls_hold(n->motion, b, largest) &&
-               (!n->motion->touching || touching_hold(n, b));
+        hold = hold && walls_hold(n->motion, b, largest) && (!local || local_hold(n, p, b, largest));
     return hold;
 }

@@ -15,7 +15,8 @@ static const struct choice_list lists[] = {
     {"eos", "the equation of state of a material", eos_choices, EOS_KINDS},
     {"strength", "what a material does with shear", strength_choices, STRENGTH_KINDS},
     {"shape", "where a body is", shape_choices, SHAPES},
-    {"exact", "an exact solution that results are measured against", exact_choices, exact_choice_count},
+    {"exact", "an exact solution that results are measured against", exact_choices,
+     exact_choice_count},
     {"measure", "what a check measures", measure_choices, MEASURES},
     {0},
 };

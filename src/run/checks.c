@@ -30,8 +30,8 @@ static struct error *same_dimension(const struct measurement *measurement, const
                          must[0] ? must : "plain numbers");
 }
 
-/* The interval that the check allows. A `within` without dimension is a fraction of `is`; where `is` is
- * zero or not given and the measure is a plain number, it is the distance itself. */
+/* The interval that the check allows. A `within` without dimension is a fraction of `is`; where
+ * `is` is zero or not given and the measure is a plain number, it is the distance itself. */
 static struct error *find_limits(struct prepared_check *prepared, struct dimension dimension)
 {
     const struct measurement *m = &prepared->measurement;
@@ -74,8 +74,9 @@ static struct error *solve_exact(struct prepared_check *prepared)
     const struct measure_field *parameters = m->check->measure.value;
     const struct exact_state some = {0};
     if (isnan(exact_field(&some, parameters->field)))
-        return measure_error(m, "exact solutions know density, velocity.x, pressure, energy, "
-                                "stress.xx and deviator.xx, not \"%s\"",
+        return measure_error(m,
+                             "exact solutions know density, velocity.x, pressure, energy, "
+                             "stress.xx and deviator.xx, not \"%s\"",
                              parameters->field);
     m->exact = against->choice->thing;
     prepared->solved = memory_allocate(m->exact->size);

@@ -1,5 +1,5 @@
-/* The checks of a case: each measures something at the end of the run and compares it with what the case
- * says is right. */
+/* The checks of a case: each measures something at the end of the run and compares it with what the
+ * case says is right. */
 #ifndef BOLIDE_CHECKS_H
 #define BOLIDE_CHECKS_H
 
@@ -23,8 +23,8 @@ struct check_results {
 
 struct checks;
 
-/* Readies the checks of a run before its first step: finds their fields in VIEWS, looks at dimensions,
- * solves the exact problems. All mistakes come joined in one ERROR_INPUT. */
+/* Readies the checks of a run before its first step: finds their fields in VIEWS, looks at
+ * dimensions, solves the exact problems. All mistakes come joined in one ERROR_INPUT. */
 struct error *checks_prepare(const struct simulation *simulation, const struct views *views,
                              struct checks **checks);
 void checks_free(struct checks *checks);
@@ -34,8 +34,8 @@ struct error *checks_evaluate(const struct checks *checks, const struct simulati
                               const struct views *views, const struct totals *start,
                               struct check_results *results);
 
-/* Draws FOLDER/check-FIELD.png for every field of a 1-D case that is measured against an exact solution:
- * the solution as a line, the particles as dots. */
+/* Draws FOLDER/check-FIELD.png for every field of a 1-D case that is measured against an exact
+ * solution: the solution as a line, the particles as dots. */
 struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,
                           const struct views *views, const char *folder);
 
@@ -43,8 +43,8 @@ struct error *checks_draw(const struct checks *checks, const struct simulation *
 struct error *check_results_write(const struct check_results *results, const char *path);
 void check_results_free(struct check_results *results);
 
-/* "1.98 GPa +- 0.02 GPa", "at most 0.03": what is allowed, and the value measured, as a person reads them.
- * BUFFER holds SIZE bytes. */
+/* "1.98 GPa +- 0.02 GPa", "at most 0.03": what is allowed, and the value measured, as a person
+ * reads them. BUFFER holds SIZE bytes. */
 void check_allowed_text(const struct check_result *result, char *buffer, size_t size);
 void check_measured_text(const struct check_result *result, char *buffer, size_t size);
 

@@ -1,5 +1,5 @@
-/* Checks on paper: the table as CSV, its entries as a person reads them, and the pictures that lay the
- * particles over the exact solution. */
+/* Checks on paper: the table as CSV, its entries as a person reads them, and the pictures that lay
+ * the particles over the exact solution. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -7,8 +7,8 @@
 #include "base/memory.h"
 #include "model/solver.h"
 
-/* Updates a second that one thread is expected to make, and the Courant number of a solver that has none
- * among its parameters. */
+/* Updates a second that one thread is expected to make, and the Courant number of a solver that has
+ * none among its parameters. */
 static const double expected_rate = 1e6, usual_courant = 0.4;
 
 /* The solver's parameter `courant`. */

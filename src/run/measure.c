@@ -1,5 +1,5 @@
-/* The list of measures, and what they share: which particles a check speaks of, and the exact state that
- * belongs to a particle. */
+/* The list of measures, and what they share: which particles a check speaks of, and the exact state
+ * that belongs to a particle. */
 #include "run/measure.h"
 
 #include <stdio.h>
@@ -27,11 +27,12 @@ const struct choice measure_choices[MEASURES] = {
     {"maximum", "largest value of a field", FIELD, &measure_maximum},
     {"l1", "mean distance of a field from the exact solution, by volume, over `scale`", FIELD,
      &measure_l1},
-    {"rms", "root of the mean square distance from the exact solution, by volume, over `scale`", FIELD,
-     &measure_rms},
-    {"max_error", "largest distance from the exact solution, over `scale`", FIELD, &measure_max_error},
-    {"contact_max", "largest |f/f* - 1| of the 10 particles nearest the contact on either side", FIELD,
-     &measure_contact_max},
+    {"rms", "root of the mean square distance from the exact solution, by volume, over `scale`",
+     FIELD, &measure_rms},
+    {"max_error", "largest distance from the exact solution, over `scale`", FIELD,
+     &measure_max_error},
+    {"contact_max", "largest |f/f* - 1| of the 10 particles nearest the contact on either side",
+     FIELD, &measure_contact_max},
     {"contact_rms", "root mean square of f/f* - 1 of the same 20 particles", FIELD,
      &measure_contact_rms},
     {"front", "place where a field first crosses a value, seen from one end", measure_front_table,
@@ -138,7 +139,8 @@ struct error *samples_take(const struct measurement *measurement, struct samples
         double at = particles->position[i][check->axis];
         if (body >= 0 && particles->body[i] != body)
             continue;
-        if (check->between.count == 2 && !(at >= check->between.at[0] && at <= check->between.at[1]))
+        if (check->between.count == 2 &&
+            !(at >= check->between.at[0] && at <= check->between.at[1]))
             continue;
         samples->at[samples->count++] = (struct sample){
             at, values[i], particles->mass[i] / particles->density[i], particles->body[i]};

@@ -21,7 +21,8 @@ struct measurement {
 struct measure_class {
     bool needs_exact;
     bool of_field; /* the parameters start with a struct measure_field */
-    /* The SI unit of the value, "" for a ratio; an ERROR_INPUT when the measure makes no sense here. */
+    /* The SI unit of the value, "" for a ratio; an ERROR_INPUT when the measure makes no sense
+     * here. */
     struct error *(*unit)(const struct measurement *measurement, const char **unit);
     /* The value; NAN when there is nothing to measure (no particle in the window, no front). */
     struct error *(*measure)(const struct measurement *measurement, double *value);
@@ -49,10 +50,10 @@ enum conserved_total {
     CONSERVED_ENERGY
 };
 
-/* Relative change since START of a total of SIMULATION, less what the ledger booked. Mass is measured
- * by its start value, momentum by sum m|u|, angular momentum by sum m|u| times the size of the cloud of
- * particles about the origin, energy by the largest of total, kinetic and internal energy, now or at the
- * start. Collective. */
+/* Relative change since START of a total of SIMULATION, less what the ledger booked. Mass is
+ * measured by its start value, momentum by sum m|u|, angular momentum by sum m|u| times the size of
+ * the cloud of particles about the origin, energy by the largest of total, kinetic and internal
+ * energy, now or at the start. Collective. */
 double conserved_change(const struct simulation *simulation, const struct totals *start,
                         enum conserved_total total);
 
@@ -77,7 +78,8 @@ struct samples {
     struct sample *at;
 };
 
-/* The unit of the check's field; ERROR_INPUT when there is no such field or it has several components. */
+/* The unit of the check's field; ERROR_INPUT when there is no such field or it has several
+ * components. */
 struct error *measure_field_unit(const struct measurement *measurement, const char **unit);
 struct error *measure_no_unit(const struct measurement *measurement, const char **unit);
 

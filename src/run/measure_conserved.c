@@ -1,5 +1,5 @@
-/* conserved: how far the total of the particles, less what the ledger booked, has moved from its value at
- * the start. Totals are exact sums. */
+/* conserved: how far the total of the particles, less what the ledger booked, has moved from its
+ * value at the start. Totals are exact sums. */
 #include "run/measure.h"
 
 static const char *const total_names[] = {"mass", "momentum", "angular_momentum", "energy", NULL};

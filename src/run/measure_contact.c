@@ -1,5 +1,5 @@
-/* contact_max, contact_rms: Cmax and L2c, the largest and the root mean square of |f_i/f* - 1| over the
- * 20 particles nearest the contact, 10 a side; f* is the exact star value of the side. */
+/* contact_max, contact_rms: Cmax and L2c, the largest and the root mean square of |f_i/f* - 1| over
+ * the 20 particles nearest the contact, 10 a side; f* is the exact star value of the side. */
 #include "run/measure.h"
 
 enum { NEAREST = 10 };

@@ -1,7 +1,8 @@
 /* l1, rms, max_error: how far a field is from the exact solution, over a scale f:
- *   l1 = sum V_i |f_i - f_exact(x_i)| / (V f),   rms = sqrt(sum V_i (f_i - f_exact(x_i))^2 / V) / f,
- * with V_i = m_i/rho_i and V their sum, the length of the sample in 1-D. The exact state is that of the
- * particle's own side of the contact. Without `scale`, f is the range of the exact values sampled. */
+ *   l1 = sum V_i |f_i - f_exact(x_i)| / (V f),
+ *   rms = sqrt(sum V_i (f_i - f_exact(x_i))^2 / V) / f,
+ * with V_i = m_i/rho_i and V their sum, the length of the sample in 1-D. The exact state is that of
+ * the particle's own side of the contact. Without `scale`, f is the range of the exact values. */
 #include "run/measure.h"
 
 struct distance {

@@ -1,5 +1,6 @@
-/* front: the place where a field first crosses a value, seen from one end. The field is linear between
- * particles sorted along the axis, or, in a plane or in space, between the means of slabs. */
+/* front: the place where a field first crosses a value, seen from one end. The field is linear
+ * between particles sorted along the axis, or, in a plane or in space, between the means of
+ * slabs. */
 #include "run/measure.h"
 
 const struct parameter measure_front_table[] = {

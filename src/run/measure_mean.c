@@ -1,5 +1,5 @@
-/* mean: the mean of a field over particles, each counting once. The sum is exact, so that the mean is
- * the same for any order of the particles. */
+/* mean: the mean of a field over particles, each counting once. The sum is exact, so that the mean
+ * is the same for any order of the particles. */
 #include "run/measure.h"
 
 static struct error *measure(const struct measurement *measurement, double *value)

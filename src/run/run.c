@@ -1,4 +1,5 @@
-/* The run loop of the design: prepare, choose the step, advance, commit, observe. It knows no method. */
+/* The run loop of the design: prepare, choose the step, advance, commit, observe. It knows no
+ * method. */
 #include "run/run.h"
 
 #include <stdlib.h>
@@ -58,23 +59,23 @@ static struct error *no_step(const struct run *run)
                      "step %lld, t = %.6g s: no step is possible: %g s (%s), particle %llu of body "
                      "\"%s\" at (%g, %g, %g) m: density %g kg/m^3, energy %g J/kg, pressure %g Pa, "
                      "velocity (%g, %g, %g) m/s",
-                     (long long)run->simulation.step + 1, run->simulation.time, run->limit.dt, run->limit.why ? run->limit.why : "unknown",
-                     (unsigned long long)p->id[i], run->input->bodies.names[p->body[i]],
-                     p->position[i][0], p->position[i][1], p->position[i][2], p->density[i],
-                     p->energy[i], p->pressure[i], p->velocity[i][0], p->velocity[i][1],
-                     p->velocity[i][2]);
+                     (long long)run->simulation.step + 1, run->simulation.time, run->limit.dt,
+                     run->limit.why ? run->limit.why : "unknown", (unsigned long long)p->id[i],
+                     run->input->bodies.names[p->body[i]], p->position[i][0], p->position[i][1],
+                     p->position[i][2], p->density[i], p->energy[i], p->pressure[i],
+                     p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
 }
 
 static struct error *take_step(struct run *run)
 {
     struct simulation *simulation = &run->simulation;
     double until = run->input->run.until;
-    TRY(run->class->prepare(run->solver, simulation, &run->limit));
+    TRY(run->method->prepare(run->solver, simulation, &run->limit));
     double dt = step_towards(run->limit.dt, simulation->time, until);
     double after = dt == until - simulation->time ? until : simulation->time + dt;
     if (!(dt > 0.0) || !(after > simulation->time))
         return no_step(run);
-    TRY(run->class->advance(run->solver, simulation, dt));
+    TRY(run->method->advance(run->solver, simulation, dt));
     simulation->time = after;
     simulation->step++;
     run->step = dt;
@@ -95,9 +96,9 @@ static bool at_end(const struct run *run)
 static bool told_to_stop(const struct run *run)
 {
     const struct run_options *options = run->options;
-    bool stop = (options->stop && *options->stop) ||
-                (options->max_steps > 0 &&
-                 run->simulation.step - run->first_step >= options->max_steps);
+    bool stop =
+        (options->stop && *options->stop) ||
+        (options->max_steps > 0 && run->simulation.step - run->first_step >= options->max_steps);
     return ranks_maximum(&run->ranks, stop) > 0.0;
 }
 
@@ -120,17 +121,17 @@ static struct error *begin(struct run *run)
 {
     TRY(simulation_create(run->input, &run->ranks, threads_at_most(run->options),
                           &run->simulation));
-    run->class = run->input->solver.choice->thing;
-    run->solver = memory_allocate(run->class->size);
+    run->method = run->input->solver.choice->thing;
+    run->solver = memory_allocate(run->method->size);
     if (!run->solver)
         return error_new(ERROR_SYSTEM, "out of memory for the solver");
-    TRY(run->class->create(run->solver, &run->simulation, run->input->solver.value));
+    TRY(run->method->create(run->solver, &run->simulation, run->input->solver.value));
     if (run->options->resume)
         TRY(run_load(run));
     else
         TRY(generate_particles(&run->simulation));
     run->simulation.threads = threads_for(run);
-    TRY(run->class->start(run->solver, &run->simulation));
+    TRY(run->method->start(run->solver, &run->simulation));
     if (!run->options->resume)
         run->start = particles_totals(&run->simulation.particles, &run->ranks, -1);
     run->first_step = run->simulation.step;
@@ -191,9 +192,11 @@ static void tell_end(struct run *run)
 {
     const struct run_result *result = run->result;
     const struct simulation *s = &run->simulation;
-    run_say(run, "%s at step %lld, t = %.9g s, after %.1f s; %.3g M particle updates/s; energy drift %.2g",
-            result->finished ? "finished" : "stopped", (long long)result->steps, result->time,
-            result->seconds, 1e-6 * result->updates_per_second, result->energy_drift);
+    run_say(
+        run,
+        "%s at step %lld, t = %.9g s, after %.1f s; %.3g M particle updates/s; energy drift %.2g",
+        result->finished ? "finished" : "stopped", (long long)result->steps, result->time,
+        result->seconds, 1e-6 * result->updates_per_second, result->energy_drift);
     for (int i = 0; i < s->phases; i++)
         run_say(run, "  %-16s %8.2f s  %4.1f %%", s->phase[i].name, s->phase[i].seconds,
                 100.0 * s->phase[i].seconds / maximum(result->seconds, 1e-9));
@@ -231,8 +234,8 @@ static struct error *run_through(struct run *run)
 static void destroy(struct run *run)
 {
     checks_free(run->checks);
-    if (run->solver && run->class)
-        run->class->destroy(run->solver);
+    if (run->solver && run->method)
+        run->method->destroy(run->solver);
     free(run->solver);
     simulation_destroy(&run->simulation);
     free(run->snapshot_times);

@@ -7,8 +7,8 @@
 #include "output/report.h"
 #include "run/checks.h"
 
-/* How often progress is told: at least this many seconds of wall clock and this fraction of the run since
- * the last time. */
+/* How often progress is told: at least this many seconds of wall clock and this fraction of the run
+ * since the last time. */
 struct progress_pace {
     double seconds, fraction;
 };
@@ -26,22 +26,23 @@ struct run_options {
 
 struct run_result {
     bool finished; /* false: stopped early; a run with a folder can be resumed */
-    int64_t steps, particles, updates; /* steps since time zero; updates of particles in this call */
+    int64_t steps, particles,
+        updates; /* steps since time zero; updates of particles in this call */
     double time, seconds, updates_per_second;
     double energy_drift;
     uint64_t hash;               /* of all particles' bits */
     struct check_results checks; /* empty unless finished */
 };
 
-/* Runs INPUT to its end, or until told to stop. Watching a run never changes it. A failed check is no error.
- * ERROR_INPUT, ERROR_STATE (the folder then has snapshots/failed.vtkhdf) or ERROR_SYSTEM; RESULT is
- * then as far as the run came. Collective. */
+/* Runs INPUT to its end, or until told to stop. Watching a run never changes it. A failed check is
+ * no error. ERROR_INPUT, ERROR_STATE (the folder then has snapshots/failed.vtkhdf) or ERROR_SYSTEM;
+ * RESULT is then as far as the run came. Collective. */
 struct error *run_case(const struct simulation_case *input, const struct run_options *options,
                        struct run_result *result);
 void run_result_free(struct run_result *result);
 
-/* The step from TIME towards UNTIL where LIMIT is the largest allowed: what remains is spread over the
- * last two steps, so that no tiny step comes last. */
+/* The step from TIME towards UNTIL where LIMIT is the largest allowed: what remains is spread over
+ * the last two steps, so that no tiny step comes last. */
 double step_towards(double limit, double time, double until);
 
 #endif

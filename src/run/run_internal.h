@@ -12,15 +12,15 @@ struct run {
     struct run_result *result;
     struct ranks ranks;
     struct simulation simulation;
-    const struct solver_class *class;
+    const struct solver_class *method;
     void *solver;
     struct views views;
     struct checks *checks;
     struct limit limit;
     double step; /* the last one taken, s */
 
-    /* What a resumed run needs beside the state: the totals at time zero, how many times each output has
-     * been due and been written, and when. */
+    /* What a resumed run needs beside the state: the totals at time zero, how many times each
+     * output has been due and been written, and when. */
     struct totals start;
     int64_t history_due, snapshots_due; /* times the interval has passed */
     int64_t history_rows, snapshots;
@@ -42,8 +42,8 @@ char *run_path(const struct run *run, const char *name);
 /* A line for the log and the user. */
 void run_say(struct run *run, const char *format, ...) BOLIDE_PRINTF(2, 3);
 
-/* Readies the folder, the log and the case as run. A resumed run's history is opened later, when the
- * checkpoint has told how many rows it has. */
+/* Readies the folder, the log and the case as run. A resumed run's history is opened later, when
+ * the checkpoint has told how many rows it has. */
 struct error *run_open_folder(struct run *run);
 struct error *run_open_history(struct run *run);
 struct error *run_close_files(struct run *run, struct error *error);
@@ -51,8 +51,8 @@ struct error *run_close_files(struct run *run, struct error *error);
 /* Fills run->views with what the solver shows now. */
 void run_observe(struct run *run);
 
-/* Takes the outputs that are due at this moment: history, snapshot, pictures; those of the last moment
- * with LAST. Also looks at what is conserved. */
+/* Takes the outputs that are due at this moment: history, snapshot, pictures; those of the last
+ * moment with LAST. Also looks at what is conserved. */
 struct error *run_watch(struct run *run, bool last);
 void run_progress(struct run *run);
 

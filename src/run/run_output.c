@@ -1,4 +1,5 @@
-/* What a run writes while it goes: outputs take the first step at or past their time and only look. */
+/* What a run writes while it goes: outputs take the first step at or past their time and only
+ * look. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +28,7 @@ void run_say(struct run *run, const char *format, ...)
     const struct listener *listener = run->options->listener;
     if (text && run->log)
         run_log_line(run->log, "%s", text);
-    else if (text && listener && listener->line)
+    if (text && listener && listener->line)
         listener->line(listener->context, text);
     free(text);
 }
@@ -95,8 +96,8 @@ struct error *run_open_folder(struct run *run)
     if (!options->resume)
         TRY(write_case(run));
     char *path = run_path(run, "run.log");
-    struct error *error = path ? run_log_open(path, options->resume, options->listener, &run->log)
-                               : out_of_memory();
+    struct error *error =
+        path ? run_log_open(path, options->resume, NULL, &run->log) : out_of_memory();
     free(path);
     return error;
 }
@@ -127,7 +128,7 @@ void run_observe(struct run *run)
 {
     memset(&run->views, 0, sizeof run->views);
     run->views.particles = &run->simulation.particles;
-    run->class->observe(run->solver, &run->simulation, &run->views);
+    run->method->observe(run->solver, &run->simulation, &run->views);
 }
 
 static double history_interval(const struct run *run)
@@ -167,8 +168,7 @@ static struct error *draw_pictures(struct run *run, int64_t number)
     const struct name_list *fields = &run->input->output.pictures;
     struct error *error = NULL;
     for (int i = 0; i < fields->count && !error; i++) {
-        char *name =
-            text_format("pictures/%s-%06lld.png", fields->names[i], (long long)number);
+        char *name = text_format("pictures/%s-%06lld.png", fields->names[i], (long long)number);
         char *path = name ? run_path(run, name) : NULL;
         error = path ? picture_particles(path, &run->simulation, &run->views, fields->names[i], NAN,
                                          NAN)
@@ -307,8 +307,8 @@ static struct error *visit_extra(void *context, struct visitor *visitor)
 
 static struct checkpoint checkpoint_of(struct run *run)
 {
-    return (struct checkpoint){&run->simulation, run->class, run->solver,
-                               visit_extra,      run,        run->case_text};
+    return (struct checkpoint){&run->simulation, run->method, run->solver,
+                               visit_extra,      run,         run->case_text};
 }
 
 struct error *run_checkpoint(struct run *run)

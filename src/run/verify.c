@@ -71,8 +71,8 @@ static struct error *sum_up(struct verify_result *result)
     return error;
 }
 
-struct error *verify_cases(const char *const *paths, int count, const struct verify_options *options,
-                           struct verify_result *result)
+struct error *verify_cases(const char *const *paths, int count,
+                           const struct verify_options *options, struct verify_result *result)
 {
     *result = (struct verify_result){0};
     result->item = memory_allocate(((size_t)count + 1) * sizeof *result->item);

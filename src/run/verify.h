@@ -6,7 +6,7 @@
 
 /* How one case went. Without checks it passes by coming to its end. */
 struct verify_case {
-    char *name; /* topic/name: the last two folders of its path */
+    char *name;          /* topic/name: the last two folders of its path */
     struct error *error; /* NULL: it ran; owned */
     struct run_result result;
     bool passed;
@@ -15,10 +15,12 @@ struct verify_case {
 struct verify_options {
     struct case_options reading; /* material folders, settings, the short form */
     const struct catalogue *catalogue;
-    const char *output; /* folder in which each case gets one of its name; NULL: nothing is written */
+    const char
+        *output; /* folder in which each case gets one of its name; NULL: nothing is written */
     int threads;
     const volatile sig_atomic_t *stop;
-    const struct listener *listener; /* its `line` gets nothing, its `progress` the running case's */
+    const struct listener
+        *listener; /* its `line` gets nothing, its `progress` the running case's */
     struct progress_pace progress;
     /* Called when a case has ended, may be NULL. */
     void (*ended)(void *context, const struct verify_case *verified);
@@ -30,10 +32,10 @@ struct verify_result {
     struct verify_case *item;
 };
 
-/* Runs the COUNT cases at PATHS one after the other. NULL when all pass; ERROR_CHECK when a check failed;
- * the gravest error when a case could not be read or run (the others run nevertheless). */
-struct error *verify_cases(const char *const *paths, int count, const struct verify_options *options,
-                           struct verify_result *result);
+/* Runs the COUNT cases at PATHS one after the other. NULL when all pass; ERROR_CHECK when a check
+ * failed; the gravest error when a case could not be read or run (the others run nevertheless). */
+struct error *verify_cases(const char *const *paths, int count,
+                           const struct verify_options *options, struct verify_result *result);
 void verify_result_free(struct verify_result *result);
 
 #endif

@@ -43,7 +43,8 @@ struct all {
     struct one_of_list marks;
     struct named_map points;
 };
-#define ENTRY(name, type) .key = #name, .kind = PARAMETER_##type, .offset = offsetof(struct all, name)
+#define ENTRY(name, type) \
+    .key = #name, .kind = PARAMETER_##type, .offset = offsetof(struct all, name)
 static const struct parameter all_table[] = {
     {ENTRY(speed, NUMBER), .unit = "m/s", .standard = "1 km/s", .above = -INFINITY, .below = 1e4},
     {ENTRY(ratio, NUMBER), .standard = PARAMETER_OPTIONAL, .above = 0, .below = 1, .closed = true},
@@ -57,9 +58,7 @@ static const struct parameter all_table[] = {
     {ENTRY(point, TABLE), .standard = PARAMETER_OPTIONAL, .table = point_table},
     {ENTRY(mark, ONE_OF), .standard = "dot", .kind_of_thing = "mark"},
     {ENTRY(marks, LIST), .standard = "[dot, {cross: {x: 1 m}}]", .kind_of_thing = "mark"},
-    {ENTRY(points, MAP),
-     .standard = PARAMETER_OPTIONAL,
-     .table = point_table,
+    {ENTRY(points, MAP), .standard = PARAMETER_OPTIONAL, .table = point_table,
      .size = sizeof(struct point)},
     {.kind = PARAMETER_ONE_OF,
      .offset = offsetof(struct all, inline_mark),
@@ -255,10 +254,10 @@ static void any_text_reads_back_as_it_was(void **state)
 {
     (void)state;
     static const char *const texts[] = {
-        "plain",  "two words", "- dash",    "a: b",  "a #b",     "null", "~",    "'",        "\"",
-        "\\",     "a\nb\t\x01", " blanks ", "[a, b", "{",        "%x",   "@x",   "`",        "*a",
-        "&a",     "!tag",      "? x",       "|",     ">",        "...",  "---",  "1e5",      "yes",
-        "\xc3\xa4", "a,b",     "",          "x-",    "-",        "a/b",  "=",    "<<",       "\x7f",
+        "plain",    "two words",  "- dash",   "a: b",  "a #b", "null", "~",   "'",   "\"",
+        "\\",       "a\nb\t\x01", " blanks ", "[a, b", "{",    "%x",   "@x",  "`",   "*a",
+        "&a",       "!tag",       "? x",      "|",     ">",    "...",  "---", "1e5", "yes",
+        "\xc3\xa4", "a,b",        "",         "x-",    "-",    "a/b",  "=",   "<<",  "\x7f",
     };
     for (size_t i = 0; i < COUNT_OF(texts); i++) {
         struct all all, again;

@@ -57,7 +57,8 @@ static void place_particles(struct bench *bench)
 static int setup(void **state)
 {
     struct bench *b = calloc(1, sizeof *b);
-    static char *const names[BODIES] = {"left", "right"};
+    static char left[] = "left", right[] = "right", it[] = "it";
+    char *const names[BODIES] = {left, right};
     for (int i = 0; i < BODIES; i++) {
         b->box[i] = (struct shape_box){{1, {0.5 * i}}, {1, {0.5 * (i + 1)}}};
         b->body[i].shape.choice = choice_of(shape_choices, shape_choice_count, "box");
@@ -66,7 +67,7 @@ static int setup(void **state)
     }
     b->input.dimension = 1;
     b->input.bodies = (struct named_map){BODIES, b->names, b->body};
-    b->check_names[0] = (char[]){"it"};
+    b->check_names[0] = it;
     b->input.checks = (struct named_map){0, b->check_names, &b->check};
     b->check.is.value = b->check.within.value = b->check.scale.value = NAN;
     b->check.at_least.value = NAN;
@@ -104,8 +105,7 @@ static struct error *evaluate(struct bench *b, struct check_result *result)
     struct checks *checks;
     struct check_results results;
     TRY(checks_prepare(&b->simulation, &b->views, &checks));
-    struct error *error =
-        checks_evaluate(checks, &b->simulation, &b->views, &b->start, &results);
+    struct error *error = checks_evaluate(checks, &b->simulation, &b->views, &b->start, &results);
     if (!error) {
         *result = results.item[0];
         result->name = result->source = NULL;

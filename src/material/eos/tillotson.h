@@ -1,0 +1,83 @@
+/* Tillotson's equation of state for metals and rocks from rest to vaporisation, eta = rho/rho_0, mu = eta - 1,
+ * w = 1 + e/(e_0 eta^2):
+ *
+ *   condensed (rho >= rho_0 or e <= e_iv):  p_c = (a + b/w) rho e + A mu + B mu^2
+ *   vapour (rho < rho_0 and e >= e_cv):     p_v = a rho e + [b rho e/w + A mu exp(-beta (1/eta - 1))]
+ *                                                          exp(-alpha (1/eta - 1)^2)
+ *   between:                                p = [(e - e_iv) p_v + (e_cv - e) p_c] / (e_cv - e_iv)
+ *
+ * Source: Tillotson, General Atomic report GA-3216 (1962); in this form Melosh, Impact Cratering (1989), II.4. */
+#ifndef BOLIDE_EOS_TILLOTSON_H
+#define BOLIDE_EOS_TILLOTSON_H
+
+#include "material/point.h"
+
+struct eos_tillotson {
+    double density;            /* rho_0, kg/m^3 */
+    double a, b;               /* dimensionless */
+    double bulk_modulus;       /* A, Pa */
+    double second_modulus;     /* B, Pa */
+    double energy;             /* e_0, J/kg */
+    double alpha, beta;        /* decay of the condensed terms in the vapour */
+    double incipient_energy;   /* e_iv, J/kg: vaporisation begins */
+    double complete_energy;    /* e_cv, J/kg: vaporisation is complete */
+};
+
+BOLIDE_INLINE struct eos_value eos_tillotson_condensed(const struct eos_tillotson *t,
+                                                       double density, double energy)
+{
+    struct eos_value value;
+    double eta = density / t->density, mu = eta - 1.0;
+    double ratio = energy / (t->energy * square(eta)), w = 1.0 + ratio;
+    value.pressure = (t->a + t->b / w) * density * energy +
+                     (t->bulk_modulus + t->second_modulus * mu) * mu;
+    /* dw/drho = -2 ratio/rho, dw/de = ratio/e */
+    value.dp_drho = (t->a + t->b / w + 2.0 * t->b * ratio / square(w)) * energy +
+                    (t->bulk_modulus + 2.0 * t->second_modulus * mu) / t->density;
+    value.dp_de = (t->a + t->b / square(w)) * density;
+    value.status = 0;
+    return value;
+}
+
+BOLIDE_INLINE struct eos_value eos_tillotson_vapour(const struct eos_tillotson *t, double density,
+                                                    double energy)
+{
+    struct eos_value value;
+    double eta = density / t->density, mu = eta - 1.0, thin = 1.0 / eta - 1.0;
+    double ratio = energy / (t->energy * square(eta)), w = 1.0 + ratio;
+    double fade = exp(-t->alpha * square(thin)), cold = exp(-t->beta * thin);
+    double thermal = t->b * density * energy / w, elastic = t->bulk_modulus * mu * cold;
+    value.pressure = t->a * density * energy + (thermal + elastic) * fade;
+    /* dthin/drho = -1/(eta rho) */
+    double thermal_slope = t->b * energy * (1.0 / w + 2.0 * ratio / square(w));
+    double elastic_slope =
+        t->bulk_modulus * cold * (1.0 / t->density + mu * t->beta / (eta * density));
+    double fade_slope = 2.0 * t->alpha * thin / (eta * density);
+    value.dp_drho = t->a * energy + (thermal_slope + elastic_slope) * fade +
+                    (thermal + elastic) * fade * fade_slope;
+    value.dp_de = t->a * density + t->b * density / square(w) * fade;
+    value.status = 0;
+    return value;
+}
+
+BOLIDE_INLINE struct eos_value eos_tillotson(const struct eos_tillotson *t, double density,
+                                             double energy, const double *history)
+{
+    (void)history;
+    if (density >= t->density || energy <= t->incipient_energy)
+        return eos_tillotson_condensed(t, density, energy);
+    struct eos_value vapour = eos_tillotson_vapour(t, density, energy);
+    if (energy >= t->complete_energy)
+        return vapour;
+    struct eos_value condensed = eos_tillotson_condensed(t, density, energy), value;
+    double width = t->complete_energy - t->incipient_energy;
+    double share = (energy - t->incipient_energy) / width;
+    value.pressure = share * vapour.pressure + (1.0 - share) * condensed.pressure;
+    value.dp_drho = share * vapour.dp_drho + (1.0 - share) * condensed.dp_drho;
+    value.dp_de = share * vapour.dp_de + (1.0 - share) * condensed.dp_de +
+                  (vapour.pressure - condensed.pressure) / width;
+    value.status = 0;
+    return value;
+}
+
+#endif

@@ -1,0 +1,181 @@
+/* Random particles with reaches of their own, walls and contact groups, and a brute-force judge of their
+ * neighbour rows. */
+#ifndef BOLIDE_TEST_SCENE_H
+#define BOLIDE_TEST_SCENE_H
+
+#include "dice.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "particle/neighbours.h"
+
+enum { SCENE_BODIES = 3 };
+
+struct scene {
+    struct particles particles;
+    struct reach reach;
+    struct mirrors mirrors;
+    struct contact_groups groups;
+    struct neighbours neighbours;
+    int threads;
+    double largest_reach;
+};
+
+static const uint8_t scene_group_of_body[SCENE_BODIES] = {0, 1, 2};
+static const uint8_t scene_law[SCENE_BODIES * SCENE_BODIES] = {0, 0, 1, 0, 0, 3, 1, 3, 0};
+static const uint8_t scene_one_group[SCENE_BODIES] = {0, 0, 0};
+static const uint8_t scene_no_law[1] = {0};
+
+static inline const struct contact_groups *scene_no_groups(void)
+{
+    static const struct contact_groups none = {scene_one_group, scene_no_law, 1};
+    return &none;
+}
+
+static inline double *scene_diameter(struct scene *scene)
+{
+    return particles_field(&scene->particles, "diameter");
+}
+
+/* COUNT particles without places. CELL should hold the largest support, as the solver sees to. */
+static inline void scene_create(struct scene *scene, int dimension, int count, double cell,
+                                double skin)
+{
+    static const struct field_declaration more[] = {
+        {"diameter", "m", "particle diameter", NUMBER_DOUBLE, 1, FIELD_DERIVED}};
+    *scene = (struct scene){.threads = 1, .groups = *scene_no_groups()};
+    scene->neighbours.skin = skin;
+    scene->reach.smoothing = 1.2;
+    for (int axis = 0; axis < 3; axis++)
+        scene->mirrors.low[axis] = scene->mirrors.high[axis] = NAN;
+    assert_success(particles_create(dimension, cell, more, 1, &scene->particles));
+    int32_t first;
+    assert_success(particles_append(&scene->particles, count, &first));
+    for (int32_t i = 0; i < count; i++) {
+        scene->particles.body[i] = (uint16_t)(i % SCENE_BODIES);
+        scene->particles.id[i] = particle_id(i % SCENE_BODIES, (i * 7919) % 10007);
+    }
+    scene->particles.count = count; /* committed with their places, by the first sort */
+    scene->particles.pending = 0;
+}
+
+static inline void scene_destroy(struct scene *scene)
+{
+    neighbours_free(&scene->neighbours);
+    particles_destroy(&scene->particles);
+}
+
+static inline void scene_sort(struct scene *scene)
+{
+    assert_success(particles_sort(&scene->particles));
+    scene->reach.diameter = scene_diameter(scene);
+}
+
+static inline void scene_build(struct scene *scene)
+{
+    scene_sort(scene);
+    assert_success(neighbours_build(&scene->neighbours, &scene->particles, scene->reach,
+                                    &scene->mirrors, &scene->groups, scene->threads));
+}
+
+/* What the solver does every step. */
+static inline void scene_refresh(struct scene *scene)
+{
+    scene->reach.diameter = scene_diameter(scene);
+    if (!neighbours_hold(&scene->neighbours, &scene->particles, scene->reach, scene->threads))
+        scene_build(scene);
+}
+
+static inline bool scene_has_image(const struct scene *scene, int image)
+{
+    for (int axis = 0; axis < 3; axis++, image /= 3)
+        if ((image % 3 == 1 && isnan(scene->mirrors.low[axis])) ||
+            (image % 3 == 2 && isnan(scene->mirrors.high[axis])))
+            return false;
+    return true;
+}
+
+static inline double scene_distance2(const struct scene *scene, int32_t i, int32_t j, int image)
+{
+    const double *a = scene->particles.position[i], *b = scene->particles.position[j];
+    struct vec3 other =
+        image_position(&scene->mirrors, (image_code)image, vec3_make(b[0], b[1], b[2]));
+    return square(other.x - a[0]) + square(other.y - a[1]) + square(other.z - a[2]);
+}
+
+/* Marks in SEEN (count x 27) the neighbours of row I, checking order, parts and that none comes twice. */
+static inline void scene_mark_row(const struct scene *scene, int32_t i, uint8_t *seen)
+{
+    const struct particles *p = &scene->particles;
+    const struct neighbours *n = &scene->neighbours;
+    const uint32_t *entry = neighbours_row(n, i);
+    uint64_t last_part = 0, last_id = 0;
+    int last_image = -1;
+    memset(seen, 0, (size_t)p->count * IMAGE_CODES);
+    for (uint32_t k = 0; k < n->row[i].count; k++) {
+        int32_t j = (int32_t)(entry[k] & ENTRY_INDEX);
+        uint64_t part = entry[k] >> ENTRY_PART_SHIFT;
+        int image = 0;
+        if (j >= p->count) {
+            assert_true(j - p->count < n->ghosts.count);
+            image = n->ghosts.image[j - p->count];
+            j = n->ghosts.source[j - p->count];
+        }
+        bool after = k == 0 || part > last_part ||
+                     (part == last_part && (p->id[j] > last_id ||
+                                            (p->id[j] == last_id && image > last_image)));
+        assert_true(after);
+        last_part = part;
+        last_id = p->id[j];
+        last_image = image;
+        const struct contact_groups *g = &scene->groups;
+        bool law = g->law[g->of_body[p->body[i]] * g->groups + g->of_body[p->body[j]]] != 0;
+        assert_int_equal((part & PART_LAW) != 0, law);
+        assert_int_equal((part & PART_IMAGE) != 0, image != 0);
+        assert_false(j == i && image == 0);
+        assert_int_equal(seen[j * IMAGE_CODES + image], 0);
+        seen[j * IMAGE_CODES + image] = 1;
+    }
+}
+
+/* Every pair within support, images included, is in the rows; FRESH: and nothing lies beyond the support
+ * and the skin. Returns the number of pairs within support. */
+static inline int64_t scene_judge(const struct scene *scene, bool fresh)
+{
+    const struct particles *p = &scene->particles;
+    const double *diameter = particles_field(p, "diameter");
+    uint8_t *seen = malloc((size_t)p->count * IMAGE_CODES);
+    int images[IMAGE_CODES], image_count = 0;
+    for (int image = 0; image < IMAGE_CODES; image++)
+        if (scene_has_image(scene, image))
+            images[image_count++] = image;
+    int64_t pairs = 0;
+    for (int32_t i = 0; i < p->count; i++) {
+        scene_mark_row(scene, i, seen);
+        for (int32_t j = 0; j < p->count; j++)
+            for (int k = 0; k < image_count; k++) {
+                if (i == j && images[k] == 0)
+                    continue;
+                double support = scene->reach.smoothing * (diameter[i] + diameter[j]);
+                double distance = sqrt(scene_distance2(scene, i, j, images[k]));
+                bool listed = seen[j * IMAGE_CODES + images[k]];
+                double wide = (1.0 + scene->neighbours.skin) * support;
+                if (distance < support) {
+                    if (!listed)
+                        print_error("%d misses %d, image %d, at %g of support\n", i, j, images[k],
+                                    distance / support);
+                    assert_true(listed);
+                    pairs++;
+                }
+                if (fresh && distance < wide * (1.0 - 1e-12))
+                    assert_true(listed);
+                if (fresh && distance > wide * (1.0 + 1e-12))
+                    assert_false(listed);
+            }
+    }
+    free(seen);
+    return pairs;
+}
+
+#endif

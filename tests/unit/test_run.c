@@ -1,0 +1,415 @@
+/* The run loop: its steps, outputs that only look, stopping and going on, and how it fails. A
+ * solver of free flight, in which every particle keeps its velocity, stands in for a method where
+ * that is enough. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "model/solver.h"
+#include "run/catalogue.h"
+#include "run/run.h"
+
+/* ---- free flight ---- */
+
+struct flight_parameters {
+    double step, heating;
+    int64_t fail_at;
+};
+
+static const struct parameter flight_table[] = {
+    {.key = "step",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct flight_parameters, step),
+     .unit = "s",
+     .standard = "0.3 s",
+     .above = 0.0,
+     .below = INFINITY},
+    {.key = "heating",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct flight_parameters, heating),
+     .unit = "J/kg",
+     .standard = "0 J/kg"},
+    {.key = "fail_at",
+     .kind = PARAMETER_INTEGER,
+     .offset = offsetof(struct flight_parameters, fail_at),
+     .standard = "0"},
+    PARAMETER_END,
+};
+
+static struct error *flight_create(void *solver, struct simulation *simulation,
+                                   const void *parameters)
+{
+    *(struct flight_parameters *)solver = *(const struct flight_parameters *)parameters;
+    return particles_create(simulation->dimension, 1.0, NULL, 0, &simulation->particles);
+}
+
+static struct error *flight_start(void *solver, struct simulation *simulation)
+{
+    (void)solver;
+    (void)simulation;
+    return NULL;
+}
+
+static struct error *flight_prepare(void *solver, struct simulation *simulation,
+                                    struct limit *limit)
+{
+    const struct flight_parameters *flight = solver;
+    *limit = (struct limit){flight->step, "wish", simulation->particles.id[0]};
+    return NULL;
+}
+
+static struct error *flight_advance(void *solver, struct simulation *simulation, double dt)
+{
+    const struct flight_parameters *flight = solver;
+    struct particles *p = &simulation->particles;
+    if (simulation->step + 1 == flight->fail_at)
+        return error_new(ERROR_STATE, "the wings came off");
+    for (int32_t i = 0; i < p->count; i++) {
+        p->position[i][0] += dt * p->velocity[i][0];
+        p->energy[i] += flight->heating;
+    }
+    return NULL;
+}
+
+static struct error *flight_state(void *solver, struct visitor *visitor)
+{
+    (void)solver;
+    (void)visitor;
+    return NULL;
+}
+
+static void flight_observe(const void *solver, const struct simulation *simulation,
+                           struct views *views)
+{
+    (void)solver;
+    views_of_particles(views, simulation);
+}
+
+static void flight_destroy(void *solver) { (void)solver; }
+
+static double flight_bytes(const void *parameters, int dimension)
+{
+    (void)parameters;
+    return 100.0 * dimension;
+}
+
+static const struct solver_class flight_class = {sizeof(struct flight_parameters),
+                                                 flight_create,
+                                                 flight_start,
+                                                 flight_prepare,
+                                                 flight_advance,
+                                                 flight_state,
+                                                 flight_observe,
+                                                 flight_destroy,
+                                                 flight_bytes};
+
+static const struct choice flight_choice = {"flight", "free flight", flight_table,
+                                            sizeof(struct flight_parameters), &flight_class};
+
+/* ---- cases ---- */
+
+static const char flight_text[] =
+    "format: 1\n"
+    "dimension: 1\n"
+    "resolution: 0.1 m\n"
+    "solver: flight\n"
+    "materials: {gas: {eos: {ideal-gas: {density: 1 kg/m^3, gamma: 1.4}}}}\n"
+    "bodies: {slab: {material: gas, pressure: 1 Pa, velocity: [2 m/s],\n"
+    "                box: {from: [0 m], to: [1 m]}}}\n"
+    "run: {until: 1 s}\n"
+    "checks: {momentum: {conserved: momentum, within: 1e-12}}\n";
+
+static const char shock_text[] =
+    "format: 1\n"
+    "dimension: 1\n"
+    "resolution: 1 mm\n"
+    "solver: sph\n"
+    "materials: {gas: {eos: {ideal-gas: {density: 1 kg/m^3, gamma: 1.4}}}}\n"
+    "bodies:\n"
+    "  left:  {material: gas, density: 1 kg/m^3, pressure: 100 kPa, box: {from: [0 mm], to: [50 "
+    "mm]}}\n"
+    "  right: {material: gas, density: 1 kg/m^3, pressure: 10 kPa, box: {from: [50 mm], to: [100 "
+    "mm]}}\n"
+    "walls: {low: {mirror: x, at: 0 mm, side: low}}\n"
+    "run: {until: 50 us}\n"
+    "output: {every: 20 us, history: 5 us, snapshots: no}\n";
+
+static const char *const case_file = "test_run_case.yaml";
+
+/* Reads TEXT with the solver of flight where it asks for that, under the settings NULL-ended. */
+static struct simulation_case *read_text(const char *text, const char *const *settings)
+{
+    static struct choice_list lists[8];
+    struct simulation_case *input;
+    FILE *file = fopen(case_file, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+    int count = 0, kinds = 0;
+    for (; bolide_catalogue.lists[kinds].kind_of_thing; kinds++) {
+        lists[kinds] = bolide_catalogue.lists[kinds];
+        if (strstr(text, "flight") && !strcmp(lists[kinds].kind_of_thing, "solver")) {
+            lists[kinds].choices = &flight_choice;
+            lists[kinds].count = 1;
+        }
+    }
+    lists[kinds] = (struct choice_list){0};
+    static struct catalogue catalogue;
+    catalogue = (struct catalogue){lists};
+    while (settings && settings[count])
+        count++;
+    struct case_options options = {.settings = settings, .setting_count = count};
+    struct error *error = case_read(case_file, &options, &catalogue, &input);
+    if (error)
+        fail_msg("%s", error_message(error, 0));
+    return input;
+}
+
+static struct run_result run_text(const char *text, const char *const *settings,
+                                  const struct run_options *options)
+{
+    struct run_result result;
+    struct simulation_case *input = read_text(text, settings);
+    struct error *error = run_case(input, options, &result);
+    if (error)
+        fail_msg("%s", error_message(error, 0));
+    case_free(input);
+    return result;
+}
+
+/* The error of a run that must fail, of KIND, with TEXT in its first message. */
+static void expect_failure(const char *text, const char *const *settings,
+                           const struct run_options *options, enum error_kind kind,
+                           const char *words)
+{
+    struct run_result result;
+    struct simulation_case *input = read_text(text, settings);
+    struct error *error = run_case(input, options, &result);
+    assert_non_null(error);
+    assert_int_equal(error_kind(error), kind);
+    if (!strstr(error_message(error, 0), words))
+        fail_msg("\"%s\" does not speak of \"%s\"", error_message(error, 0), words);
+    error_free(error);
+    run_result_free(&result);
+    case_free(input);
+}
+
+/* A fresh folder under the one in which the test runs. */
+static const char *fresh_folder(const char *name)
+{
+    char command[256];
+    snprintf(command, sizeof command, "rm -rf '%s'", name);
+    assert_int_equal(system(command), 0);
+    return name;
+}
+
+static char *file_text(const char *folder, const char *name)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return NULL;
+    char *text = calloc(1, 1 << 20);
+    assert_non_null(text);
+    assert_true(fread(text, 1, (1 << 20) - 1, file) > 0);
+    fclose(file);
+    return text;
+}
+
+static bool file_there(const char *folder, const char *name)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return access(path, R_OK) == 0;
+}
+
+/* ---- tests ---- */
+
+static void what_remains_is_spread_over_the_last_two_steps(void **state)
+{
+    (void)state;
+    assert_float_equal(step_towards(0.3, 0.0, 1.0), 0.3, 0.0);
+    assert_float_equal(step_towards(0.3, 0.6, 1.0), 0.2, 1e-15);
+    assert_float_equal(step_towards(0.3, 0.8, 1.0), 1.0 - 0.8, 0.0);
+    assert_float_equal(step_towards(INFINITY, 0.0, 1.0), 1.0, 0.0);
+}
+
+static void a_run_ends_at_its_time_to_the_bit(void **state)
+{
+    (void)state;
+    struct run_options options = {.threads = 1};
+    struct run_result result = run_text(flight_text, NULL, &options);
+    assert_true(result.finished);
+    assert_true(result.time == 1.0);
+    assert_int_equal(result.steps, 4);
+    assert_int_equal(result.particles, 10);
+    assert_int_equal(result.updates, 40);
+    assert_int_equal(result.checks.count, 1);
+    assert_int_equal(result.checks.failed, 0);
+    run_result_free(&result);
+}
+
+static void a_failed_check_is_no_error(void **state)
+{
+    (void)state;
+    struct run_options options = {.threads = 1};
+    const char *const settings[] = {"checks.still={maximum: velocity.x, at_most: 1 m/s}", NULL};
+    struct run_result result = run_text(flight_text, settings, &options);
+    assert_int_equal(result.checks.count, 2);
+    assert_int_equal(result.checks.failed, 1);
+    assert_string_equal(result.checks.item[1].name, "still");
+    assert_float_equal(result.checks.item[1].measured, 2.0, 1e-15);
+    run_result_free(&result);
+}
+
+static void watching_a_run_does_not_change_it(void **state)
+{
+    (void)state;
+    struct run_options blind = {.threads = 1};
+    struct run_options watched = {.threads = 1, .output = fresh_folder("test_run_watched")};
+    const char *const often[] = {"output.every=1.7us", "output.history=0.9us",
+                                 "output.checkpoint=1us", NULL};
+    struct run_result first = run_text(shock_text, NULL, &blind);
+    struct run_result second = run_text(shock_text, often, &watched);
+    assert_true(first.steps == second.steps);
+    assert_true(first.hash == second.hash);
+    run_result_free(&first);
+    run_result_free(&second);
+}
+
+static void a_stopped_run_goes_on_as_if_nothing_had_happened(void **state)
+{
+    (void)state;
+    struct run_options whole = {.threads = 1, .output = fresh_folder("test_run_whole")};
+    struct run_result uncut = run_text(shock_text, NULL, &whole);
+    struct run_options part = {
+        .threads = 1, .output = fresh_folder("test_run_parts"), .max_steps = uncut.steps / 2};
+    struct run_result half = run_text(shock_text, NULL, &part);
+    assert_false(half.finished);
+    assert_int_equal(half.checks.count, 0);
+    part.max_steps = 0;
+    part.resume = true;
+    struct run_result rest = run_text(shock_text, NULL, &part);
+    assert_true(rest.finished);
+    assert_true(rest.steps == uncut.steps && rest.updates < uncut.updates);
+    assert_true(rest.hash == uncut.hash);
+    char *history = file_text("test_run_whole", "history.csv");
+    char *joined = file_text("test_run_parts", "history.csv");
+    assert_string_equal(history, joined);
+    free(history);
+    free(joined);
+    run_result_free(&uncut);
+    run_result_free(&half);
+    run_result_free(&rest);
+}
+
+static void a_signal_stops_a_run_with_a_checkpoint(void **state)
+{
+    (void)state;
+    volatile sig_atomic_t stop = SIGTERM;
+    struct run_options options = {
+        .threads = 1, .output = fresh_folder("test_run_signal"), .stop = &stop};
+    struct run_result result = run_text(shock_text, NULL, &options);
+    assert_false(result.finished);
+    assert_int_equal(result.steps, 0);
+    assert_true(file_there("test_run_signal", "checkpoint.h5"));
+    run_result_free(&result);
+}
+
+static void results_are_not_overwritten_unasked(void **state)
+{
+    (void)state;
+    struct run_options options = {.threads = 1, .output = fresh_folder("test_run_twice")};
+    struct run_result result = run_text(flight_text, NULL, &options);
+    run_result_free(&result);
+    assert_true(file_there("test_run_twice", "case.yaml"));
+    assert_true(file_there("test_run_twice", "checks.csv"));
+    expect_failure(flight_text, NULL, &options, ERROR_INPUT, "test_run_twice");
+    options.overwrite = true;
+    result = run_text(flight_text, NULL, &options);
+    run_result_free(&result);
+}
+
+static void another_case_cannot_go_on_from_a_checkpoint(void **state)
+{
+    (void)state;
+    struct run_options options = {
+        .threads = 1, .output = fresh_folder("test_run_other"), .max_steps = 1};
+    struct run_result result = run_text(flight_text, NULL, &options);
+    run_result_free(&result);
+    const char *const longer[] = {"run.until=2s", NULL};
+    options.resume = true;
+    expect_failure(flight_text, longer, &options, ERROR_INPUT, "another case");
+    options.output = fresh_folder("test_run_none");
+    expect_failure(flight_text, NULL, &options, ERROR_INPUT, "nothing to resume");
+}
+
+static void the_case_as_run_is_a_case_that_runs_the_same(void **state)
+{
+    (void)state;
+    struct run_options options = {.threads = 1, .output = fresh_folder("test_run_again")};
+    struct run_result first = run_text(shock_text, NULL, &options);
+    char *written = file_text("test_run_again", "case.yaml");
+    assert_non_null(written);
+    struct run_options blind = {.threads = 1};
+    struct run_result second = run_text(written, NULL, &blind);
+    assert_true(first.hash == second.hash);
+    free(written);
+    run_result_free(&first);
+    run_result_free(&second);
+}
+
+static void an_impossible_state_leaves_a_snapshot_of_its_moment(void **state)
+{
+    (void)state;
+    struct run_options options = {.threads = 1, .output = fresh_folder("test_run_failed")};
+    const char *const settings[] = {"solver={flight: {fail_at: 3}}", NULL};
+    expect_failure(flight_text, settings, &options, ERROR_STATE, "the wings came off");
+    assert_true(file_there("test_run_failed", "snapshots/failed.vtkhdf"));
+}
+
+static void energy_from_nowhere_stops_a_run(void **state)
+{
+    (void)state;
+    struct run_options options = {.threads = 1};
+    const char *const settings[] = {"solver={flight: {heating: 10 J/kg}}", NULL};
+    expect_failure(flight_text, settings, &options, ERROR_STATE, "energy has drifted");
+    const char *const allowed[] = {"solver={flight: {heating: 10 J/kg}}", "run.energy_drift=0",
+                                   NULL};
+    struct run_result result = run_text(flight_text, allowed, &options);
+    assert_true(result.finished);
+    run_result_free(&result);
+}
+
+static void a_mistake_in_a_check_is_told_before_the_first_step(void **state)
+{
+    (void)state;
+    struct run_options options = {.threads = 1};
+    const char *const settings[] = {"checks.odd={maximum: speeed, at_most: 1 m/s}", NULL};
+    expect_failure(flight_text, settings, &options, ERROR_INPUT, "did you mean \"speed\"");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_remains_is_spread_over_the_last_two_steps),
+        cmocka_unit_test(a_run_ends_at_its_time_to_the_bit),
+        cmocka_unit_test(a_failed_check_is_no_error),
+        cmocka_unit_test(watching_a_run_does_not_change_it),
+        cmocka_unit_test(a_stopped_run_goes_on_as_if_nothing_had_happened),
+        cmocka_unit_test(a_signal_stops_a_run_with_a_checkpoint),
+        cmocka_unit_test(results_are_not_overwritten_unasked),
+        cmocka_unit_test(another_case_cannot_go_on_from_a_checkpoint),
+        cmocka_unit_test(the_case_as_run_is_a_case_that_runs_the_same),
+        cmocka_unit_test(an_impossible_state_leaves_a_snapshot_of_its_moment),
+        cmocka_unit_test(energy_from_nowhere_stops_a_run),
+        cmocka_unit_test(a_mistake_in_a_check_is_told_before_the_first_step),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
