@@ -42,9 +42,10 @@ static int64_t count_pairs(const struct sph *sph, const struct simulation *simul
 static void bench(const char *path, const char *setting, int steps, int threads)
 {
     const char *const library[] = {BOLIDE_SOURCE_DIR "/materials"};
-    struct case_options options = {
-        .settings = &setting, .setting_count = setting != NULL, .library_paths = library,
-        .library_count = 1};
+    struct case_options options = {.settings = &setting,
+                                   .setting_count = setting != NULL,
+                                   .library_paths = library,
+                                   .library_count = 1};
     struct simulation_case *input;
     stop_on(case_read(path, &options, &bolide_catalogue, &input));
     struct ranks alone = ranks_alone();

@@ -35,11 +35,11 @@ const char *error_message(const struct error *error, int index);
 void error_free(struct error *error);
 
 /* Return an error to the caller at once: `TRY(store_open(...));`. */
-#define TRY(call)                        \
-    do {                                 \
+#define TRY(call)                         \
+    do {                                  \
         struct error *try_error = (call); \
-        if (try_error)                   \
-            return try_error;            \
+        if (try_error)                    \
+            return try_error;             \
     } while (0)
 
 #endif

@@ -5,14 +5,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-void *memory_allocate(size_t size)
+/* Memory that nothing has touched yet: what is never used costs no page. */
+static void *allocate_raw(size_t size)
 {
     size_t rounded = (size + MEMORY_ALIGNMENT - 1) / MEMORY_ALIGNMENT * MEMORY_ALIGNMENT;
     if (rounded < size)
         return NULL;
-    void *memory = aligned_alloc(MEMORY_ALIGNMENT, rounded ? rounded : MEMORY_ALIGNMENT);
+    return aligned_alloc(MEMORY_ALIGNMENT, rounded ? rounded : MEMORY_ALIGNMENT);
+}
+
+void *memory_allocate(size_t size)
+{
+    void *memory = allocate_raw(size);
     if (memory)
-        memset(memory, 0, rounded);
+        memset(memory, 0, size);
     return memory;
 }
 
@@ -23,7 +29,7 @@ bool memory_reserve(void **array, int64_t *capacity, int64_t needed, int64_t kep
     int64_t wanted = *capacity + *capacity / 2;
     if (wanted < needed)
         wanted = needed;
-    void *grown = memory_allocate((size_t)wanted * element);
+    void *grown = allocate_raw((size_t)wanted * element);
     if (!grown)
         return false;
     if (kept > 0)

@@ -13,7 +13,7 @@ enum { MEMORY_ALIGNMENT = 64 };
 void *memory_allocate(size_t size);
 
 /* Makes *array hold at least NEEDED elements of ELEMENT bytes, keeping its first KEPT elements.
- * *capacity counts elements and grows by half at least. False when memory is out. */
+ * *capacity counts elements and grows by half at least; what is new is not cleared. False when memory is out. */
 bool memory_reserve(void **array, int64_t *capacity, int64_t needed, int64_t kept, size_t element);
 
 /* A printf into fresh memory; NULL when memory is out. */

@@ -52,21 +52,23 @@ struct parameter {
     const char *key;
     enum parameter_kind kind;
     size_t offset;
-    const char *unit;     /* NUMBER, VECTOR: the SI unit that fixes the dimension, "" or NULL for none */
+    const char
+        *unit; /* NUMBER, VECTOR: the SI unit that fixes the dimension, "" or NULL for none */
     const char *standard; /* default as typed, PARAMETER_REQUIRED or PARAMETER_OPTIONAL */
     double above, below;  /* NUMBER, INTEGER: allowed is above < value < below; both 0: anything */
     bool closed;          /* the bounds themselves are allowed too */
     const char *help;
-    const struct parameter *table; /* TABLE, MAP: the nested table, ended by a key and kind of zero */
-    size_t size;                   /* MAP: bytes of one item's struct */
-    const char *const *names;      /* CHOICE: the names, ended by NULL */
-    const char *kind_of_thing;     /* ONE_OF, LIST: a kind of the catalogue: "eos", "shape", ... */
+    const struct parameter
+        *table;                /* TABLE, MAP: the nested table, ended by a key and kind of zero */
+    size_t size;               /* MAP: bytes of one item's struct */
+    const char *const *names;  /* CHOICE: the names, ended by NULL */
+    const char *kind_of_thing; /* ONE_OF, LIST: a kind of the catalogue: "eos", "shape", ... */
 };
 
 /* The last entry of every table. */
-#define PARAMETER_END                                                                            \
-    {                                                                                            \
-        0                                                                                        \
+#define PARAMETER_END \
+    {                 \
+        0             \
     }
 #define PARAMETER_IS_END(parameter) (!(parameter)->key && !(parameter)->kind_of_thing)
 

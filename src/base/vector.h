@@ -73,9 +73,6 @@ BOLIDE_INLINE struct vec3 sym3_dot(struct sym3 s, struct vec3 v)
 }
 
 /* Equivalent (von Mises) stress of a deviator: sqrt(3/2 s:s). */
-BOLIDE_INLINE double sym3_mises(struct sym3 deviator)
-{
-    return sqrt(1.5 * sym3_square(deviator));
-}
+BOLIDE_INLINE double sym3_mises(struct sym3 deviator) { return sqrt(1.5 * sym3_square(deviator)); }
 
 #endif

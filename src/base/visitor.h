@@ -12,8 +12,8 @@ BOLIDE_INLINE size_t number_size(enum number number) { return number == NUMBER_U
 struct visitor {
     /* COUNT rows of COMPONENTS numbers at DATA, under NAME ("particles/velocity"). A loading visitor
      * fills DATA, the others leave it as it is. */
-    struct error *(*visit)(struct visitor *visitor, const char *name, enum number number, void *data,
-                           int64_t count, int components);
+    struct error *(*visit)(struct visitor *visitor, const char *name, enum number number,
+                           void *data, int64_t count, int components);
 };
 
 #endif

@@ -1,6 +1,7 @@
 /* bolide: the command line. Exit status: 0 all is well, 1 a check failed, 2 bad input or usage, 3
  * an impossible state in a run, 4 a disk, memory or library that failed; 128 + the signal when
  * stopped. */
+#include <malloc.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -47,6 +48,9 @@ static bool is_one_of(const char *word, const char *a, const char *b)
 
 int main(int count, char **words)
 {
+    /* Arrays of a megabyte and more get pages of their own, which go back when they are freed: glibc's
+     * moving threshold would keep several hundred bytes a particle in its heap. */
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
     if (count < 2) {
         command_help(&(struct cli_options){0});
         return EXIT_USAGE;

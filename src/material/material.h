@@ -73,7 +73,8 @@ BOLIDE_INLINE struct response material_response(const struct eos_value *eos, dou
 }
 
 /* Pressure and response of a point as it stands. */
-BOLIDE_INLINE struct response material_evaluate(const struct material *material, struct point *point)
+BOLIDE_INLINE struct response material_evaluate(const struct material *material,
+                                                struct point *point)
 {
     struct eos_value value =
         eos_evaluate(&material->eos, point->density, point->energy, point->history);

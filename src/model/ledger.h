@@ -46,7 +46,8 @@ struct totals ledger_totals(const struct ledger *ledger, const struct ranks *ran
                             enum ledger_cause cause);
 
 /* Collective: mass, momentum, angular momentum, energy of the particles of BODY, of all for -1. */
-struct totals particles_totals(const struct particles *particles, const struct ranks *ranks, int body);
+struct totals particles_totals(const struct particles *particles, const struct ranks *ranks,
+                               int body);
 
 struct error *ledger_visit(struct ledger *ledger, struct visitor *visitor);
 

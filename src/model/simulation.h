@@ -28,9 +28,9 @@ struct simulation {
     int dimension;
     int materials;
     struct material material[MATERIALS_MAX];
-    struct mirrors mirrors;                              /* rigid slip walls */
-    uint8_t *group_of_body;                              /* contact group of each body */
-    uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS];         /* symmetric */
+    struct mirrors mirrors;                      /* rigid slip walls */
+    uint8_t *group_of_body;                      /* contact group of each body */
+    uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS]; /* symmetric */
     struct particles particles;
     struct ledger ledger;
     double time;

@@ -62,21 +62,22 @@ struct error *run_log_close(struct run_log *log)
     return error;
 }
 
-/* The prefix with which VALUE, rounded to four digits, stands between 1 and 1000, from nano to
+/* The prefix with which VALUE, rounded to four digits, stands between 1 and 1000, from pico to
  * giga. */
 static const char *prefix_of(double value, double *scale)
 {
     static const struct {
         const char *name;
         double scale;
-    } prefixes[] = {{"G", 1e9}, {"M", 1e6}, {"k", 1e3}, {"", 1.0}, {"m", 1e-3}, {"u", 1e-6}};
+    } prefixes[] = {{"G", 1e9},  {"M", 1e6},  {"k", 1e3}, {"", 1.0},
+                    {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}};
     for (size_t i = 0; i < COUNT_OF(prefixes); i++)
         if (fabs(value) >= prefixes[i].scale * 0.99995) {
             *scale = prefixes[i].scale;
             return prefixes[i].name;
         }
-    *scale = 1e-9;
-    return "n";
+    *scale = 1e-12;
+    return "p";
 }
 
 /* True where a prefix before UNIT multiplies the whole: not "kg", "%", "1/s", "m^2", and nobody

@@ -50,15 +50,14 @@ struct error *ghosts_plan(const struct mirrors *mirrors, int dimension, int32_t 
         image_code image[3][3] = {{0}};
         int images[3] = {1, 1, 1};
         for (int axis = 0; axis < dimension; axis++)
-            images[axis] =
-                images_along(mirrors, axis, position[i][axis], distance, image[axis]);
+            images[axis] = images_along(mirrors, axis, position[i][axis], distance, image[axis]);
         for (int z = 0; z < images[2]; z++)
             for (int y = 0; y < images[1]; y++)
                 for (int x = 0; x < images[0]; x++)
                     if (x || y || z)
-                        TRY(plan_add(ghosts, i,
-                                     (image_code)(image[0][x] + 3 * image[1][y] +
-                                                  9 * image[2][z])));
+                        TRY(plan_add(
+                            ghosts, i,
+                            (image_code)(image[0][x] + 3 * image[1][y] + 9 * image[2][z])));
     }
     return NULL;
 }

@@ -8,7 +8,10 @@
 enum { BLOCK_AXIS_BITS = 21, BLOCK_MIDDLE = 1 << (BLOCK_AXIS_BITS - 1) };
 
 /* Cells of a block along each axis: 64, 8 x 8, 4 x 4 x 4. */
-BOLIDE_INLINE int block_cells(int dimension) { return dimension == 1 ? 64 : dimension == 2 ? 8 : 4; }
+BOLIDE_INLINE int block_cells(int dimension)
+{
+    return dimension == 1 ? 64 : dimension == 2 ? 8 : 4;
+}
 
 /* Index of the cell of edge CELL that holds X, kept within +-LIMIT so that what flies off stays countable. */
 BOLIDE_INLINE int64_t cell_index(double x, double cell, int64_t limit)

@@ -35,7 +35,8 @@ static int level_of_reach(const struct cells *cells, double reach)
 {
     int exponent;
     double ratio = 2.0 * reach / cells->edge;
-    double fraction = frexp(ratio, &exponent); /* ratio = fraction 2^exponent, 1/2 <= fraction < 1 */
+    double fraction =
+        frexp(ratio, &exponent); /* ratio = fraction 2^exponent, 1/2 <= fraction < 1 */
     int level = CELL_LEVEL_ZERO + exponent - (fraction == 0.5);
     return level < 0 ? 0 : level >= CELL_LEVELS ? CELL_LEVELS - 1 : level;
 }
@@ -158,9 +159,9 @@ static double range_of(const struct cells *cells, int level, const int64_t at[3]
             low[axis] = cell_index((double)at[axis] * own - range, edge, limit);
             high[axis] = cell_index((double)(at[axis] + 1) * own + range, edge, limit);
         }
-        /* What lies beyond the countable cells sits in the outermost ones. */
-        low[axis] = low[axis] < -limit ? -limit : low[axis];
-        high[axis] = high[axis] >= limit ? limit - 1 : high[axis];
+        /* What lies beyond the countable cells sits in the outermost ones, which have no outer end. */
+        low[axis] = low[axis] < -limit || at[axis] == -limit ? -limit : low[axis];
+        high[axis] = high[axis] >= limit || at[axis] == limit - 1 ? limit - 1 : high[axis];
         number *= (double)(high[axis] - low[axis] + 1);
     }
     return number;

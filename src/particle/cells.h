@@ -28,8 +28,8 @@ struct cells {
     struct cell_point *point;
     int32_t count;
     struct cell *cell;
-    uint64_t slots; /* a power of two */
-    int32_t *slot;  /* cell index + 1, 0 for an empty slot */
+    uint64_t slots;                       /* a power of two */
+    int32_t *slot;                        /* cell index + 1, 0 for an empty slot */
     int32_t level_begin[CELL_LEVELS + 1]; /* cells are sorted by level */
 };
 

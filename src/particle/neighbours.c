@@ -64,8 +64,8 @@ static void place_points(struct build *b)
     }
     for (int32_t g = 0; g < ghosts->count; g++) {
         struct cell_point point = b->point[ghosts->source[g]];
-        struct vec3 x = image_position(b->mirrors, ghosts->image[g],
-                                       vec3_make(point.x, point.y, point.z));
+        struct vec3 x =
+            image_position(b->mirrors, ghosts->image[g], vec3_make(point.x, point.y, point.z));
         point.x = x.x;
         point.y = x.y;
         point.z = x.z;
@@ -103,8 +103,7 @@ static struct error *rank_points(struct build *b, int32_t count)
 static void collect_run(void *context, const struct cell_point *point, int32_t count)
 {
     struct workspace *w = context;
-    if (!memory_reserve((void **)&w->run, &w->run_capacity, w->runs + 1, w->runs,
-                        sizeof *w->run) ||
+    if (!memory_reserve((void **)&w->run, &w->run_capacity, w->runs + 1, w->runs, sizeof *w->run) ||
         !memory_reserve((void **)&w->length, &w->length_capacity, w->runs + 1, w->runs,
                         sizeof *w->length)) {
         w->failed = true;
@@ -117,8 +116,7 @@ static void collect_run(void *context, const struct cell_point *point, int32_t c
 static bool workspace_reserve_words(struct workspace *w, int64_t count)
 {
     return memory_reserve((void **)&w->word, &w->word_capacity, count, 0, sizeof *w->word) &&
-           memory_reserve((void **)&w->scratch, &w->scratch_capacity, count, 0,
-                          sizeof *w->scratch);
+           memory_reserve((void **)&w->scratch, &w->scratch_capacity, count, 0, sizeof *w->scratch);
 }
 
 /* Sorts COUNT words: runs of eight by insertion, then merges; rows are short. */
@@ -183,16 +181,31 @@ static int64_t find_row(const struct build *b, const struct workspace *w,
                       : find_row_with(w, own, false, NULL);
 }
 
+/* realloc moves the pages of a large array instead of copying them: rows are the largest array of a run. */
+static bool segment_reserve(struct segment *segment, int64_t needed)
+{
+    if (needed <= segment->capacity)
+        return true;
+    int64_t wanted = segment->capacity + segment->capacity / 4;
+    wanted = wanted < needed ? needed + 1024 : wanted;
+    uint32_t *grown = realloc(segment->entry, (size_t)wanted * sizeof *grown);
+    if (!grown)
+        return false;
+    segment->entry = grown;
+    segment->capacity = wanted;
+    return true;
+}
+
 static bool store_row(struct neighbours *n, int thread, int32_t i, const uint64_t *word,
                       int64_t count)
 {
     struct segment *segment = &n->segment[thread];
-    if (!memory_reserve((void **)&segment->entry, &segment->capacity, segment->count + count,
-                        segment->count, sizeof *segment->entry))
+    if (!segment_reserve(segment, segment->count + count))
         return false;
     uint32_t *entry = segment->entry + segment->count;
     for (int64_t k = 0; k < count; k++)
-        entry[k] = (uint32_t)(word[k] >> 62) << ENTRY_PART_SHIFT | (uint32_t)(word[k] & ENTRY_INDEX);
+        entry[k] =
+            (uint32_t)(word[k] >> 62) << ENTRY_PART_SHIFT | (uint32_t)(word[k] & ENTRY_INDEX);
     n->row[i] = (struct row){(uint32_t)segment->count, (uint16_t)(segment->count >> 32),
                              (uint16_t)thread, (uint32_t)count};
     segment->count += count;
@@ -287,6 +300,8 @@ static struct error *build_with(struct build *b, int threads)
     place_points(b);
     TRY(rank_points(b, count));
     TRY(cells_make(&b->cells, b->p->dimension, b->p->cell, b->point, count));
+    free(b->point); /* the cells have them now */
+    b->point = NULL;
     return build_rows(b, threads);
 }
 
@@ -295,14 +310,12 @@ struct error *neighbours_build(struct neighbours *neighbours, const struct parti
                                const struct contact_groups *groups, int threads)
 {
     TRY(reserve(neighbours, particles, threads));
-    double distance = plan_margin * 2.0 * (1.0 + neighbours->skin) * largest_reach(particles, reach);
+    double distance =
+        plan_margin * 2.0 * (1.0 + neighbours->skin) * largest_reach(particles, reach);
     TRY(ghosts_plan(mirrors, particles->dimension, particles->count,
                     (const double(*)[3])particles->position, distance, &neighbours->ghosts));
-    struct build build = {.n = neighbours,
-                          .p = particles,
-                          .reach = reach,
-                          .mirrors = mirrors,
-                          .groups = groups};
+    struct build build = {
+        .n = neighbours, .p = particles, .reach = reach, .mirrors = mirrors, .groups = groups};
     struct error *error = build_with(&build, threads);
     free(build.point);
     cells_free(&build.cells);

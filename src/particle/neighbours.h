@@ -22,8 +22,8 @@ enum entry_part {
 
 /* Which bodies meet under a law of their own. */
 struct contact_groups {
-    const uint8_t *of_body;  /* group of each body */
-    const uint8_t *law;      /* groups x groups, zero where there is none */
+    const uint8_t *of_body; /* group of each body */
+    const uint8_t *law;     /* groups x groups, zero where there is none */
     int groups;
 };
 
@@ -51,6 +51,7 @@ struct neighbours {
     struct segment *segment;
     struct ghosts ghosts;
     int64_t builds;
+    uint64_t order; /* the store's order that the rows speak of */
 
     /* When the rows were built: places, reaches, and what the blocks need to judge them by. */
     int64_t reference_capacity;

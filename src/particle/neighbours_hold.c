@@ -18,7 +18,7 @@ struct moved {
     double smallest_reach; /* at building */
     double low[3];         /* nearest to each low wall, at building; NAN without wall */
     double high[3];
-    unsigned walls;        /* bit 2 axis + side: had images behind this wall */
+    unsigned walls; /* bit 2 axis + side: had images behind this wall */
     double mean[3], spread, growth, largest_reach; /* now */
 };
 
@@ -27,11 +27,12 @@ enum { GROUPS_MAX = 32, TOUCHING_MAX = 27 };
 struct block_motion {
     int groups; /* of a block: 32, 4 x 4, 2 x 2 x 2 */
     int64_t block_capacity, group_capacity, touching_capacity, group_of_capacity;
-    struct moved *block, *group;      /* one a block; `groups` a block */
-    int32_t (*touching)[TOUCHING_MAX]; /* blocks that touch, by offset, itself included; -1 for none */
-    uint8_t *group_of;                /* group of each particle within its block */
-    double distance;                  /* of the plan of images */
-    bool local; /* supports fit into groups, so that only groups that touch could meet */
+    struct moved *block, *group; /* one a block; `groups` a block */
+    int32_t (
+        *touching)[TOUCHING_MAX]; /* blocks that touch, by offset, itself included; -1 for none */
+    uint8_t *group_of;            /* group of each particle within its block */
+    double distance;              /* of the plan of images */
+    enum { BY_GROUPS, BY_BLOCKS, BY_ALL } judged; /* by the smallest that supports fit into */
 };
 
 /* Groups along each axis of a block. */
@@ -39,10 +40,7 @@ static int groups_along(int dimension) { return block_cells(dimension) / 2; }
 
 static double group_edge(const struct particles *p) { return 2.0 * p->cell; }
 
-static double block_edge(const struct particles *p)
-{
-    return p->cell * block_cells(p->dimension);
-}
+static double block_edge(const struct particles *p) { return p->cell * block_cells(p->dimension); }
 
 static struct error *out_of_memory(void)
 {
@@ -55,8 +53,7 @@ static struct error *reserve(struct neighbours *n, const struct particles *p)
     if (!memory_reserve((void **)&n->origin, &capacity, p->count, 0, sizeof *n->origin))
         return out_of_memory();
     capacity = n->reference_capacity;
-    if (!memory_reserve((void **)&n->origin_reach, &capacity, p->count, 0,
-                        sizeof *n->origin_reach))
+    if (!memory_reserve((void **)&n->origin_reach, &capacity, p->count, 0, sizeof *n->origin_reach))
         return out_of_memory();
     n->reference_capacity = capacity;
     if (!n->motion)
@@ -178,7 +175,11 @@ struct error *motion_start(struct neighbours *n, const struct particles *p, stru
         for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++)
             largest = maximum(largest, n->origin_reach[i]);
     }
-    motion->local = 2.0 * (1.0 + n->skin) * largest < group_edge(p) && distance < group_edge(p);
+    double support = 2.0 * (1.0 + n->skin) * largest;
+    motion->judged = support < group_edge(p)   ? BY_GROUPS
+                     : support < block_edge(p) ? BY_BLOCKS
+                                               : BY_ALL;
+    n->order = p->order;
     return NULL;
 }
 
@@ -310,12 +311,21 @@ static bool group_holds(const struct neighbours *n, int dimension, int32_t b, in
     return true;
 }
 
-/* Block B against the blocks that touch it, as far as their groups do not touch. */
-static bool block_holds(const struct block_motion *motion, int32_t b, double room)
+/* Block B against the blocks that touch it, itself included. ROOM is what they may approach by where
+ * their groups are judged too, since groups that do not touch lie that far apart. */
+static bool block_holds(const struct neighbours *n, int32_t b, double room)
 {
+    const struct block_motion *motion = n->motion;
+    const struct moved *own = &motion->block[b];
     for (int k = 0; k < TOUCHING_MAX; k++) {
         int32_t c = motion->touching[b][k];
-        if (c >= 0 && !pair_holds(&motion->block[b], &motion->block[c], room))
+        if (c < 0)
+            continue;
+        const struct moved *other = &motion->block[c];
+        double slack = motion->judged == BY_GROUPS
+                           ? room
+                           : n->skin * (own->smallest_reach + other->smallest_reach);
+        if (!pair_holds(own, other, slack))
             return false;
     }
     return true;
@@ -367,10 +377,13 @@ static bool apart_hold(const struct block_motion *motion, const struct particles
 static bool local_hold(const struct neighbours *n, const struct particles *p, int32_t b,
                        double largest)
 {
-    if (!block_holds(n->motion, b, group_edge(p) - 2.0 * largest))
+    const struct block_motion *motion = n->motion;
+    if (motion->judged == BY_ALL)
+        return true;
+    if (!block_holds(n, b, group_edge(p) - 2.0 * largest))
         return false;
-    for (int g = 0; g < n->motion->groups; g++)
-        if (n->motion->group[(int64_t)b * n->motion->groups + g].any &&
+    for (int g = 0; motion->judged == BY_GROUPS && g < motion->groups; g++)
+        if (motion->group[(int64_t)b * motion->groups + g].any &&
             !group_holds(n, p->dimension, b, g))
             return false;
     return true;
@@ -379,7 +392,7 @@ static bool local_hold(const struct neighbours *n, const struct particles *p, in
 bool neighbours_hold(struct neighbours *n, const struct particles *p, struct reach reach,
                      int threads)
 {
-    if (n->builds == 0 || n->count != p->count)
+    if (n->builds == 0 || n->order != p->order)
         return false;
     double largest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : largest)
@@ -387,10 +400,9 @@ bool neighbours_hold(struct neighbours *n, const struct particles *p, struct rea
         follow_block(n, p, reach, b);
         largest = maximum(largest, n->motion->block[b].largest_reach);
     }
-    bool local = n->motion->local;
-    bool hold = local ? apart_hold(n->motion, p, largest) : all_hold(n, p);
+    bool hold = n->motion->judged == BY_ALL ? all_hold(n, p) : apart_hold(n->motion, p, largest);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(&& : hold)
     for (int32_t b = 0; b < p->blocks; b++)
-        hold = hold && walls_hold(n->motion, b, largest) && (!local || local_hold(n, p, b, largest));
+        hold = hold && walls_hold(n->motion, b, largest) && local_hold(n, p, b, largest);
     return hold;
 }

@@ -6,7 +6,8 @@
 
 /* Takes down places and reaches at the time of building; images were planned within DISTANCE of walls. */
 struct error *motion_start(struct neighbours *neighbours, const struct particles *particles,
-                           struct reach reach, const struct mirrors *mirrors, double distance, int threads);
+                           struct reach reach, const struct mirrors *mirrors, double distance,
+                           int threads);
 void motion_free(struct neighbours *neighbours);
 
 #endif

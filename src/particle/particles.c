@@ -31,9 +31,9 @@ static size_t field_bytes(const struct field *field)
 /* Points the core's members at their fields, after any of them has moved. */
 static void bind_core(struct particles *p)
 {
-    void **member[] = {(void **)&p->id,       (void **)&p->material, (void **)&p->body,
-                       (void **)&p->mass,     (void **)&p->density,  (void **)&p->energy,
-                       (void **)&p->pressure, (void **)&p->position, (void **)&p->velocity,
+    void **member[] = {(void **)&p->id,       (void **)&p->material,      (void **)&p->body,
+                       (void **)&p->mass,     (void **)&p->density,       (void **)&p->energy,
+                       (void **)&p->pressure, (void **)&p->position,      (void **)&p->velocity,
                        (void **)&p->deviator, (void **)&p->plastic_strain};
     static_assert(COUNT_OF(member) == COUNT_OF(core_fields), "one member for each core field");
     for (size_t k = 0; k < COUNT_OF(member); k++)
@@ -91,7 +91,7 @@ struct error *particles_append(struct particles *particles, int32_t count, int32
 {
     int64_t end = (int64_t)particles->count + particles->pending;
     TRY(particles_reserve(particles, end + count));
-    for (int k = 0; k < particles->fields; k++) {
+    for (int k = 0; count > 0 && k < particles->fields; k++) {
         size_t bytes = field_bytes(&particles->field[k]);
         memset((char *)particles->field[k].data + (size_t)end * bytes, 0, (size_t)count * bytes);
     }
@@ -141,8 +141,8 @@ struct error *particles_visit(struct particles *particles, struct visitor *visit
         char *name = text_format("particles/%s", field->name);
         if (!name)
             return error_new(ERROR_SYSTEM, "out of memory");
-        struct error *error = visitor->visit(visitor, name, field->number,
-                                             particles->field[k].data, count, field->components);
+        struct error *error = visitor->visit(visitor, name, field->number, particles->field[k].data,
+                                             count, field->components);
         free(name);
         TRY(error);
     }

@@ -43,7 +43,8 @@ struct particles {
     int32_t blocks;
     int64_t block_capacity;
     struct block *block;
-    double cell; /* edge of a cell of the global grid, m; fixed for a run */
+    double cell;    /* edge of a cell of the global grid, m; fixed for a run */
+    uint64_t order; /* grows with every sort: an index means the same particle while it stays */
     int fields;
     struct field field[PARTICLES_FIELDS];
 

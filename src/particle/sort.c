@@ -74,8 +74,8 @@ static void move_fields(struct particles *p, const struct keyed *entry, void *mo
 {
     for (int k = 0; k < p->fields; k++) {
         struct field *field = &p->field[k];
-        size_t bytes = number_size(field->declaration.number) *
-                       (size_t)field->declaration.components;
+        size_t bytes =
+            number_size(field->declaration.number) * (size_t)field->declaration.components;
         const char *data = field->data;
         char *to = moved;
         for (int32_t i = 0; i < p->count; i++)
@@ -125,6 +125,7 @@ struct error *particles_sort(struct particles *particles)
 {
     struct sorting sorting = {0};
     struct error *error = sort_with(particles, &sorting);
+    particles->order++;
     sorting_free(&sorting);
     return error;
 }

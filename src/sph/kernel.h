@@ -42,8 +42,7 @@ BOLIDE_INLINE double kernel_value(double r, double h, int dimension)
 /* dW/dr, never positive. */
 BOLIDE_INLINE double kernel_slope(double r, double inverse_h, int dimension)
 {
-    return 0.25 * inverse_h * kernel_norm(inverse_h, dimension) *
-           kernel_shape_slope(r * inverse_h);
+    return 0.25 * inverse_h * kernel_norm(inverse_h, dimension) * kernel_shape_slope(r * inverse_h);
 }
 
 #endif

@@ -156,9 +156,9 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
         double along_j = shear ? vec3_dot(tj, e) : lanes->field[s][k];
         double along_u = vec3_dot(du, e);
 
-        struct contact_weights along =
-            kind.star == STAR_MEAN ? riemann_mean_weights()
-                                   : riemann_acoustic_weights(own[z], lanes->field[z][k]);
+        struct contact_weights along = kind.star == STAR_MEAN
+                                           ? riemann_mean_weights()
+                                           : riemann_acoustic_weights(own[z], lanes->field[z][k]);
         double stress = contact_stress(along, along_i, along_j, along_u);
         double jump = contact_velocity_jump(along, along_u, along_j - along_i);
         double opened = 0.0;
@@ -178,11 +178,11 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
                 struct vec3 ai = vec3_sub(ti, vec3_scale(along_i, e));
                 struct vec3 aj = vec3_sub(tj, vec3_scale(along_j, e));
                 struct vec3 da = vec3_sub(aj, ai);
-                struct vec3 ta = vec3_add(vec3_add(vec3_scale(across.left, aj),
-                                                   vec3_scale(across.right, ai)),
-                                          vec3_scale(across.impedance, across_u));
-                struct vec3 wa = vec3_add(vec3_scale(across.right, across_u),
-                                          vec3_scale(across.compliance, da));
+                struct vec3 ta =
+                    vec3_add(vec3_add(vec3_scale(across.left, aj), vec3_scale(across.right, ai)),
+                             vec3_scale(across.impedance, across_u));
+                struct vec3 wa =
+                    vec3_add(vec3_scale(across.right, across_u), vec3_scale(across.compliance, da));
                 if (with_law) {
                     bool free = opened > 0.0 || lanes->slip[k] > 0.0;
                     double still = own[z + 1] > 0.0 ? -1.0 / own[z + 1] : 0.0;
@@ -222,7 +222,8 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
 
 INLINE double across_lanes(const double lane[LANES])
 {
-    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) +
+           ((lane[1] + lane[5]) + (lane[3] + lane[7]));
 }
 
 INLINE struct totals_of_row totals_of_sums(const struct sums *sums)
@@ -342,12 +343,12 @@ INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32
     write_rates(&loop->rates, i, loop->density[i], &all, &images);
 }
 
-#define INSTANCE(name, dimension, shear, star)                                                    \
-    static void name(const struct pair_loop *loop, int32_t begin, int32_t end)                    \
-    {                                                                                             \
-        const struct pair_kind kind = {dimension, shear, star};                                   \
-        for (int32_t i = begin; i < end; i++)                                                     \
-            row_rates(loop, kind, i);                                                             \
+#define INSTANCE(name, dimension, shear, star)                                 \
+    static void name(const struct pair_loop *loop, int32_t begin, int32_t end) \
+    {                                                                          \
+        const struct pair_kind kind = {dimension, shear, star};                \
+        for (int32_t i = begin; i < end; i++)                                  \
+            row_rates(loop, kind, i);                                          \
     }
 
 INSTANCE(line_acoustic, 1, false, STAR_ACOUSTIC)

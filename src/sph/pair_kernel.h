@@ -50,7 +50,7 @@ struct pair_rates {
     double *power;             /* -(2/rho) sum V W' t*.(U* - U)       (1.40) less U.(1.39), W/kg */
     double (*strain_rate)[6];  /* symmetric part of dU^a/dx^b = 2 sum V W' (U - U*)^a e^b, 1/s */
     double (*spin)[3];         /* half the curl of U (1.57), (1.58), rad/s */
-    double (*wall)[3];         /* the part of the acceleration that images gave; NULL without walls */
+    double (*wall)[3]; /* the part of the acceleration that images gave; NULL without walls */
 };
 
 struct pair_loop {
@@ -60,7 +60,7 @@ struct pair_loop {
     double smoothing;     /* alpha: h = alpha (D_i + D_j)/2 (1.19) */
     const struct neighbours *neighbours;
     const struct contact_groups *groups;
-    const uint16_t *body;   /* of owned particles */
+    const uint16_t *body; /* of owned particles */
     const double *density;
     struct pair_rates rates;
 };

@@ -65,8 +65,7 @@ static void reflect(const struct simulation *simulation, bool shear, image_code 
     struct vec3 sign = image_sign(image);
     double x[3] = {0.0, 0.0, 0.0}, signs[3] = {sign.x, sign.y, sign.z};
     memcpy(x, record, (size_t)dimension * sizeof *x);
-    struct vec3 place =
-        image_position(&simulation->mirrors, image, vec3_make(x[0], x[1], x[2]));
+    struct vec3 place = image_position(&simulation->mirrors, image, vec3_make(x[0], x[1], x[2]));
     double at[3] = {place.x, place.y, place.z};
     double *velocity = record + record_velocity(dimension);
     for (int axis = 0; axis < dimension; axis++) {
@@ -140,8 +139,7 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
             p->energy[i] + dt * f->rates.power[i] - (total ? 0.5 * square(dt) * a2 : 0.0);
         struct sym3 strain = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]};
         motion.strain_rate = strain;
-        motion.spin =
-            vec3_make(f->rates.spin[i][0], f->rates.spin[i][1], f->rates.spin[i][2]);
+        motion.spin = vec3_make(f->rates.spin[i][0], f->rates.spin[i][1], f->rates.spin[i][2]);
         struct point point = {.deviator = {s[0], s[1], s[2], s[3], s[4], s[5]},
                               .history = {p->plastic_strain[i]}};
         struct response r = material_step(material, &point, &motion);
@@ -174,16 +172,16 @@ static void update_batch(const struct material *material, struct particles *p,
     struct material m = *material;
     bool solid = material_has_strength(material);
     switch (material->eos.kind) {
-#define UPDATE_CASE(name)                                                                  \
-    case EOS_##name:                                                                       \
-        m.eos.kind = EOS_##name;                                                           \
-        if (solid) {                                                                       \
-            m.strength.kind = STRENGTH_PERFECT_PLASTIC;                                    \
-            update_run(&m, p, f, dimension, total, dt, begin, end, failure);               \
-        } else {                                                                           \
-            m.strength.kind = STRENGTH_NONE;                                               \
-            update_run(&m, p, f, dimension, total, dt, begin, end, failure);               \
-        }                                                                                  \
+#define UPDATE_CASE(name)                                                    \
+    case EOS_##name:                                                         \
+        m.eos.kind = EOS_##name;                                             \
+        if (solid) {                                                         \
+            m.strength.kind = STRENGTH_PERFECT_PLASTIC;                      \
+            update_run(&m, p, f, dimension, total, dt, begin, end, failure); \
+        } else {                                                             \
+            m.strength.kind = STRENGTH_NONE;                                 \
+            update_run(&m, p, f, dimension, total, dt, begin, end, failure); \
+        }                                                                    \
         break;
         EOS_LIST(UPDATE_CASE)
 #undef UPDATE_CASE
@@ -216,8 +214,7 @@ static void book_walls(struct simulation *simulation, const struct sph_fields *f
         const double *a = f->rates.wall[i];
         if (a[0] == 0.0 && a[1] == 0.0 && a[2] == 0.0)
             continue;
-        struct vec3 impulse =
-            vec3_scale(dt * p->mass[i], vec3_make(a[0], a[1], a[2]));
+        struct vec3 impulse = vec3_scale(dt * p->mass[i], vec3_make(a[0], a[1], a[2]));
         struct vec3 place = vec3_make(p->position[i][0], p->position[i][1], p->position[i][2]);
         ledger_book(&simulation->ledger, LEDGER_WALLS, 0.0, impulse, place, 0.0);
     }
@@ -227,15 +224,16 @@ static struct error *impossible(const struct simulation *simulation, const struc
 {
     const struct particles *p = &simulation->particles;
     int32_t i = failure->index;
-    return error_new(ERROR_STATE,
-                     "step %lld, t = %.6g s: the state of particle %llu (body %s, site %llu) at "
-                     "(%.6g, %.6g, %.6g) m became impossible: density %.6g kg/m^3, energy %.6g J/kg, "
-                     "pressure %.6g Pa, velocity (%.6g, %.6g, %.6g) m/s",
-                     (long long)simulation->step + 1, simulation->time,
-                     (unsigned long long)p->id[i], simulation->input->bodies.names[p->body[i]],
-                     (unsigned long long)(p->id[i] & 0xffffffffffff), p->position[i][0],
-                     p->position[i][1], p->position[i][2], p->density[i], p->energy[i],
-                     p->pressure[i], p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
+    return error_new(
+        ERROR_STATE,
+        "step %lld, t = %.6g s: the state of particle %llu (body %s, site %llu) at "
+        "(%.6g, %.6g, %.6g) m became impossible: density %.6g kg/m^3, energy %.6g J/kg, "
+        "pressure %.6g Pa, velocity (%.6g, %.6g, %.6g) m/s",
+        (long long)simulation->step + 1, simulation->time, (unsigned long long)p->id[i],
+        simulation->input->bodies.names[p->body[i]],
+        (unsigned long long)(p->id[i] & 0xffffffffffff), p->position[i][0], p->position[i][1],
+        p->position[i][2], p->density[i], p->energy[i], p->pressure[i], p->velocity[i][0],
+        p->velocity[i][1], p->velocity[i][2]);
 }
 
 struct error *sph_update(const struct sph *sph, struct simulation *simulation, double dt)

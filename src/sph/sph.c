@@ -197,17 +197,17 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
                       const struct sph_fields *fields)
 {
     const struct particles *p = &simulation->particles;
-    struct pair_loop loop = {
-        .kind = {simulation->dimension, sph->shear && simulation->dimension > 1,
-                 is_standard(sph) ? STAR_MEAN : STAR_ACOUSTIC},
-        .record = sph->record,
-        .empty = p->count + sph->neighbours.ghosts.count,
-        .smoothing = sph->parameters.smoothing,
-        .neighbours = &sph->neighbours,
-        .groups = &sph->groups,
-        .body = p->body,
-        .density = p->density,
-        .rates = fields->rates};
+    struct pair_loop loop = {.kind = {simulation->dimension,
+                                      sph->shear && simulation->dimension > 1,
+                                      is_standard(sph) ? STAR_MEAN : STAR_ACOUSTIC},
+                             .record = sph->record,
+                             .empty = p->count + sph->neighbours.ghosts.count,
+                             .smoothing = sph->parameters.smoothing,
+                             .neighbours = &sph->neighbours,
+                             .groups = &sph->groups,
+                             .body = p->body,
+                             .density = p->density,
+                             .rates = fields->rates};
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
     for (int32_t b = 0; b < p->blocks; b++)
         pair_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
@@ -218,7 +218,8 @@ static void find_viscosity(const struct sph *sph, const struct simulation *simul
                            const struct sph_fields *f)
 {
     const struct particles *p = &simulation->particles;
-    double quadratic = sph->parameters.viscosity_quadratic, linear = sph->parameters.viscosity_linear;
+    double quadratic = sph->parameters.viscosity_quadratic,
+           linear = sph->parameters.viscosity_linear;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
         const double *rate = f->rates.strain_rate[i];
@@ -317,7 +318,8 @@ static double sph_bytes(const void *parameters, int dimension)
 {
     const struct sph_parameters *sph = parameters;
     struct particles store;
-    error_free(particles_create(dimension, 1.0, sph_field_table, COUNT_OF(sph_field_table), &store));
+    error_free(
+        particles_create(dimension, 1.0, sph_field_table, COUNT_OF(sph_field_table), &store));
     double fields = (double)particles_bytes(&store);
     particles_destroy(&store);
     /* Neighbours of a regular lattice: the volume of the support, skin included. */
@@ -330,14 +332,14 @@ static double sph_bytes(const void *parameters, int dimension)
 }
 
 static const struct solver_class sph_class = {.size = sizeof(struct sph),
-                                       .create = sph_create,
-                                       .start = sph_start,
-                                       .prepare = sph_prepare,
-                                       .advance = sph_advance,
-                                       .state = sph_state,
-                                       .observe = sph_observe,
-                                       .destroy = sph_destroy,
-                                       .bytes = sph_bytes};
+                                              .create = sph_create,
+                                              .start = sph_start,
+                                              .prepare = sph_prepare,
+                                              .advance = sph_advance,
+                                              .state = sph_state,
+                                              .observe = sph_observe,
+                                              .destroy = sph_destroy,
+                                              .bytes = sph_bytes};
 
 const struct choice sph_choice = {"sph", "smoothed particle hydrodynamics, contact or standard",
                                   sph_table, sizeof(struct sph_parameters), &sph_class};

@@ -7,9 +7,9 @@
 
 /* The store's fields that this solver adds, found once a step. */
 struct sph_fields {
-    double *diameter;       /* D = (m/rho)^(1/dimension) (1.70) */
+    double *diameter; /* D = (m/rho)^(1/dimension) (1.70) */
     double *sound_long, *sound_shear;
-    double *viscosity;      /* artificial viscous pressure (2.5), standard method only */
+    double *viscosity; /* artificial viscous pressure (2.5), standard method only */
     struct pair_rates rates;
 };
 

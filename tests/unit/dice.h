@@ -61,6 +61,6 @@ static inline void assert_near_at(double value, double wanted, double tolerance,
 #define assert_near(value, wanted, tolerance) \
     assert_near_at((value), (wanted), (tolerance), __FILE__, __LINE__)
 #define assert_close(value, wanted, fraction) \
-    assert_near_at((value), (wanted), (fraction) * fabs(wanted), __FILE__, __LINE__)
+    assert_near_at((value), (wanted), (fraction)*fabs(wanted), __FILE__, __LINE__)
 
 #endif

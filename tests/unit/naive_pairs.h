@@ -59,9 +59,10 @@ static inline void naive_turn_back(const double a[3][3], const double v[3], doub
 }
 
 /* U* and sigma* of the three components R, S, T. U and SIGMA: of i and j. */
-static inline void naive_contact(struct pair_kind kind, unsigned law, const struct naive_particle *i,
-                                 const struct naive_particle *j, double u[2][3],
-                                 double sigma[2][3], double u_star[3], double sigma_star[3])
+static inline void naive_contact(struct pair_kind kind, unsigned law,
+                                 const struct naive_particle *i, const struct naive_particle *j,
+                                 double u[2][3], double sigma[2][3], double u_star[3],
+                                 double sigma_star[3])
 {
     for (int k = 0; k < 3; k++) {
         double zi = k == 0 ? i->z_long : i->z_shear, zj = k == 0 ? j->z_long : j->z_shear;

@@ -123,8 +123,8 @@ static inline void scene_mark_row(const struct scene *scene, int32_t i, uint8_t 
             j = n->ghosts.source[j - p->count];
         }
         bool after = k == 0 || part > last_part ||
-                     (part == last_part && (p->id[j] > last_id ||
-                                            (p->id[j] == last_id && image > last_image)));
+                     (part == last_part &&
+                      (p->id[j] > last_id || (p->id[j] == last_id && image > last_image)));
         assert_true(after);
         last_part = part;
         last_id = p->id[j];

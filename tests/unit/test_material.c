@@ -25,13 +25,16 @@ static void check_derivatives(const struct material *material, double density, d
 {
     struct eos_value value = eos_evaluate(&material->eos, density, energy, NULL);
     double d = 1e-5 * density, e = 1e-5 * energy_scale;
-    double by_density = (pressure(material, density + d, energy) -
-                         pressure(material, density - d, energy)) / (2.0 * d);
-    double by_energy = (pressure(material, density, energy + e) -
-                        pressure(material, density, energy - e)) / (2.0 * e);
+    double by_density =
+        (pressure(material, density + d, energy) - pressure(material, density - d, energy)) /
+        (2.0 * d);
+    double by_energy =
+        (pressure(material, density, energy + e) - pressure(material, density, energy - e)) /
+        (2.0 * e);
     double scale = fabs(value.dp_drho) + fabs(value.pressure) / density;
     assert_near(value.dp_drho, by_density, 1e-8 * scale);
-    assert_near(value.dp_de, by_energy, 1e-8 * (fabs(value.dp_de) + scale * density / energy_scale));
+    assert_near(value.dp_de, by_energy,
+                1e-8 * (fabs(value.dp_de) + scale * density / energy_scale));
 }
 
 static void ideal_gas_has_its_pressure_and_sound(void **state)
@@ -133,8 +136,10 @@ static void sound_speeds_follow_from_pressure_along_the_isentrope(void **state)
     struct point point = {.density = 3100.0, .energy = 7e5};
     struct response response = material_evaluate(&aluminium, &point);
     double d = 1e-5 * point.density, p = point.pressure;
-    double up = pressure(&aluminium, point.density + d, point.energy + d * p / square(point.density));
-    double down = pressure(&aluminium, point.density - d, point.energy - d * p / square(point.density));
+    double up =
+        pressure(&aluminium, point.density + d, point.energy + d * p / square(point.density));
+    double down =
+        pressure(&aluminium, point.density - d, point.energy - d * p / square(point.density));
     double wanted = (up - down) / (2.0 * d) + 4.0 / 3.0 * 23e9 / point.density;
     assert_close(square(response.sound_long), wanted, 1e-8);
     assert_close(response.sound_shear, sqrt(23e9 / point.density), 1e-15);

@@ -117,7 +117,7 @@ static struct error *evaluate(struct bench *b, struct check_result *result)
 
 static double value_of(struct bench *b, const char *measure, void *parameters)
 {
-    struct check_result result;
+    struct check_result result = {0};
     /* Every measure is given a limit of its own dimension, so that it passes preparation. */
     choose(b, measure, parameters);
     assert_null(evaluate(b, &result));
@@ -259,7 +259,7 @@ static void what_the_ledger_booked_is_conserved(void **state)
 static void within_is_a_fraction_of_what_is_wanted_or_a_quantity(void **state)
 {
     struct bench *b = *state;
-    struct check_result result;
+    struct check_result result = {0};
     choose(b, "mean", &pressure);
     for (int i = 0; i < ALL; i++)
         b->simulation.particles.pressure[i] = -103.0;

@@ -111,21 +111,24 @@ static void points_at_one_place_and_points_far_off_are_found(void **state)
     }
 }
 
+/* Beyond the cells that can be counted, on one axis or on all. */
 static void a_case_far_from_the_origin_is_searched_alike(void **state)
 {
     (void)state;
     struct dice dice = {5};
-    for (int dimension = 1; dimension <= 3; dimension++) {
-        struct scene scene;
-        scene_create(&scene, dimension, 300, 0.02, 0.15);
-        scatter(&scene, 0.1, 1e-3, 8.0, &dice);
-        for (int32_t i = 0; i < scene.particles.count; i++)
-            for (int axis = 0; axis < dimension; axis++)
-                scene.particles.position[i][axis] += axis == 1 ? -1e5 : 1e5;
-        scene_build(&scene);
-        scene_judge(&scene, false);
-        scene_destroy(&scene);
-    }
+    for (int dimension = 1; dimension <= 3; dimension++)
+        for (int axes = 1; axes <= dimension; axes++)
+            for (double far = 1e2; fabs(far) < 1e12; far *= -100.0) {
+                struct scene scene;
+                scene_create(&scene, dimension, 300, 0.02, 0.15);
+                scatter(&scene, 0.1, 1e-3, 8.0, &dice);
+                for (int32_t i = 0; i < scene.particles.count; i++)
+                    for (int axis = 0; axis < axes; axis++)
+                        scene.particles.position[i][axis] += far;
+                scene_build(&scene);
+                scene_judge(&scene, false);
+                scene_destroy(&scene);
+            }
 }
 
 /* A blob whose lengths grow by FACTOR a step, each part at a rate of its own, in a haphazard wind. */

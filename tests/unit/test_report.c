@@ -24,7 +24,7 @@ static void numbers_have_readable_units(void **state)
         {0.0338, "m", "33.8 mm"},
         {50e-6, "m", "50 um"},
         {2e-9, "s", "2 ns"},
-        {2e-12, "s", "0.002 ns"},
+        {2e-12, "s", "2 ps"},
         {0.99999999, "m", "1 m"},
         {999.99e-6, "s", "1 ms"},
         {-2.5e6, "J/kg", "-2.5 MJ/kg"},

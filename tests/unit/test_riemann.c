@@ -40,11 +40,12 @@ static void acoustic_contact_is_the_same_from_both_sides(void **state)
         turned_left.velocity = -left.velocity;
         turned_right.velocity = -right.velocity;
         struct contact turned = riemann_acoustic(turned_right, turned_left);
-        double speed = fabs(left.velocity) + fabs(right.velocity) +
-                       (fabs(left.stress) + fabs(right.stress)) / (left.impedance + right.impedance);
-        double stress = fabs(left.stress) + fabs(right.stress) +
-                        fabs(right.velocity - left.velocity) *
-                            minimum(left.impedance, right.impedance);
+        double speed =
+            fabs(left.velocity) + fabs(right.velocity) +
+            (fabs(left.stress) + fabs(right.stress)) / (left.impedance + right.impedance);
+        double stress =
+            fabs(left.stress) + fabs(right.stress) +
+            fabs(right.velocity - left.velocity) * minimum(left.impedance, right.impedance);
         assert_near(turned.velocity, -contact.velocity, 1e-14 * speed);
         assert_near(turned.stress, contact.stress, 1e-14 * stress);
     }

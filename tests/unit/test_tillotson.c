@@ -10,9 +10,16 @@
 
 #include "material/material.h"
 
-static const struct eos_tillotson aluminium = {
-    .density = 2700.0, .a = 0.5, .b = 1.63, .bulk_modulus = 75.2e9, .second_modulus = 65e9,
-    .energy = 5e6, .alpha = 5.0, .beta = 5.0, .incipient_energy = 3e6, .complete_energy = 13.9e6};
+static const struct eos_tillotson aluminium = {.density = 2700.0,
+                                               .a = 0.5,
+                                               .b = 1.63,
+                                               .bulk_modulus = 75.2e9,
+                                               .second_modulus = 65e9,
+                                               .energy = 5e6,
+                                               .alpha = 5.0,
+                                               .beta = 5.0,
+                                               .incipient_energy = 3e6,
+                                               .complete_energy = 13.9e6};
 
 static double pressure(double density, double energy)
 {
@@ -35,8 +42,7 @@ static void condensed_and_vapour_values_are_those_worked_out_by_hand(void **stat
     assert_float_equal(pressure(3240.0, 2e6), (0.5 + 1.63 / w) * 6.48e9 + 17.64e9, 1.0);
     /* eta = 1/2, e = 20 MJ/kg: w = 17, thin = 1, fade = cold = exp(-5) */
     double fade = exp(-5.0);
-    double expected =
-        0.5 * 1350.0 * 2e7 + (1.63 * 1350.0 * 2e7 / 17.0 - 37.6e9 * fade) * fade;
+    double expected = 0.5 * 1350.0 * 2e7 + (1.63 * 1350.0 * 2e7 / 17.0 - 37.6e9 * fade) * fade;
     assert_float_equal(pressure(1350.0, 2e7), expected, 1.0);
 }
 
@@ -51,7 +57,8 @@ static void regions_meet_without_a_jump(void **state)
             assert_true(fabs(below - above) < 1e-9 * (fabs(below) + 1e9));
         }
     for (double energy = 0.0; energy < 3e7; energy += 1e6)
-        assert_true(fabs(pressure(2700.0 * (1.0 - 1e-13), energy) - pressure(2700.0, energy)) < 1.0);
+        assert_true(fabs(pressure(2700.0 * (1.0 - 1e-13), energy) - pressure(2700.0, energy)) <
+                    1.0);
 }
 
 static void derivatives_are_those_of_the_pressure(void **state)

@@ -13,14 +13,14 @@
 #include "material/point.h"
 
 struct eos_tillotson {
-    double density;            /* rho_0, kg/m^3 */
-    double a, b;               /* dimensionless */
-    double bulk_modulus;       /* A, Pa */
-    double second_modulus;     /* B, Pa */
-    double energy;             /* e_0, J/kg */
-    double alpha, beta;        /* decay of the condensed terms in the vapour */
-    double incipient_energy;   /* e_iv, J/kg: vaporisation begins */
-    double complete_energy;    /* e_cv, J/kg: vaporisation is complete */
+    double density;          /* rho_0, kg/m^3 */
+    double a, b;             /* dimensionless */
+    double bulk_modulus;     /* A, Pa */
+    double second_modulus;   /* B, Pa */
+    double energy;           /* e_0, J/kg */
+    double alpha, beta;      /* decay of the condensed terms in the vapour */
+    double incipient_energy; /* e_iv, J/kg: vaporisation begins */
+    double complete_energy;  /* e_cv, J/kg: vaporisation is complete */
 };
 
 BOLIDE_INLINE struct eos_value eos_tillotson_condensed(const struct eos_tillotson *t,
@@ -29,8 +29,8 @@ BOLIDE_INLINE struct eos_value eos_tillotson_condensed(const struct eos_tillotso
     struct eos_value value;
     double eta = density / t->density, mu = eta - 1.0;
     double ratio = energy / (t->energy * square(eta)), w = 1.0 + ratio;
-    value.pressure = (t->a + t->b / w) * density * energy +
-                     (t->bulk_modulus + t->second_modulus * mu) * mu;
+    value.pressure =
+        (t->a + t->b / w) * density * energy + (t->bulk_modulus + t->second_modulus * mu) * mu;
     /* dw/drho = -2 ratio/rho, dw/de = ratio/e */
     value.dp_drho = (t->a + t->b / w + 2.0 * t->b * ratio / square(w)) * energy +
                     (t->bulk_modulus + 2.0 * t->second_modulus * mu) / t->density;
