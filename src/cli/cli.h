@@ -48,7 +48,7 @@ int command_verify(const struct cli_options *options);
 int command_exact(const struct cli_options *options);
 int command_help(const struct cli_options *options);
 
-/* ---- options.c ---- */
+/* options.c */
 
 /* Reads what follows the command's name; ERROR_INPUT with the nearest right spelling. */
 struct error *options_read(const struct command *command, int count, char **words,
@@ -57,7 +57,7 @@ void options_free(struct cli_options *options);
 /* Prints the options of COMMAND. */
 void options_print(const struct command *command);
 
-/* ---- terminal.c ---- */
+/* terminal.c */
 
 /* Prints the messages of ERROR on stderr, one a line, frees it, and gives its exit status. */
 int report_error(struct error *error);
@@ -77,7 +77,7 @@ const volatile sig_atomic_t *signals_catch(void);
 /* 128 + the signal that came. */
 int signals_status(void);
 
-/* ---- share.c ---- */
+/* share.c */
 
 /* The folder NAME ("examples", "materials") of files that come with the program: in $BOLIDE_SHARE,
  * beside the build, where the program is installed, or here. NULL if there is none; free it. */

@@ -33,8 +33,6 @@ void run_say(struct run *run, const char *format, ...)
     free(text);
 }
 
-/* ---- the folder ---- */
-
 static struct error *make_case_text(struct run *run)
 {
     size_t size;
@@ -121,8 +119,6 @@ struct error *run_close_files(struct run *run, struct error *error)
         error = error_join(error, run_log_close(run->log));
     return error;
 }
-
-/* ---- outputs ---- */
 
 void run_observe(struct run *run)
 {
@@ -270,8 +266,6 @@ struct error *run_snapshot_of_failure(struct run *run)
     free(path);
     return error;
 }
-
-/* ---- checkpoints ---- */
 
 /* Shows what the run loop keeps beside the state. */
 static struct error *visit_extra(void *context, struct visitor *visitor)

@@ -15,8 +15,6 @@
 #include "run/catalogue.h"
 #include "run/run.h"
 
-/* ---- free flight ---- */
-
 struct flight_parameters {
     double step, heating;
     int64_t fail_at;
@@ -111,8 +109,6 @@ static const struct solver_class flight_class = {sizeof(struct flight_parameters
 
 static const struct choice flight_choice = {"flight", "free flight", flight_table,
                                             sizeof(struct flight_parameters), &flight_class};
-
-/* ---- cases ---- */
 
 static const char flight_text[] =
     "format: 1\n"
@@ -228,8 +224,6 @@ static bool file_there(const char *folder, const char *name)
     snprintf(path, sizeof path, "%s/%s", folder, name);
     return access(path, R_OK) == 0;
 }
-
-/* ---- tests ---- */
 
 static void what_remains_is_spread_over_the_last_two_steps(void **state)
 {
