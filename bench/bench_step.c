@@ -22,7 +22,7 @@ static void stop_on(struct error *error)
 /* Neighbours within support, summed over all particles. */
 static int64_t count_pairs(const struct sph *sph, const struct simulation *simulation)
 {
-    int32_t stride = record_stride(simulation->dimension, sph->shear && simulation->dimension > 1);
+    int stride = record_stride(sph->kind);
     int64_t pairs = 0;
     for (int32_t i = 0; i < simulation->particles.count; i++) {
         const uint32_t *entry = neighbours_row(&sph->neighbours, i);
@@ -72,11 +72,11 @@ static void bench(const char *path, const char *setting, int steps, int threads)
     double seconds = clock_seconds() - begin;
     double updates = (double)simulation->particles.count * steps;
     double pairs = (double)count_pairs(sph, simulation);
-    double bytes = (double)particles_bytes(&simulation->particles) +
-                   (double)(neighbours_bytes(&sph->neighbours) +
-                            (size_t)sph->record_capacity * sizeof(double) *
-                                (size_t)record_stride(simulation->dimension, sph->shear)) /
-                       simulation->particles.count;
+    double bytes =
+        (double)particles_bytes(&simulation->particles) +
+        (double)(neighbours_bytes(&sph->neighbours) +
+                 (size_t)sph->record_capacity * sizeof(double) * (size_t)record_stride(sph->kind)) /
+            simulation->particles.count;
     const char *name = strrchr(path, '/');
     printf("%-18s %9d %7d %10.3f %10.1f %8.2f %8.0f %7.1f ", name ? name + 1 : path,
            simulation->particles.count, threads, 1e-6 * updates / seconds,

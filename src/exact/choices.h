@@ -7,13 +7,13 @@
 
 /* X(identifier, name, help): struct exact_<identifier>, exact_<identifier>_table,
  * exact_<identifier>_class of exact/<identifier>.h. */
-#define EXACT_LIST(X)                                                                              \
-    X(gas_riemann, "gas-riemann",                                                                  \
-      "Two ideal gases that meet at a plane: shocks and expansion fans.")                          \
-    X(elastic_plastic_riemann, "elastic-plastic-riemann",                                          \
-      "Two barotropic, perfectly plastic solids that meet at a plane: elastic and plastic waves.") \
-    X(impedance_match, "impedance-match",                                                          \
-      "Planar impact of two materials with linear shock relations.")
+#define EXACT_LIST(X)                                                                             \
+    X(gas_riemann, "gas-riemann",                                                                 \
+      "two ideal gases that meet at a plane: shocks and expansion fans")                          \
+    X(elastic_plastic_riemann, "elastic-plastic-riemann",                                         \
+      "two barotropic, perfectly plastic solids that meet at a plane: elastic and plastic waves") \
+    X(impedance_match, "impedance-match",                                                         \
+      "planar impact of two materials with linear shock relations")
 
 #define EXACT_COUNT_ONE(identifier, name, help) +1
 enum { exact_choice_count = 0 EXACT_LIST(EXACT_COUNT_ONE) };

@@ -1,14 +1,13 @@
 /* The Riemann problem of two ideal gases; see gas_riemann.h.
  *
- * Pressure p* and velocity u* behind both waves are equal. Through a shock, with A = 2/((g+1) rho) and
- * B = (g-1)/(g+1) p,   |u* - u| = (p* - p) sqrt(A/(p* + B));
- * through a fan        |u* - u| = 2c/(g-1) (1 - r^((g-1)/2g)),  r = p* over p.
- * Both are one increasing, concave function of p*, so that Newton's method from the left of the root
- * cannot overshoot. Source: Landau and Lifshitz, Fluid mechanics, sections 85, 89, 99, 100. */
+ * Pressure p* and velocity u* behind both waves are equal (gas_wave.h). The difference of velocities is an
+ * increasing, concave function of p*, so that Newton's method from the left of the root cannot overshoot.
+ * Source: Landau and Lifshitz, Fluid mechanics, sections 85, 89, 99, 100. */
 #include "exact/gas_riemann.h"
 
 #include "exact/root.h"
 #include "exact/waves.h"
+#include "material/gas_wave.h"
 
 struct gas_problem {
     struct waves waves; /* first: waves.h */
@@ -18,23 +17,23 @@ struct gas_problem {
 
 static const struct parameter gas_table[] = {
     {"density", PARAMETER_NUMBER, offsetof(struct exact_gas, density), "kg/m^3", PARAMETER_REQUIRED,
-     .above = 0.0, .below = INFINITY, .help = "Density at the start."},
+     .above = 0.0, .below = INFINITY, .help = "density at the start"},
     {"velocity", PARAMETER_NUMBER, offsetof(struct exact_gas, velocity), "m/s", "0 m/s",
-     .help = "Velocity at the start, positive to the right."},
+     .help = "velocity at the start, positive to the right"},
     {"pressure", PARAMETER_NUMBER, offsetof(struct exact_gas, pressure), "Pa", PARAMETER_REQUIRED,
-     .above = 0.0, .below = INFINITY, .help = "Pressure at the start."},
+     .above = 0.0, .below = INFINITY, .help = "pressure at the start"},
     {"gamma", PARAMETER_NUMBER, offsetof(struct exact_gas, gamma), "", PARAMETER_REQUIRED,
-     .above = 1.0, .below = INFINITY, .help = "Ratio of specific heats."},
+     .above = 1.0, .below = INFINITY, .help = "ratio of specific heats"},
     PARAMETER_END,
 };
 
 const struct parameter exact_gas_riemann_table[] = {
     {"left", PARAMETER_TABLE, offsetof(struct exact_gas_riemann, gas[SIDE_LEFT]),
-     .standard = PARAMETER_REQUIRED, .help = "The gas left of the contact.", .table = gas_table},
+     .standard = PARAMETER_REQUIRED, .help = "the gas left of the contact", .table = gas_table},
     {"right", PARAMETER_TABLE, offsetof(struct exact_gas_riemann, gas[SIDE_RIGHT]),
-     .standard = PARAMETER_REQUIRED, .help = "The gas right of the contact.", .table = gas_table},
+     .standard = PARAMETER_REQUIRED, .help = "the gas right of the contact", .table = gas_table},
     {"at", PARAMETER_NUMBER, offsetof(struct exact_gas_riemann, at), "m", "0 mm",
-     .help = "Place of the contact at the start."},
+     .help = "place of the contact at the start"},
     PARAMETER_END,
 };
 
@@ -54,18 +53,8 @@ static struct exact_state gas_state(const struct exact_gas *gas, double density,
 /* How much the wave that takes GAS to PRESSURE changes its velocity, away from the contact positive. */
 static struct root_value push(const struct exact_gas *gas, double sound, double pressure)
 {
-    double g = gas->gamma;
-    if (pressure > gas->pressure) {
-        double a = 2.0 / ((g + 1.0) * gas->density);
-        double b = (g - 1.0) / (g + 1.0) * gas->pressure;
-        double rise = pressure - gas->pressure;
-        double root = sqrt(a / (pressure + b));
-        return (struct root_value){rise * root, root * (1.0 - 0.5 * rise / (pressure + b))};
-    }
-    double logarithm = log(pressure / gas->pressure);
-    double value = 2.0 * sound / (g - 1.0) * expm1(0.5 * (g - 1.0) / g * logarithm);
-    double slope = exp(-0.5 * (g + 1.0) / g * logarithm) / (gas->density * sound);
-    return (struct root_value){value, slope};
+    struct gas_push push = gas_wave_push(gas->density, gas->pressure, sound, gas->gamma, pressure);
+    return (struct root_value){push.value, push.slope};
 }
 
 /* Velocity right of the contact less that left of it when both gases have PRESSURE. */

@@ -16,27 +16,27 @@ struct impact_problem {
 static const struct parameter material_table[] = {
     {"density", PARAMETER_NUMBER, offsetof(struct exact_shock_material, density), "kg/m^3",
      PARAMETER_REQUIRED, .above = 0.0, .below = INFINITY,
-     .help = "Density at the start, at zero pressure."},
+     .help = "density at the start, at zero pressure"},
     {"sound", PARAMETER_NUMBER, offsetof(struct exact_shock_material, sound), "m/s",
      PARAMETER_REQUIRED, .above = 0.0, .below = INFINITY,
-     .help = "C of the shock relation U_s = C + S U_p."},
+     .help = "C of the shock relation U_s = C + S U_p"},
     {"slope", PARAMETER_NUMBER, offsetof(struct exact_shock_material, slope), "",
      PARAMETER_REQUIRED, .above = 0.0, .below = INFINITY, .closed = true,
-     .help = "S of the shock relation U_s = C + S U_p."},
+     .help = "S of the shock relation U_s = C + S U_p"},
     {"velocity", PARAMETER_NUMBER, offsetof(struct exact_shock_material, velocity), "m/s", "0 m/s",
-     .help = "Velocity at the start, positive to the right."},
+     .help = "velocity at the start, positive to the right"},
     PARAMETER_END,
 };
 
 const struct parameter exact_impedance_match_table[] = {
     {"left", PARAMETER_TABLE, offsetof(struct exact_impedance_match, material[SIDE_LEFT]),
-     .standard = PARAMETER_REQUIRED, .help = "The material left of the contact.",
+     .standard = PARAMETER_REQUIRED, .help = "the material left of the contact",
      .table = material_table},
     {"right", PARAMETER_TABLE, offsetof(struct exact_impedance_match, material[SIDE_RIGHT]),
-     .standard = PARAMETER_REQUIRED, .help = "The material right of the contact.",
+     .standard = PARAMETER_REQUIRED, .help = "the material right of the contact",
      .table = material_table},
     {"at", PARAMETER_NUMBER, offsetof(struct exact_impedance_match, at), "m", "0 mm",
-     .help = "Place of the contact at the start."},
+     .help = "place of the contact at the start"},
     PARAMETER_END,
 };
 

@@ -9,16 +9,7 @@
 #ifndef BOLIDE_RIEMANN_ACOUSTIC_H
 #define BOLIDE_RIEMANN_ACOUSTIC_H
 
-#include "base/base.h"
-
-/* One side: impedance (kg/m^2/s), velocity and stress along (or across) the axis from left to right. */
-struct side {
-    double impedance, velocity, stress;
-};
-
-struct contact {
-    double velocity, stress;
-};
+#include "riemann/side.h"
 
 /* What a contact problem is linear in:
  *   U* = U_l + right (U_r - U_l) + compliance (sigma_r - sigma_l)

@@ -6,11 +6,12 @@
  * and traction split into the part along the pair and the part across it. */
 #include <string.h>
 
-#include "riemann/acoustic.h"
+#include "riemann/dukowicz.h"
+#include "riemann/exact_gas.h"
 #include "sph/kernel.h"
 #include "sph/pair_kernel.h"
 
-enum { LANES = 8, FIELDS = 16, CHUNK = 512 };
+enum { LANES = 8, FIELDS = 24, CHUNK = 512 };
 
 #define ALIGNED __attribute__((aligned(64)))
 #define INLINE static inline __attribute__((always_inline))
@@ -24,10 +25,11 @@ struct lanes {
 /* Sums of V W' t*, V W' (U* - U)^a e^b and V W' t*.(U* - U), by lane. */
 struct sums {
     double traction[3][LANES] ALIGNED, gradient[9][LANES] ALIGNED, power[LANES] ALIGNED;
+    double weight[LANES] ALIGNED, drift[3][LANES] ALIGNED; /* V W', V W' (U* - U) */
 };
 
 struct totals_of_row {
-    double traction[3], gradient[9], power;
+    double traction[3], gradient[9], power, weight, drift[3];
 };
 
 #if defined(__AVX512F__)
@@ -156,11 +158,23 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
         double along_j = shear ? vec3_dot(tj, e) : lanes->field[s][k];
         double along_u = vec3_dot(du, e);
 
-        struct contact_weights along = kind.star == STAR_MEAN
-                                           ? riemann_mean_weights()
-                                           : riemann_acoustic_weights(own[z], lanes->field[z][k]);
-        double stress = contact_stress(along, along_i, along_j, along_u);
-        double jump = contact_velocity_jump(along, along_u, along_j - along_i);
+        double stress, jump;
+        if (record_has_bend(kind)) {
+            const int q = record_bend(dimension, shear);
+            struct side left = {own[z], 0.0, along_i, own[q], own[q + 1]};
+            struct side right = {lanes->field[z][k], along_u, along_j, lanes->field[q][k],
+                                 lanes->field[q + 1][k]};
+            struct contact contact = kind.star == STAR_DUKOWICZ ? riemann_dukowicz(left, right)
+                                                                : riemann_exact_gas(left, right);
+            stress = contact.stress;
+            jump = contact.velocity;
+        } else {
+            struct contact_weights along =
+                kind.star == STAR_MEAN ? riemann_mean_weights()
+                                       : riemann_acoustic_weights(own[z], lanes->field[z][k]);
+            stress = contact_stress(along, along_i, along_j, along_u);
+            jump = contact_velocity_jump(along, along_u, along_j - along_i);
+        }
         double opened = 0.0;
         if (with_law) {
             opened = stress > 0.0 ? lanes->open[k] : 0.0;
@@ -201,6 +215,12 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
         t = vec3_scale(weight, t);
         w = vec3_scale(weight, w);
         sums->power[k] += power;
+        if (kind.drift) {
+            sums->weight[k] += weight;
+            sums->drift[0][k] += w.x;
+            sums->drift[1][k] += w.y;
+            sums->drift[2][k] += w.z;
+        }
         sums->traction[0][k] += t.x;
         sums->gradient[0][k] += w.x * e.x;
         if (dimension > 1) {
@@ -226,7 +246,7 @@ INLINE double across_lanes(const double lane[LANES])
            ((lane[1] + lane[5]) + (lane[3] + lane[7]));
 }
 
-INLINE struct totals_of_row totals_of_sums(const struct sums *sums)
+INLINE struct totals_of_row totals_of_sums(bool drift, const struct sums *sums)
 {
     struct totals_of_row totals;
     for (int a = 0; a < 3; a++)
@@ -234,6 +254,9 @@ INLINE struct totals_of_row totals_of_sums(const struct sums *sums)
     for (int a = 0; a < 9; a++)
         totals.gradient[a] = across_lanes(sums->gradient[a]);
     totals.power = across_lanes(sums->power);
+    totals.weight = drift ? across_lanes(sums->weight) : 0.0;
+    for (int a = 0; a < 3; a++)
+        totals.drift[a] = drift ? across_lanes(sums->drift[a]) : 0.0;
     return totals;
 }
 
@@ -262,7 +285,7 @@ INLINE int compress(const struct pair_loop *loop, int dimension, int stride, con
 INLINE void add_part(const struct pair_loop *loop, struct pair_kind kind, bool with_law, int32_t i,
                      const uint32_t *entry, int count, struct sums *sums)
 {
-    const int stride = record_stride(kind.dimension, kind.shear);
+    const int stride = record_stride(kind);
     const double *own = loop->record + (size_t)i * (size_t)stride;
     int32_t list[CHUNK + 2 * LANES];
     struct lanes lanes;
@@ -295,6 +318,8 @@ INLINE void write_rates(const struct pair_rates *rates, int32_t i, double densit
         rates->acceleration[i][a] = factor * all->traction[a];
         if (rates->wall)
             rates->wall[i][a] = factor * images->traction[a];
+        if (rates->drift) /* weights are never positive */
+            rates->drift[i][a] = all->weight < 0.0 ? all->drift[a] / all->weight : 0.0;
     }
     rates->power[i] = factor * all->power;
     /* dU^a/dx^b = -2 gradient[3 a + b], since the sums hold U* - U. */
@@ -317,7 +342,7 @@ INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32
     struct totals_of_row all = {0}, images = {0};
     if (count == 0 || entry[count - 1] >> ENTRY_PART_SHIFT == 0) {
         add_part(loop, kind, false, i, entry, count, &sums);
-        all = totals_of_sums(&sums);
+        all = totals_of_sums(kind.drift, &sums);
         write_rates(&loop->rates, i, loop->density[i], &all, &images);
         return;
     }
@@ -326,7 +351,7 @@ INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32
         while (done < count && entry[done] >> ENTRY_PART_SHIFT == part)
             done++;
         if (part == PART_IMAGE) {
-            all = totals_of_sums(&sums);
+            all = totals_of_sums(kind.drift, &sums);
             memset(&sums, 0, sizeof sums);
         }
         if (done > begin && part & PART_LAW)
@@ -334,33 +359,46 @@ INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32
         else if (done > begin)
             add_part(loop, kind, false, i, entry + begin, done - begin, &sums);
     }
-    images = totals_of_sums(&sums);
+    images = totals_of_sums(kind.drift, &sums);
     for (int a = 0; a < 3; a++)
         all.traction[a] += images.traction[a];
     for (int a = 0; a < 9; a++)
         all.gradient[a] += images.gradient[a];
     all.power += images.power;
+    all.weight += images.weight;
+    for (int a = 0; a < 3; a++)
+        all.drift[a] += images.drift[a];
     write_rates(&loop->rates, i, loop->density[i], &all, &images);
 }
 
-#define INSTANCE(name, dimension, shear, star)                                 \
+#define INSTANCE(name, dimension, shear, star, drift)                          \
     static void name(const struct pair_loop *loop, int32_t begin, int32_t end) \
     {                                                                          \
-        const struct pair_kind kind = {dimension, shear, star};                \
+        const struct pair_kind kind = {dimension, shear, star, drift};         \
         for (int32_t i = begin; i < end; i++)                                  \
             row_rates(loop, kind, i);                                          \
     }
 
-INSTANCE(line_acoustic, 1, false, STAR_ACOUSTIC)
-INSTANCE(line_mean, 1, false, STAR_MEAN)
-INSTANCE(plane_fluid_acoustic, 2, false, STAR_ACOUSTIC)
-INSTANCE(plane_fluid_mean, 2, false, STAR_MEAN)
-INSTANCE(plane_solid_acoustic, 2, true, STAR_ACOUSTIC)
-INSTANCE(plane_solid_mean, 2, true, STAR_MEAN)
-INSTANCE(space_fluid_acoustic, 3, false, STAR_ACOUSTIC)
-INSTANCE(space_fluid_mean, 3, false, STAR_MEAN)
-INSTANCE(space_solid_acoustic, 3, true, STAR_ACOUSTIC)
-INSTANCE(space_solid_mean, 3, true, STAR_MEAN)
+#define INSTANCES(medium, dimension, shear)                                  \
+    INSTANCE(medium##_acoustic, dimension, shear, STAR_ACOUSTIC, false)      \
+    INSTANCE(medium##_mean, dimension, shear, STAR_MEAN, false)              \
+    INSTANCE(medium##_dukowicz, dimension, shear, STAR_DUKOWICZ, false)      \
+    INSTANCE(medium##_acoustic_drift, dimension, shear, STAR_ACOUSTIC, true) \
+    INSTANCE(medium##_mean_drift, dimension, shear, STAR_MEAN, true)         \
+    INSTANCE(medium##_dukowicz_drift, dimension, shear, STAR_DUKOWICZ, true)
+
+#define GAS_INSTANCES(medium, dimension)                                  \
+    INSTANCE(medium##_exact_gas, dimension, false, STAR_EXACT_GAS, false) \
+    INSTANCE(medium##_exact_gas_drift, dimension, false, STAR_EXACT_GAS, true)
+
+INSTANCES(line, 1, false)
+INSTANCES(plane_fluid, 2, false)
+INSTANCES(plane_solid, 2, true)
+INSTANCES(space_fluid, 3, false)
+INSTANCES(space_solid, 3, true)
+GAS_INSTANCES(line, 1)
+GAS_INSTANCES(plane_fluid, 2)
+GAS_INSTANCES(space_fluid, 3)
 
 #define JOIN(a, b) a##b
 #define NAME_OF(isa) JOIN(pair_loop_run_, isa)
@@ -370,9 +408,23 @@ void NAME_OF(BOLIDE_ISA)(const struct pair_loop *loop, int32_t begin, int32_t en
 void NAME_OF(BOLIDE_ISA)(const struct pair_loop *loop, int32_t begin, int32_t end)
 {
     typedef void instance(const struct pair_loop *, int32_t, int32_t);
-    static instance *const table[3][2][2] = {
-        {{line_acoustic, line_mean}, {line_acoustic, line_mean}},
-        {{plane_fluid_acoustic, plane_fluid_mean}, {plane_solid_acoustic, plane_solid_mean}},
-        {{space_fluid_acoustic, space_fluid_mean}, {space_solid_acoustic, space_solid_mean}}};
-    table[loop->kind.dimension - 1][loop->kind.shear][loop->kind.star](loop, begin, end);
+#define STARS(medium, gas)                                                                  \
+    {                                                                                       \
+        {medium##_acoustic, medium##_acoustic_drift}, {medium##_mean, medium##_mean_drift}, \
+            {medium##_dukowicz, medium##_dukowicz_drift}, gas                               \
+    }
+#define GAS(medium)                                  \
+    {                                                \
+        medium##_exact_gas, medium##_exact_gas_drift \
+    }
+#define NO_GAS     \
+    {              \
+        NULL, NULL \
+    }
+    static instance *const table[3][2][4][2] = {
+        {STARS(line, GAS(line)), STARS(line, GAS(line))},
+        {STARS(plane_fluid, GAS(plane_fluid)), STARS(plane_solid, NO_GAS)},
+        {STARS(space_fluid, GAS(space_fluid)), STARS(space_solid, NO_GAS)}};
+    const struct pair_kind kind = loop->kind;
+    table[kind.dimension - 1][kind.shear][kind.star][kind.drift](loop, begin, end);
 }

@@ -1,7 +1,7 @@
 /* The pair loop: sums over neighbours of what the contact problems between particles give.
  *
  * A neighbour is seen through its record alone, a few doubles packed once a stage:
- *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear]
+ *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear] [density bend]
  * where stress is sigma_xx alone for fluids and in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz, zx) in 3-D.
  * The loop is compiled for several instruction sets with the same result to the last bit. */
 #ifndef BOLIDE_SPH_PAIR_KERNEL_H
@@ -9,16 +9,21 @@
 
 #include "particle/neighbours.h"
 
+/* Where the contact velocity and stress along a pair come from. */
 enum pair_star {
-    STAR_ACOUSTIC, /* contact SPH */
-    STAR_MEAN,     /* standard SPH */
+    STAR_ACOUSTIC,  /* contact SPH: riemann/acoustic.h */
+    STAR_MEAN,      /* standard SPH: arithmetic means */
+    STAR_DUKOWICZ,  /* contact SPH for strong shocks: riemann/dukowicz.h */
+    STAR_EXACT_GAS, /* contact SPH of ideal gases: riemann/exact_gas.h */
 };
 
-/* What instantiates a kernel. `shear`: stress is a tensor and shear impedances count. */
+/* What instantiates a kernel. `shear`: stress is a tensor and shear impedances count. `drift`: the mean of
+ * contact velocities is wanted too. */
 struct pair_kind {
     int dimension;
     bool shear;
     enum pair_star star;
+    bool drift;
 };
 
 /* Offsets in a record, of the doubles after position. */
@@ -34,14 +39,20 @@ BOLIDE_INLINE int record_impedance(int dimension, bool shear)
 {
     return record_stress(dimension) + record_stresses(dimension, shear);
 }
-/* Doubles used, and doubles from one record to the next: a half or a whole pair of cache lines. */
-BOLIDE_INLINE int record_used(int dimension, bool shear)
+/* Solvers of strong shocks also see density and bend (riemann/side.h). */
+BOLIDE_INLINE bool record_has_bend(struct pair_kind kind)
+{
+    return kind.star == STAR_DUKOWICZ || kind.star == STAR_EXACT_GAS;
+}
+BOLIDE_INLINE int record_bend(int dimension, bool shear)
 {
     return record_impedance(dimension, shear) + 1 + (shear && dimension > 1);
 }
-BOLIDE_INLINE int record_stride(int dimension, bool shear)
+/* Doubles from one record to the next: whole cache lines. */
+BOLIDE_INLINE int record_stride(struct pair_kind kind)
 {
-    return record_used(dimension, shear) <= 8 ? 8 : 16;
+    int used = record_bend(kind.dimension, kind.shear) + (record_has_bend(kind) ? 2 : 0);
+    return (used + 7) / 8 * 8;
 }
 
 /* Sums for particle i, with V = m/rho, W' = dW/dr, e from i to j, t* = sigma*.e, and U* as i sees it. */
@@ -50,7 +61,8 @@ struct pair_rates {
     double *power;             /* -(2/rho) sum V W' t*.(U* - U)       (1.40) less U.(1.39), W/kg */
     double (*strain_rate)[6];  /* symmetric part of dU^a/dx^b = 2 sum V W' (U - U*)^a e^b, 1/s */
     double (*spin)[3];         /* half the curl of U (1.57), (1.58), rad/s */
-    double (*wall)[3]; /* the part of the acceleration that images gave; NULL without walls */
+    double (*wall)[3];  /* the part of the acceleration that images gave; NULL without walls */
+    double (*drift)[3]; /* sum V W\' (U* - U) / sum V W\', m/s; NULL unless the kind has it */
 };
 
 struct pair_loop {

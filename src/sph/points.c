@@ -27,9 +27,10 @@ void sph_evaluate(const struct sph *sph, struct simulation *simulation)
 }
 
 /* Record of particle I; see pair_kernel.h for the order. */
-static void pack_owned(const struct simulation *simulation, const struct sph_fields *f, bool shear,
-                       int32_t i, double *record)
+static void pack_owned(const struct sph *sph, const struct simulation *simulation,
+                       const struct sph_fields *f, int32_t i, double *record)
 {
+    bool shear = sph->kind.shear;
     const struct particles *p = &simulation->particles;
     int dimension = simulation->dimension, k = 0;
     for (int axis = 0; axis < dimension; axis++)
@@ -52,8 +53,12 @@ static void pack_owned(const struct simulation *simulation, const struct sph_fie
         k += 3;
     }
     record[k++] = p->density[i] * f->sound_long[i];
-    if (shear && dimension > 1)
-        record[k] = p->density[i] * f->sound_shear[i];
+    if (shear)
+        record[k++] = p->density[i] * f->sound_shear[i];
+    if (record_has_bend(sph->kind)) {
+        record[k++] = p->density[i];
+        record[k] = sph->bend[p->material[i]];
+    }
 }
 
 /* Turns the record of a particle into that of its image: place mirrored, normal velocity and the shear
@@ -87,19 +92,26 @@ void sph_pack(struct sph *sph, const struct simulation *simulation)
     const struct particles *p = &simulation->particles;
     const struct ghosts *ghosts = &sph->neighbours.ghosts;
     struct sph_fields f = sph_fields_of(sph, simulation);
-    int dimension = simulation->dimension;
-    bool shear = sph->shear && dimension > 1;
-    size_t stride = (size_t)record_stride(dimension, shear);
+    size_t stride = (size_t)record_stride(sph->kind);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++)
-        pack_owned(simulation, &f, shear, i, sph->record + (size_t)i * stride);
+        pack_owned(sph, simulation, &f, i, sph->record + (size_t)i * stride);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t g = 0; g < ghosts->count; g++) {
         double *record = sph->record + (size_t)(p->count + g) * stride;
         memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
-        reflect(simulation, shear, ghosts->image[g], record);
+        reflect(simulation, sph->kind.shear, ghosts->image[g], record);
     }
-    memset(sph->record + (size_t)(p->count + ghosts->count) * stride, 0, stride * sizeof(double));
+    /* The record that fills up lanes has no volume; its contact problem must only have an answer. */
+    double *empty = sph->record + (size_t)(p->count + ghosts->count) * stride;
+    memset(empty, 0, stride * sizeof *empty);
+    if (record_has_bend(sph->kind)) {
+        int dimension = simulation->dimension, bend = record_bend(dimension, sph->kind.shear);
+        empty[record_stress(dimension)] = -1.0;
+        empty[record_impedance(dimension, sph->kind.shear)] = 1.0;
+        empty[bend] = 1.0;
+        empty[bend + 1] = 2.0;
+    }
 }
 
 /* The particle with the smallest id whose new state is impossible. */
@@ -126,7 +138,9 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
         double divergence = rate[0] + rate[1] + rate[2], a2 = 0.0;
         for (int axis = 0; axis < dimension; axis++) {
             double next = u[axis] + dt * a[axis];
-            x[axis] += 0.5 * dt * (u[axis] + next); /* (1.86) */
+            /* (1.86), or the kernel mean of contact velocities */
+            x[axis] += f->rates.drift ? dt * (u[axis] + f->rates.drift[i][axis])
+                                      : 0.5 * dt * (u[axis] + next);
             u[axis] = next;
             a2 += square(a[axis]);
         }

@@ -9,11 +9,13 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "model/generate.h"
+#include "riemann/bend.h"
 #include "sph/sph_internal.h"
 
 static const char *const method_names[] = {"contact", "standard", NULL};
-static const char *const contact_names[] = {"acoustic", NULL};
+static const char *const contact_names[] = {"acoustic", "dukowicz", "exact-gas", NULL};
 static const char *const energy_names[] = {"total", "internal", NULL};
+static const char *const motion_names[] = {"particle", "contact", NULL};
 
 static const struct parameter sph_table[] = {
     {.key = "method",
@@ -27,7 +29,8 @@ static const struct parameter sph_table[] = {
      .offset = offsetof(struct sph_parameters, contact),
      .standard = "acoustic",
      .names = contact_names,
-     .help = "solver of the contact problem of the contact method"},
+     .help =
+         "contact problem along a pair: acoustic; dukowicz: two shocks; exact-gas: ideal gases"},
     {.key = "smoothing",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct sph_parameters, smoothing),
@@ -49,6 +52,13 @@ static const struct parameter sph_table[] = {
      .standard = "total",
      .names = energy_names,
      .help = "total: conserved to round-off; internal: the rate of internal energy alone"},
+    {.key = "motion",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct sph_parameters, motion),
+     .standard = "particle",
+     .names = motion_names,
+     .help =
+         "what moves a particle: its own velocity, or the kernel mean of its contact velocities"},
     {.key = "viscosity_quadratic",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct sph_parameters, viscosity_quadratic),
@@ -94,6 +104,8 @@ static const struct field_declaration sph_field_table[] = {
 };
 static const struct field_declaration wall_field = {
     "wall_acceleration", NULL, "acceleration by walls", NUMBER_DOUBLE, 3, FIELD_DERIVED};
+static const struct field_declaration drift_field = {
+    "drift", NULL, "mean contact velocity less own velocity", NUMBER_DOUBLE, 3, FIELD_DERIVED};
 static const struct field_declaration viscosity_field = {
     "viscosity", "Pa", "artificial viscous pressure", NUMBER_DOUBLE, 1, FIELD_DERIVED};
 
@@ -132,8 +144,35 @@ struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *
                   .power = particles_field(p, "power"),
                   .strain_rate = particles_field(p, "strain_rate"),
                   .spin = particles_field(p, "spin"),
-                  .wall = has_walls(simulation) ? particles_field(p, "wall_acceleration") : NULL}};
+                  .wall = has_walls(simulation) ? particles_field(p, "wall_acceleration") : NULL,
+                  .drift = sph->kind.drift ? particles_field(p, "drift") : NULL}};
     return f;
+}
+
+/* Which pair loop the case needs, and what its contact problems take from the materials. */
+static struct error *choose_kind(struct sph *sph, const struct simulation *simulation)
+{
+    static const enum pair_star stars[] = {[SPH_CONTACT_ACOUSTIC] = STAR_ACOUSTIC,
+                                           [SPH_CONTACT_DUKOWICZ] = STAR_DUKOWICZ,
+                                           [SPH_CONTACT_EXACT_GAS] = STAR_EXACT_GAS};
+    const struct sph_parameters *parameters = &sph->parameters;
+    struct pair_kind *kind = &sph->kind;
+    kind->dimension = simulation->dimension;
+    kind->star = is_standard(sph) ? STAR_MEAN : stars[parameters->contact];
+    kind->drift = parameters->motion == SPH_MOTION_CONTACT;
+    for (int m = 0; m < simulation->materials; m++) {
+        const struct material *material = &simulation->material[m];
+        kind->shear |= material_has_strength(material) && simulation->dimension > 1;
+        sph->bend[m] = kind->star == STAR_EXACT_GAS ? material->eos.of.ideal_gas.gamma
+                                                    : riemann_shock_slope(material);
+        if (kind->star == STAR_EXACT_GAS &&
+            (material->eos.kind != EOS_ideal_gas || material_has_strength(material)))
+            return input_error(simulation->input, "solver", "sph.contact",
+                               "exact-gas solves contacts of ideal gases, and material \"%s\" is "
+                               "none: use acoustic or dukowicz",
+                               simulation->input->materials.names[m]);
+    }
+    return NULL;
 }
 
 static struct error *sph_create(void *solver, struct simulation *simulation, const void *parameters)
@@ -141,11 +180,10 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     struct sph *sph = solver;
     sph->parameters = *(const struct sph_parameters *)parameters;
     sph->neighbours.skin = sph->parameters.skin;
-    for (int m = 0; m < simulation->materials; m++)
-        sph->shear |= material_has_strength(&simulation->material[m]);
+    TRY(choose_kind(sph, simulation));
     sph->groups = (struct contact_groups){simulation->group_of_body, &simulation->law[0][0],
                                           has_laws(simulation) ? CONTACT_GROUPS : 1};
-    struct field_declaration fields[COUNT_OF(sph_field_table) + 2];
+    struct field_declaration fields[COUNT_OF(sph_field_table) + 3];
     int count = 0;
     for (size_t k = 0; k < COUNT_OF(sph_field_table); k++)
         fields[count++] = sph_field_table[k];
@@ -153,6 +191,8 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
         fields[count++] = wall_field;
     if (is_standard(sph))
         fields[count++] = viscosity_field;
+    if (sph->kind.drift)
+        fields[count++] = drift_field;
     double support = 2.0 * sph->parameters.smoothing * largest_diameter(simulation->input);
     double cell = growth_room * support * (1.0 + sph->parameters.skin);
     return particles_create(simulation->dimension, cell, fields, count, &simulation->particles);
@@ -167,7 +207,7 @@ static struct error *sph_start(void *solver, struct simulation *simulation)
 static struct error *reserve_records(struct sph *sph, const struct simulation *simulation)
 {
     int64_t count = (int64_t)simulation->particles.count + sph->neighbours.ghosts.count + 1;
-    size_t stride = (size_t)record_stride(simulation->dimension, sph->shear);
+    size_t stride = (size_t)record_stride(sph->kind);
     if (!memory_reserve((void **)&sph->record, &sph->record_capacity, count, 0,
                         stride * sizeof(double)))
         return error_new(ERROR_SYSTEM, "out of memory for the records of %lld particles",
@@ -197,9 +237,7 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
                       const struct sph_fields *fields)
 {
     const struct particles *p = &simulation->particles;
-    struct pair_loop loop = {.kind = {simulation->dimension,
-                                      sph->shear && simulation->dimension > 1,
-                                      is_standard(sph) ? STAR_MEAN : STAR_ACOUSTIC},
+    struct pair_loop loop = {.kind = sph->kind,
                              .record = sph->record,
                              .empty = p->count + sph->neighbours.ghosts.count,
                              .smoothing = sph->parameters.smoothing,
@@ -331,6 +369,12 @@ static double sph_bytes(const void *parameters, int dimension)
            1.25 * neighbours * sizeof(uint32_t);
 }
 
+static const struct field_declaration *sph_field(int index)
+{
+    const int always = (int)COUNT_OF(sph_field_table);
+    return index < always ? &sph_field_table[index] : index == always ? &viscosity_field : NULL;
+}
+
 static const struct solver_class sph_class = {.size = sizeof(struct sph),
                                               .create = sph_create,
                                               .start = sph_start,
@@ -339,7 +383,8 @@ static const struct solver_class sph_class = {.size = sizeof(struct sph),
                                               .state = sph_state,
                                               .observe = sph_observe,
                                               .destroy = sph_destroy,
-                                              .bytes = sph_bytes};
+                                              .bytes = sph_bytes,
+                                              .field = sph_field};
 
 const struct choice sph_choice = {"sph", "smoothed particle hydrodynamics, contact or standard",
                                   sph_table, sizeof(struct sph_parameters), &sph_class};

@@ -6,19 +6,19 @@
 #include "model/solver.h"
 
 enum sph_method { SPH_CONTACT, SPH_STANDARD };
+enum sph_contact { SPH_CONTACT_ACOUSTIC, SPH_CONTACT_DUKOWICZ, SPH_CONTACT_EXACT_GAS };
 enum sph_energy { SPH_ENERGY_TOTAL, SPH_ENERGY_INTERNAL };
+enum sph_motion { SPH_MOTION_PARTICLE, SPH_MOTION_CONTACT };
 
 struct sph_parameters {
     int method;
-    int contact; /* enum sph_contact: the contact solver */
+    int contact;
     double smoothing, courant;
-    int energy;
+    int energy, motion;
     double viscosity_quadratic, viscosity_linear;
     double skin;
     int64_t rebuild;
 };
-
-enum sph_contact { SPH_CONTACT_ACOUSTIC };
 
 /* `solver: {sph: {...}}`; its thing is the solver_class. */
 extern const struct choice sph_choice;

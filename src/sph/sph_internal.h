@@ -15,7 +15,8 @@ struct sph_fields {
 
 struct sph {
     struct sph_parameters parameters;
-    bool shear; /* some material has strength */
+    struct pair_kind kind;
+    double bend[MATERIALS_MAX]; /* of riemann/bend.h, by material */
     struct neighbours neighbours;
     struct contact_groups groups;
     struct reach reach;

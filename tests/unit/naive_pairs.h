@@ -7,11 +7,13 @@
 #include <string.h>
 
 #include "model/simulation.h"
+#include "riemann/dukowicz.h"
+#include "riemann/exact_gas.h"
 #include "sph/pair_kernel.h"
 
 /* One side of a pair, images already reflected. */
 struct naive_particle {
-    double mass, density, diameter, x[3], u[3], stress[3][3], z_long, z_shear;
+    double mass, density, diameter, x[3], u[3], stress[3][3], z_long, z_shear, bend;
 };
 
 /* The sums for one particle, and beside each number the sum of the magnitudes of its terms. */
@@ -20,6 +22,7 @@ struct naive_sums {
     double wall[3];
     double power, power_size;
     double gradient[3][3], spin[3], gradient_size;
+    double weight, drift[3];
 };
 
 static inline double naive_slope(double r, double h, int dimension)
@@ -66,7 +69,14 @@ static inline void naive_contact(struct pair_kind kind, unsigned law,
 {
     for (int k = 0; k < 3; k++) {
         double zi = k == 0 ? i->z_long : i->z_shear, zj = k == 0 ? j->z_long : j->z_shear;
-        if (kind.star == STAR_MEAN) {
+        if (k == 0 && record_has_bend(kind)) {
+            struct side left = {zi, u[0][0], sigma[0][0], i->density, i->bend};
+            struct side right = {zj, u[1][0], sigma[1][0], j->density, j->bend};
+            struct contact contact = kind.star == STAR_DUKOWICZ ? riemann_dukowicz(left, right)
+                                                                : riemann_exact_gas(left, right);
+            u_star[0] = contact.velocity;
+            sigma_star[0] = contact.stress;
+        } else if (kind.star == STAR_MEAN) {
             u_star[k] = 0.5 * (u[0][k] + u[1][k]);
             sigma_star[k] = 0.5 * (sigma[0][k] + sigma[1][k]);
         } else if (zi + zj == 0.0) {
@@ -119,8 +129,10 @@ static inline void naive_pair(struct pair_kind kind, double smoothing, unsigned 
     double push = -2.0 * j->mass / (i->density * j->density) * slope; /* of (1.39) and (1.40) */
     double volume = j->mass / j->density * slope;
     double work = 0.0, speed = 0.0, stress = 0.0, own_speed = 0.0;
+    sums->weight += volume;
     for (int k = 0; k < 3; k++) {
         sums->acceleration[k] += push * sigma_star[k];
+        sums->drift[k] += volume * (u_star[k] - i->u[k]);
         sums->wall[k] += image ? push * sigma_star[k] : 0.0;
         work += sigma_star[k] * u_star[k] - i->u[k] * sigma_star[k];
         speed += u_star[k] * u_star[k];

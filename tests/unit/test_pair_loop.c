@@ -7,11 +7,15 @@ pair_loop_isa pair_loop_run_v2;
 pair_loop_isa pair_loop_run_v3, pair_loop_run_v4;
 #endif
 
-static const struct pair_kind kinds[] = {{1, false, STAR_ACOUSTIC}, {1, false, STAR_MEAN},
-                                         {2, false, STAR_ACOUSTIC}, {2, false, STAR_MEAN},
-                                         {2, true, STAR_ACOUSTIC},  {2, true, STAR_MEAN},
-                                         {3, false, STAR_ACOUSTIC}, {3, false, STAR_MEAN},
-                                         {3, true, STAR_ACOUSTIC},  {3, true, STAR_MEAN}};
+static const struct pair_kind kinds[] = {
+    {1, false, STAR_ACOUSTIC, false}, {1, false, STAR_MEAN, false},
+    {2, false, STAR_ACOUSTIC, false}, {2, false, STAR_MEAN, false},
+    {2, true, STAR_ACOUSTIC, false},  {2, true, STAR_MEAN, false},
+    {3, false, STAR_ACOUSTIC, false}, {3, false, STAR_MEAN, false},
+    {3, true, STAR_ACOUSTIC, false},  {3, true, STAR_MEAN, false},
+    {1, false, STAR_DUKOWICZ, true},  {2, false, STAR_DUKOWICZ, false},
+    {3, true, STAR_DUKOWICZ, true},   {1, false, STAR_EXACT_GAS, false},
+    {3, false, STAR_EXACT_GAS, true}, {2, true, STAR_ACOUSTIC, true}};
 
 static void the_fast_loop_agrees_with_the_naive_one(void **state)
 {
@@ -208,7 +212,7 @@ static void on_a_line_with_h_equal_to_d_the_loop_is_godunovs_scheme(void **state
     (void)state;
     enum { COUNT = 40 };
     const double d = 0x1p-10;
-    const struct pair_kind kind = {1, false, STAR_ACOUSTIC};
+    const struct pair_kind kind = {1, false, STAR_ACOUSTIC, false};
     struct dice dice = {600};
     struct trial t = {.record = NULL};
     scene_create(&t.scene, 1, COUNT, 3.0 * d, 0.15);
@@ -312,6 +316,8 @@ static void a_contact_that_opens_carries_nothing(void **state)
 {
     (void)state;
     for (size_t k = 0; k < COUNT_OF(kinds); k++) {
+        if (kinds[k].star == STAR_EXACT_GAS)
+            continue; /* a gas is never in tension */
         struct trial t;
         const double x[3] = {0.6, 0.5, 0.0};
         double speed[2] = {-400.0, 400.0};

@@ -1,0 +1,18 @@
+/* What a contact problem is posed between, and what it gives. */
+#ifndef BOLIDE_RIEMANN_SIDE_H
+#define BOLIDE_RIEMANN_SIDE_H
+
+#include "base/base.h"
+
+/* One side: impedance rho c (kg/m^2/s), velocity and stress (positive in tension) along the axis from left to
+ * right. Solvers of strong shocks also take the density (kg/m^3) and how the wave bends: the slope A of
+ * U_s = c + A |u* - u|, or the ratio of specific heats of a gas. */
+struct side {
+    double impedance, velocity, stress, density, bend;
+};
+
+struct contact {
+    double velocity, stress;
+};
+
+#endif
