@@ -1,13 +1,18 @@
 # Thin front doors to scripts/ and CMake.
-.PHONY: help demo build test bench format clean
+prefix ?= /usr/local
+
+.PHONY: help demo build test bench docs install package format clean
 
 help:
-	@echo "make demo    install what is missing, build, run a case worth looking at"
-	@echo "make build   install what is missing, build build/release/bolide"
-	@echo "make test    install what is missing, build twice, run the whole suite"
-	@echo "make bench   measure the speed of the rooms that matter"
-	@echo "make format  lay out the sources by .clang-format"
-	@echo "make clean   remove build/ and results/"
+	@echo "make demo     install what is missing, build, run a case worth looking at"
+	@echo "make build    install what is missing, build build/release/bolide"
+	@echo "make test     install what is missing, build twice, run the whole suite"
+	@echo "make bench    measure the speed of the rooms that matter"
+	@echo "make docs     make the manual as a site: build/docs/index.html"
+	@echo "make install  install into $(prefix); prefix=... and DESTDIR=... change where"
+	@echo "make package  make a Debian package: build/release/package/*.deb"
+	@echo "make format   lay out the sources by .clang-format"
+	@echo "make clean    remove build/ and results/"
 
 demo:
 	@scripts/demo
@@ -21,6 +26,20 @@ test:
 
 bench:
 	@scripts/bench
+
+docs:
+	@scripts/setup docs
+	@scripts/build release bolide
+	@scripts/docs build/release/bolide build/docs
+
+install:
+	@scripts/build release bolide install_files
+	@cmake --install build/release --prefix $(prefix)
+
+package:
+	@scripts/setup run
+	@scripts/build release bolide install_files
+	@cd build/release && cpack -G DEB
 
 format:
 	@scripts/setup format

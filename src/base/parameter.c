@@ -53,6 +53,12 @@ static void value_release(const struct parameter *parameter, void *value)
         *list = (struct name_list){0};
         break;
     }
+    case PARAMETER_VECTORS: {
+        struct vector_list *list = value;
+        free(list->items);
+        *list = (struct vector_list){0};
+        break;
+    }
     case PARAMETER_TABLE:
         parameters_release(parameter->table, value);
         break;

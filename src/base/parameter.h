@@ -13,6 +13,7 @@
  *   TEXT       a scalar                                  char *, NULL when not given
  *   CHOICE     one of `names`                            int, the index in `names`
  *   VECTOR     a list of 1 to 3 expressions              struct vector_value (count 0: not given)
+ *   VECTORS    a list of such lists                      struct vector_list
  *   NAMES      a list of scalars, or one scalar          struct name_list
  *   TABLE      a map with the keys of `table`            the nested struct itself
  *   ONE_OF     {name: {...}} or name, of `kind_of_thing` struct one_of
@@ -38,6 +39,7 @@ enum parameter_kind {
     PARAMETER_TEXT,
     PARAMETER_CHOICE,
     PARAMETER_VECTOR,
+    PARAMETER_VECTORS,
     PARAMETER_NAMES,
     PARAMETER_TABLE,
     PARAMETER_ONE_OF,
@@ -53,7 +55,7 @@ struct parameter {
     enum parameter_kind kind;
     size_t offset;
     const char
-        *unit; /* NUMBER, VECTOR: the SI unit that fixes the dimension, "" or NULL for none */
+        *unit; /* NUMBER, VECTOR(S): the SI unit that fixes the dimension, "" or NULL for none */
     const char *standard; /* default as typed, PARAMETER_REQUIRED or PARAMETER_OPTIONAL */
     double above, below;  /* NUMBER, INTEGER: allowed is above < value < below; both 0: anything */
     bool closed;          /* the bounds themselves are allowed too */
@@ -75,6 +77,11 @@ struct parameter {
 struct vector_value {
     int count;
     double at[3];
+};
+
+struct vector_list {
+    int count;
+    struct vector_value *items;
 };
 
 struct name_list {

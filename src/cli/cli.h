@@ -20,7 +20,7 @@ struct cli_options {
     const char *output;
     int64_t threads, points;
     bool overwrite, resume, quick, all;
-    const char *time;
+    const char *time, *template_name;
     struct text_list settings, names;
 };
 
@@ -29,6 +29,10 @@ enum command_bit {
     COMMAND_CHECK = 2,
     COMMAND_VERIFY = 4,
     COMMAND_EXACT = 8,
+    COMMAND_REPORT = 32,
+    COMMAND_NEW = 256,
+    COMMAND_SCHEMA = 512,
+    COMMAND_MATERIALS = 1024,
     COMMAND_HELP = 16
 };
 
@@ -46,6 +50,10 @@ int command_run(const struct cli_options *options);
 int command_check(const struct cli_options *options);
 int command_verify(const struct cli_options *options);
 int command_exact(const struct cli_options *options);
+int command_report(const struct cli_options *options);
+int command_new(const struct cli_options *options);
+int command_schema(const struct cli_options *options);
+int command_materials(const struct cli_options *options);
 int command_help(const struct cli_options *options);
 
 /* options.c */
@@ -83,8 +91,13 @@ int signals_status(void);
  * beside the build, where the program is installed, or here. NULL if there is none; free it. */
 char *share_folder(const char *name);
 
-/* Reads the case at PATH as OPTIONS want it. */
+/* How OPTIONS want a case to be read, with the materials in the folder MATERIALS (NULL: none). */
+struct case_options case_reading(const struct cli_options *options, const char *const *materials);
+
+/* Reads the case at PATH as OPTIONS want it; and the run RUN, from 1, of its sweep. */
 struct error *read_case(const char *path, const struct cli_options *options,
                         struct simulation_case **input);
+struct error *read_run_of_sweep(const char *path, const struct cli_options *options, int run,
+                                struct simulation_case **input);
 
 #endif

@@ -1,8 +1,10 @@
 /* bolide check: what a case would compute. */
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "cli/cli.h"
 #include "run/estimate.h"
+#include "run/sweep.h"
 
 static const char *mass_unit(int64_t dimension)
 {
@@ -25,6 +27,28 @@ static void print_bodies(const struct simulation_case *input, const struct estim
     }
 }
 
+/* `mean density 2025 kg/m3 in 20.4 um x 0.8 um; by mass: tungsten 84.2 %, lithium 15.8 %` */
+static void print_mixture(const struct simulation_case *input, const struct estimate *estimate)
+{
+    const struct vec3 extent = vec3_sub(estimate->box.high, estimate->box.low);
+    const double length[3] = {extent.x, extent.y, extent.z};
+    printf("  mean density %.6g kg/m3 in ", estimate->mean_density);
+    for (int axis = 0; axis < input->dimension; axis++) {
+        char text[48];
+        readable(length[axis], "m", text, sizeof text);
+        printf("%s%s", axis ? " x " : "", text);
+    }
+    const char *before = "; by mass: ";
+    for (int i = 0; i < input->materials.count && input->materials.count > 1; i++) {
+        if (estimate->material_mass[i] == 0.0)
+            continue;
+        printf("%s%s %.4g %%", before, input->materials.names[i],
+               100.0 * estimate->material_mass[i] / estimate->mass);
+        before = ", ";
+    }
+    printf("\n");
+}
+
 static void print_run(const struct simulation_case *input, const struct estimate *estimate,
                       int threads)
 {
@@ -41,22 +65,50 @@ static void print_run(const struct simulation_case *input, const struct estimate
            threads == 1 ? "" : "s");
 }
 
-static struct error *check_case(const char *path, const struct cli_options *options)
+static void print_warnings(const struct simulation_case *input)
+{
+    struct error *warnings = generate_warnings(input);
+    for (int i = 0; warnings && i < error_count(warnings); i++)
+        printf("  warning: %s\n", error_message(warnings, i));
+    error_free(warnings);
+}
+
+/* The case at PATH, or the run RUN of its sweep; *runs is how many there are. */
+static struct error *check_run(const char *path, const struct cli_options *options, int run,
+                               int *runs)
 {
     struct simulation_case *input;
     struct estimate estimate;
     int threads = options->threads > 0 ? (int)options->threads : 1;
-    TRY(read_case(path, options, &input));
+    TRY(read_run_of_sweep(path, options, run, &input));
+    *runs = input->sweep_runs;
+    if (*runs && !run) {
+        case_free(input);
+        return NULL;
+    }
+    char *name = run ? sweep_run_name(input->sweep, input->sweep_values) : NULL;
     struct error *error = estimate_run(input, threads, &estimate);
     if (!error) {
-        printf("%s%s%s: %s (%lld-D, %s)\n", colour(COLOUR_STRONG), input->name, colour(COLOUR_NONE),
-               input->title ? input->title : "", (long long)input->dimension,
-               input->solver.choice->name);
+        printf("%s%s%s%s%s: %s (%lld-D, %s)\n", colour(COLOUR_STRONG), input->name, name ? "/" : "",
+               name ? name : "", colour(COLOUR_NONE), input->title ? input->title : "",
+               (long long)input->dimension, input->solver.choice->name);
         print_bodies(input, &estimate);
+        print_mixture(input, &estimate);
         print_run(input, &estimate, threads);
+        print_warnings(input);
         estimate_free(&estimate);
     }
+    free(name);
     case_free(input);
+    return error;
+}
+
+static struct error *check_case(const char *path, const struct cli_options *options)
+{
+    int runs;
+    struct error *error = check_run(path, options, 0, &runs);
+    for (int run = 1; !error && run <= runs; run++)
+        error = check_run(path, options, run, &runs);
     return error;
 }
 

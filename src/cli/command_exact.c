@@ -81,6 +81,42 @@ static struct error *print_solution(const struct choice *choice, const void *val
     return error;
 }
 
+/* Writes ` --set "left.density=... kg/m^3"` for every value of TABLE that has no default. */
+static void write_wanted(FILE *out, const char *prefix, const struct parameter *table)
+{
+    for (const struct parameter *p = table; p && !PARAMETER_IS_END(p); p++) {
+        char path[256];
+        if (p->standard)
+            continue;
+        snprintf(path, sizeof path, "%s%s", prefix, p->key);
+        if (p->kind == PARAMETER_TABLE) {
+            snprintf(path, sizeof path, "%s%s.", prefix, p->key);
+            write_wanted(out, path, p->table);
+        } else
+            fprintf(out, " --set \"%s=...%s%s\"", path, p->unit && p->unit[0] ? " " : "",
+                    p->unit ? p->unit : "");
+    }
+}
+
+static struct error *wants_values(const struct choice *choice)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    write_wanted(out, "", choice->table);
+    struct error *error =
+        fclose(out) ? error_new(ERROR_SYSTEM, "out of memory")
+                    : error_new(ERROR_INPUT, "%s wants its values:%s", choice->name, text);
+    error = error_join(error, error_new(ERROR_INPUT,
+                                        "`bolide help %s` explains them; `bolide exact CASE` takes "
+                                        "those of a case",
+                                        choice->name));
+    free(text);
+    return error;
+}
+
 static struct error *solve_choice(const struct choice *choice, const struct cli_options *options)
 {
     double time;
@@ -96,11 +132,37 @@ static struct error *solve_choice(const struct choice *choice, const struct cli_
         if (!error) {
             error = print_solution(choice, values, time, options->points);
             parameters_release(choice->table, values);
+        } else if (!options->settings.count) {
+            error_free(error);
+            error = wants_values(choice);
         }
         document_free(document);
     }
     free(values);
     return error;
+}
+
+/* The exact solution of the case at PATH, at the end of its run if no time is given. */
+static struct error *solve_case(const char *path, const struct cli_options *options)
+{
+    double time;
+    struct simulation_case *input;
+    TRY(read_time(options->time, &time));
+    TRY(read_case(path, options, &input));
+    struct error *error =
+        input->exact.choice
+            ? print_solution(input->exact.choice, input->exact.value,
+                             options->time ? time : input->run.until, options->points)
+            : input_error(input, "exact", NULL, "the case has no exact solution");
+    case_free(input);
+    return error;
+}
+
+/* A word that is a path of a file is a case. */
+static bool names_case(const char *word)
+{
+    size_t length = strlen(word);
+    return strchr(word, '/') || (length > 5 && !strcmp(word + length - 5, ".yaml"));
 }
 
 static struct error *unknown_solution(const struct choice_list *list, const char *word)
@@ -126,6 +188,8 @@ int command_exact(const struct cli_options *options)
     }
     const char *name = options->names.text[0];
     const struct choice *choice = catalogue_find(&bolide_catalogue, "exact", name);
-    struct error *error = choice ? solve_choice(choice, options) : unknown_solution(list, name);
+    struct error *error = choice             ? solve_choice(choice, options)
+                          : names_case(name) ? solve_case(name, options)
+                                             : unknown_solution(list, name);
     return error ? report_error(error) : EXIT_OK;
 }

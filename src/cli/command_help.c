@@ -3,19 +3,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "cli/cli.h"
+#include "model/solver.h"
 
 static void print_commands(void)
 {
     printf("bolide %s: contact and standard SPH for shocks in solids, liquids and gases\n\n",
            BOLIDE_VERSION);
     for (int i = 0; i < command_count; i++)
-        printf("  bolide %-7s %-16s %s\n", commands[i].name, commands[i].usage, commands[i].help);
-    printf("\nbolide help TOPIC explains a command, `case` (the keys of a case file), `units`,\n"
-           "a kind of thing:");
+        printf("  bolide %-9s %-16s %s\n", commands[i].name, commands[i].usage, commands[i].help);
+    printf("\nbolide help TOPIC explains a command, `case` (the keys of a case file), `units`, "
+           "`fields`\n"
+           "(of the particles), a kind of thing:");
     for (const struct choice_list *list = bolide_catalogue.lists; list->kind_of_thing; list++)
         printf(" %s", list->kind_of_thing);
-    printf(",\na thing by its name, or a key of a case by its path: bodies, run.until.\n");
+    printf(",\na thing by its name, or a key of a case by its path: bodies, run.until,\n"
+           "bodies.flyer.velocity.\n");
 }
 
 /* What a value may be. */
@@ -28,6 +32,7 @@ static void kind_text(const struct parameter *p, char *text, size_t size)
         [PARAMETER_FLAG] = "yes or no",
         [PARAMETER_TEXT] = "text",
         [PARAMETER_VECTOR] = "list of numbers",
+        [PARAMETER_VECTORS] = "list of lists of numbers",
         [PARAMETER_NAMES] = "list of names",
         [PARAMETER_TABLE] = "map",
         [PARAMETER_MAP] = "map by name",
@@ -42,8 +47,10 @@ static void kind_text(const struct parameter *p, char *text, size_t size)
         snprintf(text, size, "%s", unit);
     else if (p->kind == PARAMETER_VECTOR && unit[0])
         snprintf(text, size, "list of %s", unit);
+    else if (p->kind == PARAMETER_VECTORS && unit[0])
+        snprintf(text, size, "list of lists of %s", unit);
     else if (p->kind == PARAMETER_ONE_OF || p->kind == PARAMETER_LIST)
-        snprintf(text, size, "%s %s", p->kind == PARAMETER_LIST ? "list of" : "a",
+        snprintf(text, size, "%s<%s>", p->kind == PARAMETER_LIST ? "list of " : "",
                  p->kind_of_thing);
     else if (p->kind == PARAMETER_CHOICE)
         for (const char *const *name = p->names; *name && used < size; name++)
@@ -56,10 +63,9 @@ static void print_parameter(const struct parameter *p, int indent)
 {
     char kind[96], key[64];
     kind_text(p, kind, sizeof kind);
-    if (p->key)
-        snprintf(key, sizeof key, "%s", p->key);
-    else
-        snprintf(key, sizeof key, "<%s>", p->kind_of_thing);
+    snprintf(key, sizeof key, "%s", p->key ? p->key : kind);
+    if (!p->key)
+        snprintf(kind, sizeof kind, "by its name");
     printf("%*s%-*s  %-22s  %s", indent, "", 22 - indent, key, kind, p->help ? p->help : "");
     if (!p->standard)
         printf(" (required)\n");
@@ -92,6 +98,47 @@ static void print_units(void)
     printf("joined by * / ^ and whole numbers: kg/m^3, J/(kg*K), mm/us\n");
 }
 
+static void print_view(const struct view *view)
+{
+    printf("  %-22s  %-16s  %s%s\n", view->name, view->unit[0] ? view->unit : "number",
+           view->help ? view->help : "",
+           view->components == 3   ? ": .x .y .z"
+           : view->components == 6 ? ": .xx .yy .zz .xy .yz .zx"
+                                   : "");
+}
+
+/* What the particles show: the core's fields, then those that a solver adds. */
+static struct error *print_fields(void)
+{
+    const struct choice_list *solvers = catalogue_list(&bolide_catalogue, "solver");
+    struct simulation *empty = memory_allocate(sizeof *empty);
+    struct views views = {0};
+    if (!empty)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = particles_create(3, 1.0, NULL, 0, &empty->particles);
+    if (!error) {
+        printf("fields of the particles, for checks and output.pictures:\n");
+        views_of_particles(&views, empty);
+        for (int i = 0; i < views.count; i++)
+            print_view(&views.view[i]);
+        for (int i = 0; i < solvers->count; i++) {
+            const struct solver_class *class = solvers->choices[i].thing;
+            const struct field_declaration *field;
+            printf("with the solver %s:\n", solvers->choices[i].name);
+            for (int k = 0; class->field && (field = class->field(k)); k++)
+                if (field->unit)
+                    print_view(&(struct view){.name = field->name,
+                                              .unit = field->unit,
+                                              .help = field->help,
+                                              .components = field->components});
+        }
+        printf("pictures also take material and body\n");
+        particles_destroy(&empty->particles);
+    }
+    free(empty);
+    return error;
+}
+
 static bool help_command(const char *topic)
 {
     for (int i = 0; i < command_count; i++)
@@ -121,15 +168,82 @@ static bool help_thing(const char *topic)
     return found;
 }
 
-/* A key of the case by its path; names of things in maps are left out: bodies.material. */
-static bool help_key(const struct parameter *table, const char *path)
+static bool help_key(const struct parameter *table, const char *path);
+static bool help_inside(const struct parameter *p, const char *path);
+
+static bool starts_with(const char *path, const char *word)
 {
     size_t length = strcspn(path, ".");
-    for (const struct parameter *p = table; p && !PARAMETER_IS_END(p); p++) {
-        if (!p->key || strlen(p->key) != length || strncmp(p->key, path, length) != 0)
+    return strlen(word) == length && !strncmp(path, word, length);
+}
+
+static bool is_number(const char *path)
+{
+    size_t length = strcspn(path, ".");
+    return length && strspn(path, "0123456789") == length;
+}
+
+/* What stands behind the first dot of PATH, NULL if nothing does. */
+static const char *behind_dot(const char *path)
+{
+    const char *dot = strchr(path, '.');
+    return dot ? dot + 1 : NULL;
+}
+
+/* A path that goes on with the name of a thing of KIND: sph.skin. */
+static bool help_thing_key(const char *kind, const char *path)
+{
+    const struct choice_list *list = catalogue_list(&bolide_catalogue, kind);
+    const char *rest = behind_dot(path);
+    for (int i = 0; i < list->count; i++) {
+        if (!starts_with(path, list->choices[i].name))
             continue;
-        if (path[length])
-            return help_key(p->table, path + length + 1);
+        const struct parameter *table = list->choices[i].table;
+        if (rest && table && is_number(rest)) /* an item of the first parameter: union.2 */
+            return help_inside(table, rest);
+        if (rest)
+            return help_key(table, rest);
+        print_choice(kind, &list->choices[i]);
+        return true;
+    }
+    return false;
+}
+
+/* The keys behind P. Names that a user chose and numbers of items stand for any word, or are left
+ * out: bodies.flyer.velocity, bodies.velocity. */
+static bool help_inside(const struct parameter *p, const char *path)
+{
+    const char *rest = behind_dot(path);
+    if (p->kind == PARAMETER_ONE_OF)
+        return help_thing_key(p->kind_of_thing, path);
+    if (p->table && help_key(p->table, path))
+        return true;
+    bool items = p->kind == PARAMETER_LIST || p->kind == PARAMETER_VECTOR ||
+                 p->kind == PARAMETER_VECTORS || p->kind == PARAMETER_NAMES;
+    if (p->kind != PARAMETER_MAP && !(items && is_number(path)))
+        return false;
+    if (rest && p->table)
+        return help_key(p->table, rest);
+    if (rest && p->kind == PARAMETER_LIST)
+        return help_thing_key(p->kind_of_thing, rest);
+    if (rest && items)
+        return help_inside(p, rest);
+    print_parameter(p, 0);
+    print_table(p->table, 2);
+    return true;
+}
+
+/* A key of TABLE by its path. */
+static bool help_key(const struct parameter *table, const char *path)
+{
+    const char *rest = behind_dot(path);
+    for (const struct parameter *p = table; p && !PARAMETER_IS_END(p); p++) {
+        if (!p->key && help_thing_key(p->kind_of_thing, path))
+            return true;
+        if (!p->key || !starts_with(path, p->key))
+            continue;
+        if (rest)
+            return help_inside(p, rest);
         print_parameter(p, 0);
         print_table(p->table, 2);
         return true;
@@ -140,8 +254,8 @@ static bool help_key(const struct parameter *table, const char *path)
 /* The nearest of all topics. */
 static int unknown_topic(const char *topic)
 {
-    const char *names[256] = {"case", "units"};
-    int count = 2, room = COUNT_OF(names);
+    const char *names[256] = {"case", "units", "fields", "let", "short"};
+    int count = 5, room = COUNT_OF(names);
     for (int i = 0; i < command_count && count < room; i++)
         names[count++] = commands[i].name;
     for (const struct choice_list *list = bolide_catalogue.lists; list->kind_of_thing; list++) {
@@ -164,14 +278,20 @@ int command_help(const struct cli_options *options)
     const char *topic = options->names.count ? options->names.text[0] : NULL;
     if (!topic)
         print_commands();
-    else if (!strcmp(topic, "case"))
+    else if (!strcmp(topic, "case")) {
         print_table(case_table, 0);
-    else if (!strcmp(topic, "units"))
+        print_table(case_shaping_table, 0);
+    } else if (!strcmp(topic, "units"))
         print_units();
-    else {
+    else if (!strcmp(topic, "fields")) {
+        struct error *error = print_fields();
+        return error ? report_error(error) : EXIT_OK;
+    } else {
+        if (!strncmp(topic, "short.", 6)) /* its keys are those of a case */
+            topic += 6;
         bool found = help_command(topic);
         found = help_thing(topic) || found;
-        found = help_key(case_table, topic) || found;
+        found = help_key(case_table, topic) || help_key(case_shaping_table, topic) || found;
         if (!found)
             return unknown_topic(topic);
     }

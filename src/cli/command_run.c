@@ -1,22 +1,65 @@
-/* bolide run: one case into one folder. */
+/* bolide run: one case, or all runs of its sweep, into one folder. */
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "cli/cli.h"
+#include "run/verify.h"
 
-static int run_input(const struct simulation_case *input, const struct cli_options *options,
-                     const char *folder)
+static struct run_options running_of(const struct cli_options *options, const char *folder,
+                                     const struct listener *listener)
 {
-    struct listener listener = terminal_listener();
-    struct run_options running = {
+    return (struct run_options){
         .output = folder,
         .overwrite = options->overwrite,
         .resume = options->resume,
         .threads = (int)options->threads,
         .stop = signals_catch(),
-        .listener = &listener,
+        .listener = listener,
         .progress = terminal_pace(),
     };
+}
+
+/* Says TEXT (taken) as a line. */
+static void say(const struct listener *listener, char *text)
+{
+    if (text)
+        listener->line(listener->context, text);
+    free(text);
+}
+
+static int run_sweep(const struct simulation_case *input, const struct cli_options *options,
+                     const char *folder)
+{
+    struct listener listener = terminal_listener();
+    char *materials = share_folder("materials");
+    const char *const folders[] = {materials};
+    struct verify_options verifying = {
+        .reading = case_reading(options, folders),
+        .catalogue = &bolide_catalogue,
+        .running = running_of(options, folder, &listener),
+    };
+    struct verify_result result = {0};
+    struct error *error =
+        verify_case(options->names.text[0], input->name, folder, &verifying, &result);
+    if (result.count && result.item[0].sweep_values)
+        say(&listener, text_format("%d of %d runs passed; table in %s/sweep.csv, plots in "
+                                   "%s/pictures",
+                                   result.passed, input->sweep_runs, folder, folder));
+    int status = error ? report_error(error) : EXIT_OK;
+    if (*verifying.running.stop) {
+        say(&listener, text_copy("go on with --resume"));
+        status = signals_status();
+    }
+    verify_result_free(&result);
+    free(materials);
+    return status;
+}
+
+static int run_input(const struct simulation_case *input, const struct cli_options *options,
+                     const char *folder)
+{
+    struct listener listener = terminal_listener();
+    struct run_options running = running_of(options, folder, &listener);
     struct run_result result;
     struct error *error = run_case(input, &running, &result);
     int status = EXIT_OK;
@@ -27,11 +70,9 @@ static int run_input(const struct simulation_case *input, const struct cli_optio
     else if (result.checks.failed)
         status = ERROR_CHECK;
     if (!error) {
-        char *words =
-            text_format("results in %s%s", folder, result.finished ? "" : "; go on with --resume");
-        if (words)
-            listener.line(listener.context, words);
-        free(words);
+        say(&listener,
+            text_format("results in %s%s", folder, result.finished ? "" : "; go on with --resume"));
+        say(&listener, text_format("report: %s/report.html", folder));
     }
     run_result_free(&result);
     return status;
@@ -45,8 +86,9 @@ int command_run(const struct cli_options *options)
         return report_error(error);
     char *folder =
         options->output ? text_copy(options->output) : text_format("results/%s", input->name);
-    int status = folder ? run_input(input, options, folder)
-                        : report_error(error_new(ERROR_SYSTEM, "out of memory"));
+    int status = !folder             ? report_error(error_new(ERROR_SYSTEM, "out of memory"))
+                 : input->sweep_runs ? run_sweep(input, options, folder)
+                                     : run_input(input, options, folder);
     free(folder);
     case_free(input);
     return status;

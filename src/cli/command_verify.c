@@ -78,23 +78,20 @@ static void print_table(const struct verify_result *result)
 
 static int verify_paths(const char *const *paths, int count, const struct cli_options *options)
 {
-    struct listener listener = terminal_listener();
+    struct listener listener = {.progress = terminal_listener().progress};
     char *materials = share_folder("materials");
     const char *const folders[] = {materials};
     struct progress_pace pace = terminal_pace();
     bool draws_over = pace.fraction == 0.0;
     struct verify_options verifying = {
-        .reading = {.settings = options->settings.text,
-                    .setting_count = options->settings.count,
-                    .quick = options->quick,
-                    .library_paths = folders,
-                    .library_count = materials ? 1 : 0},
+        .reading = case_reading(options, folders),
         .catalogue = &bolide_catalogue,
-        .output = options->output,
-        .threads = (int)options->threads,
-        .stop = signals_catch(),
-        .listener = draws_over ? &listener : NULL,
-        .progress = pace,
+        .running = {.output = options->output,
+                    .overwrite = true,
+                    .threads = (int)options->threads,
+                    .stop = signals_catch(),
+                    .listener = draws_over ? &listener : NULL,
+                    .progress = pace},
         .ended = case_ended,
     };
     struct verify_result result;
@@ -102,7 +99,7 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
     if (result.checks)
         print_table(&result);
     int status = error ? report_error(error) : EXIT_OK;
-    if (*verifying.stop)
+    if (*verifying.running.stop)
         status = signals_status();
     verify_result_free(&result);
     free(materials);

@@ -8,15 +8,23 @@
 #include "cli/cli.h"
 
 const struct command commands[] = {
-    {COMMAND_RUN, "run", "CASE", "Run a case and judge its checks.", 1, 1, command_run},
-    {COMMAND_CHECK, "check", "CASE...", "Say what would be computed, without computing it.", 1,
-     1000, command_check},
+    {COMMAND_RUN, "run", "CASE", "run a case and judge its checks", 1, 1, command_run},
+    {COMMAND_CHECK, "check", "CASE...", "say what would be computed, without computing it", 1, 1000,
+     command_check},
     {COMMAND_VERIFY, "verify", "CASE... | --all",
-     "Run cases and print all their checks as one table.", 0, 1000, command_verify},
-    {COMMAND_EXACT, "exact", "[NAME]", "Print an exact solution: its numbers, and its profile.", 0,
-     1, command_exact},
-    {COMMAND_HELP, "help", "[TOPIC]",
-     "Explain a command, a key of a case, or anything it can name.", 0, 1, command_help},
+     "run cases and print all their checks as one table", 0, 1000, command_verify},
+    {COMMAND_EXACT, "exact", "[NAME | CASE]",
+     "print an exact solution: its numbers, and its profile", 0, 1, command_exact},
+    {COMMAND_REPORT, "report", "FOLDER...", "make report.html of the results in a folder", 1, 1000,
+     command_report},
+    {COMMAND_NEW, "new", "NAME", "write NAME/case.yaml, a commented case to start from", 1, 1,
+     command_new},
+    {COMMAND_SCHEMA, "schema", "", "print the JSON Schema of a case, for editors", 0, 0,
+     command_schema},
+    {COMMAND_MATERIALS, "materials", "[NAME]",
+     "list the material library, or print one material with its sources", 0, 1, command_materials},
+    {COMMAND_HELP, "help", "[TOPIC]", "explain a command, a key of a case, or anything it can name",
+     0, 1, command_help},
 };
 const int command_count = COUNT_OF(commands);
 
@@ -46,6 +54,15 @@ static bool is_one_of(const char *word, const char *a, const char *b)
     return !strcmp(word, a) || !strcmp(word, b);
 }
 
+/* True for `bolide run --help`. */
+static bool wants_help(int count, char **words)
+{
+    for (int i = 0; i < count && strcmp(words[i], "--") != 0; i++)
+        if (is_one_of(words[i], "--help", "-h"))
+            return true;
+    return false;
+}
+
 int main(int count, char **words)
 {
     /* Arrays of a megabyte and more get pages of their own, which go back when they are freed: glibc's
@@ -63,6 +80,8 @@ int main(int count, char **words)
     const struct command *command = find_command(name);
     if (!command)
         return unknown_command(name);
+    if (wants_help(count - 2, words + 2))
+        return command_help(&(struct cli_options){.names = {1, &name}});
     struct cli_options options;
     struct error *error = options_read(command, count - 2, words + 2, &options);
     int status = error ? report_error(error) : command->run(&options);

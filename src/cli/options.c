@@ -29,12 +29,14 @@ static const struct option option_table[] = {
     {"--set", "PATH=VALUE", "replace a value of the case: run.until=3us; may be repeated",
      OPTION_LIST, AT(settings), COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
     {"--short", NULL, "use the short form of cases that have one", OPTION_FLAG, AT(quick),
-     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY},
+     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
     {"--all", NULL, "all cases that come with bolide", OPTION_FLAG, AT(all), COMMAND_VERIFY},
-    {"--time", "T", "the time of the solution, with its unit: 5us", OPTION_TEXT, AT(time),
-     COMMAND_EXACT},
+    {"--time", "T", "the time of the solution, with its unit: 5us (CASE: its end)", OPTION_TEXT,
+     AT(time), COMMAND_EXACT},
     {"--points", "N", "print the profile at the time in N points, as CSV", OPTION_COUNT, AT(points),
      COMMAND_EXACT},
+    {"--template", "NAME", "what to start from: impact (the usual), riemann, plate-2d, block-3d",
+     OPTION_TEXT, AT(template_name), COMMAND_NEW},
 };
 
 #undef AT

@@ -47,19 +47,31 @@ char *share_folder(const char *name)
     return found;
 }
 
-struct error *read_case(const char *path, const struct cli_options *options,
-                        struct simulation_case **input)
+struct case_options case_reading(const struct cli_options *options, const char *const *materials)
 {
-    char *materials = share_folder("materials");
-    const char *const paths[] = {materials};
-    struct case_options reading = {
+    return (struct case_options){
         .settings = options->settings.text,
         .setting_count = options->settings.count,
         .quick = options->quick,
-        .library_paths = paths,
-        .library_count = materials ? 1 : 0,
+        .library_paths = materials,
+        .library_count = *materials ? 1 : 0,
     };
+}
+
+struct error *read_run_of_sweep(const char *path, const struct cli_options *options, int run,
+                                struct simulation_case **input)
+{
+    char *materials = share_folder("materials");
+    const char *const folders[] = {materials};
+    struct case_options reading = case_reading(options, folders);
+    reading.sweep_run = run;
     struct error *error = case_read(path, &reading, &bolide_catalogue, input);
     free(materials);
     return error;
+}
+
+struct error *read_case(const char *path, const struct cli_options *options,
+                        struct simulation_case **input)
+{
+    return read_run_of_sweep(path, options, 0, input);
 }

@@ -7,13 +7,29 @@
 #define BOLIDE_EOS_H
 
 #include "material/eos/barotropic.h"
+#include "material/eos/grueneisen_eta.h"
+#include "material/eos/grueneisen_polynomial.h"
 #include "material/eos/ideal_gas.h"
+#include "material/eos/jwl.h"
 #include "material/eos/mie_grueneisen.h"
+#include "material/eos/polynomial.h"
+#include "material/eos/rubber.h"
+#include "material/eos/stiffened_gas.h"
 #include "material/eos/tillotson.h"
 
 /* X(identifier): struct eos_<identifier>, eos_<identifier>() in eos/<identifier>.h, its table in
  * eos/<identifier>.c (see choices.h). */
-#define EOS_LIST(X) X(ideal_gas) X(barotropic) X(mie_grueneisen) X(tillotson)
+#define EOS_LIST(X)          \
+    X(ideal_gas)             \
+    X(stiffened_gas)         \
+    X(barotropic)            \
+    X(rubber)                \
+    X(polynomial)            \
+    X(mie_grueneisen)        \
+    X(grueneisen_eta)        \
+    X(grueneisen_polynomial) \
+    X(tillotson)             \
+    X(jwl)
 
 #define EOS_ENUM(name) EOS_##name,
 enum eos_kind { EOS_LIST(EOS_ENUM) EOS_KINDS };

@@ -2,14 +2,13 @@
  * case_check.c. */
 #include "model/case.h"
 
-#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/memory.h"
 #include "model/case_internal.h"
 #include "model/document_internal.h"
+#include "model/library.h"
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
@@ -47,65 +46,13 @@ static char *case_name(const char *path)
     return name;
 }
 
-/* The file of material NAME in the first folder that has it, NULL if none has. */
-static char *library_file(const struct case_options *options, const char *name)
-{
-    for (int i = 0; i < options->library_count && !strchr(name, '/'); i++) {
-        char *path = text_format("%s/%s.yaml", options->library_paths[i], name);
-        if (!path || access(path, R_OK) == 0)
-            return path;
-        free(path);
-    }
-    return NULL;
-}
-
-/* Adds the materials of FOLDER to the list of NAMES; errors only cost a suggestion. */
-static void library_list(const char *folder, struct name_list *names)
-{
-    DIR *directory = opendir(folder);
-    const struct dirent *entry;
-    while (directory && (entry = readdir(directory))) {
-        size_t length = strlen(entry->d_name);
-        if (length <= 5 || strcmp(entry->d_name + length - 5, ".yaml") != 0)
-            continue;
-        char **grown = realloc(names->names, ((size_t)names->count + 1) * sizeof *grown);
-        char *name = grown ? text_copy_part(entry->d_name, length - 5) : NULL;
-        names->names = grown ? grown : names->names;
-        if (name)
-            names->names[names->count++] = name;
-    }
-    if (directory)
-        closedir(directory);
-}
-
 static struct error *no_such_material(const struct case_options *options,
                                       const struct node *library, const char *path)
 {
-    struct name_list names = {0};
-    for (int i = 0; i < options->library_count; i++)
-        library_list(options->library_paths[i], &names);
-    const char *near = nearest_name(library->text, (const char *const *)names.names, names.count);
-    struct error *error =
-        near
-            ? place_error(library->place, path,
-                          "no material \"%s\" in the library (did you mean \"%s\"?)", library->text,
-                          near)
-            : place_error(library->place, path, "no material \"%s\" in the library", library->text);
-    for (int i = 0; i < names.count; i++)
-        free(names.names[i]);
-    free(names.names);
+    char *text = library_unknown(options->library_paths, options->library_count, library->text);
+    struct error *error = text ? place_error(library->place, path, "%s", text) : out_of_memory();
+    free(text);
     return error;
-}
-
-/* What a library file says about itself is for its readers. */
-static void drop_entry(struct node *map, const char *key)
-{
-    for (int i = 0; i < map->count; i++) {
-        if (!strcmp(map->child[i]->key, key)) {
-            node_free(node_take(map, i));
-            return;
-        }
-    }
 }
 
 /* Fills MATERIAL, an entry of `materials`, from the library file that it names, if any. */
@@ -115,7 +62,7 @@ static struct error *include_material(struct document *document, struct node *ma
     const struct node *library = node_entry(material, "library");
     if (!library || library->kind != NODE_SCALAR || node_is_empty(library))
         return NULL;
-    char *file = library_file(options, library->text);
+    char *file = library_file(options->library_paths, options->library_count, library->text);
     if (!file) {
         char *path = text_format("materials.%s.library", material->key);
         struct error *error = path ? no_such_material(options, library, path) : out_of_memory();
@@ -127,14 +74,12 @@ static struct error *include_material(struct document *document, struct node *ma
     free(file);
     if (error)
         return error;
-    drop_entry(other->root, "description");
-    drop_entry(other->root, "source");
     error = document_include(document, material, other);
     document_free(other);
     return error;
 }
 
-/* A material that the library does not give is taken away, so that its parts are not told as missing. */
+/* A material that the library does not give is broken, so that its parts are not told as missing. */
 static struct error *include_library(struct document *document, const struct case_options *options)
 {
     struct node *materials = node_entry(document->root, "materials");
@@ -143,8 +88,7 @@ static struct error *include_library(struct document *document, const struct cas
         struct node *material = materials->child[i];
         struct error *error =
             material->kind == NODE_MAP ? include_material(document, material, options) : NULL;
-        if (error)
-            node_free(node_take(materials, i--));
+        material->broken = error != NULL;
         all = error_join(all, error);
     }
     return all;
@@ -154,9 +98,14 @@ static struct error *read_document(struct simulation_case *input,
                                    const struct case_options *options)
 {
     TRY(check_format(input->document));
-    struct error *error = include_library(input->document, options);
-    error = error_join(error, document_read(input->document, case_table, input->catalogue, input));
-    return error ? error : case_check_meaning(input);
+    struct error *error = case_take_sweep(input, options->sweep_run);
+    error = error_join(error, include_library(input->document, options));
+    error = error_join(error,
+                       document_read_partly(input->document, case_table, input->catalogue, input));
+    error = error_join(error, case_check_meaning(input));
+    if (!error)
+        case_measure_sweep(input);
+    return error;
 }
 
 struct error *case_read(const char *path, const struct case_options *options,
@@ -186,6 +135,7 @@ void case_free(struct simulation_case *input)
     if (!input)
         return;
     parameters_release(case_table, input);
+    sweep_values_free(input->sweep, input->sweep_values);
     document_free(input->document);
     free(input->name);
     free(input);

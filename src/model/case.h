@@ -11,15 +11,17 @@
  * replace those of the library's file. */
 struct material_input {
     char *library;
-    struct one_of eos;        /* "eos" */
-    struct one_of strength;   /* "strength"; not given: a fluid */
-    struct material material; /* filled by case_read from the above */
+    char *description, *source; /* for people; NULL: not given */
+    struct one_of eos;          /* "eos" */
+    struct one_of strength;     /* "strength"; not given: a fluid */
+    struct material material;   /* filled by case_read from the above */
 };
 
 /* bodies: NAME: {material, a shape, velocity, ...} */
 struct body_input {
     char *material;
-    struct one_of shape; /* "shape", inline */
+    struct one_of shape;   /* "shape", inline */
+    struct one_of lattice; /* "lattice" */
     struct vector_value velocity;
     double density, pressure, energy; /* NAN: not given; of the three, two at most */
     double resolution;                /* NAN: the case's */
@@ -76,6 +78,12 @@ struct check_input {
     char *source;          /* where the wanted value comes from, shown in the table */
 };
 
+/* sweep: {U0: [500 m/s, 1 km/s]}: one value that a run of the sweep takes. */
+struct sweep_value {
+    char *key, *text;         /* as they stand in the case */
+    struct quantity quantity; /* what the text comes to; value NAN: it is no quantity */
+};
+
 struct simulation_case {
     int64_t format;
     char *title;
@@ -90,7 +98,10 @@ struct simulation_case {
     struct output_input output;
     struct one_of exact;     /* "exact": what checks measure against; not given: nothing */
     struct named_map checks; /* struct check_input */
-    char *name;              /* filled by case_read: the name of the case's folder or file */
+    int sweep_runs;          /* filled by case_read: runs that a sweep asks for; 0: it has none */
+    int sweep_values;        /* of this run of it; 0: the case itself */
+    struct sweep_value *sweep;
+    char *name; /* filled by case_read: the name of the case's folder or file */
     const struct catalogue *catalogue;
     struct document *document; /* for located messages; owned */
 };
@@ -100,6 +111,7 @@ struct case_options {
     const char *const *settings; /* --set */
     int setting_count;
     bool quick;                       /* use the `short` form */
+    int sweep_run;                    /* the run of the case's sweep, from 1; 0: the case itself */
     const char *const *library_paths; /* folders with material files */
     int library_count;
 };
@@ -107,12 +119,16 @@ struct case_options {
 /* The table of a whole case file, for help and reference. */
 extern const struct parameter case_table[];
 
+/* Keys that shape a case before that table reads it: include, let, short, sweep. For help. */
+extern const struct parameter case_shaping_table[];
+
 /* Reads and checks PATH. Materials are resolved, start states found, references between names checked;
  * every mistake comes in one ERROR_INPUT. */
 struct error *case_read(const char *path, const struct case_options *options,
                         const struct catalogue *catalogue, struct simulation_case **result);
 
 void case_free(struct simulation_case *input);
+void sweep_values_free(struct sweep_value *values, int count);
 
 /* Writes the case as run: YAML with every default filled in, that case_read takes again. */
 struct error *case_write(const struct simulation_case *input, FILE *file);

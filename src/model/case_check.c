@@ -3,7 +3,8 @@
 #include <string.h>
 
 #include "model/case_internal.h"
-#include "model/shape.h"
+#include "model/document_internal.h"
+#include "model/lattice.h"
 
 /* Where a check stands: a path, to which a key may be added. */
 struct checking {
@@ -12,14 +13,31 @@ struct checking {
     const char *map, *name; /* "bodies", "flyer" */
 };
 
+enum { PATH_TEXT = 512 };
+static const char *path_of(const struct checking *checking, const char *key, char *path)
+{
+    snprintf(path, PATH_TEXT, "%s%s%s%s%s", checking->map, checking->name ? "." : "",
+             checking->name ? checking->name : "", key[0] ? "." : "", key);
+    return path;
+}
+
+/* True when the reader complained about KEY or something in it: what it means is not known. */
+static bool is_wrong(const struct checking *checking, const char *key)
+{
+    char path[PATH_TEXT];
+    return document_is_wrong(checking->input->document, path_of(checking, key, path));
+}
+
 static void wrong(struct checking *checking, const char *key, const char *format, ...)
     BOLIDE_PRINTF(3, 4);
 
+/* A complaint about KEY, unless the reader had one already. */
 static void wrong(struct checking *checking, const char *key, const char *format, ...)
 {
-    char path[512], message[1024];
-    snprintf(path, sizeof path, "%s%s%s%s%s", checking->map, checking->name ? "." : "",
-             checking->name ? checking->name : "", key[0] ? "." : "", key);
+    char path[PATH_TEXT], message[1024];
+    path_of(checking, key, path);
+    if (key[0] && is_wrong(checking, key))
+        return;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
@@ -35,23 +53,33 @@ static int find_name(struct checking *checking, const struct named_map *map, con
     for (int i = 0; i < map->count; i++)
         if (!strcmp(map->names[i], name))
             return i;
+    if (map->count == 0 && document_is_wrong(checking->input->document, ""))
+        return -1;
     const char *near = nearest_name(name, (const char *const *)map->names, map->count);
+    char known[512];
+    list_text((const char *const *)map->names, map->count, known, sizeof known);
     if (near)
         wrong(checking, key, "there is no %s \"%s\" (did you mean \"%s\"?)", what, name, near);
     else
-        wrong(checking, key, "there is no %s \"%s\"", what, name);
+        wrong(checking, key, "there is no %s \"%s\" (known: %s)", what, name, known);
     return -1;
+}
+
+static bool dimension_known(const struct checking *checking)
+{
+    return checking->input->dimension > 0 &&
+           !document_is_wrong(checking->input->document, "dimension");
 }
 
 static void check_axis(struct checking *checking, const char *key, int axis)
 {
-    if (axis >= checking->input->dimension)
+    if (dimension_known(checking) && axis >= checking->input->dimension)
         wrong(checking, key, "the case has %d dimension%s", (int)checking->input->dimension,
               checking->input->dimension == 1 ? "" : "s");
 }
 
 /* The material as plain data: the index of a choice is the enum of its model. */
-static void fill_material(struct material_input *material)
+void case_fill_material(struct material_input *material)
 {
     struct material *plain = &material->material;
     memset(plain, 0, sizeof *plain);
@@ -74,25 +102,58 @@ static void check_replaces(struct checking *checking, const struct body_input *b
     }
 }
 
+static void check_start(struct checking *checking, struct body_input *body)
+{
+    const char *key;
+    char path[PATH_TEXT];
+    struct simulation_case *input = checking->input;
+    const struct material_input *material = case_material(input, body->material_index);
+    snprintf(path, sizeof path, "materials.%s", input->materials.names[body->material_index]);
+    if (is_wrong(checking, "") || document_is_wrong(input->document, path))
+        return;
+    const char *text = body_start_state(body, &material->material, &key);
+    if (text)
+        wrong(checking, key, "%s", text);
+}
+
+static void check_shape(struct checking *checking, const struct body_input *body)
+{
+    const struct choice *shape = body->shape.choice;
+    if (!shape || !dimension_known(checking) || is_wrong(checking, shape->name))
+        return;
+    const int dimension = (int)checking->input->dimension;
+    const char *text = shape_wrong(&body->shape, dimension);
+    if (text) {
+        wrong(checking, shape->name, "%s", text);
+        return;
+    }
+    const struct bounds bounds = shape_bounds(&body->shape);
+    if (!bounds_finite(&bounds)) {
+        wrong(checking, shape->name,
+              "this shape has no end: an intersection with another bounds it");
+        return;
+    }
+    if (!body->lattice.choice || is_wrong(checking, "lattice"))
+        return;
+    text = lattice_wrong(&body->lattice, &body->shape, dimension);
+    if (text)
+        wrong(checking, "lattice", "%s", text);
+}
+
 static void check_body(struct checking *checking, int index)
 {
     struct simulation_case *input = checking->input;
     struct body_input *body = case_body(input, index);
-    body->material_index =
-        find_name(checking, &input->materials, "material", body->material, "material");
-    if (body->material_index >= 0) {
-        const char *key;
-        const struct material_input *material = case_material(input, body->material_index);
-        const char *text = body_start_state(body, &material->material, &key);
-        if (text)
-            wrong(checking, key, "%s", text);
-    }
-    const char *text = shape_wrong(&body->shape, (int)input->dimension);
-    if (text)
-        wrong(checking, body->shape.choice->name, "%s", text);
+    body->material_index = -1;
+    if (body->material)
+        body->material_index =
+            find_name(checking, &input->materials, "material", body->material, "material");
+    if (body->material_index >= 0)
+        check_start(checking, body);
+    check_shape(checking, body);
     if (body->velocity.count == 0)
         body->velocity.count = (int)input->dimension;
-    else if (body->velocity.count != input->dimension)
+    else if (dimension_known(checking) && body->velocity.count != input->dimension)
         wrong(checking, "velocity", "%d component%s wanted, one a dimension; found %d",
               (int)input->dimension, input->dimension == 1 ? " is" : "s are", body->velocity.count);
     check_replaces(checking, body, index);
@@ -103,6 +164,8 @@ static void check_contact(struct checking *checking, int index)
     struct simulation_case *input = checking->input;
     struct contact_input *contact = case_contact(input, index);
     contact->body[0] = contact->body[1] = -1;
+    if (contact->between.count == 0 && is_wrong(checking, ""))
+        return;
     if (contact->between.count != 2) {
         wrong(checking, "between", "two bodies are wanted, found %d", contact->between.count);
         return;
@@ -155,12 +218,31 @@ static void check_check(struct checking *checking, int index)
         !(check->between.count == 2 && check->between.at[0] < check->between.at[1]))
         wrong(checking, "between", "two positions are wanted, the smaller first");
     check_axis(checking, "axis", check->axis);
-    check_limits(checking, check);
+    if (!is_wrong(checking, ""))
+        check_limits(checking, check);
 }
 
 static void check_wall(struct checking *checking, int index)
 {
-    check_axis(checking, "mirror", case_wall(checking->input, index)->axis);
+    static const char *const axes = "xyz";
+    const struct simulation_case *input = checking->input;
+    const struct wall_input *wall = case_wall(input, index);
+    check_axis(checking, "mirror", wall->axis);
+    for (int i = 0; i < index && !is_wrong(checking, ""); i++) {
+        const struct wall_input *other = case_wall(input, i);
+        char path[PATH_TEXT];
+        snprintf(path, sizeof path, "walls.%s", input->walls.names[i]);
+        if (other->axis != wall->axis || document_is_wrong(input->document, path))
+            continue;
+        double low = wall->side == WALL_LOW ? wall->at : other->at;
+        double high = wall->side == WALL_LOW ? other->at : wall->at;
+        if (other->side == wall->side)
+            wrong(checking, "side", "\"%s\" is a %s wall on the %c axis already",
+                  input->walls.names[i], wall->side == WALL_LOW ? "low" : "high", axes[wall->axis]);
+        else if (low >= high)
+            wrong(checking, "at", "the low wall on the %c axis does not lie below the high wall",
+                  axes[wall->axis]);
+    }
 }
 
 static void check_map(struct checking *checking, const char *key, const struct named_map *map,
@@ -178,8 +260,9 @@ struct error *case_check_meaning(struct simulation_case *input)
 {
     struct checking checking = {.input = input};
     for (int i = 0; i < input->materials.count; i++)
-        fill_material(case_material(input, i));
-    if (input->bodies.count == 0) {
+        if (case_material(input, i)->eos.value)
+            case_fill_material(case_material(input, i));
+    if (input->bodies.count == 0 && !document_is_wrong(input->document, "")) {
         checking.map = "bodies";
         wrong(&checking, "", "one body at least is wanted");
     }

@@ -6,12 +6,23 @@ static const char *const side_names[] = {"low", "high", NULL};
 static const char *const shear_names[] = {"stick", "slip", NULL};
 static const char *const tension_names[] = {"carried", "none", NULL};
 
-static const struct parameter material_table[] = {
+const struct parameter case_material_table[] = {
     {.key = "library",
      .kind = PARAMETER_TEXT,
      .offset = offsetof(struct material_input, library),
      .standard = PARAMETER_OPTIONAL,
-     .help = "a material of the library, whose values the keys beside this one replace"},
+     .help = "a material of the library (`bolide materials`), whose values the keys beside this "
+             "replace"},
+    {.key = "description",
+     .kind = PARAMETER_TEXT,
+     .offset = offsetof(struct material_input, description),
+     .standard = PARAMETER_OPTIONAL,
+     .help = "one line about the material"},
+    {.key = "source",
+     .kind = PARAMETER_TEXT,
+     .offset = offsetof(struct material_input, source),
+     .standard = PARAMETER_OPTIONAL,
+     .help = "where its values come from"},
     {.key = "eos",
      .kind = PARAMETER_ONE_OF,
      .offset = offsetof(struct material_input, eos),
@@ -38,6 +49,12 @@ static const struct parameter body_table[] = {
      .standard = PARAMETER_REQUIRED,
      .kind_of_thing = "shape",
      .help = "where the body is"},
+    {.key = "lattice",
+     .kind = PARAMETER_ONE_OF,
+     .offset = offsetof(struct body_input, lattice),
+     .standard = "square",
+     .kind_of_thing = "lattice",
+     .help = "how its particles stand at the start"},
     {.key = "velocity",
      .kind = PARAMETER_VECTOR,
      .offset = offsetof(struct body_input, velocity),
@@ -244,6 +261,26 @@ static const struct parameter check_table[] = {
     PARAMETER_END,
 };
 
+const struct parameter case_shaping_table[] = {
+    {.key = "include",
+     .kind = PARAMETER_NAMES,
+     .standard = PARAMETER_OPTIONAL,
+     .help = "files whose maps lie below this file's own keys; paths start at this file's folder"},
+    {.key = "let",
+     .kind = PARAMETER_MAP,
+     .standard = PARAMETER_OPTIONAL,
+     .help = "names for expressions, in order: {speed: 1 km/s, plate: 4 mm, way: 2*plate}"},
+    {.key = "short",
+     .kind = PARAMETER_TABLE,
+     .standard = PARAMETER_OPTIONAL,
+     .help = "keys of the case, merged over it by --short: {resolution: 1 mm, let: {plate: 2 mm}}"},
+    {.key = "sweep",
+     .kind = PARAMETER_MAP,
+     .standard = PARAMETER_OPTIONAL,
+     .help = "names of let, or paths, each with the values to run with: {speed: [1 km/s, 2 km/s]}"},
+    PARAMETER_END,
+};
+
 const struct parameter case_table[] = {
     {.key = "format",
      .kind = PARAMETER_INTEGER,
@@ -283,7 +320,7 @@ const struct parameter case_table[] = {
      .kind = PARAMETER_MAP,
      .offset = offsetof(struct simulation_case, materials),
      .standard = PARAMETER_REQUIRED,
-     .table = material_table,
+     .table = case_material_table,
      .size = sizeof(struct material_input),
      .help = "materials by name"},
     {.key = "bodies",

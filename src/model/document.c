@@ -1,8 +1,7 @@
-/* A document: parse, lay the short form and the settings over it, find the node of a path, and tell where
- * a mistake stands. */
+/* A document: lay the short form and the settings over it, find the node of a path, and tell where a
+ * mistake stands. */
 #include "model/document.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -103,6 +102,17 @@ const struct node *document_find(const struct document *document, const char *pa
     return node;
 }
 
+bool document_is_wrong(const struct document *document, const char *path)
+{
+    size_t length = strlen(path);
+    for (int i = 0; i < document->wrong_count; i++) {
+        const char *wrong = document->wrong[i];
+        if (!length || (!strncmp(wrong, path, length) && (!wrong[length] || wrong[length] == '.')))
+            return true;
+    }
+    return false;
+}
+
 bool document_has(const struct document *document, const char *path)
 {
     bool exact;
@@ -122,8 +132,7 @@ struct error *document_error(const struct document *document, const char *path, 
     return error;
 }
 
-/* A copy of TEXT that lives as long as the document. */
-static const char *keep_origin(struct document *document, char *text)
+const char *document_keep(struct document *document, char *text)
 {
     char **grown =
         realloc(document->origins, ((size_t)document->origin_count + 1) * sizeof(char *));
@@ -187,7 +196,7 @@ struct error *document_include(struct document *document, struct node *map,
                                struct document *library)
 {
     while (library->origin_count > 0) {
-        if (!keep_origin(document, library->origins[--library->origin_count]))
+        if (!document_keep(document, library->origins[--library->origin_count]))
             return out_of_memory();
     }
     return fill_in(map, library->root);
@@ -301,9 +310,14 @@ static struct error *set_value(struct node *root, const char *path, struct node 
     return NULL;
 }
 
+struct error *document_set(struct document *document, const char *path, struct node **value)
+{
+    return set_value(document->root, path, value);
+}
+
 static struct error *apply_setting(struct document *document, const char *setting)
 {
-    const char *origin = keep_origin(document, text_format("--set %s", setting));
+    const char *origin = document_keep(document, text_format("--set %s", setting));
     if (!origin)
         return out_of_memory();
     struct place place = {origin, 0, 0};
@@ -319,86 +333,47 @@ static struct error *apply_setting(struct document *document, const char *settin
     return error;
 }
 
-static struct error *open_text(struct document *document, const char *text, size_t length,
-                               const char *name, const char *const *settings, int count,
-                               const char *overlay)
+static struct error *document_new(struct document **document)
 {
-    const char *origin = keep_origin(document, text_copy(name));
-    if (!origin)
-        return out_of_memory();
-    TRY(node_parse(text, length, origin, true, &document->root));
-    if (document->root->kind != NODE_MAP)
-        return place_error(document->root->place, "", "a map of keys and values is wanted here");
-    struct error *error = merge_overlay(document, overlay);
-    for (int i = 0; i < count; i++)
-        error = error_join(error, apply_setting(document, settings[i]));
-    return error;
+    *document = calloc(1, sizeof **document);
+    return *document ? NULL : out_of_memory();
 }
 
-static struct error *document_open_bytes(const char *text, size_t length, const char *name,
-                                         const char *const *settings, int count,
-                                         const char *overlay, struct document **result)
+/* Lays the overlay and the settings over *DOCUMENT, which was read with ERROR; on an error frees it. */
+static struct error *finish(struct error *error, const char *const *settings, int count,
+                            const char *overlay, struct document **document)
 {
-    *result = NULL;
-    struct document *document = calloc(1, sizeof *document);
-    if (!document)
-        return out_of_memory();
-    struct error *error = open_text(document, text, length, name, settings, count, overlay);
-    if (error)
-        document_free(document);
-    else
-        *result = document;
+    if (!error) {
+        error = merge_overlay(*document, overlay);
+        for (int i = 0; i < count; i++)
+            error = error_join(error, apply_setting(*document, settings[i]));
+    }
+    if (error) {
+        document_free(*document);
+        *document = NULL;
+    }
     return error;
 }
 
 struct error *document_open_text(const char *text, const char *name, const char *const *settings,
                                  int count, const char *overlay, struct document **document)
 {
-    return document_open_bytes(text, strlen(text), name, settings, count, overlay, document);
-}
-
-/* The whole of a file, NULL when it cannot be read (errno tells why). */
-static char *read_file(const char *path, size_t *length)
-{
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return NULL;
-    char *text = NULL;
-    size_t capacity = 0, got = 1;
-    int why = 0;
-    *length = 0;
-    while (got > 0 && !why) {
-        if (*length == capacity) {
-            capacity = capacity ? 2 * capacity : 1 << 14;
-            char *grown = realloc(text, capacity);
-            why = grown ? 0 : ENOMEM;
-            text = grown ? grown : text;
-        }
-        got = why ? 0 : fread(text + *length, 1, capacity - *length, file);
-        *length += got;
-        why = ferror(file) ? errno : why;
-    }
-    fclose(file);
-    if (why) {
-        free(text);
-        errno = why;
-        return NULL;
-    }
-    return text;
+    TRY(document_new(document));
+    const char *origin = document_keep(*document, text_copy(name));
+    struct error *error =
+        origin ? node_parse(text, strlen(text), origin, true, &(*document)->root) : out_of_memory();
+    if (!error && (*document)->root->kind != NODE_MAP)
+        error =
+            place_error((*document)->root->place, "", "a map of keys and values is wanted here");
+    return finish(error, settings, count, overlay, document);
 }
 
 struct error *document_open(const char *path, const char *const *settings, int count,
                             const char *overlay, struct document **document)
 {
-    *document = NULL;
-    size_t length = 0;
-    char *text = read_file(path, &length);
-    if (!text)
-        return error_new(ERROR_INPUT, "%s: %s", path, strerror(errno));
-    struct error *error =
-        document_open_bytes(text, length, path, settings, count, overlay, document);
-    free(text);
-    return error;
+    TRY(document_new(document));
+    struct error *error = document_load(*document, path);
+    return finish(error, settings, count, overlay, document);
 }
 
 void document_free(struct document *document)
@@ -409,5 +384,8 @@ void document_free(struct document *document)
     for (int i = 0; i < document->origin_count; i++)
         free(document->origins[i]);
     free(document->origins);
+    for (int i = 0; i < document->wrong_count; i++)
+        free(document->wrong[i]);
+    free(document->wrong);
     free(document);
 }

@@ -9,14 +9,16 @@
 
 struct document;
 
-/* Opens the YAML file PATH and applies SETTINGS, COUNT texts `path.to.key=value` (the --set of the
- * command line; the value is parsed as YAML; a new key may be added where its map exists). When
- * OVERLAY is not NULL and the document has a map of that key at its top (`short`), the map is merged
- * over the document before the settings; in any case the key is removed from the top. */
+/* Opens the YAML file PATH. The maps of the files that its key `include` names, one or a list, the later
+ * over the earlier, their paths from its folder, are merged below its own. Then SETTINGS are applied,
+ * COUNT texts `path.to.key=value` (the --set of the command line; the value is parsed as YAML; a new key
+ * may be added where its map exists). When OVERLAY is not NULL and the document has a map of that key at
+ * its top (`short`), the map is merged over the document before the settings; in any case the key is
+ * removed from the top. */
 struct error *document_open(const char *path, const char *const *settings, int count,
                             const char *overlay, struct document **document);
 
-/* The same from a text in memory; NAME stands for the file's name in messages. */
+/* The same from a text in memory, which can include nothing; NAME stands for the file's name in messages. */
 struct error *document_open_text(const char *text, const char *name, const char *const *settings,
                                  int count, const char *overlay, struct document **document);
 
@@ -29,6 +31,14 @@ void document_free(struct document *document);
  * released. */
 struct error *document_read(struct document *document, const struct parameter *table,
                             const struct catalogue *catalogue, void *values);
+
+/* The same, but leaves in VALUES what could be read beside the mistakes, so that more can be said about it;
+ * the caller releases it in any case. What could not be read is as if not given, or zero. */
+struct error *document_read_partly(struct document *document, const struct parameter *table,
+                                   const struct catalogue *catalogue, void *values);
+
+/* True when a reading found a mistake at PATH or below it; "" stands for the whole document. */
+bool document_is_wrong(const struct document *document, const char *path);
 
 /* An ERROR_INPUT located at the value of PATH ("bodies.flyer.velocity", list items by number), or at
  * its nearest ancestor that stands in the file: `case.yaml:14:9: bodies.flyer.velocity: ...`. */

@@ -18,6 +18,7 @@ struct node {
     enum node_kind kind;
     bool plain;   /* SCALAR without quotes */
     bool implied; /* MAP that a setting's path made on its way */
+    bool broken;  /* MAP whose mistake has been told: known by its name, not read */
     char *text;   /* SCALAR */
     char *key;    /* of an entry of a map */
     struct place place, key_place;
@@ -29,6 +30,8 @@ struct document {
     struct node *root;
     int origin_count;
     char **origins; /* what the places point to */
+    int wrong_count;
+    char **wrong; /* paths that a reading complained about */
 };
 
 /* A path as the reader descends: `bodies.flyer.velocity`, items of lists by number from 1. */
@@ -57,6 +60,13 @@ struct node *node_take(struct node *parent, int index);
 /* True for a scalar that says nothing: empty, `~` or `null`. */
 bool node_is_empty(const struct node *node);
 
+/* TEXT (taken, NULL: memory was out), which then lives as long as the document; NULL when memory is out. */
+const char *document_keep(struct document *document, char *text);
+
+/* Reads the file PATH, and the files that it includes below its own entries, into the document's root.
+ * Mistakes of any of them come joined. */
+struct error *document_load(struct document *document, const char *path);
+
 /* Puts the entries of OVER, which is emptied, over those of BASE; maps within maps merge. */
 struct error *node_merge(struct node *base, struct node *over);
 
@@ -69,6 +79,13 @@ struct error *place_verror(struct place place, const char *path, const char *for
 /* The node at PATH or its nearest ancestor; *exact tells which. */
 const struct node *document_find(const struct document *document, const char *path, bool *exact);
 
+/* Puts *VALUE, which it takes, at PATH as a setting does. */
+struct error *document_set(struct document *document, const char *path, struct node **value);
+
+/* What TEXT comes to with the names of `let`. */
+struct error *document_evaluate(const struct document *document, const char *text,
+                                struct quantity *quantity);
+
 /* Where to point for a node: at the key of a map, at the value of anything else. */
 struct place node_place(const struct node *node);
 
@@ -80,14 +97,19 @@ struct error *document_include(struct document *document, struct node *map,
 
 /* A reading in progress: what it looks things up in, and the mistakes found so far. */
 struct reading {
+    struct document *document;
     const struct catalogue *catalogue;
     struct named_quantity *names; /* of `let`; the value NAN: its expression is wrong */
     int name_count;
+    const struct node *let; /* where they stand; NULL: nowhere */
     struct error *error;
 };
 
 /* Names that a map may have for its keys, and bytes of a piece of a message. */
 enum { KEYS_MAX = 64, TEXT_MAX = 256 };
+
+/* Notes that PATH has a mistake, told here or elsewhere (document_is_wrong). */
+void mark_wrong(struct reading *reading, const struct path *path);
 
 /* Adds a mistake at PLACE of PATH. */
 void complain(struct reading *reading, struct place place, const struct path *path,

@@ -140,6 +140,8 @@ static void read_map(struct reading *reading, const struct node *node, const str
         value->count = i + 1;
         if (!value->names[i])
             complain_memory(reading);
+        else if (entry->broken)
+            mark_wrong(reading, &item);
         else if (!entry->key[0])
             complain(reading, entry->key_place, path, "a name cannot be empty");
         else if (entry->implied)
@@ -351,16 +353,38 @@ static void read_let(struct reading *reading, const struct node *let)
     }
 }
 
-struct error *document_read(struct document *document, const struct parameter *table,
-                            const struct catalogue *catalogue, void *values)
+struct error *document_evaluate(const struct document *document, const char *text,
+                                struct quantity *quantity)
 {
-    struct reading reading = {.catalogue = catalogue};
     const struct node *let = node_entry(document->root, let_key);
+    struct reading reading = {.document = (struct document *)document, .let = let};
+    if (let)
+        read_let(&reading, let);
+    struct error *error = reading.error;
+    if (!error)
+        error = expression_evaluate(text, reading.names, reading.name_count, quantity);
+    free(reading.names);
+    return error;
+}
+
+struct error *document_read_partly(struct document *document, const struct parameter *table,
+                                   const struct catalogue *catalogue, void *values)
+{
+    struct reading reading = {.document = document, .catalogue = catalogue};
+    const struct node *let = node_entry(document->root, let_key);
+    reading.let = let;
     if (let)
         read_let(&reading, let);
     read_table(&reading, document->root, NULL, table, values);
     free(reading.names);
-    if (reading.error)
-        parameters_release(table, values);
     return reading.error;
+}
+
+struct error *document_read(struct document *document, const struct parameter *table,
+                            const struct catalogue *catalogue, void *values)
+{
+    struct error *error = document_read_partly(document, table, catalogue, values);
+    if (error)
+        parameters_release(table, values);
+    return error;
 }

@@ -20,11 +20,23 @@ static size_t path_text(const struct path *path, char *text, size_t size)
     return minimum((double)size - 1.0, (double)length + added);
 }
 
+void mark_wrong(struct reading *reading, const struct path *path)
+{
+    char text[1024];
+    struct document *document = reading->document;
+    path_text(path, text, sizeof text);
+    char **grown = realloc(document->wrong, ((size_t)document->wrong_count + 1) * sizeof(char *));
+    document->wrong = grown ? grown : document->wrong;
+    if (grown && (grown[document->wrong_count] = text_copy(text)))
+        document->wrong_count++;
+}
+
 void complain(struct reading *reading, struct place place, const struct path *path,
               const char *format, ...)
 {
     char text[1024];
     path_text(path, text, sizeof text);
+    mark_wrong(reading, path);
     va_list arguments;
     va_start(arguments, format);
     reading->error = error_join(reading->error, place_verror(place, text, format, arguments));
@@ -118,20 +130,34 @@ static const char *quantity_text(struct dimension dimension, char *buffer)
 
 static bool is_word_letter(char letter) { return isalnum((unsigned char)letter) || letter == '_'; }
 
+static bool uses_name(const char *text, const char *name)
+{
+    size_t length = strlen(name);
+    for (const char *at = text; (at = strstr(at, name)); at++)
+        if ((at == text || !is_word_letter(at[-1])) && !is_word_letter(at[length]))
+            return true;
+    return false;
+}
+
 /* True when TEXT uses a name of `let` whose own expression is wrong; that has been told already. */
 static bool rests_on_mistake(const struct reading *reading, const char *text)
 {
-    for (int i = 0; i < reading->name_count; i++) {
-        const char *name = reading->names[i].name, *at = text;
-        size_t length = strlen(name);
-        while (isnan(reading->names[i].quantity.value) && (at = strstr(at, name))) {
-            bool starts = at == text || !is_word_letter(at[-1]);
-            if (starts && !is_word_letter(at[length]))
-                return true;
-            at++;
-        }
-    }
+    for (int i = 0; i < reading->name_count; i++)
+        if (isnan(reading->names[i].quantity.value) && uses_name(text, reading->names[i].name))
+            return true;
     return false;
+}
+
+/* " (--set let.speed=2000)" when a name in TEXT comes from a setting, which may be what is wrong. */
+static const char *setting_text(const struct reading *reading, const char *text, char *buffer)
+{
+    buffer[0] = '\0';
+    for (int i = 0; reading->let && i < reading->let->count; i++) {
+        const struct node *entry = reading->let->child[i];
+        if (entry->place.line == 0 && uses_name(text, entry->key))
+            snprintf(buffer, TEXT_MAX, " (%s)", entry->place.origin);
+    }
+    return buffer;
 }
 
 bool read_quantity(struct reading *reading, const struct node *node, const struct path *path,
@@ -141,12 +167,16 @@ bool read_quantity(struct reading *reading, const struct node *node, const struc
         complain_kind(reading, node, path, wanted);
         return false;
     }
-    if (rests_on_mistake(reading, node->text))
+    if (rests_on_mistake(reading, node->text)) {
+        mark_wrong(reading, path);
         return false;
+    }
     struct error *error =
         expression_evaluate(node->text, reading->names, reading->name_count, quantity);
+    char from[TEXT_MAX];
     for (int i = 0; error && i < error_count(error); i++)
-        complain(reading, node->place, path, "\"%.60s\": %s", node->text, error_message(error, i));
+        complain(reading, node->place, path, "\"%.60s\": %s%s", node->text, error_message(error, i),
+                 setting_text(reading, node->text, from));
     error_free(error);
     return !error;
 }
@@ -166,13 +196,14 @@ static bool read_dimensioned(struct reading *reading, const struct node *node,
 {
     struct dimension wanted = unit_dimension(unit);
     struct quantity quantity;
-    char buffer[TEXT_MAX], other[TEXT_MAX];
+    char buffer[TEXT_MAX], other[TEXT_MAX], from[TEXT_MAX];
     if (!read_quantity(reading, node, path, quantity_text(wanted, buffer), &quantity))
         return false;
     bool zero = quantity.value == 0.0 && dimension_equal(quantity.dimension, unit_dimension(""));
     if (!zero && !dimension_equal(quantity.dimension, wanted)) {
-        complain(reading, node->place, path, "\"%.60s\" is %s, wanted %s", node->text,
-                 quantity_text(quantity.dimension, other), quantity_text(wanted, buffer));
+        complain(reading, node->place, path, "\"%.60s\" is %s, wanted %s%s", node->text,
+                 quantity_text(quantity.dimension, other), quantity_text(wanted, buffer),
+                 setting_text(reading, node->text, from));
         return false;
     }
     *value = quantity.value;
@@ -286,6 +317,25 @@ static void read_vector(struct reading *reading, const struct node *node, const 
     }
 }
 
+static void read_vectors(struct reading *reading, const struct node *node, const struct path *path,
+                         const struct parameter *parameter, struct vector_list *value)
+{
+    if (node->kind != NODE_LIST) {
+        complain_kind(reading, node, path, "a list of lists");
+        return;
+    }
+    value->items = memory_allocate((size_t)node->count * sizeof *value->items);
+    if (!value->items) {
+        complain_memory(reading);
+        return;
+    }
+    value->count = node->count;
+    for (int i = 0; i < node->count; i++) {
+        struct path item = {path, NULL, i + 1};
+        read_vector(reading, node->child[i], &item, parameter, &value->items[i]);
+    }
+}
+
 static void read_names(struct reading *reading, const struct node *node, const struct path *path,
                        struct name_list *value)
 {
@@ -333,6 +383,9 @@ void read_scalar(struct reading *reading, const struct node *node, const struct 
         break;
     case PARAMETER_VECTOR:
         read_vector(reading, node, path, parameter, value);
+        break;
+    case PARAMETER_VECTORS:
+        read_vectors(reading, node, path, parameter, value);
         break;
     case PARAMETER_NAMES:
         read_names(reading, node, path, value);

@@ -59,6 +59,8 @@ static bool is_given(const struct parameter *parameter, const void *value)
         return *(const int *)value >= 0;
     case PARAMETER_VECTOR:
         return ((const struct vector_value *)value)->count > 0;
+    case PARAMETER_VECTORS:
+        return ((const struct vector_list *)value)->count > 0;
     case PARAMETER_NAMES:
         return ((const struct name_list *)value)->count > 0;
     case PARAMETER_ONE_OF:
@@ -140,6 +142,16 @@ static void write_vector(FILE *file, const struct vector_value *vector, const ch
     fputs("]", file);
 }
 
+static void write_vectors(FILE *file, const struct vector_list *list, const char *unit)
+{
+    fputc('[', file);
+    for (int i = 0; i < list->count; i++) {
+        fputs(i ? ", " : "", file);
+        write_vector(file, &list->items[i], unit);
+    }
+    fputc(']', file);
+}
+
 /* A value that stands on its key's line. */
 static void write_scalar(FILE *file, const struct parameter *parameter, const void *value)
 {
@@ -166,6 +178,9 @@ static void write_scalar(FILE *file, const struct parameter *parameter, const vo
         break;
     case PARAMETER_VECTOR:
         write_vector(file, value, parameter->unit);
+        break;
+    case PARAMETER_VECTORS:
+        write_vectors(file, value, parameter->unit);
         break;
     case PARAMETER_NAMES:
         write_names(file, value);

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "model/shape.h"
 
 /* An id keeps the index of a site in 48 bits. */
 static const double sites_limit = 281474976710656.0;
@@ -27,9 +26,9 @@ struct walk {
     const struct simulation_case *input;
     int body;
     struct lattice lattice;
-    int64_t site, end;    /* the next one to look at */
-    int64_t row;          /* of sites along x, -1 before the first */
-    struct rival *rivals; /* bodies whose bounds meet this one's, */
+    int64_t site, end;      /* the next one to look at */
+    struct lattice_row row; /* of the site; empty before the first */
+    struct rival *rivals;   /* bodies whose bounds meet this one's, */
     int rival_count;
     int *near; /* and those among them that meet the row */
     int near_count;
@@ -46,33 +45,12 @@ static bool bounds_meet(const struct bounds *a, const struct bounds *b)
 struct lattice body_lattice(const struct simulation_case *input, int body)
 {
     const struct body_input *of = case_body(input, body);
-    const struct bounds bounds = shape_bounds(&of->shape);
     const double resolution = isnan(of->resolution) ? input->resolution : of->resolution;
-    const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z};
-    const double high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
-    /* An axis that the case has not: one site at zero, of unit width. */
-    double origin[3] = {-0.5, -0.5, -0.5}, spacing[3] = {1.0, 1.0, 1.0};
-    struct lattice lattice = {.sites = {1, 1, 1}};
-    for (int axis = 0; axis < input->dimension; axis++) {
-        const double extent = high[axis] - low[axis];
-        const double count = minimum(maximum(round(extent / resolution), 1.0), sites_limit);
-        lattice.sites[axis] = (int64_t)count;
-        spacing[axis] = extent / count;
-        origin[axis] = low[axis];
-    }
-    lattice.origin = vec3_make(origin[0], origin[1], origin[2]);
-    lattice.spacing = vec3_make(spacing[0], spacing[1], spacing[2]);
-    return lattice;
+    return lattice_make(&of->lattice, &of->shape, resolution, (int)input->dimension);
 }
 
-static double site_volume(const struct lattice *lattice)
+static double diameter_of(double volume, int64_t dimension)
 {
-    return lattice->spacing.x * lattice->spacing.y * lattice->spacing.z;
-}
-
-static double site_diameter(const struct lattice *lattice, int dimension)
-{
-    const double volume = site_volume(lattice);
     return dimension == 1 ? volume : dimension == 2 ? sqrt(volume) : cbrt(volume);
 }
 
@@ -80,8 +58,8 @@ double largest_diameter(const struct simulation_case *input)
 {
     double largest = 0.0;
     for (int body = 0; body < input->bodies.count; body++) {
-        const struct lattice lattice = body_lattice(input, body);
-        largest = maximum(largest, site_diameter(&lattice, (int)input->dimension));
+        const double volume = body_lattice(input, body).volume;
+        largest = maximum(largest, diameter_of(volume, input->dimension));
     }
     return largest;
 }
@@ -113,19 +91,14 @@ static void walk_end(struct walk *walk)
 static struct error *walk_begin(struct walk *walk, const struct simulation_case *input, int body,
                                 const struct ranks *ranks)
 {
-    *walk = (struct walk){.input = input,
-                          .body = body,
-                          .lattice = body_lattice(input, body),
-                          .row = -1,
-                          .conflict = -1};
-    const int64_t *sites = walk->lattice.sites;
-    const double total = (double)sites[0] * (double)sites[1] * (double)sites[2];
-    if (total >= sites_limit)
+    *walk = (struct walk){
+        .input = input, .body = body, .lattice = body_lattice(input, body), .conflict = -1};
+    if (walk->lattice.sites >= sites_limit)
         return input_error(input, "bodies", input->bodies.names[body],
                            "the lattice has %.3g sites, more than the %.3g that ids can tell "
                            "apart: choose a coarser resolution",
-                           total, sites_limit);
-    const struct slice slice = ranks_slice(ranks, sites[0] * sites[1] * sites[2]);
+                           walk->lattice.sites, sites_limit);
+    const struct slice slice = ranks_slice(ranks, (int64_t)walk->lattice.sites);
     walk->site = slice.begin;
     walk->end = slice.end;
 
@@ -146,15 +119,13 @@ static struct error *walk_begin(struct walk *walk, const struct simulation_case 
 }
 
 /* A matrix may hold thousands of grains: a row of sites tests only those that it meets. */
-static void walk_to_row(struct walk *walk, int64_t row, double y, double z)
+static void walk_to_row(struct walk *walk, int64_t site)
 {
-    walk->row = row;
+    walk->row = lattice_row_of(&walk->lattice, site);
     walk->near_count = 0;
-    for (int i = 0; i < walk->rival_count; i++) {
-        const struct bounds *bounds = &walk->rivals[i].bounds;
-        if (bounds->low.y <= y && y <= bounds->high.y && bounds->low.z <= z && z <= bounds->high.z)
+    for (int i = 0; i < walk->rival_count; i++)
+        if (bounds_meet(&walk->rivals[i].bounds, &walk->row.bounds))
             walk->near[walk->near_count++] = i;
-    }
 }
 
 static bool site_dropped(struct walk *walk, struct vec3 place)
@@ -177,17 +148,12 @@ static bool site_dropped(struct walk *walk, struct vec3 place)
 /* The next site that becomes a particle, and where; false behind the last. */
 static bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place)
 {
-    const struct lattice *lattice = &walk->lattice;
     const struct one_of *shape = &case_body(walk->input, walk->body)->shape;
     while (walk->site < walk->end) {
         *site = walk->site++;
-        const int64_t row = *site / lattice->sites[0], x = *site % lattice->sites[0];
-        const int64_t y = row % lattice->sites[1], z = row / lattice->sites[1];
-        *place = vec3_make(lattice->origin.x + ((double)x + 0.5) * lattice->spacing.x,
-                           lattice->origin.y + ((double)y + 0.5) * lattice->spacing.y,
-                           lattice->origin.z + ((double)z + 0.5) * lattice->spacing.z);
-        if (row != walk->row)
-            walk_to_row(walk, row, place->y, place->z);
+        if (*site >= walk->row.first + walk->row.sites)
+            walk_to_row(walk, *site);
+        *place = lattice_place(&walk->lattice, &walk->row, *site);
         if (shape_inside(shape, *place) && !site_dropped(walk, *place))
             return true;
     }
@@ -219,7 +185,8 @@ static int wall_before(const struct simulation_case *input, struct vec3 place)
 /* What one walk over a body found. */
 struct finding {
     int64_t particles;
-    int wall; /* that a particle lies behind, -1: none */
+    double volume; /* of all of them, m^dimension */
+    int wall;      /* that a particle lies behind, -1: none */
     struct vec3 wall_place;
     int conflict;
     struct vec3 conflict_place;
@@ -235,6 +202,7 @@ static struct error *explore_body(const struct simulation_case *input, int body,
     struct vec3 place;
     while (!error && walk_next(&walk, &site, &place)) {
         finding->particles++;
+        finding->volume += walk.row.volume;
         if (finding->wall < 0) {
             finding->wall = wall_before(input, place);
             finding->wall_place = place;
@@ -302,7 +270,6 @@ static struct error *fill_body(struct simulation *simulation, int body, int32_t 
     struct particles *particles = &simulation->particles;
     struct walk walk;
     struct error *error = walk_begin(&walk, input, body, simulation->ranks);
-    const double mass = start->density * site_volume(&walk.lattice);
     int64_t site;
     struct vec3 place;
     while (!error && walk_next(&walk, &site, &place)) {
@@ -310,7 +277,7 @@ static struct error *fill_body(struct simulation *simulation, int body, int32_t 
         particles->id[i] = particle_id(body, site);
         particles->body[i] = (uint16_t)body;
         particles->material[i] = (uint16_t)of->material_index;
-        particles->mass[i] = mass;
+        particles->mass[i] = start->density * walk.row.volume;
         particles->density[i] = start->density;
         particles->energy[i] = start->energy;
         particles->pressure[i] = start->pressure;
@@ -346,6 +313,28 @@ struct error *generate_particles(struct simulation *simulation)
     return ranks_agree(simulation->ranks, error);
 }
 
+struct error *generate_warnings(const struct simulation_case *input)
+{
+    struct error *warnings = NULL;
+    for (int body = 0; body < input->bodies.count; body++) {
+        const struct body_input *of = case_body(input, body);
+        const double wanted = isnan(of->resolution) ? input->resolution : of->resolution;
+        const struct lattice lattice = body_lattice(input, body);
+        const double spacing[3] = {lattice.spacing.x, lattice.spacing.y, lattice.spacing.z};
+        for (int axis = 0; axis < input->dimension; axis++)
+            if (lattice.count[axis] == 1 && spacing[axis] < (1.0 - 1e-9) * wanted) {
+                warnings = error_join(
+                    warnings,
+                    input_error(input, "bodies", input->bodies.names[body],
+                                "smaller than the resolution along %c (%.3g m of %.3g m): "
+                                "one particle stands for it",
+                                "xyz"[axis], spacing[axis], wanted));
+                break;
+            }
+    }
+    return warnings;
+}
+
 struct error *generate_summary(const struct simulation_case *input, struct body_summary *summary)
 {
     const struct ranks alone = ranks_alone();
@@ -354,11 +343,11 @@ struct error *generate_summary(const struct simulation_case *input, struct body_
         return error_new(ERROR_SYSTEM, "out of memory");
     struct error *error = explore(input, &alone, findings);
     for (int body = 0; body < input->bodies.count; body++) {
-        const struct lattice lattice = body_lattice(input, body);
-        const double particle = case_body(input, body)->start.density * site_volume(&lattice);
-        summary[body].particles = findings[body].particles;
-        summary[body].mass = (double)findings[body].particles * particle;
-        summary[body].diameter = site_diameter(&lattice, (int)input->dimension);
+        const struct finding *finding = &findings[body];
+        summary[body].particles = finding->particles;
+        summary[body].mass = case_body(input, body)->start.density * finding->volume;
+        summary[body].diameter =
+            diameter_of(finding->volume / (double)finding->particles, input->dimension);
     }
     free(findings);
     return error;

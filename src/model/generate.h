@@ -1,21 +1,15 @@
-/* From bodies to particles: a square or cubic lattice fills each shape. */
+/* From bodies to particles: a lattice fills each shape. */
 #ifndef BOLIDE_GENERATE_H
 #define BOLIDE_GENERATE_H
 
+#include "model/lattice.h"
 #include "model/simulation.h"
-
-/* The lattice of a body: sites at origin + (index + 1/2) spacing, counts per axis. The spacing is the
- * body's resolution, adjusted on each axis so that a whole number fills the shape's bounds. */
-struct lattice {
-    struct vec3 origin, spacing;
-    int64_t sites[3];
-};
 
 /* What a body will be, for `bolide check`. */
 struct body_summary {
     int64_t particles;
     double mass;     /* kg, kg/m or kg/m^2 in 3-D, 2-D, 1-D */
-    double diameter; /* of a particle, m */
+    double diameter; /* of a particle, of the mean where they differ, m */
 };
 
 struct lattice body_lattice(const struct simulation_case *input, int body);
@@ -28,6 +22,10 @@ double largest_diameter(const struct simulation_case *input);
  * bodies overlap and neither replaces the other, when a body has no particle, or when a particle lies
  * behind a wall. A particle's mass is rho times the volume of its site. */
 struct error *generate_particles(struct simulation *simulation);
+
+/* What is no mistake but may be none of the user's wishes: a body so thin that one particle stands for its
+ * thickness. NULL, or messages to show, each located as an error would be. */
+struct error *generate_warnings(const struct simulation_case *input);
 
 /* Counts without making: SUMMARY has an entry for each body. */
 struct error *generate_summary(const struct simulation_case *input, struct body_summary *summary);

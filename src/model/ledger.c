@@ -81,6 +81,21 @@ struct totals particles_totals(const struct particles *particles, const struct r
     return totals;
 }
 
+static double largest_energy(const struct totals *totals)
+{
+    double parts = maximum(totals->kinetic, fabs(totals->internal));
+    return maximum(fabs(totals->entry[LEDGER_ENERGY]), parts);
+}
+
+double energy_drift(const struct totals *now, const struct totals *booked,
+                    const struct totals *start)
+{
+    double lost =
+        now->entry[LEDGER_ENERGY] - booked->entry[LEDGER_ENERGY] - start->entry[LEDGER_ENERGY];
+    double scale = maximum(largest_energy(start), largest_energy(now));
+    return lost == 0.0 ? 0.0 : lost / maximum(scale, start->released);
+}
+
 /* A sum as a row of whole numbers: its digits, its pending additions, whether it is not finite. */
 enum { SUM_NUMBERS = EXACT_SUM_DIGITS + 2, SUMS = LEDGER_CAUSES * LEDGER_ENTRIES };
 

@@ -32,6 +32,7 @@ struct totals {
     double entry[LEDGER_ENTRIES];
     double kinetic, internal;
     double momentum_scale; /* sum of m |u|, against which a drift of momentum is judged */
+    double released;       /* of the start alone: energy that the pressures can set free */
 };
 
 const char *ledger_cause_name(enum ledger_cause cause);
@@ -48,6 +49,12 @@ struct totals ledger_totals(const struct ledger *ledger, const struct ranks *ran
 /* Collective: mass, momentum, angular momentum, energy of the particles of BODY, of all for -1. */
 struct totals particles_totals(const struct particles *particles, const struct ranks *ranks,
                                int body);
+
+/* The energy that is neither in NOW nor BOOKED, against the largest energy of NOW and START (the total
+ * alone may be next to nothing, a sum of opposites), and at least what the pressures at the start can
+ * set free: a case that starts at rest has next to no energy in its first steps. */
+double energy_drift(const struct totals *now, const struct totals *booked,
+                    const struct totals *start);
 
 struct error *ledger_visit(struct ledger *ledger, struct visitor *visitor);
 

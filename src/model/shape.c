@@ -29,3 +29,23 @@ const char *shape_wrong(const struct one_of *shape, int dimension)
 {
     return class_of(shape)->wrong(shape->value, dimension);
 }
+
+bool shape_radii(const struct one_of *shape, struct radii *radii)
+{
+    const struct shape_class *class = class_of(shape);
+    return class->radii && class->radii(shape->value, radii);
+}
+
+const char *shapes_wrong(const struct one_of_list *shapes, int dimension)
+{
+    const char *text = NULL;
+    for (int i = 0; i < shapes->count && !text; i++)
+        text = shape_wrong(&shapes->items[i], dimension);
+    return text;
+}
+
+bool bounds_finite(const struct bounds *bounds)
+{
+    return isfinite(bounds->low.x) && isfinite(bounds->low.y) && isfinite(bounds->low.z) &&
+           isfinite(bounds->high.x) && isfinite(bounds->high.y) && isfinite(bounds->high.z);
+}

@@ -49,4 +49,11 @@ static const char *wrong(const void *shape, int dimension)
     return NULL;
 }
 
-const struct shape_class shape_ball_class = {inside, bounds, wrong};
+static bool radii(const void *shape, struct radii *radii)
+{
+    const struct shape_ball *ball = shape;
+    *radii = (struct radii){vec3_of(&ball->center), 0.0, ball->radius};
+    return true;
+}
+
+const struct shape_class shape_ball_class = {inside, bounds, wrong, radii};

@@ -32,10 +32,12 @@ static const char *wrong(const void *shape, int dimension)
     const struct one_of_list *shapes = &((const struct shape_difference *)shape)->shapes;
     if (shapes->count < 2)
         return "a difference wants at least two shapes";
-    const char *text = NULL;
-    for (int i = 0; i < shapes->count && !text; i++)
-        text = shape_wrong(&shapes->items[i], dimension);
-    return text;
+    return shapes_wrong(shapes, dimension);
 }
 
-const struct shape_class shape_difference_class = {inside, bounds, wrong};
+static bool radii(const void *shape, struct radii *radii)
+{
+    return shape_radii(&((const struct shape_difference *)shape)->shapes.items[0], radii);
+}
+
+const struct shape_class shape_difference_class = {inside, bounds, wrong, radii};

@@ -22,7 +22,35 @@ struct shape_cylinder {
     double radius, inner;
 };
 
+/* What lies between two balls; a ring in 2-D. */
+struct shape_shell {
+    struct vector_value center;
+    double inner, outer;
+};
+
+/* The side of a plane that the normal points away from. */
+struct shape_half_space {
+    struct vector_value point, normal;
+};
+
+/* The corners in their order; 2-D. */
+struct shape_polygon {
+    struct vector_list points;
+};
+
+/* A map of square sites, the highest row first, of which those with `letter` are the shape; 2-D. */
+struct shape_template {
+    struct name_list rows;
+    char *letter;
+    double site;
+    struct vector_value from;
+};
+
 struct shape_union {
+    struct one_of_list shapes;
+};
+
+struct shape_intersection {
     struct one_of_list shapes;
 };
 
@@ -31,21 +59,37 @@ struct shape_difference {
     struct one_of_list shapes;
 };
 
-/* Copies of a shape, moved by whole steps: count[axis] of them along each axis. */
+/* Copies of a shape, moved by whole steps: count[axis] of them along each axis. Where `stagger` is 1 + an
+ * axis, every second row of copies is shifted by half a step along it; 0: none is. */
 struct shape_repeat {
     struct one_of shape;
     struct vector_value count, step;
+    int stagger;
+};
+
+/* A shape turned by an angle (radians) about a line through `about` (count 0: the origin) along `axis`. */
+struct shape_rotate {
+    struct one_of shape;
+    double angle;
+    struct vector_value about;
+    int axis;
 };
 
 /* X(identifier, help): struct shape_<identifier>, shape_<identifier>_table,
  * shape_<identifier>_class. */
-#define SHAPE_LIST(X)                                                        \
-    X(box, "An interval, rectangle or block with faces normal to the axes.") \
-    X(ball, "An interval, disc or ball about a center.")                     \
-    X(cylinder, "A round bar or pipe between two points; 3-D only.")         \
-    X(union, "All points that lie in at least one of a list of shapes.")     \
-    X(difference, "The first of a list of shapes without the others.")       \
-    X(repeat, "Copies of a shape at equal steps along the axes.")
+#define SHAPE_LIST(X)                                                       \
+    X(box, "an interval, rectangle or block with faces normal to the axes") \
+    X(ball, "an interval, disc or ball about a center")                     \
+    X(shell, "a ring or spherical shell about a center")                    \
+    X(cylinder, "a round bar or pipe between two points; 3-D only")         \
+    X(polygon, "the area within straight edges; 2-D only")                  \
+    X(half_space, "one side of a plane, to cut other shapes with")          \
+    X(template, "the sites of a map that bear one letter; 2-D only")        \
+    X(union, "all points that lie in at least one of a list of shapes")     \
+    X(intersection, "all points that lie in every one of a list of shapes") \
+    X(difference, "the first of a list of shapes without the others")       \
+    X(repeat, "copies of a shape at equal steps along the axes")            \
+    X(rotate, "a shape turned by an angle")
 
 #define SHAPE_DECLARE(identifier, help)                         \
     extern const struct parameter shape_##identifier##_table[]; \

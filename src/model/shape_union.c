@@ -38,10 +38,7 @@ static const char *wrong(const void *shape, int dimension)
     const struct one_of_list *shapes = &((const struct shape_union *)shape)->shapes;
     if (shapes->count < 1)
         return "a union wants at least one shape";
-    const char *text = NULL;
-    for (int i = 0; i < shapes->count && !text; i++)
-        text = shape_wrong(&shapes->items[i], dimension);
-    return text;
+    return shapes_wrong(shapes, dimension);
 }
 
-const struct shape_class shape_union_class = {inside, bounds, wrong};
+const struct shape_class shape_union_class = {inside, bounds, wrong, NULL};

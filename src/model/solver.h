@@ -28,6 +28,8 @@ struct solver_class {
     void (*destroy)(void *solver);
     /* Bytes a particle, for `bolide check`, at DIMENSION. */
     double (*bytes)(const void *parameters, int dimension);
+    /* Every field that it may add to the store, for help; NULL behind the last. */
+    const struct field_declaration *(*field)(int index);
 };
 
 #endif

@@ -2,6 +2,7 @@
  * when they are read. */
 #include "model/views.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* Particles that are computed at once when one component of them is wanted. */
@@ -79,12 +80,17 @@ void views_of_particles(struct views *views, const struct simulation *simulation
     }
 }
 
-/* The index of component NAME of a vector or tensor, -1 when there is none. */
-static int component_index(int components, const char *name)
+static const char *const *component_names(int components)
 {
     static const char *const vector_names[3] = {"x", "y", "z"};
     static const char *const tensor_names[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
-    const char *const *names = components == 6 ? tensor_names : vector_names;
+    return components == 6 ? tensor_names : vector_names;
+}
+
+/* The index of component NAME of a vector or tensor, -1 when there is none. */
+static int component_index(int components, const char *name)
+{
+    const char *const *names = component_names(components);
     for (int i = 0; i < components && components > 1; i++)
         if (strcmp(names[i], name) == 0)
             return i;
@@ -102,6 +108,58 @@ const struct view *views_find(const struct views *views, const char *name, int *
         *component = dot ? component_index(view->components, dot + 1) : -1;
         return dot && *component < 0 ? NULL : view;
     }
+    return NULL;
+}
+
+static struct error *choose_component(const struct view *view)
+{
+    char text[256];
+    size_t used = 0;
+    for (int i = 0; i < view->components && used < sizeof text; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s.%s", i ? ", " : "",
+                                 view->name, component_names(view->components)[i]);
+    return error_new(ERROR_INPUT, "\"%s\" has %d components, choose one: %s", view->name,
+                     view->components, text);
+}
+
+static struct error *no_such_field(const struct views *views, const char *field,
+                                   const char *const *more, int count)
+{
+    enum { MORE = 8 };
+    const char *names[VIEWS_MAX + MORE];
+    int known = 0;
+    for (; known < views->count; known++)
+        names[known] = views->view[known].name;
+    for (int i = 0; i < count && i < MORE; i++)
+        names[known++] = more[i];
+    char word[64];
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(field, "."), field);
+    const char *nearest = nearest_name(word, names, known);
+    if (nearest)
+        return error_new(ERROR_INPUT, "the particles have no field \"%s\" (did you mean \"%s\"?)",
+                         field, nearest);
+    char text[1024] = "";
+    size_t used = 0;
+    for (int i = 0; i < known && used < sizeof text; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", i ? ", " : "", names[i]);
+    return error_new(ERROR_INPUT, "the particles have no field \"%s\" (known: %s)", field, text);
+}
+
+struct error *views_choose(const struct views *views, const char *field, const char *const *more,
+                           int count, const struct view **view, int *component)
+{
+    char whole[64];
+    snprintf(whole, sizeof whole, "%.*s", (int)strcspn(field, "."), field);
+    *view = views_find(views, field, component);
+    const struct view *around = *view ? *view : views_find(views, whole, component);
+    if (!around)
+        return no_such_field(views, field, more, count);
+    if (around->components > 1 && (!*view || *component < 0))
+        return choose_component(around);
+    if (!*view)
+        return error_new(ERROR_INPUT, "\"%s\": %s has no components", field, whole);
+    if (*component < 0)
+        *component = 0;
     return NULL;
 }
 

@@ -33,6 +33,11 @@ void views_add(struct views *views, struct view view);
  * view. NULL when there is none. */
 const struct view *views_find(const struct views *views, const char *name, int *component);
 
+/* The same for a FIELD that must be one number a particle: ERROR_INPUT, not located, when there is none
+ * or it has several components. MORE are COUNT other words that would have been right, for suggestions. */
+struct error *views_choose(const struct views *views, const char *field, const char *const *more,
+                           int count, const struct view **view, int *component);
+
 /* Copies the view of particles begin .. end - 1 to OUT. */
 void view_read(const struct view *view, int64_t begin, int64_t end, double *out);
 

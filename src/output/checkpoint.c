@@ -39,7 +39,7 @@ static hid_t number_type(enum number number)
 /* Chunks of about a megabyte, since checksums belong to chunks; an empty dataset has none. */
 static hid_t creation_list(hid_t type, const hsize_t size[2])
 {
-    hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+    hid_t list = hdf5_creation_list(H5P_DATASET_CREATE);
     if (size[0] == 0)
         return list;
     hsize_t rows = CHUNK_BYTES / (size[1] * H5Tget_size(type));
@@ -49,20 +49,40 @@ static hid_t creation_list(hid_t type, const hsize_t size[2])
     return list;
 }
 
+static bool make_group(hid_t file, const char *group)
+{
+    if (H5Lexists(file, group, H5P_DEFAULT) > 0)
+        return true;
+    hid_t creation = hdf5_creation_list(H5P_GROUP_CREATE);
+    hid_t made = H5Gcreate2(file, group, H5P_DEFAULT, creation, H5P_DEFAULT);
+    H5Pclose(creation);
+    return made >= 0 && H5Gclose(made) >= 0;
+}
+
+/* The groups of NAME that are not there yet; left to H5Dcreate2 they would carry times. */
+static bool make_groups(hid_t file, const char *name)
+{
+    bool made = true;
+    for (const char *slash = strchr(name, '/'); slash && made; slash = strchr(slash + 1, '/')) {
+        char *group = text_copy_part(name, (size_t)(slash - name));
+        made = group && make_group(file, group);
+        free(group);
+    }
+    return made;
+}
+
 static struct error *write_array(hid_t file, const char *name, hid_t type, const void *data,
                                  const hsize_t size[2])
 {
     hid_t space = H5Screate_simple(2, size, NULL);
     hid_t creation = creation_list(type, size);
-    hid_t link = H5Pcreate(H5P_LINK_CREATE);
-    H5Pset_create_intermediate_group(link, 1);
-    hid_t dataset = H5Dcreate2(file, name, type, space, link, creation, H5P_DEFAULT);
+    bool grouped = make_groups(file, name);
+    hid_t dataset = H5Dcreate2(file, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
     struct error *error = NULL;
-    if (dataset < 0 || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+    if (!grouped || dataset < 0 || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
         error = hdf5_error(ERROR_SYSTEM, "%s cannot be written", name);
     if (dataset >= 0)
         H5Dclose(dataset);
-    H5Pclose(link);
     H5Pclose(creation);
     H5Sclose(space);
     return error;

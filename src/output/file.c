@@ -133,8 +133,8 @@ struct error *folder_make(const char *folder)
  * folder from any other, so it is removed last. */
 static const char log_name[] = "run.log";
 static const char *const result_files[] = {
-    "case.yaml",  "history.csv", "checkpoint.h5",
-    "checks.csv", "report.html", "snapshots.vtkhdf.series",
+    "case.yaml",   "history.csv", "checkpoint.h5",           "checks.csv",
+    "summary.csv", "report.html", "snapshots.vtkhdf.series",
 };
 static const struct {
     const char *name, *endings[2];
@@ -233,27 +233,104 @@ static const char *name_in_the_way(const char *folder)
     return NULL;
 }
 
-struct error *folder_ready(const char *folder, bool overwrite)
+struct error *folder_check(const char *folder, bool overwrite)
 {
-    TRY(folder_make(folder));
-    const char *name;
-    if (is_there(folder, log_name)) {
-        if (!overwrite)
-            return error_new(ERROR_INPUT,
-                             "%s: holds the results of a run already (--overwrite replaces them, "
-                             "--resume goes on with them)",
-                             folder);
-        TRY(remove_run(folder));
-    } else if ((name = name_in_the_way(folder))) {
+    bool of_run = is_there(folder, log_name);
+    if (of_run && !overwrite)
+        return error_new(ERROR_INPUT,
+                         "%s: holds the results of a run already (--overwrite replaces them, "
+                         "--resume goes on with them)",
+                         folder);
+    const char *name = of_run ? NULL : name_in_the_way(folder);
+    if (name)
         return error_new(ERROR_INPUT,
                          "%s: holds %s, which is in the way of a run's own but comes from no run "
                          "(there is no %s); choose another folder",
                          folder, name, log_name);
-    }
+    return NULL;
+}
+
+struct error *folder_ready(const char *folder, bool overwrite)
+{
+    TRY(folder_make(folder));
+    TRY(folder_check(folder, overwrite));
+    if (is_there(folder, log_name))
+        TRY(remove_run(folder));
     /* An empty log marks the folder as a run's from the first moment. */
     char *path = path_join(folder, log_name);
     FILE *file = path ? fopen(path, "we") : NULL;
     struct error *error = file && !fclose(file) ? NULL : system_error(path ? path : folder, errno);
     free(path);
+    return error;
+}
+
+int64_t file_size(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISREG(status.st_mode) ? (int64_t)status.st_size : 0;
+}
+
+struct error *file_read(const char *path, char **content, size_t *size)
+{
+    *content = NULL;
+    *size = 0;
+    struct stat status;
+    if (stat(path, &status) || !S_ISREG(status.st_mode))
+        return NULL;
+    FILE *file = fopen(path, "re");
+    if (!file)
+        return system_error(path, errno);
+    char *text = malloc((size_t)status.st_size + 1);
+    size_t length = text ? fread(text, 1, (size_t)status.st_size, file) : 0;
+    int number = !text ? ENOMEM : ferror(file) ? EIO : 0;
+    fclose(file);
+    if (number) {
+        free(text);
+        return system_error(path, number);
+    }
+    text[length] = '\0';
+    *content = text;
+    *size = length;
+    return NULL;
+}
+
+static int by_name(const void *left, const void *right)
+{
+    return strcmp(*(char *const *)left, *(char *const *)right);
+}
+
+void names_free(char **names, int count)
+{
+    for (int i = 0; i < count; i++)
+        free(names[i]);
+    free(names);
+}
+
+struct error *folder_names(const char *folder, const char *ending, char ***names, int *count)
+{
+    int64_t room = 0;
+    *names = NULL;
+    *count = 0;
+    DIR *directory = opendir(folder);
+    if (!directory)
+        return errno == ENOENT || errno == ENOTDIR ? NULL : system_error(folder, errno);
+    struct error *error = NULL;
+    for (struct dirent *entry; !error && (entry = readdir(directory));) {
+        if (!ends_with(entry->d_name, strlen(entry->d_name), ending))
+            continue;
+        if (!memory_reserve((void **)names, &room, *count + 1, *count, sizeof **names) ||
+            !((*names)[*count] = text_copy(entry->d_name)))
+            error = out_of_memory();
+        else
+            ++*count;
+    }
+    closedir(directory);
+    if (!error && *count)
+        qsort(*names, (size_t)*count, sizeof **names, by_name);
+    if (error) {
+        names_free(*names, *count);
+        *names = NULL;
+        *count = 0;
+    }
     return error;
 }

@@ -21,10 +21,24 @@ struct error *file_end(const char *path, FILE *file);
 /* Makes FOLDER and its parents where missing. */
 struct error *folder_make(const char *folder);
 
+/* The ERROR_INPUT with which folder_ready would refuse FOLDER; changes nothing. */
+struct error *folder_check(const char *folder, bool overwrite);
+
 /* Readies FOLDER for the results of a fresh run: makes it, or, when it holds results of a run
  * already, removes those when OVERWRITE is set and refuses with ERROR_INPUT otherwise. Other files
  * stay. */
 struct error *folder_ready(const char *folder, bool overwrite);
+
+/* The whole of PATH in fresh memory, with a zero behind its SIZE bytes; CONTENT is NULL when there is no
+ * such file, or it is no plain file. */
+struct error *file_read(const char *path, char **content, size_t *size);
+
+/* Bytes of the plain file PATH, 0 when there is none. */
+int64_t file_size(const char *path);
+
+/* The names in FOLDER that end with ENDING, in the order of strcmp; none when there is no such folder. */
+struct error *folder_names(const char *folder, const char *ending, char ***names, int *count);
+void names_free(char **names, int count);
 
 /* FOLDER/NAME in fresh memory. */
 char *path_join(const char *folder, const char *name);

@@ -66,13 +66,22 @@ struct error *hdf5_create(const char *path, bool checksums, hid_t *file)
     bool ready = beside && access >= 0;
     if (ready && checksums)
         ready = H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110) >= 0;
-    *file = ready ? H5Fcreate(beside, H5F_ACC_TRUNC, H5P_DEFAULT, access) : H5I_INVALID_HID;
+    hid_t creation = hdf5_creation_list(H5P_FILE_CREATE);
+    *file = ready ? H5Fcreate(beside, H5F_ACC_TRUNC, creation, access) : H5I_INVALID_HID;
     struct error *error = NULL;
     if (*file < 0)
         error = hdf5_error(ERROR_SYSTEM, "%s: cannot be written", path);
+    H5Pclose(creation);
     H5Pclose(access);
     free(beside);
     return error;
+}
+
+hid_t hdf5_creation_list(hid_t kind)
+{
+    hid_t list = H5Pcreate(kind);
+    H5Pset_obj_track_times(list, false);
+    return list;
 }
 
 struct error *hdf5_finish(const char *path, hid_t file, struct error *error)

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "output/csv.h"
 
 struct history {
     FILE *file;
@@ -100,13 +101,7 @@ static void column(struct line *line, const char *name, const char *part, const 
         fprintf(line->file, *unit ? "%s%s [%s]" : "%s%s", name, part, unit);
         return;
     }
-    char text[32];
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, value);
-        if (strtod(text, NULL) == value)
-            break;
-    }
-    fputs(text, line->file);
+    csv_put_number(line->file, value);
 }
 
 /* What the entries of a ledger are called, and their units in 1-D, 2-D and 3-D. */
@@ -173,22 +168,6 @@ static void find_extremes(const struct simulation *simulation, struct row *row)
     row->density = over_ranks(simulation->ranks, density);
     row->pressure = over_ranks(simulation->ranks, pressure);
     row->speed = over_ranks(simulation->ranks, speed);
-}
-
-static double largest_energy(const struct totals *totals)
-{
-    double parts = maximum(totals->kinetic, fabs(totals->internal));
-    return maximum(fabs(totals->entry[LEDGER_ENERGY]), parts);
-}
-
-/* The energy that is neither there nor booked, against the largest energy at the start or now; the
- * total alone may be next to nothing, a sum of opposites. */
-static double energy_drift(const struct totals *now, const struct totals *booked,
-                           const struct totals *start)
-{
-    double lost =
-        now->entry[LEDGER_ENERGY] - booked->entry[LEDGER_ENERGY] - start->entry[LEDGER_ENERGY];
-    return lost == 0.0 ? 0.0 : lost / maximum(largest_energy(start), largest_energy(now));
 }
 
 static struct row find_row(const struct simulation *simulation, double dt,

@@ -15,6 +15,10 @@ struct error *picture_particles(const char *path, const struct simulation *simul
                                 const struct views *views, const char *field, double low,
                                 double high);
 
+/* NULL when picture_particles can draw FIELD, else an ERROR_INPUT, not located. */
+struct error *picture_field_check(const struct simulation *simulation, const struct views *views,
+                                  const char *field);
+
 /* One series of a line plot. */
 struct series {
     const char *label; /* for the legend; NULL: none */

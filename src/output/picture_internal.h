@@ -6,6 +6,7 @@
 #include <cairo.h>
 
 #include "base/error.h"
+#include "model/views.h"
 #include "output/picture_scale.h"
 
 enum { PIXELS_PER_POINT = 2, LEGEND_ROW = 18, LABEL_TEXT = 128 };
@@ -74,6 +75,21 @@ struct pixels {
 typedef void paint_function(const struct pixels *pixels, double x, double y, double diameter,
                             struct colour colour);
 paint_function paint_square, paint_disc;
+
+/* What is shown of the particles: a component of a view, or a category. */
+struct shown {
+    const struct view *view;
+    int component;
+    const uint16_t *category; /* NULL: the view */
+    const struct named_map *names;
+};
+
+/* Finds FIELD; ERROR_INPUT, not located, when there is none or it has several components. */
+struct error *shown_find(const struct simulation *simulation, const struct views *views,
+                         const char *field, struct shown *shown);
+
+/* The values of particles begin .. end - 1. */
+void shown_read(const struct shown *shown, int64_t begin, int64_t end, double *out);
 
 enum legend_mark { MARK_NONE, MARK_DOT, MARK_LINE, MARK_SQUARE };
 struct legend_entry {

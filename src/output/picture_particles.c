@@ -22,23 +22,16 @@ enum {
     AXIS_HEIGHT = 42,
     BAR_GAP = 10,
     BAR_THICKNESS = 11,
-    MARGIN = 4, /* between the particles and the frame */
+    MARGIN = 4, /* between the particles and the frame, but where a wall is the frame */
 };
 
 enum { SLICE = 4096 };
-
-/* What is shown: a component of a view, or a category of the particles. */
-struct shown {
-    const struct view *view;
-    int component;
-    const uint16_t *category; /* NULL: the view */
-    const struct named_map *names;
-};
 
 /* The plane of the picture, and what of space is in it. */
 struct plane {
     int across, up, normal; /* axes of space; normal -1: none */
     struct range extent[3]; /* of the particles with their size */
+    bool wall[3][2];        /* the low, the high end of the extent is a mirror wall */
     double middle;          /* of the slab, along the normal */
     double diameter;        /* geometric mean of the particles' */
 };
@@ -54,49 +47,6 @@ struct dots {
     struct range values;
 };
 
-static struct error *unknown_field(const struct views *views, const char *field)
-{
-    const char *names[VIEWS_MAX + 2] = {"material", "body"};
-    for (int i = 0; i < views->count; ++i)
-        names[i + 2] = views->view[i].name;
-    const char *nearest = nearest_name(field, names, views->count + 2);
-    if (nearest)
-        return error_new(ERROR_INPUT, "picture: unknown field \"%s\" (did you mean \"%s\"?)", field,
-                         nearest);
-    return error_new(ERROR_INPUT, "picture: unknown field \"%s\"", field);
-}
-
-static struct error *find_shown(const struct simulation *simulation, const struct views *views,
-                                const char *field, struct shown *shown)
-{
-    *shown = (struct shown){0};
-    bool material = strcmp(field, "material") == 0;
-    if (material || strcmp(field, "body") == 0) {
-        const struct simulation_case *input = simulation->input;
-        shown->category = material ? simulation->particles.material : simulation->particles.body;
-        shown->names = !input ? NULL : material ? &input->materials : &input->bodies;
-        return NULL;
-    }
-    shown->view = views_find(views, field, &shown->component);
-    if (!shown->view)
-        return unknown_field(views, field);
-    if (shown->component < 0 && shown->view->components > 1)
-        return error_new(ERROR_INPUT, "picture: \"%s\" has %d components; name one, like \"%s.%s\"",
-                         field, shown->view->components, field,
-                         shown->view->components == 3 ? "x" : "xx");
-    shown->component = shown->component < 0 ? 0 : shown->component;
-    return NULL;
-}
-
-static void read_shown(const struct shown *shown, int64_t begin, int64_t end, double *out)
-{
-    if (shown->category)
-        for (int64_t i = begin; i < end; ++i)
-            out[i - begin] = shown->category[i];
-    else
-        view_read_component(shown->view, shown->component, begin, end, out);
-}
-
 /* The edge of the square or cube that a particle fills. */
 static double particle_diameter(const struct particles *particles, int64_t i)
 {
@@ -109,10 +59,26 @@ static double particle_diameter(const struct particles *particles, int64_t i)
 static double middle_of(struct range range) { return 0.5 * (range.low + range.high); }
 static double length_of(struct range range) { return range.high - range.low; }
 
-/* Finds extents, mean diameter, and in 3-D the two longest axes. */
-static struct plane survey(const struct particles *particles)
+/* Where the matter lies on a wall, its extent ends there. */
+static void end_at_walls(struct plane *plane, const struct mirrors *mirrors)
 {
-    struct plane plane = {0, 1, -1, {range_empty(), range_empty(), range_empty()}, 0.0, 0.0};
+    for (int axis = 0; axis < 3; ++axis) {
+        struct range *extent = &plane->extent[axis];
+        const double low = mirrors->low[axis], high = mirrors->high[axis];
+        plane->wall[axis][0] = fabs(extent->low - low) <= plane->diameter && low < extent->high;
+        plane->wall[axis][1] = fabs(extent->high - high) <= plane->diameter && high > extent->low;
+        extent->low = plane->wall[axis][0] ? low : extent->low;
+        extent->high = plane->wall[axis][1] ? high : extent->high;
+    }
+}
+
+/* Finds extents, mean diameter, and in 3-D the two longest axes. */
+static struct plane survey(const struct particles *particles, const struct mirrors *mirrors)
+{
+    struct plane plane = {.across = 0,
+                          .up = 1,
+                          .normal = -1,
+                          .extent = {range_empty(), range_empty(), range_empty()}};
     double logarithms = 0.0;
     int64_t counted = 0;
     for (int64_t i = 0; i < particles->count; ++i) {
@@ -132,6 +98,7 @@ static struct plane survey(const struct particles *particles)
         extent->low -= 0.5 * plane.diameter;
         extent->high += 0.5 * plane.diameter;
     }
+    end_at_walls(&plane, mirrors);
     if (particles->dimension == 3) {
         /* Of equal axes the last, but for rounding, so that x and y are the picture's. */
         plane.normal = 2;
@@ -185,7 +152,7 @@ static struct error *gather(const struct particles *particles, const struct show
     *dots = (struct dots){.values = range_empty()};
     for (int64_t begin = 0; begin < particles->count; begin += SLICE) {
         int64_t end = begin + SLICE < particles->count ? begin + SLICE : particles->count;
-        read_shown(shown, begin, end, values);
+        shown_read(shown, begin, end, values);
         for (int64_t i = begin; i < end; ++i)
             if (!gather_one(particles, plane, i, values[i - begin], dots))
                 return error_new(ERROR_SYSTEM, "picture: out of memory");
@@ -198,7 +165,8 @@ static struct error *gather(const struct particles *particles, const struct show
 /* How the picture fills its page. */
 struct page {
     struct axis x, y;
-    double scale; /* points a metre */
+    double scale;              /* points a metre */
+    double middle_x, middle_y; /* where the middle of the extents is, in points */
     double width, height;
 };
 
@@ -209,8 +177,7 @@ static void paint_layer(const struct pixels *pixels, const struct page *page,
                         paint_function *paint_one)
 {
     double scale = page->scale * PIXELS_PER_POINT;
-    double x = 0.5 * (page->x.start + page->x.end) * PIXELS_PER_POINT;
-    double y = 0.5 * (page->y.start + page->y.end) * PIXELS_PER_POINT;
+    double x = page->middle_x * PIXELS_PER_POINT, y = page->middle_y * PIXELS_PER_POINT;
     for (int64_t i = 0; i < dots->count; ++i) {
         const struct dot *dot = &dots->dot[i];
         double diameter = factor * dot->diameter * scale;
@@ -246,21 +213,29 @@ static struct page lay_out(const struct plane *plane, double head, double foot)
 {
     double across = length_of(plane->extent[plane->across]);
     double up = length_of(plane->extent[plane->up]);
-    struct page page = {.scale = (PAGE_WIDTH - LEFT - RIGHT - 2 * MARGIN) / across};
+    const bool *wall_x = plane->wall[plane->across], *wall_y = plane->wall[plane->up];
+    const double margin_x = MARGIN * (2 - wall_x[0] - wall_x[1]);
+    const double margin_y = MARGIN * (2 - wall_y[0] - wall_y[1]);
+    struct page page = {.scale = (PAGE_WIDTH - LEFT - RIGHT - margin_x) / across};
     if (page.scale * up < HEIGHT_MIN)
-        page.scale =
-            minimum(HEIGHT_MIN / up, (PAGE_WIDTH_MAX - LEFT - RIGHT - 2 * MARGIN) / across);
+        page.scale = minimum(HEIGHT_MIN / up, (PAGE_WIDTH_MAX - LEFT - RIGHT - margin_x) / across);
     if (page.scale * up > HEIGHT_MAX)
         page.scale = HEIGHT_MAX / up;
-    double width = maximum(page.scale * across, WIDTH_MIN) + 2 * MARGIN;
-    double height = maximum(page.scale * up, HEIGHT_MIN) + 2 * MARGIN;
+    double width = maximum(page.scale * across, WIDTH_MIN) + margin_x;
+    double height = maximum(page.scale * up, HEIGHT_MIN) + margin_y;
     page.width = ceil(maximum(width + LEFT + RIGHT, PAGE_WIDTH_MIN) - 1e-6);
     page.height = ceil(head + height + AXIS_HEIGHT + foot);
     page.x.start = LEFT + 0.5 * (page.width - LEFT - RIGHT - width);
     page.x.end = page.x.start + width;
     page.y.end = head;
     page.y.start = head + height;
-    double x = middle_of(plane->extent[plane->across]), y = middle_of(plane->extent[plane->up]);
+    /* How far the margins shift the middle of the frame from that of the extents. */
+    double aside_x = 0.5 * MARGIN * (wall_x[0] - wall_x[1]);
+    double aside_y = 0.5 * MARGIN * (wall_y[0] - wall_y[1]);
+    page.middle_x = 0.5 * (page.x.start + page.x.end) - aside_x;
+    page.middle_y = 0.5 * (page.y.start + page.y.end) + aside_y;
+    double x = middle_of(plane->extent[plane->across]) + aside_x / page.scale;
+    double y = middle_of(plane->extent[plane->up]) + aside_y / page.scale;
     page.x.range = (struct range){x - 0.5 * width / page.scale, x + 0.5 * width / page.scale};
     page.y.range = (struct range){y - 0.5 * height / page.scale, y + 0.5 * height / page.scale};
 
@@ -453,7 +428,7 @@ static struct error *draw_line_problem(const char *path, const struct simulation
         field_text(field, name, sizeof name);
         for (int64_t i = 0; i < count; ++i)
             x[i] = particles->position[i][0];
-        read_shown(shown, 0, count, y);
+        shown_read(shown, 0, count, y);
         struct series series = {.count = count, .x = x, .y = y};
         struct plot plot = {.title = title_of(simulation),
                             .x_name = "x",
@@ -480,10 +455,10 @@ struct error *picture_particles(const char *path, const struct simulation *simul
 {
     struct shown shown;
     struct range fixed = {low, high};
-    TRY(find_shown(simulation, views, field, &shown));
+    TRY(shown_find(simulation, views, field, &shown));
     if (simulation->particles.dimension == 1)
         return draw_line_problem(path, simulation, &shown, field, fixed);
-    struct plane plane = survey(&simulation->particles);
+    struct plane plane = survey(&simulation->particles, &simulation->mirrors);
     struct dots dots;
     struct error *error = gather(&simulation->particles, &shown, &plane, &dots);
     if (!error)

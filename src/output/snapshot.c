@@ -57,8 +57,10 @@ static struct error *write_column(const struct column *column)
 {
     hsize_t size[2] = {(hsize_t)column->rows, (hsize_t)column->components};
     hid_t space = H5Screate_simple(column->components > 1 ? 2 : 1, size, NULL);
+    hid_t creation = hdf5_creation_list(H5P_DATASET_CREATE);
     hid_t dataset = H5Dcreate2(column->group, column->name, column->type, space, H5P_DEFAULT,
-                               H5P_DEFAULT, H5P_DEFAULT);
+                               creation, H5P_DEFAULT);
+    H5Pclose(creation);
     struct error *error = NULL;
     if (dataset < 0 || (column->data && H5Dwrite(dataset, column->type, H5S_ALL, H5S_ALL,
                                                  H5P_DEFAULT, column->data) < 0))
@@ -217,10 +219,12 @@ static struct error *write_all(hid_t file, const struct simulation *simulation,
                                               "/VTKHDF/FieldData"};
     hid_t group[GROUPS];
     bool made = true;
+    hid_t creation = hdf5_creation_list(H5P_GROUP_CREATE);
     for (int i = 0; i < GROUPS; i++) {
-        group[i] = H5Gcreate2(file, names[i], H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        group[i] = H5Gcreate2(file, names[i], H5P_DEFAULT, creation, H5P_DEFAULT);
         made = made && group[i] >= 0;
     }
+    H5Pclose(creation);
     struct error *error = NULL;
     if (!made || !mark_as_vtk(group[ROOT]))
         error = hdf5_error(ERROR_SYSTEM, "the group VTKHDF cannot be made");

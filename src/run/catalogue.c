@@ -3,6 +3,7 @@
 
 #include "exact/choices.h"
 #include "material/choices.h"
+#include "model/lattice.h"
 #include "model/shape_kinds.h"
 #include "run/measure.h"
 #include "sph/sph.h"
@@ -15,6 +16,7 @@ static const struct choice_list lists[] = {
     {"eos", "the equation of state of a material", eos_choices, EOS_KINDS},
     {"strength", "what a material does with shear", strength_choices, STRENGTH_KINDS},
     {"shape", "where a body is", shape_choices, SHAPES},
+    {"lattice", "how the particles of a body stand at the start", lattice_choices, LATTICE_KINDS},
     {"exact", "an exact solution that results are measured against", exact_choices,
      exact_choice_count},
     {"measure", "what a check measures", measure_choices, MEASURES},

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "output/csv.h"
 #include "output/file.h"
 #include "output/picture.h"
 #include "run/checks_internal.h"
@@ -45,30 +46,19 @@ void check_allowed_text(const struct check_result *result, char *buffer, size_t 
     char low[48], high[48], wanted[48], distance[48];
     quantity_text(result->low, result->unit, low, sizeof low);
     quantity_text(result->high, result->unit, high, sizeof high);
-    if (!isnan(result->wanted) && result->wanted != 0.0) {
+    double above = result->high - result->wanted, below = result->wanted - result->low;
+    /* `at_most` and `at_least` may have cut one side of `within`. */
+    if (!isnan(result->wanted) &&
+        fabs(above - below) <= 1e-9 * (above + below) + 1e-15 * fabs(result->wanted)) {
         quantity_text(result->wanted, result->unit, wanted, sizeof wanted);
-        quantity_text(result->high - result->wanted, result->unit, distance, sizeof distance);
-        snprintf(buffer, size, "%s +- %s", wanted, distance);
-    } else if (result->wanted == 0.0)
-        snprintf(buffer, size, "0 +- %s", high);
-    else if (isinf(result->low))
+        quantity_text(above, result->unit, distance, sizeof distance);
+        snprintf(buffer, size, "%s +- %s", result->wanted == 0.0 ? "0" : wanted, distance);
+    } else if (isinf(result->low))
         snprintf(buffer, size, "at most %s", high);
     else if (isinf(result->high))
         snprintf(buffer, size, "at least %s", low);
     else
         snprintf(buffer, size, "%s .. %s", low, high);
-}
-
-/* A CSV field in quotes, quotes inside doubled. */
-static void write_quoted(FILE *file, const char *text)
-{
-    fputc('"', file);
-    for (; text && *text; text++) {
-        if (*text == '"')
-            fputc('"', file);
-        fputc(*text, file);
-    }
-    fputc('"', file);
 }
 
 struct error *check_results_write(const struct check_results *results, const char *path)
@@ -78,10 +68,10 @@ struct error *check_results_write(const struct check_results *results, const cha
     fprintf(file, "check,measure,unit,measured,wanted,low,high,verdict,source\n");
     for (int i = 0; i < results->count; i++) {
         const struct check_result *r = &results->item[i];
-        write_quoted(file, r->name);
+        csv_put_text(file, r->name);
         fprintf(file, ",%s,%s,%.17g,%.17g,%.17g,%.17g,%s,", r->measure, r->unit, r->measured,
                 r->wanted, r->low, r->high, r->passed ? "passed" : "failed");
-        write_quoted(file, r->source);
+        csv_put_text(file, r->source);
         fputc('\n', file);
     }
     return file_end(path, file);

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "model/solver.h"
+#include "run/run.h"
 
 /* Updates a second that one thread is expected to make, and the Courant number of a solver that has
  * none among its parameters. */
@@ -38,6 +39,40 @@ static void add_body(const struct simulation_case *input, int index, double cour
     }
     estimate->particles += of->summary.particles;
     estimate->mass += of->summary.mass;
+    estimate->material_mass[body->material_index] += of->summary.mass;
+}
+
+static void join_bounds(struct bounds *all, const struct bounds *one)
+{
+    all->low = vec3_make(minimum(all->low.x, one->low.x), minimum(all->low.y, one->low.y),
+                         minimum(all->low.z, one->low.z));
+    all->high = vec3_make(maximum(all->high.x, one->high.x), maximum(all->high.y, one->high.y),
+                          maximum(all->high.z, one->high.z));
+}
+
+/* A mesostructure between walls stands for an endless one: there the walls bound it. */
+static void find_mean_density(const struct simulation_case *input, struct estimate *estimate)
+{
+    struct bounds box = shape_bounds(&case_body(input, 0)->shape);
+    for (int i = 1; i < input->bodies.count; i++) {
+        const struct bounds one = shape_bounds(&case_body(input, i)->shape);
+        join_bounds(&box, &one);
+    }
+    double low[3] = {box.low.x, box.low.y, box.low.z};
+    double high[3] = {box.high.x, box.high.y, box.high.z};
+    double wall[3][2] = {{NAN, NAN}, {NAN, NAN}, {NAN, NAN}}, volume = 1.0;
+    for (int i = 0; i < input->walls.count; i++)
+        wall[case_wall(input, i)->axis][case_wall(input, i)->side] = case_wall(input, i)->at;
+    for (int axis = 0; axis < input->dimension; axis++) {
+        if (wall[axis][WALL_LOW] < wall[axis][WALL_HIGH]) {
+            low[axis] = wall[axis][WALL_LOW];
+            high[axis] = wall[axis][WALL_HIGH];
+        }
+        volume *= high[axis] - low[axis];
+    }
+    estimate->box.low = vec3_make(low[0], low[1], low[2]);
+    estimate->box.high = vec3_make(high[0], high[1], high[2]);
+    estimate->mean_density = estimate->mass / volume;
 }
 
 struct error *estimate_run(const struct simulation_case *input, int threads,
@@ -47,9 +82,13 @@ struct error *estimate_run(const struct simulation_case *input, int threads,
     memset(estimate, 0, sizeof *estimate);
     estimate->bodies = bodies;
     estimate->body = memory_allocate(((size_t)bodies + 1) * sizeof *estimate->body);
+    estimate->material_mass =
+        memory_allocate(((size_t)input->materials.count + 1) * sizeof *estimate->material_mass);
     struct body_summary *summary = memory_allocate(((size_t)bodies + 1) * sizeof *summary);
-    struct error *error = estimate->body && summary ? generate_summary(input, summary)
-                                                    : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = estimate->body && estimate->material_mass && summary
+                              ? generate_summary(input, summary)
+                              : error_new(ERROR_SYSTEM, "out of memory");
+    error = error_join(error, run_foresee(input));
     for (int i = 0; i < bodies && !error; i++) {
         estimate->body[i].summary = summary[i];
         add_body(input, i, courant_of(&input->solver), estimate);
@@ -59,6 +98,7 @@ struct error *estimate_run(const struct simulation_case *input, int threads,
         estimate_free(estimate);
         return error;
     }
+    find_mean_density(input, estimate);
     const struct solver_class *class = input->solver.choice->thing;
     estimate->bytes =
         (double)estimate->particles * class->bytes(input->solver.value, (int)input->dimension);
@@ -73,5 +113,6 @@ struct error *estimate_run(const struct simulation_case *input, int threads,
 void estimate_free(struct estimate *estimate)
 {
     free(estimate->body);
+    free(estimate->material_mass);
     memset(estimate, 0, sizeof *estimate);
 }

@@ -2,7 +2,6 @@
  * that belongs to a particle. */
 #include "run/measure.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,40 +53,26 @@ struct error *measure_error(const struct measurement *measurement, const char *f
     return error;
 }
 
+/* ERROR, which it takes, told at the check. */
+static struct error *located(const struct measurement *measurement, struct error *error)
+{
+    struct error *told = measure_error(measurement, "%s", error_message(error, 0));
+    error_free(error);
+    return told;
+}
+
 static const char *field_of(const struct measurement *measurement)
 {
     const struct measure_field *parameters = measurement->check->measure.value;
     return parameters->field;
 }
 
-/* The nearest name to FIELD among the views, whose component keeps its spelling. */
-static const char *nearest_view(const struct views *views, const char *field)
-{
-    const char *names[VIEWS_MAX];
-    for (int i = 0; i < views->count; i++)
-        names[i] = views->view[i].name;
-    char word[64];
-    snprintf(word, sizeof word, "%.*s", (int)strcspn(field, "."), field);
-    return nearest_name(word, names, views->count);
-}
-
 static struct error *find_field(const struct measurement *measurement, const struct view **view,
                                 int *component)
 {
-    const char *field = field_of(measurement);
-    *view = views_find(measurement->views, field, component);
-    if (!*view) {
-        const char *nearest = nearest_view(measurement->views, field);
-        return measure_error(measurement, "the particles have no field \"%s\"%s%s%s", field,
-                             nearest ? " (did you mean \"" : "", nearest ? nearest : "",
-                             nearest ? "\"?)" : "");
-    }
-    if (*component < 0 && (*view)->components > 1)
-        return measure_error(measurement, "\"%s\" has %d components, choose one: %s.%s", field,
-                             (*view)->components, field, (*view)->components == 3 ? "x" : "xx");
-    if (*component < 0)
-        *component = 0;
-    return NULL;
+    struct error *error =
+        views_choose(measurement->views, field_of(measurement), NULL, 0, view, component);
+    return error ? located(measurement, error) : NULL;
 }
 
 struct error *measure_field_unit(const struct measurement *measurement, const char **unit)

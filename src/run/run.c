@@ -2,6 +2,7 @@
  * method. */
 #include "run/run.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,6 +13,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "model/generate.h"
+#include "output/picture.h"
 #include "run/run_internal.h"
 
 /* Fewer particles than this a thread cost more in waiting than they gain in work. */
@@ -116,8 +118,32 @@ static struct error *loop(struct run *run)
     return NULL;
 }
 
-/* State, solver and particles, fresh or loaded. */
-static struct error *begin(struct run *run)
+/* What the pressures at the start can set free: m p^2/(2 rho^2 C^2), the acoustic energy of matter that
+ * expands to no pressure, body by body. */
+static double released_energy(const struct run *run)
+{
+    double energy = 0.0;
+    for (int i = 0; i < run->input->bodies.count; i++) {
+        const struct body_input *body = case_body(run->input, i);
+        struct point point = body->start;
+        struct response response =
+            material_evaluate(&case_material(run->input, body->material_index)->material, &point);
+        struct totals totals = particles_totals(&run->simulation.particles, &run->ranks, i);
+        energy += 0.5 * totals.entry[LEDGER_MASS] *
+                  square(point.pressure / (point.density * response.sound_long));
+    }
+    return energy;
+}
+
+static struct totals totals_at_start(const struct run *run)
+{
+    struct totals totals = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    totals.released = released_energy(run);
+    return totals;
+}
+
+/* The state and the solver, without particles. */
+static struct error *make_solver(struct run *run)
 {
     TRY(simulation_create(run->input, &run->ranks, threads_at_most(run->options),
                           &run->simulation));
@@ -125,19 +151,47 @@ static struct error *begin(struct run *run)
     run->solver = memory_allocate(run->method->size);
     if (!run->solver)
         return error_new(ERROR_SYSTEM, "out of memory for the solver");
-    TRY(run->method->create(run->solver, &run->simulation, run->input->solver.value));
-    if (run->options->resume)
-        TRY(run_load(run));
-    else
-        TRY(generate_particles(&run->simulation));
+    return run->method->create(run->solver, &run->simulation, run->input->solver.value);
+}
+
+/* The particles, fresh or loaded. */
+static struct error *make_particles(struct run *run)
+{
+    TRY(run->options->resume ? run_load(run) : generate_particles(&run->simulation));
     run->simulation.threads = threads_for(run);
     TRY(run->method->start(run->solver, &run->simulation));
     if (!run->options->resume)
-        run->start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        run->start = totals_at_start(run);
     run->first_step = run->simulation.step;
     run->start_time = run->last_progress_time = run->simulation.time;
+    return NULL;
+}
+
+/* Readies what comes later, checks and pictures, so that their mistakes are told now. */
+static struct error *look_ahead(struct run *run)
+{
+    const struct name_list *pictures = &run->input->output.pictures;
     run_observe(run);
-    return checks_prepare(&run->simulation, &run->views, &run->checks);
+    struct error *error = checks_prepare(&run->simulation, &run->views, &run->checks);
+    for (int i = 0; i < pictures->count; i++) {
+        struct error *mistake =
+            picture_field_check(&run->simulation, &run->views, pictures->names[i]);
+        if (!mistake)
+            continue;
+        char key[32];
+        snprintf(key, sizeof key, "pictures.%d", i + 1);
+        error = error_join(error,
+                           input_error(run->input, "output", key, "%s", error_message(mistake, 0)));
+        error_free(mistake);
+    }
+    return error;
+}
+
+static struct error *begin(struct run *run)
+{
+    TRY(make_solver(run));
+    struct error *error = make_particles(run);
+    return error_join(error, look_ahead(run));
 }
 
 static void tell_beginning(struct run *run)
@@ -151,6 +205,10 @@ static void tell_beginning(struct run *run)
             (long long)ranks_sum(&run->ranks, s->particles.count), s->dimension,
             run->input->solver.choice->name, until, s->threads, s->threads == 1 ? "" : "s",
             run->options->resume ? ", resumed" : "");
+    struct error *warnings = generate_warnings(run->input);
+    for (int i = 0; warnings && i < error_count(warnings); i++)
+        run_say(run, "warning: %s", error_message(warnings, i));
+    error_free(warnings);
     if (run->options->resume)
         run_say(run, "resumed at step %lld, t = %.9g s", (long long)s->step, s->time);
 }
@@ -212,11 +270,14 @@ static void tell_end(struct run *run)
 
 static struct error *run_through(struct run *run)
 {
+    TRY(run_check_folder(run));
     TRY(begin(run));
-    TRY(run_open_history(run));
+    TRY(run_open_folder(run));
     tell_beginning(run);
     run->began = run->last_checkpoint = run->last_progress = clock_seconds();
-    struct error *error = loop(run);
+    struct error *error = run_summary_begin(run);
+    if (!error)
+        error = loop(run);
     measure_speed(run);
     if (error && error_kind(error) == ERROR_STATE)
         error = error_join(error, run_snapshot_of_failure(run));
@@ -243,21 +304,43 @@ static void destroy(struct run *run)
     free(run);
 }
 
-struct error *run_case(const struct simulation_case *input, const struct run_options *options,
-                       struct run_result *result)
+static struct run *run_new(const struct simulation_case *input, const struct run_options *options,
+                           struct run_result *result)
 {
-    memset(result, 0, sizeof *result);
     struct run *run = memory_allocate(sizeof *run);
+    memset(result, 0, sizeof *result);
     if (!run)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return NULL;
     run->input = input;
     run->options = options;
     run->result = result;
     run->ranks = ranks_alone();
-    struct error *error = run_open_folder(run);
+    return run;
+}
+
+struct error *run_case(const struct simulation_case *input, const struct run_options *options,
+                       struct run_result *result)
+{
+    struct run *run = run_new(input, options, result);
+    if (!run)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = run_close_files(run, run_through(run));
+    if (run->began > 0.0)
+        error = run_report(run, error);
+    destroy(run);
+    return error;
+}
+
+struct error *run_foresee(const struct simulation_case *input)
+{
+    const struct run_options options = {.threads = 1};
+    struct run_result result;
+    struct run *run = run_new(input, &options, &result);
+    if (!run)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = make_solver(run);
     if (!error)
-        error = run_through(run);
-    error = run_close_files(run, error);
+        error = look_ahead(run);
     destroy(run);
     return error;
 }

@@ -41,6 +41,10 @@ struct error *run_case(const struct simulation_case *input, const struct run_opt
                        struct run_result *result);
 void run_result_free(struct run_result *result);
 
+/* The mistakes that a run of INPUT would tell before its first step, but for those of the particles
+ * (generate_summary): walls, contacts, solver, checks, pictures. */
+struct error *run_foresee(const struct simulation_case *input);
+
 /* The step from TIME towards UNTIL where LIMIT is the largest allowed: what remains is spread over
  * the last two steps, so that no tiny step comes last. */
 double step_towards(double limit, double time, double until);

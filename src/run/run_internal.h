@@ -42,10 +42,12 @@ char *run_path(const struct run *run, const char *name);
 /* A line for the log and the user. */
 void run_say(struct run *run, const char *format, ...) BOLIDE_PRINTF(2, 3);
 
-/* Readies the folder, the log and the case as run. A resumed run's history is opened later, when
- * the checkpoint has told how many rows it has. */
+/* Looks whether the folder can take this run, or go on with it, and makes the text of the case;
+ * nothing is written. */
+struct error *run_check_folder(struct run *run);
+
+/* Readies the folder, the log, the case as run and the history. */
 struct error *run_open_folder(struct run *run);
-struct error *run_open_history(struct run *run);
 struct error *run_close_files(struct run *run, struct error *error);
 
 /* Fills run->views with what the solver shows now. */
@@ -60,6 +62,11 @@ void run_progress(struct run *run);
 struct error *run_checkpoint(struct run *run);
 struct error *run_checkpoint_if_due(struct run *run);
 struct error *run_load(struct run *run);
+
+/* summary.csv at the beginning of a run; and at its end, with what went wrong (ERROR, NULL: nothing), then
+ * report.html. run_report returns ERROR, joined with what went wrong in the writing. */
+struct error *run_summary_begin(const struct run *run);
+struct error *run_report(const struct run *run, struct error *error);
 
 /* snapshots/failed.vtkhdf: the moment of an impossible state. */
 struct error *run_snapshot_of_failure(struct run *run);

@@ -80,35 +80,48 @@ static struct error *look_for_checkpoint(struct run *run)
     return error;
 }
 
-struct error *run_open_folder(struct run *run)
+struct error *run_check_folder(struct run *run)
 {
     const struct run_options *options = run->options;
     if (!options->output)
         return options->resume ? error_new(ERROR_INPUT, "a run without a folder cannot be resumed")
                                : NULL;
     TRY(make_case_text(run));
-    TRY(options->resume ? look_for_checkpoint(run)
-                        : folder_ready(options->output, options->overwrite));
-    TRY(make_folder(run, "snapshots"));
-    TRY(make_folder(run, "pictures"));
-    if (!options->resume)
-        TRY(write_case(run));
+    return options->resume ? look_for_checkpoint(run)
+                           : folder_check(options->output, options->overwrite);
+}
+
+static struct error *open_log(struct run *run)
+{
     char *path = run_path(run, "run.log");
     struct error *error =
-        path ? run_log_open(path, options->resume, NULL, &run->log) : out_of_memory();
+        path ? run_log_open(path, run->options->resume, NULL, &run->log) : out_of_memory();
     free(path);
     return error;
 }
 
-struct error *run_open_history(struct run *run)
+static struct error *open_history(struct run *run)
 {
-    if (!run->options->output)
-        return NULL;
     char *path = run_path(run, "history.csv");
     int64_t keep = run->options->resume ? run->history_rows : -1;
     struct error *error = path ? history_open(path, keep, &run->history) : out_of_memory();
     free(path);
     return error;
+}
+
+struct error *run_open_folder(struct run *run)
+{
+    const struct run_options *options = run->options;
+    if (!options->output)
+        return NULL;
+    if (!options->resume)
+        TRY(folder_ready(options->output, options->overwrite));
+    TRY(make_folder(run, "snapshots"));
+    TRY(make_folder(run, "pictures"));
+    if (!options->resume)
+        TRY(write_case(run));
+    TRY(open_log(run));
+    return open_history(run);
 }
 
 struct error *run_close_files(struct run *run, struct error *error)
@@ -147,13 +160,16 @@ static bool is_due(double time, double interval, int64_t *due)
 /* Energy that appears from nowhere is an impossible state. */
 static struct error *watch_energy(struct run *run)
 {
-    double drift = conserved_change(&run->simulation, &run->start, CONSERVED_ENERGY);
+    struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
+    double drift = fabs(energy_drift(&now, &booked, &run->start));
     double allowed = run->input->run.energy_drift;
     run->result->energy_drift = drift;
     if (drift <= allowed || (allowed == 0.0 && !isnan(drift)))
         return NULL;
     return error_new(ERROR_STATE,
-                     "step %lld, t = %.6g s: the total energy has drifted by %.3g of itself; "
+                     "step %lld, t = %.6g s: the total energy has drifted by %.3g of the largest "
+                     "energy of the case; "
                      "`run.energy_drift` allows %.3g",
                      (long long)run->simulation.step, run->simulation.time, drift, allowed);
 }
@@ -285,6 +301,7 @@ static struct error *visit_extra(void *context, struct visitor *visitor)
         {"run/start_kinetic", &run->start.kinetic, NUMBER_DOUBLE, 1},
         {"run/start_internal", &run->start.internal, NUMBER_DOUBLE, 1},
         {"run/start_momentum_scale", &run->start.momentum_scale, NUMBER_DOUBLE, 1},
+        {"run/start_released", &run->start.released, NUMBER_DOUBLE, 1},
     };
     int64_t known = run->snapshots;
     for (size_t i = 0; i < COUNT_OF(arrays); i++)

@@ -3,9 +3,13 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/memory.h"
 #include "output/file.h"
+#include "run/sweep.h"
+
+static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
 /* "riemann/gas" of ".../riemann/gas/case.yaml"; the path itself where it has no such folders. */
 static char *short_name(const char *path)
@@ -20,71 +24,220 @@ static char *short_name(const char *path)
     return text_copy_part(start, (size_t)(end - start));
 }
 
-static struct error *run_one(const char *path, const struct verify_options *options,
-                             struct verify_case *verified)
+static bool told_to_stop(const struct verify_options *options)
 {
-    struct simulation_case *input;
-    TRY(case_read(path, &options->reading, options->catalogue, &input));
-    char *folder = options->output ? path_join(options->output, verified->name) : NULL;
-    struct listener quiet = {0};
-    if (options->listener)
-        quiet = (struct listener){NULL, options->listener->progress, options->listener->context};
-    struct run_options running = {
-        .output = folder,
-        .overwrite = true,
-        .threads = options->threads,
-        .stop = options->stop,
-        .listener = &quiet,
-        .progress = options->progress,
-    };
-    struct error *error = run_case(input, &running, &verified->result);
-    verified->passed = !error && verified->result.finished && !verified->result.checks.failed;
-    if (!error && !verified->result.finished)
-        error = error_new(ERROR_SYSTEM, "stopped before its end");
-    free(folder);
-    case_free(input);
+    return options->running.stop && *options->running.stop;
+}
+
+static bool is_there(const char *folder, const char *name)
+{
+    char *path = folder ? path_join(folder, name) : NULL;
+    bool there = path && access(path, F_OK) == 0;
+    free(path);
+    return there;
+}
+
+/* A new item of RESULT, called NAME (taken); NULL when memory is out. */
+static struct verify_case *add_case(struct verify_result *result, const char *path, char *name)
+{
+    struct verify_case *grown =
+        name ? realloc(result->item, ((size_t)result->count + 1) * sizeof *grown) : NULL;
+    if (!grown) {
+        free(name);
+        return NULL;
+    }
+    result->item = grown;
+    grown[result->count] = (struct verify_case){.name = name, .path = path};
+    return &grown[result->count++];
+}
+
+static void tell_end(const struct verify_options *options, const struct verify_case *verified)
+{
+    if (options->ended)
+        options->ended(options->context, verified);
+}
+
+static void run_input(const struct simulation_case *input, const char *folder,
+                      const struct run_options *options, struct verify_case *verified)
+{
+    struct run_options running = *options;
+    running.output = folder;
+    verified->error = run_case(input, &running, &verified->result);
+    verified->passed =
+        !verified->error && verified->result.finished && !verified->result.checks.failed;
+    if (!verified->error && !verified->result.finished)
+        verified->error = error_new(ERROR_SYSTEM, "stopped before its end");
+}
+
+/* Runs INPUT, a run of a sweep, as an item of RESULT. */
+static struct error *run_of_sweep(struct simulation_case *input, const char *path, const char *name,
+                                  const char *folder, const struct verify_options *options,
+                                  struct verify_result *result)
+{
+    char *own_name = sweep_run_name(input->sweep, input->sweep_values);
+    char *own_folder = own_name && folder ? path_join(folder, own_name) : NULL;
+    struct verify_case *verified =
+        own_name ? add_case(result, path, text_format("%s/%s", name, own_name)) : NULL;
+    struct error *error = verified && (own_folder || !folder) ? NULL : out_of_memory();
+    if (!error) {
+        verified->sweep = input->sweep;
+        verified->sweep_values = input->sweep_values;
+        input->sweep = NULL;
+        input->sweep_values = 0;
+        struct run_options running = options->running;
+        if (running.resume && !is_there(own_folder, "checkpoint.h5")) {
+            running.resume = false;
+            running.overwrite = true;
+        }
+        const struct listener *listener = running.listener;
+        if (listener && listener->line)
+            listener->line(listener->context, verified->name);
+        run_input(input, own_folder, &running, verified);
+        tell_end(options, verified);
+    }
+    free(own_folder);
+    free(own_name);
     return error;
 }
 
-static bool told_to_stop(const struct verify_options *options)
+/* Reads every one of the RUNS, so that all mistakes are told before the first begins. */
+static struct error *check_sweep(const char *path, int runs, const struct verify_options *options)
 {
-    return options->stop && *options->stop;
+    struct error *error = NULL;
+    struct case_options reading = options->reading;
+    char **names = calloc((size_t)runs, sizeof *names);
+    if (!names)
+        return out_of_memory();
+    for (int run = 0; run < runs; run++) {
+        struct simulation_case *input = NULL;
+        reading.sweep_run = run + 1;
+        struct error *wrong = case_read(path, &reading, options->catalogue, &input);
+        names[run] = wrong ? NULL : sweep_run_name(input->sweep, input->sweep_values);
+        for (int other = 0; other < run && names[run]; other++)
+            if (names[other] && !strcmp(names[other], names[run]))
+                wrong = document_error(input->document, "",
+                                       "two runs of the sweep would be called %s", names[run]);
+        case_free(input);
+        error = error_join(error, wrong);
+    }
+    for (int run = 0; run < runs; run++)
+        free(names[run]);
+    free(names);
+    return error;
+}
+
+/* Results that are there already give way to nobody who does not ask for it. */
+static struct error *check_folder(const char *folder, const struct run_options *options)
+{
+    if (options->overwrite || options->resume || !is_there(folder, sweep_table_name))
+        return NULL;
+    return error_new(ERROR_INPUT,
+                     "%s: holds the results of a sweep already (--overwrite replaces them, "
+                     "--resume goes on with them)",
+                     folder);
+}
+
+static struct error *run_sweep(const char *path, const char *name, const char *folder, int runs,
+                               const struct verify_options *options, struct verify_result *result)
+{
+    TRY(check_folder(folder, &options->running));
+    TRY(check_sweep(path, runs, options));
+    int first = result->count;
+    struct case_options reading = options->reading;
+    for (int run = 1; run <= runs && !told_to_stop(options); run++) {
+        struct simulation_case *input;
+        reading.sweep_run = run;
+        TRY(case_read(path, &reading, options->catalogue, &input));
+        struct error *error = run_of_sweep(input, path, name, folder, options, result);
+        case_free(input);
+        TRY(error);
+    }
+    return folder ? sweep_write(folder, result->item + first, result->count - first) : NULL;
+}
+
+static struct error *run_path(const char *path, const char *name, const char *folder,
+                              const struct verify_options *options, struct verify_result *result)
+{
+    struct simulation_case *input;
+    TRY(case_read(path, &options->reading, options->catalogue, &input));
+    int runs = input->sweep_runs;
+    struct verify_case *verified = runs ? NULL : add_case(result, path, text_copy(name));
+    struct error *error = runs || verified ? NULL : out_of_memory();
+    if (verified) {
+        run_input(input, folder, &options->running, verified);
+        tell_end(options, verified);
+    }
+    case_free(input);
+    return runs && !error ? run_sweep(path, name, folder, runs, options, result) : error;
+}
+
+/* The messages of a case that did not run, each with the case in front, unless it begins with the path. */
+static struct error *named_error(const struct verify_case *verified)
+{
+    struct error *all = NULL;
+    for (int i = 0; i < error_count(verified->error); i++) {
+        const char *text = error_message(verified->error, i);
+        bool told = !strncmp(text, verified->path, strlen(verified->path));
+        all = error_join(all, error_new(error_kind(verified->error), "%s%s%s",
+                                        told ? "" : verified->name, told ? "" : ": ", text));
+    }
+    return all;
 }
 
 /* What the results come to as one error. */
 static struct error *sum_up(struct verify_result *result)
 {
     struct error *error = NULL;
+    result->passed = result->checks = result->checks_passed = 0;
     for (int i = 0; i < result->count; i++) {
         const struct verify_case *verified = &result->item[i];
+        const struct check_results *checks = &verified->result.checks;
         result->passed += verified->passed;
-        result->checks += verified->result.checks.count;
-        result->checks_passed += verified->result.checks.count - verified->result.checks.failed;
-        for (int k = 0; verified->error && k < error_count(verified->error); k++)
-            error = error_join(error, error_new(error_kind(verified->error), "%s: %s",
-                                                verified->name, error_message(verified->error, k)));
-        if (!verified->error && verified->result.checks.failed)
+        result->checks += checks->count;
+        result->checks_passed += checks->count - checks->failed;
+        if (verified->error)
+            error = error_join(error, named_error(verified));
+        else if (checks->failed)
             error = error_join(error, error_new(ERROR_CHECK, "%s: %d of %d checks failed",
-                                                verified->name, verified->result.checks.failed,
-                                                verified->result.checks.count));
+                                                verified->name, checks->failed, checks->count));
     }
     return error;
+}
+
+/* Runs the case at PATH; what keeps it from running becomes an item of its own. */
+static struct error *run_or_note(const char *path, const char *name, const char *folder,
+                                 const struct verify_options *options, struct verify_result *result)
+{
+    struct error *error = run_path(path, name, folder, options, result);
+    struct verify_case *verified = error ? add_case(result, path, text_copy(name)) : NULL;
+    if (!verified)
+        return error;
+    verified->error = error;
+    tell_end(options, verified);
+    return NULL;
+}
+
+struct error *verify_case(const char *path, const char *name, const char *folder,
+                          const struct verify_options *options, struct verify_result *result)
+{
+    TRY(run_or_note(path, name, folder, options, result));
+    return sum_up(result);
 }
 
 struct error *verify_cases(const char *const *paths, int count,
                            const struct verify_options *options, struct verify_result *result)
 {
     *result = (struct verify_result){0};
-    result->item = memory_allocate(((size_t)count + 1) * sizeof *result->item);
-    if (!result->item)
-        return error_new(ERROR_SYSTEM, "out of memory");
+    const char *output = options->running.output;
     for (int i = 0; i < count && !told_to_stop(options); i++) {
-        struct verify_case *verified = &result->item[result->count++];
-        verified->name = short_name(paths[i]);
-        verified->error = verified->name ? run_one(paths[i], options, verified)
-                                         : error_new(ERROR_SYSTEM, "out of memory");
-        if (options->ended)
-            options->ended(options->context, verified);
+        char *name = short_name(paths[i]);
+        char *folder = name && output ? path_join(output, name) : NULL;
+        struct error *error = name && (folder || !output)
+                                  ? run_or_note(paths[i], name, folder, options, result)
+                                  : out_of_memory();
+        free(folder);
+        free(name);
+        TRY(error);
     }
     return sum_up(result);
 }
@@ -92,9 +245,11 @@ struct error *verify_cases(const char *const *paths, int count,
 void verify_result_free(struct verify_result *result)
 {
     for (int i = 0; i < result->count; i++) {
-        free(result->item[i].name);
-        error_free(result->item[i].error);
-        run_result_free(&result->item[i].result);
+        struct verify_case *verified = &result->item[i];
+        free(verified->name);
+        error_free(verified->error);
+        run_result_free(&verified->result);
+        sweep_values_free(verified->sweep, verified->sweep_values);
     }
     free(result->item);
     *result = (struct verify_result){0};

@@ -1,28 +1,28 @@
-/* Verification: runs cases and gathers their checks in one table. */
+/* Verification: runs cases, and all runs of those that have a sweep, and gathers their checks in one
+ * table. */
 #ifndef BOLIDE_VERIFY_H
 #define BOLIDE_VERIFY_H
 
 #include "run/run.h"
 
-/* How one case went. Without checks it passes by coming to its end. */
+/* How one case, or one run of a sweep, went. Without checks it passes by coming to its end. */
 struct verify_case {
-    char *name;          /* topic/name: the last two folders of its path */
+    char *
+        name; /* topic/name: the last two folders of its path; of a sweep with the run's folder behind */
+    const char *path;
     struct error *error; /* NULL: it ran; owned */
     struct run_result result;
     bool passed;
+    int sweep_values; /* 0: no run of a sweep */
+    struct sweep_value *sweep;
 };
 
 struct verify_options {
     struct case_options reading; /* material folders, settings, the short form */
     const struct catalogue *catalogue;
-    const char
-        *output; /* folder in which each case gets one of its name; NULL: nothing is written */
-    int threads;
-    const volatile sig_atomic_t *stop;
-    const struct listener
-        *listener; /* its `line` gets nothing, its `progress` the running case's */
-    struct progress_pace progress;
-    /* Called when a case has ended, may be NULL. */
+    /* How each is run. Output is the folder in which each case gets one of its name. */
+    struct run_options running;
+    /* Called when a case or a run of a sweep has ended, may be NULL. */
     void (*ended)(void *context, const struct verify_case *verified);
     void *context;
 };
@@ -36,6 +36,13 @@ struct verify_result {
  * failed; the gravest error when a case could not be read or run (the others run nevertheless). */
 struct error *verify_cases(const char *const *paths, int count,
                            const struct verify_options *options, struct verify_result *result);
+
+/* Runs the case at PATH, or every run of its sweep, as NAME into FOLDER (NULL: nothing is written); a
+ * run of a sweep gets a folder in it, the sweep's table and plots stand beside these. Options.running's
+ * own folder counts for nothing. RESULT, empty or not, grows by how each went. With `resume`, a run that
+ * left a checkpoint goes on with it, another begins. As above, of all that stands in RESULT. */
+struct error *verify_case(const char *path, const char *name, const char *folder,
+                          const struct verify_options *options, struct verify_result *result);
 void verify_result_free(struct verify_result *result);
 
 #endif

@@ -175,6 +175,20 @@ static struct error *choose_kind(struct sph *sph, const struct simulation *simul
     return NULL;
 }
 
+/* An image of an image along one axis does not exist, so two walls must not be nearer than a reach. */
+static struct error *check_walls(const struct simulation *simulation, double reach)
+{
+    for (int axis = 0; axis < simulation->dimension; axis++) {
+        double gap = simulation->mirrors.high[axis] - simulation->mirrors.low[axis];
+        if (gap < reach)
+            return input_error(simulation->input, "walls", NULL,
+                               "the two walls across %c are %.4g m apart; with this smoothing and "
+                               "resolution they must be %.4g m apart at least",
+                               "xyz"[axis], gap, reach);
+    }
+    return NULL;
+}
+
 static struct error *sph_create(void *solver, struct simulation *simulation, const void *parameters)
 {
     struct sph *sph = solver;
@@ -194,6 +208,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     if (sph->kind.drift)
         fields[count++] = drift_field;
     double support = 2.0 * sph->parameters.smoothing * largest_diameter(simulation->input);
+    TRY(check_walls(simulation, 0.5 * support));
     double cell = growth_room * support * (1.0 + sph->parameters.skin);
     return particles_create(simulation->dimension, cell, fields, count, &simulation->particles);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "model/case.h"
+#include "model/lattice.h"
 #include "model/shape_kinds.h"
 
 /* The shape NAME with the parameters in VALUE. */
@@ -14,6 +15,12 @@ static inline struct one_of shape_of(const char *name, void *value)
         if (strcmp(shape_choices[i].name, name) == 0)
             return (struct one_of){i, &shape_choices[i], value};
     return (struct one_of){-1, NULL, NULL};
+}
+
+/* The lattice KIND with the parameters in VALUE. */
+static inline struct one_of lattice_of(enum lattice_kind kind, void *value)
+{
+    return (struct one_of){(int)kind, &lattice_choices[kind], value};
 }
 
 #define VECTOR(...)                                                              \

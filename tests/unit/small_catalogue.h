@@ -5,7 +5,7 @@
 
 #include "material/choices.h"
 #include "model/case.h"
-#include "model/shape.h"
+#include "model/lattice.h"
 
 struct box {
     struct vector_value from, to;
@@ -22,7 +22,12 @@ static const char *box_wrong(const void *shape, int dimension)
                ? NULL
                : "a corner of the box lacks components or has too many";
 }
-static const struct shape_class box_class = {.wrong = box_wrong};
+static struct bounds unit_bounds(const void *shape)
+{
+    (void)shape;
+    return (struct bounds){vec3_make(0.0, 0.0, 0.0), vec3_make(1.0, 1.0, 1.0)};
+}
+static const struct shape_class box_class = {.bounds = unit_bounds, .wrong = box_wrong};
 
 struct ball {
     double radius;
@@ -37,7 +42,7 @@ static const char *ball_wrong(const void *shape, int dimension)
     (void)dimension;
     return NULL;
 }
-static const struct shape_class ball_class = {.wrong = ball_wrong};
+static const struct shape_class ball_class = {.bounds = unit_bounds, .wrong = ball_wrong};
 
 struct unite {
     struct one_of_list shapes;
@@ -96,6 +101,7 @@ static const struct choice_list lists[] = {
     {"eos", "equations of state", eos_choices, EOS_KINDS},
     {"strength", "strength models", strength_choices, STRENGTH_KINDS},
     {"shape", "shapes", shapes, COUNT_OF(shapes)},
+    {"lattice", "lattices", lattice_choices, LATTICE_KINDS},
     {"solver", "solvers", solvers, COUNT_OF(solvers)},
     {"measure", "measures", measures, COUNT_OF(measures)},
     {"exact", "exact solutions", exact, COUNT_OF(exact)},

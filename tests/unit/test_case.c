@@ -16,7 +16,11 @@ static const char *const library_paths[] = {"library", BOLIDE_SOURCE_DIR "/mater
 static struct error *read_case(const char *path, const char *const *settings, int count, bool quick,
                                struct simulation_case **input)
 {
-    struct case_options options = {settings, count, quick, library_paths, COUNT_OF(library_paths)};
+    struct case_options options = {.settings = settings,
+                                   .setting_count = count,
+                                   .quick = quick,
+                                   .library_paths = library_paths,
+                                   .library_count = COUNT_OF(library_paths)};
     return case_read(path, &options, &small_catalogue, input);
 }
 
@@ -280,6 +284,50 @@ static void a_wrong_setting_is_told_as_typed(void **state)
                     "--set resolution.x=1: resolution.x: \"50 um\" is a value without keys\n");
 }
 
+static void a_setting_that_spoils_an_expression_is_named(void **state)
+{
+    (void)state;
+    static const char text[] = "format: 1\ndimension: 1\nresolution: d\nsolver: sph\n"
+                               "let: {d: 1 mm, speed: 2 km/s}\n"
+                               "materials: {a: {library: aluminium}}\n"
+                               "bodies: {flyer: {material: a, velocity: [2*speed],\n"
+                               "  box: {from: [0 m], to: [2*d + 1 m]}}}\n"
+                               "run: {until: 1 s}\n";
+    static const char *const settings[] = {"let.speed=2000", "let.d=1 us"};
+    expect_messages(
+        text, settings, 2,
+        "input.yaml:3:13: resolution: \"d\" is a time (s), wanted a length (m) (--set let.d=1 us)\n"
+        "input.yaml:7:42: bodies.flyer.velocity.1: \"2*speed\" is a plain number, wanted a "
+        "velocity "
+        "(m/s) (--set let.speed=2000)\n"
+        "input.yaml:8:27: bodies.flyer.box.to.1: \"2*d + 1 m\": different dimensions are added or "
+        "compared, or a function such as exp is taken of a value that has a dimension (--set "
+        "let.d=1 "
+        "us)\n");
+}
+
+static void a_library_that_is_not_there_is_told(void **state)
+{
+    (void)state;
+    struct simulation_case *input = NULL;
+    write_file("input.yaml", impact, strlen(impact));
+    const struct case_options nowhere = {0};
+    struct error *error = case_read("input.yaml", &nowhere, &small_catalogue, &input);
+    assert_non_null(error);
+    assert_non_null(strstr(error_message(error, 0), "the library was not found; set BOLIDE_SHARE"));
+    error_free(error);
+    static const char *const folders[] = {BOLIDE_SOURCE_DIR "/materials"};
+    const struct case_options here = {.library_paths = folders, .library_count = 1};
+    static const char text[] = "format: 1\nmaterials: {a: {library: unobtainium}}\n";
+    write_file("input.yaml", text, strlen(text));
+    error = case_read("input.yaml", &here, &small_catalogue, &input);
+    assert_non_null(error);
+    assert_non_null(
+        strstr(error_message(error, 0), "no material \"unobtainium\" in the library (known: "));
+    assert_non_null(strstr(error_message(error, 0), "aluminium, "));
+    error_free(error);
+}
+
 static void a_written_case_reads_back_to_the_same_bits(void **state)
 {
     (void)state;
@@ -408,6 +456,8 @@ int main(void)
         cmocka_unit_test(start_states_follow_from_two_of_three),
         cmocka_unit_test(settings_and_the_short_form_lie_over_the_file),
         cmocka_unit_test(a_wrong_setting_is_told_as_typed),
+        cmocka_unit_test(a_setting_that_spoils_an_expression_is_named),
+        cmocka_unit_test(a_library_that_is_not_there_is_told),
         cmocka_unit_test(a_written_case_reads_back_to_the_same_bits),
         cmocka_unit_test(a_case_is_called_as_its_folder_or_file),
         cmocka_unit_test(every_material_of_the_library_can_be_used),

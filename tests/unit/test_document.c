@@ -37,6 +37,7 @@ struct all {
     char *text;
     int colour;
     struct vector_value place;
+    struct vector_list corners;
     struct name_list names;
     struct point point;
     struct one_of mark, inline_mark;
@@ -54,6 +55,7 @@ static const struct parameter all_table[] = {
     {ENTRY(text, TEXT), .standard = PARAMETER_OPTIONAL},
     {ENTRY(colour, CHOICE), .standard = "green", .names = colours},
     {ENTRY(place, VECTOR), .unit = "m", .standard = "[1 mm, 0]"},
+    {ENTRY(corners, VECTORS), .unit = "m", .standard = PARAMETER_OPTIONAL},
     {ENTRY(names, NAMES), .standard = PARAMETER_OPTIONAL},
     {ENTRY(point, TABLE), .standard = PARAMETER_OPTIONAL, .table = point_table},
     {ENTRY(mark, ONE_OF), .standard = "dot", .kind_of_thing = "mark"},
@@ -112,6 +114,7 @@ static void what_is_not_given_stands_on_its_default(void **state)
     assert_true(all.count == 7 && all.flag && !all.text && all.colour == 1);
     assert_true(all.place.count == 2 && all.place.at[0] == 1e-3 && all.place.at[1] == 0.0);
     assert_true(all.names.count == 0 && all.points.count == 0 && all.point.y == 2e-3);
+    assert_int_equal(all.corners.count, 0);
     assert_int_equal(all.mark.index, 0);
     assert_int_equal(all.inline_mark.index, -1);
     assert_null(all.inline_mark.choice);
@@ -127,6 +130,7 @@ static void every_kind_of_value_is_read(void **state)
     good("let: {v: 2 km/s, half: v/2}\n"
          "speed: \"half + 1 m/s\"\nratio: 50 %\nany: 3 GPa\ncount: 2*4\nflag: no\n"
          "text: 'it''s: \xc3\xbc'\ncolour: blue\nplace: [1 m, 2 cm, -3 mm]\nnames: [a, \"b c\"]\n"
+         "corners: [[1 mm, v*(3 us)], [0], [1 m, 2 m, -half*1 s]]\n"
          "point:\n  x: 0\n  y: 1 m\nmark: {cross: 4 m}\nmarks: [{cross: {x: 1 m, y: 5 m}}]\n"
          "points: {near: {x: 1 m}, \"far away\": {x: 1 km}}\ndot:\n",
          &all);
@@ -136,6 +140,9 @@ static void every_kind_of_value_is_read(void **state)
     assert_string_equal(all.text, "it's: \xc3\xbc");
     assert_true(all.place.count == 3 && all.place.at[2] == -3e-3);
     assert_true(all.names.count == 2 && !strcmp(all.names.names[1], "b c"));
+    assert_int_equal(all.corners.count, 3);
+    assert_true(all.corners.items[0].count == 2 && all.corners.items[0].at[1] == 2000.0 * 3e-6);
+    assert_true(all.corners.items[1].count == 1 && all.corners.items[2].at[2] == -1000.0);
     assert_true(all.point.x == 0.0 && all.point.y == 1.0);
     assert_true(((struct point *)all.mark.value)->x == 4.0 && all.inline_mark.index == 0);
     assert_true(all.points.count == 2 && !strcmp(all.points.names[1], "far away"));
@@ -162,6 +169,12 @@ static void mistakes_are_told_where_they_stand(void **state)
     bad("point: {x: 1 m}\npoints: {a: 3, \"\": {x: 1 m}}\n",
         "a.yaml:2:13: points.a: a map is wanted, found \"3\"\n"
         "a.yaml:2:16: points: a name cannot be empty\n");
+    bad("point: {x: 1 m}\ncorners: [[1 m], 2 m, [1 m, 2 kg], []]\n",
+        "a.yaml:2:18: corners.2: a list of 1 to 3 values is wanted, found \"2 m\"\n"
+        "a.yaml:2:29: corners.3.2: \"2 kg\" is a mass (kg), wanted a length (m)\n"
+        "a.yaml:2:36: corners.4: a list of 1 to 3 values is wanted, found a list\n");
+    bad("point: {x: 1 m}\ncorners: 3 m\n",
+        "a.yaml:2:10: corners: a list of lists is wanted, found \"3 m\"\n");
 }
 
 static void an_overlay_lies_over_the_document_when_wanted(void **state)
@@ -235,14 +248,17 @@ static void numbers_read_back_to_the_same_bits(void **state)
         random ^= random >> 7;
         random ^= random << 17;
         struct all all, again;
-        good("point: {x: 1 m}", &all);
+        good("point: {x: 1 m}\ncorners: [[1 m], [2 m, 3 m]]", &all);
         all.point.x = (double)(int64_t)random * 0x1p-63;
         all.point.y = ldexp((double)(int64_t)(random * 2654435761u), (int)(random % 200) - 100);
         all.place.at[1] = 1.0 / all.point.x;
+        all.corners.items[1].at[1] = all.place.at[1] / 3.0;
         all.any = (struct quantity){exp(all.point.x), {2, 1, -3, -1}};
         write_and_read(&all, &again);
         assert_memory_equal(&all.point, &again.point, sizeof all.point);
         assert_memory_equal(&all.place, &again.place, sizeof all.place);
+        assert_int_equal(again.corners.count, 2);
+        assert_memory_equal(all.corners.items, again.corners.items, 2 * sizeof *all.corners.items);
         assert_true(all.any.value == again.any.value);
         assert_true(dimension_equal(all.any.dimension, again.any.dimension));
         parameters_release(all_table, &all);

@@ -5,91 +5,8 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <stdlib.h>
 
-#include "build_case.h"
-#include "model/generate.h"
-
-enum { BODIES = 3, WALLS = 2 };
-
-/* A case under construction, with room for a few bodies and walls. */
-struct workshop {
-    struct simulation_case input;
-    char *body_names[BODIES], *wall_names[WALLS];
-    struct body_input bodies[BODIES];
-    struct wall_input walls[WALLS];
-    struct material_input material;
-};
-
-static void open_workshop(struct workshop *w, int dimension, double resolution)
-{
-    *w = (struct workshop){.body_names = {"matrix", "grain", "flyer"},
-                           .wall_names = {"floor", "lid"}};
-    w->input.dimension = dimension;
-    w->input.resolution = resolution;
-    w->input.materials = (struct named_map){1, (char *[]){"iron"}, &w->material};
-    w->input.bodies = (struct named_map){0, w->body_names, w->bodies};
-    w->input.walls = (struct named_map){0, w->wall_names, w->walls};
-}
-
-static struct body_input *add_body(struct workshop *w, const char *shape, void *value)
-{
-    struct body_input *body = &w->bodies[w->input.bodies.count++];
-    body->shape = shape_of(shape, value);
-    body->resolution = NAN;
-    body->start.density = 8.0;
-    return body;
-}
-
-static void add_wall(struct workshop *w, int axis, enum wall_side side, double at)
-{
-    w->walls[w->input.walls.count++] = (struct wall_input){axis, side, at};
-}
-
-/* The generated particles of RANK of SIZE; the simulation is destroyed by the caller. */
-static struct error *generate(const struct workshop *w, const struct ranks *ranks,
-                              struct simulation *simulation)
-{
-    assert_null(simulation_create(&w->input, ranks, 1, simulation));
-    assert_null(particles_create(simulation->dimension, 4.0 * largest_diameter(&w->input), NULL, 0,
-                                 &simulation->particles));
-    return generate_particles(simulation);
-}
-
-static void assert_made(const struct workshop *w, const struct ranks *ranks,
-                        struct simulation *simulation)
-{
-    struct error *error = generate(w, ranks, simulation);
-    if (error)
-        fail_msg("%s", error_message(error, 0));
-}
-
-/* Generation fails with COUNT messages, one of which holds WORDS. */
-static void assert_refused(const struct workshop *w, int count, const char *words)
-{
-    const struct ranks alone = ranks_alone();
-    struct simulation simulation;
-    struct error *error = generate(w, &alone, &simulation);
-    assert_non_null(error);
-    assert_int_equal(error_kind(error), ERROR_INPUT);
-    assert_int_equal(error_count(error), count);
-    bool found = false;
-    for (int i = 0; i < count; i++)
-        found = found || strstr(error_message(error, i), words);
-    if (!found)
-        fail_msg("\"%s\" does not tell of \"%s\"", error_message(error, 0), words);
-    assert_int_equal(simulation.particles.count, 0);
-    error_free(error);
-    simulation_destroy(&simulation);
-}
-
-static int count_of_body(const struct particles *particles, int body)
-{
-    int count = 0;
-    for (int i = 0; i < particles->count; i++)
-        count += particles->body[i] == body;
-    return count;
-}
+#include "workshop.h"
 
 static void a_box_has_its_exact_mass_and_every_particle_its_start_state(void **state)
 {
@@ -137,7 +54,7 @@ static void the_spacing_is_adjusted_to_fill_the_bounds(void **state)
     simulation_destroy(&simulation);
 
     w.bodies[0].resolution = 5.0;
-    assert_true(body_lattice(&w.input, 0).sites[0] == 1);
+    assert_true(body_lattice(&w.input, 0).sites == 1.0);
     assert_true(largest_diameter(&w.input) == 1.0);
 }
 
@@ -167,7 +84,7 @@ static void a_grain_that_replaces_its_matrix_cuts_a_hole_of_its_own_form(void **
     for (int body = 0; body < 2; body++) {
         assert_int_equal(summary[body].particles, count_of_body(p, body));
         const double mass = particles_totals(p, &alone, body).entry[LEDGER_MASS];
-        assert_true(fabs(summary[body].mass - mass) <= 1e-14 * mass);
+        assert_true(fabs(summary[body].mass - mass) <= 1e-12 * mass);
         assert_true(fabs(summary[body].diameter - 0.01) < 1e-15);
     }
     simulation_destroy(&simulation);
@@ -212,7 +129,7 @@ static void all_mistakes_of_a_case_come_in_one_go(void **state)
     struct shape_box low = {VECTOR(-0.1, 0.0), VECTOR(1.0, 1.0)};
     struct shape_box high = {VECTOR(0.0, 2.0), VECTOR(1.0, 3.0)};
     struct shape_repeat sparse = {shape_of("ball", &(struct shape_ball){VECTOR(5.0, 1.0), 0.01}),
-                                  VECTOR(2.0, 1.0), VECTOR(1.0, 0.0)};
+                                  VECTOR(2.0, 1.0), VECTOR(1.0, 0.0), 0};
     open_workshop(&w, 2, 0.1);
     add_body(&w, "box", &low);
     add_body(&w, "box", &high);
@@ -237,12 +154,6 @@ static void a_lattice_beyond_the_ids_is_refused(void **state)
     assert_refused(&w, 1, "choose a coarser resolution");
 }
 
-static int compare_ids(const void *a, const void *b)
-{
-    const uint64_t first = *(const uint64_t *)a, second = *(const uint64_t *)b;
-    return (first > second) - (first < second);
-}
-
 static void the_slices_of_three_ranks_make_the_particles_of_one(void **state)
 {
     (void)state;
@@ -252,21 +163,7 @@ static void the_slices_of_three_ranks_make_the_particles_of_one(void **state)
     open_workshop(&w, 2, 0.03);
     add_body(&w, "box", &box);
     add_body(&w, "ball", &ball)->replaces = (struct name_list){1, (char *[]){"matrix"}};
-    uint64_t ids[2][4000];
-    int counts[2] = {0, 0};
-    for (int size = 1, run = 0; size <= 3; size += 2, run++)
-        for (int rank = 0; rank < size; rank++) {
-            const struct ranks ranks = {rank, size};
-            struct simulation simulation;
-            assert_made(&w, &ranks, &simulation);
-            for (int i = 0; i < simulation.particles.count; i++)
-                ids[run][counts[run]++] = simulation.particles.id[i];
-            simulation_destroy(&simulation);
-        }
-    assert_int_equal(counts[0], counts[1]);
-    for (int run = 0; run < 2; run++)
-        qsort(ids[run], (size_t)counts[run], sizeof ids[run][0], compare_ids);
-    assert_memory_equal(ids[0], ids[1], (size_t)counts[0] * sizeof ids[0][0]);
+    assert_slices_agree(&w);
 }
 
 int main(void)

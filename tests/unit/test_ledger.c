@@ -179,6 +179,23 @@ static void totals_do_not_depend_on_the_order_of_the_particles(void **state)
     particles_destroy(&particles[1]);
 }
 
+static void drift_is_measured_by_the_largest_energy_there_is(void **state)
+{
+    (void)state;
+    struct totals start = {0}, now = {0}, booked = {0};
+    assert_true(energy_drift(&now, &booked, &start) == 0.0);
+    now.entry[LEDGER_ENERGY] = 1.0;
+    now.kinetic = 5.0;
+    now.internal = -4.0;
+    assert_true(energy_drift(&now, &booked, &start) == 0.2);
+    start.released = 100.0;
+    assert_true(energy_drift(&now, &booked, &start) == 0.01);
+    booked.entry[LEDGER_ENERGY] = 3.0;
+    assert_true(energy_drift(&now, &booked, &start) == -0.02);
+    start.internal = 200.0;
+    assert_true(energy_drift(&now, &booked, &start) == -0.01);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -187,6 +204,7 @@ int main(void)
         cmocka_unit_test(a_saved_ledger_loads_with_every_digit),
         cmocka_unit_test(totals_of_the_particles_are_sums_of_what_each_has),
         cmocka_unit_test(totals_do_not_depend_on_the_order_of_the_particles),
+        cmocka_unit_test(drift_is_measured_by_the_largest_energy_there_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

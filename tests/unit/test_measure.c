@@ -288,6 +288,31 @@ static void expect_mistake(struct bench *b, const char *text)
     error_free(error);
 }
 
+static void what_is_allowed_reads_as_it_is(void **state)
+{
+    (void)state;
+    static const struct {
+        double wanted, low, high;
+        const char *text;
+    } cases[] = {
+        {500.0, 495.0, 505.0, "500 m/s +- 5 m/s"},
+        {500.0, 495.0, 501.0, "495 m/s .. 501 m/s"},
+        {500.0, 500.0 - 0x1p-30, 500.0 + 0x1p-30, "500 m/s +- 9.3132e-10 m/s"},
+        {0.0, -2.0, 2.0, "0 +- 2 m/s"},
+        {0.0, -2.0, 1.0, "-2 m/s .. 1 m/s"},
+        {NAN, -INFINITY, 1.0, "at most 1 m/s"},
+        {NAN, 1.0, INFINITY, "at least 1 m/s"},
+        {NAN, 1.0, 2.0, "1 m/s .. 2 m/s"},
+    };
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        struct check_result result = {
+            .unit = "m/s", .wanted = cases[i].wanted, .low = cases[i].low, .high = cases[i].high};
+        char text[96];
+        check_allowed_text(&result, text, sizeof text);
+        assert_string_equal(text, cases[i].text);
+    }
+}
+
 static void mistakes_in_checks_are_told_before_the_run(void **state)
 {
     struct bench *b = *state;
@@ -320,6 +345,7 @@ int main(void)
         TEST(contact_norms_take_ten_particles_a_side),
         TEST(what_the_ledger_booked_is_conserved),
         TEST(within_is_a_fraction_of_what_is_wanted_or_a_quantity),
+        TEST(what_is_allowed_reads_as_it_is),
         TEST(mistakes_in_checks_are_told_before_the_run),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -200,6 +200,45 @@ static void bodies_have_a_colour_each(void **state)
     drop(simulation);
 }
 
+static uint32_t pixel(cairo_surface_t *surface, int column, int row)
+{
+    const unsigned char *data = cairo_image_surface_get_data(surface);
+    uint32_t value;
+    memcpy(&value, data + row * cairo_image_surface_get_stride(surface) + 4 * column, sizeof value);
+    return value & 0xffffff;
+}
+
+/* White pixels between the material in the middle of the picture and the frame below it. */
+static int gap_below(cairo_surface_t *surface)
+{
+    int column = cairo_image_surface_get_width(surface) / 2, white = 0;
+    int row = cairo_image_surface_get_height(surface) / 2;
+    while (pixel(surface, column, row) != 0xffffff &&
+           row < cairo_image_surface_get_height(surface) - 1)
+        row++;
+    while (pixel(surface, column, row) == 0xffffff && white < 20)
+        white++, row++;
+    return white;
+}
+
+static void the_frame_stands_where_a_wall_bounds_the_particles(void **state)
+{
+    (void)state;
+    struct simulation *simulation = lattice(2, 40, 20, 1, 1e-3);
+    for (int axis = 0; axis < 3; axis++)
+        simulation->mirrors.low[axis] = simulation->mirrors.high[axis] = NAN;
+    assert_null(draw_in(simulation, "pressure", NAN, NAN));
+    cairo_surface_t *surface = read_picture();
+    assert_in_range(gap_below(surface), 4, 12);
+    cairo_surface_destroy(surface);
+    simulation->mirrors.low[1] = 0.0;
+    assert_null(draw_in(simulation, "pressure", NAN, NAN));
+    surface = read_picture();
+    assert_true(gap_below(surface) >= 20); /* the page's own, below the frame */
+    cairo_surface_destroy(surface);
+    drop(simulation);
+}
+
 static void section_of_a_solid_shows_its_two_longest_axes(void **state)
 {
     (void)state;
@@ -358,6 +397,7 @@ int main(void)
         cmocka_unit_test(range_of_both_signs_is_grey_at_zero),
         cmocka_unit_test(particles_are_painted_in_the_colours_of_their_values),
         cmocka_unit_test(bodies_have_a_colour_each),
+        cmocka_unit_test(the_frame_stands_where_a_wall_bounds_the_particles),
         cmocka_unit_test(section_of_a_solid_shows_its_two_longest_axes),
         cmocka_unit_test(extreme_shapes_keep_the_page_within_limits),
         cmocka_unit_test(extreme_values_are_drawn),

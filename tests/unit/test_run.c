@@ -11,8 +11,10 @@
 
 #include <cmocka.h>
 
+#include "model/generate.h"
 #include "model/solver.h"
 #include "run/catalogue.h"
+#include "run/estimate.h"
 #include "run/run.h"
 
 struct flight_parameters {
@@ -105,7 +107,8 @@ static const struct solver_class flight_class = {sizeof(struct flight_parameters
                                                  flight_state,
                                                  flight_observe,
                                                  flight_destroy,
-                                                 flight_bytes};
+                                                 flight_bytes,
+                                                 NULL};
 
 static const struct choice flight_choice = {"flight", "free flight", flight_table,
                                             sizeof(struct flight_parameters), &flight_class};
@@ -381,12 +384,98 @@ static void energy_from_nowhere_stops_a_run(void **state)
     run_result_free(&result);
 }
 
+/* A solid that springs from rest has next to no energy in its first steps. */
+static void a_start_from_rest_does_not_stop_a_run(void **state)
+{
+    (void)state;
+    struct run_options options = {.threads = 1};
+    const char *const settings[] = {
+        "solver.sph.energy=internal",
+        "materials.gas.eos={barotropic: {density: 2700 kg/m^3, bulk_modulus: 73 GPa}}",
+        "bodies.left={material: gas, pressure: 4 GPa, box: {from: [0 mm], to: [50 mm]}}",
+        "bodies.right={material: gas, box: {from: [50 mm], to: [100 mm]}}",
+        "run.until=2us",
+        "output.history=1ns",
+        NULL};
+    struct run_result result = run_text(shock_text, settings, &options);
+    assert_true(result.finished);
+    assert_true(result.energy_drift > 1e-6 && result.energy_drift < 0.02);
+    run_result_free(&result);
+}
+
 static void a_mistake_in_a_check_is_told_before_the_first_step(void **state)
 {
     (void)state;
     struct run_options options = {.threads = 1};
     const char *const settings[] = {"checks.odd={maximum: speeed, at_most: 1 m/s}", NULL};
     expect_failure(flight_text, settings, &options, ERROR_INPUT, "did you mean \"speed\"");
+}
+
+static void a_picture_that_cannot_be_is_told_before_anything_is_written(void **state)
+{
+    (void)state;
+    struct run_options options = {.threads = 1, .output = fresh_folder("test_run_picture")};
+    const char *const settings[] = {"output.pictures=[pressure, presure]", NULL};
+    expect_failure(flight_text, settings, &options, ERROR_INPUT,
+                   "output.pictures.2: the particles have no field \"presure\" (did you mean "
+                   "\"pressure\"?)");
+    const char *const vector[] = {"output.pictures=velocity", NULL};
+    expect_failure(flight_text, vector, &options, ERROR_INPUT, "choose one: velocity.x");
+    assert_false(file_there("test_run_picture", "."));
+}
+
+static void what_a_run_would_refuse_is_foreseen_at_once(void **state)
+{
+    (void)state;
+    const char *const settings[] = {
+        "checks={odd: {maximum: speeed, at_most: 1}, l: {l1: pressure, at_most: 1}}",
+        "bodies.more={material: gas, pressure: 1 Pa, box: {from: [0 m], to: [1 m]}}",
+        "output.pictures=[velocity]", NULL};
+    struct simulation_case *input = read_text(flight_text, settings);
+    struct estimate estimate;
+    struct error *error = estimate_run(input, 1, &estimate);
+    static const char *const words[] = {"overlaps", "speeed", "needs an exact solution",
+                                        "velocity.x"};
+    assert_non_null(error);
+    assert_int_equal(error_count(error), 4);
+    for (int i = 0; i < 4; i++)
+        if (!strstr(error_message(error, i), words[i]))
+            fail_msg("\"%s\" does not speak of \"%s\"", error_message(error, i), words[i]);
+    error_free(error);
+    case_free(input);
+}
+
+static void a_body_thinner_than_the_resolution_is_a_warning(void **state)
+{
+    (void)state;
+    const char *const settings[] = {
+        "bodies.film={material: gas, pressure: 1 Pa, box: {from: [1 m], to: [1.06 m]}}", NULL};
+    struct simulation_case *input = read_text(flight_text, settings);
+    struct error *warnings = generate_warnings(input);
+    assert_non_null(warnings);
+    assert_int_equal(error_count(warnings), 1);
+    assert_non_null(strstr(error_message(warnings, 0), "bodies.film: smaller than the resolution"));
+    error_free(warnings);
+    case_free(input);
+    input = read_text(flight_text, NULL);
+    assert_null(generate_warnings(input));
+    case_free(input);
+}
+
+/* Times of objects in HDF5 files count seconds. */
+static void two_runs_write_the_same_files(void **state)
+{
+    (void)state;
+    const char *const settings[] = {"output.snapshots=yes", NULL};
+    struct run_options options = {.threads = 1, .output = fresh_folder("test_run_first")};
+    struct run_result first = run_text(shock_text, settings, &options);
+    sleep(1);
+    options.output = fresh_folder("test_run_second");
+    struct run_result second = run_text(shock_text, settings, &options);
+    assert_int_equal(system("cmp test_run_first/checkpoint.h5 test_run_second/checkpoint.h5"), 0);
+    assert_int_equal(system("diff -r test_run_first/snapshots test_run_second/snapshots"), 0);
+    run_result_free(&first);
+    run_result_free(&second);
 }
 
 int main(void)
@@ -403,7 +492,12 @@ int main(void)
         cmocka_unit_test(the_case_as_run_is_a_case_that_runs_the_same),
         cmocka_unit_test(an_impossible_state_leaves_a_snapshot_of_its_moment),
         cmocka_unit_test(energy_from_nowhere_stops_a_run),
+        cmocka_unit_test(a_start_from_rest_does_not_stop_a_run),
         cmocka_unit_test(a_mistake_in_a_check_is_told_before_the_first_step),
+        cmocka_unit_test(a_picture_that_cannot_be_is_told_before_anything_is_written),
+        cmocka_unit_test(what_a_run_would_refuse_is_foreseen_at_once),
+        cmocka_unit_test(a_body_thinner_than_the_resolution_is_a_warning),
+        cmocka_unit_test(two_runs_write_the_same_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

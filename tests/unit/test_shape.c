@@ -6,44 +6,7 @@
 
 #include <cmocka.h>
 
-#include "build_case.h"
-
-/* A repeatable random number in 0 .. 1. */
-static double random_number(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53;
-}
-
-static struct vec3 random_point(uint64_t *state, double low, double high)
-{
-    const double x = low + (high - low) * random_number(state);
-    const double y = low + (high - low) * random_number(state);
-    const double z = low + (high - low) * random_number(state);
-    return vec3_make(x, y, z);
-}
-
-/* Volume (area, length) of the cells with their center inside, COUNT along each axis. */
-static double sampled_volume(const struct one_of *shape, int dimension, int count)
-{
-    const struct bounds bounds = shape_bounds(shape);
-    const struct vec3 cell = vec3_scale(1.0 / count, vec3_sub(bounds.high, bounds.low));
-    int64_t inside = 0;
-    for (int k = 0; k < (dimension > 2 ? count : 1); k++)
-        for (int j = 0; j < (dimension > 1 ? count : 1); j++)
-            for (int i = 0; i < count; i++)
-                inside += shape_inside(shape, vec3_make(bounds.low.x + (i + 0.5) * cell.x,
-                                                        bounds.low.y + (j + 0.5) * cell.y,
-                                                        bounds.low.z + (k + 0.5) * cell.z));
-    return (double)inside * cell.x * (dimension > 1 ? cell.y : 1.0) *
-           (dimension > 2 ? cell.z : 1.0);
-}
-
-static void assert_near(double value, double wanted, double within)
-{
-    if (!(fabs(value - wanted) <= within * fabs(wanted)))
-        fail_msg("%.9g is not within %g of %.9g", value, within, wanted);
-}
+#include "sample.h"
 
 static void a_box_has_its_low_faces_and_not_its_high_faces(void **state)
 {
@@ -95,30 +58,78 @@ static void sites_fill_the_volume_of_a_shape(void **state)
     assert_near(sampled_volume(&shape, 3, 120), M_PI * (0.25 - 0.09) * sqrt(5.25), 2e-3);
 }
 
-static void sites_fill_the_volume_of_a_union_once(void **state)
+static void sites_fill_the_area_of_a_polygon(void **state)
 {
     (void)state;
-    struct shape_box first = {VECTOR(0.0, 0.0), VECTOR(1.0, 1.0)};
-    struct shape_box second = {VECTOR(0.5, 0.5), VECTOR(2.0, 2.0)};
-    struct one_of items[2] = {shape_of("box", &first), shape_of("box", &second)};
-    struct shape_union both = {{2, items}};
-    const struct one_of shape = shape_of("union", &both);
-    assert_near(sampled_volume(&shape, 2, 100), 1.0 + 2.25 - 0.25, 1e-12);
+    struct shape_polygon triangle = POINTS(VECTOR(0.0, 0.0), VECTOR(3.0, 0.5), VECTOR(1.0, 2.0));
+    struct shape_polygon hollow = POINTS(VECTOR(0.0, 0.0), VECTOR(4.0, 0.0), VECTOR(4.0, 3.0),
+                                         VECTOR(2.0, 1.0), VECTOR(0.0, 3.0));
+    struct shape_polygon bow =
+        POINTS(VECTOR(0.0, 0.0), VECTOR(2.0, 2.0), VECTOR(2.0, 0.0), VECTOR(0.0, 2.0));
+    struct one_of shape = shape_of("polygon", &triangle);
+    assert_near(sampled_volume(&shape, 2, 500), 0.5 * (3.0 * 2.0 - 0.5 * 1.0), 1e-3);
+    shape = shape_of("polygon", &hollow);
+    assert_near(sampled_volume(&shape, 2, 500), 12.0 - 4.0, 1e-3);
+    assert_false(shape_inside(&shape, vec3_make(2.0, 1.1, 0.0)));
+    shape = shape_of("polygon", &bow);
+    assert_near(sampled_volume(&shape, 2, 500), 2.0, 5e-3);
 }
 
-static void a_difference_leaves_its_holes_empty(void **state)
+static void polygons_with_a_common_edge_share_no_point_and_miss_none(void **state)
 {
     (void)state;
-    struct shape_box block = {VECTOR(-1.0, -1.0), VECTOR(1.0, 1.0)};
-    struct shape_ball pore = {VECTOR(0.0, 0.0), 0.5}, bite = {VECTOR(1.0, 1.0), 0.4};
-    struct one_of items[3] = {shape_of("box", &block), shape_of("ball", &pore),
-                              shape_of("ball", &bite)};
-    struct shape_difference rest = {{3, items}};
-    const struct one_of shape = shape_of("difference", &rest);
-    assert_near(sampled_volume(&shape, 2, 400), 4.0 - M_PI * (0.25 + 0.04), 5e-4);
-    assert_false(shape_inside(&shape, vec3_make(0.0, 0.0, 0.0)));
-    const struct bounds bounds = shape_bounds(&shape);
-    assert_true(bounds.low.x == -1.0 && bounds.high.y == 1.0);
+    const double apex[2] = {0.3, 0.7};
+    struct shape_polygon part[4] = {
+        POINTS(VECTOR(0.0, 0.0), VECTOR(1.0, 0.0), VECTOR(apex[0], apex[1])),
+        POINTS(VECTOR(1.0, 0.0), VECTOR(1.0, 1.0), VECTOR(apex[0], apex[1])),
+        POINTS(VECTOR(1.0, 1.0), VECTOR(0.0, 1.0), VECTOR(apex[0], apex[1])),
+        POINTS(VECTOR(0.0, 1.0), VECTOR(0.0, 0.0), VECTOR(apex[0], apex[1])),
+    };
+    for (int i = 0; i <= 300; i++)
+        for (int k = 0; k < 2; k++) {
+            /* On the diagonals, and on a grid whose corners lie on the edges of the square. */
+            const double t = i / 300.0;
+            const struct vec3 p = k ? vec3_make(t * apex[0], t * apex[1], 0.0)
+                                    : vec3_make((i % 10) / 10.0, (i / 10 % 10) / 10.0, 0.0);
+            int holders = 0;
+            for (int n = 0; n < 4; n++) {
+                const struct one_of shape = shape_of("polygon", &part[n]);
+                holders += shape_inside(&shape, p);
+            }
+            assert_int_equal(holders, 1);
+        }
+}
+
+static void sites_fill_the_volume_of_a_shell(void **state)
+{
+    (void)state;
+    struct shape_shell ring = {VECTOR(0.3, -0.1), 0.2, 0.5};
+    struct shape_shell sphere = {VECTOR(0.3, -0.1, 1.0), 0.2, 0.5};
+    struct one_of shape = shape_of("shell", &ring);
+    assert_near(sampled_volume(&shape, 2, 400), M_PI * (0.25 - 0.04), 1e-3);
+    shape = shape_of("shell", &sphere);
+    assert_near(sampled_volume(&shape, 3, 120), 4.0 / 3.0 * M_PI * (0.125 - 0.008), 2e-3);
+}
+
+static void a_template_is_its_letter_on_the_map(void **state)
+{
+    (void)state;
+    char *rows[3] = {"xo.x", "ooxx", "...o"};
+    struct shape_template letter[2] = {{{3, rows}, "x", 0.1, VECTOR(1.0, 2.0)},
+                                       {{3, rows}, "o", 0.1, VECTOR(1.0, 2.0)}};
+    const struct one_of x = shape_of("template", &letter[0]), o = shape_of("template", &letter[1]);
+    assert_near(sampled_volume(&x, 2, 120), 4 * 0.01, 1e-9);
+    assert_near(sampled_volume(&o, 2, 120), 4 * 0.01, 1e-9);
+    assert_true(shape_inside(&x, vec3_make(1.05, 2.25, 0.0)));
+    assert_true(shape_inside(&o, vec3_make(1.35, 2.05, 0.0)));
+    assert_false(shape_inside(&x, vec3_make(1.45, 2.25, 0.0)));
+    assert_false(shape_inside(&x, vec3_make(1.05, 2.35, 0.0)));
+    /* Where sites touch, rounding or not, a point is in one of them. */
+    for (int i = 0; i <= 40; i++) {
+        const struct vec3 p = vec3_make(1.0 + 0.1 * i / 10.0, 2.0 + 0.1 + 0.05, 0.0);
+        const int holders = shape_inside(&x, p) + shape_inside(&o, p);
+        assert_true(i < 40 ? holders == 1 : holders <= 1);
+    }
 }
 
 static void the_bounds_of_an_oblique_cylinder_hold_it_and_touch_it(void **state)
@@ -143,91 +154,6 @@ static void the_bounds_of_an_oblique_cylinder_hold_it_and_touch_it(void **state)
     assert_true(above.x < 0.05 && above.y < 0.05 && above.z < 0.05);
 }
 
-/* The repetition by a loop over every copy. */
-static bool inside_any_copy(const struct shape_repeat *repeat, struct vec3 point)
-{
-    const struct vec3 count = vec3_of(&repeat->count), step = vec3_of(&repeat->step);
-    for (int k = 0; k < maximum(count.z, 1.0); k++)
-        for (int j = 0; j < maximum(count.y, 1.0); j++)
-            for (int i = 0; i < maximum(count.x, 1.0); i++)
-                if (shape_inside(&repeat->shape,
-                                 vec3_sub(point, vec3_make(i * step.x, j * step.y, k * step.z))))
-                    return true;
-    return false;
-}
-
-static void compare_with_all_copies(const struct shape_repeat *repeat, const double *edges,
-                                    int edge_count)
-{
-    const struct one_of shape = shape_of("repeat", (void *)repeat);
-    uint64_t seed = 11;
-    int inside = 0;
-    for (int i = 0; i < 20000; i++) {
-        const struct vec3 p = random_point(&seed, -0.5, 4.0);
-        const bool found = shape_inside(&shape, p);
-        assert_int_equal(found, inside_any_copy(repeat, p));
-        inside += found;
-    }
-    assert_true(inside > 100 && inside < 19900);
-    /* Points on the very faces of copies, where rounding could lose one. */
-    for (int k = -1; k < 12; k++)
-        for (int j = -1; j < 12; j++)
-            for (int e = 0; e < edge_count * edge_count; e++) {
-                const struct vec3 p =
-                    vec3_make(edges[e % edge_count] + k * repeat->step.at[0],
-                              edges[e / edge_count] + j * repeat->step.at[1], 0.0);
-                assert_int_equal(shape_inside(&shape, p), inside_any_copy(repeat, p));
-            }
-}
-
-static void a_repetition_is_the_union_of_all_its_copies(void **state)
-{
-    (void)state;
-    struct shape_box box = {VECTOR(0.1, -0.2), VECTOR(0.17, 0.1)};
-    const double box_edges[] = {0.1, 0.17, -0.2};
-    struct shape_repeat apart = {shape_of("box", &box), VECTOR(10.0, 7.0), VECTOR(0.1, 0.41)};
-    compare_with_all_copies(&apart, box_edges, 3);
-    struct shape_repeat side_by_side = {shape_of("box", &box), VECTOR(10.0, 9.0),
-                                        VECTOR(0.17 - 0.1, 0.3)};
-    compare_with_all_copies(&side_by_side, box_edges, 3);
-
-    struct shape_ball ball = {VECTOR(0.2, 0.3), 0.35};
-    const double ball_edges[] = {0.2 - 0.35, 0.2, 0.3, 0.3 + 0.35};
-    struct shape_repeat crowded = {shape_of("ball", &ball), VECTOR(11.0, 3.0), VECTOR(0.1, 0.9)};
-    compare_with_all_copies(&crowded, ball_edges, 4);
-    struct shape_repeat row = {shape_of("ball", &ball), VECTOR(1.0, 4.0), VECTOR(0.0, 0.8)};
-    compare_with_all_copies(&row, ball_edges, 4);
-
-    struct shape_ball grain = {VECTOR(0.2, 0.3, 0.1), 0.35};
-    struct shape_repeat cubic = {shape_of("ball", &grain), VECTOR(4.0, 3.0, 5.0),
-                                 VECTOR(0.8, 0.9, 0.65)};
-    compare_with_all_copies(&cubic, ball_edges, 4);
-}
-
-static void a_repetition_holds_a_billion_copies(void **state)
-{
-    (void)state;
-    struct shape_ball ball = {VECTOR(0.5, 0.5, 0.5), 0.5};
-    struct shape_repeat repeat = {shape_of("ball", &ball), VECTOR(1e3, 1e3, 1e3),
-                                  VECTOR(1.0, 1.0, 1.0)};
-    const struct one_of shape = shape_of("repeat", &repeat);
-    uint64_t seed = 3;
-    int inside = 0;
-    for (int i = 0; i < 200000; i++)
-        inside += shape_inside(&shape, random_point(&seed, 0.0, 1000.0));
-    assert_near(inside / 200000.0, M_PI / 6.0, 0.01);
-    const struct bounds bounds = shape_bounds(&shape);
-    assert_true(bounds.low.x == 0.0 && bounds.high.z == 1000.0);
-}
-
-static void assert_wrong(const char *name, void *value, int dimension, const char *words)
-{
-    const struct one_of shape = shape_of(name, value);
-    const char *text = shape_wrong(&shape, dimension);
-    if (!text || !strstr(text, words))
-        fail_msg("\"%s\" does not tell of \"%s\"", text ? text : "nothing", words);
-}
-
 static void parameters_that_make_no_shape_are_told(void **state)
 {
     (void)state;
@@ -242,22 +168,30 @@ static void parameters_that_make_no_shape_are_told(void **state)
     struct shape_cylinder point = {VECTOR(1.0, 0.0, 0.0), VECTOR(1.0, 0.0, 0.0), 1.0, 0.0};
     assert_wrong("cylinder", &point, 3, "different points");
 
-    struct one_of items[2] = {shape_of("ball", &disc), shape_of("box", &flat)};
-    struct shape_union none = {{0, NULL}}, mixed = {{2, items}};
-    struct shape_difference alone = {{1, items}};
-    assert_wrong("union", &none, 2, "at least one");
-    assert_wrong("union", &mixed, 2, "must lie above");
-    assert_wrong("difference", &alone, 2, "at least two");
+    struct shape_shell inverted = {VECTOR(0.0, 0.0), 2.0, 1.0}, line = {VECTOR(0.0), 1.0, 2.0};
+    assert_wrong("shell", &inverted, 2, "must be smaller");
+    assert_wrong("shell", &line, 1, "two or three dimensions");
+    struct shape_half_space half = {VECTOR(0.0, 0.0), VECTOR(0.0, 0.0)};
+    assert_wrong("half_space", &half, 2, "must not be zero");
+    assert_wrong("half_space", &half, 3, "as many numbers");
 
-    struct shape_repeat half = {items[0], VECTOR(2.5, 1.0), VECTOR(1.0, 0.0)};
-    assert_wrong("repeat", &half, 2, "whole numbers");
-    struct shape_repeat still = {items[0], VECTOR(2.0, 1.0), VECTOR(0.0, 0.0)};
-    assert_wrong("repeat", &still, 2, "positive");
-    struct shape_repeat nested = {items[1], VECTOR(2.0, 1.0), VECTOR(1.0, 0.0)};
-    assert_wrong("repeat", &nested, 2, "must lie above");
-    nested.shape = items[0];
-    const struct one_of good = shape_of("repeat", &nested);
-    assert_null(shape_wrong(&good, 2));
+    struct shape_polygon straight = POINTS(VECTOR(0.0, 0.0), VECTOR(1.0, 0.0), VECTOR(2.0, 0.0));
+    struct shape_polygon two = POINTS(VECTOR(0.0, 0.0), VECTOR(1.0, 0.0));
+    struct shape_polygon mixed = POINTS(VECTOR(0.0, 0.0), VECTOR(1.0), VECTOR(2.0, 1.0));
+    assert_wrong("polygon", &straight, 2, "one line");
+    assert_wrong("polygon", &straight, 3, "two dimensions");
+    assert_wrong("polygon", &two, 2, "at least three");
+    assert_wrong("polygon", &mixed, 2, "two numbers");
+
+    char *uneven[2] = {"xx", "x"}, *even[2] = {"xo", "ox"};
+    struct shape_template map = {{2, uneven}, "x", 1.0, VECTOR(0.0, 0.0)};
+    assert_wrong("template", &map, 2, "one length");
+    map.rows.names = even;
+    map.letter = "xo";
+    assert_wrong("template", &map, 2, "one character");
+    map.letter = "z";
+    assert_wrong("template", &map, 2, "nowhere");
+    assert_wrong("template", &map, 3, "two dimensions");
 }
 
 int main(void)
@@ -266,11 +200,11 @@ int main(void)
         cmocka_unit_test(a_box_has_its_low_faces_and_not_its_high_faces),
         cmocka_unit_test(a_point_between_two_intervals_lies_in_one_of_them),
         cmocka_unit_test(sites_fill_the_volume_of_a_shape),
-        cmocka_unit_test(sites_fill_the_volume_of_a_union_once),
-        cmocka_unit_test(a_difference_leaves_its_holes_empty),
+        cmocka_unit_test(sites_fill_the_area_of_a_polygon),
+        cmocka_unit_test(polygons_with_a_common_edge_share_no_point_and_miss_none),
+        cmocka_unit_test(sites_fill_the_volume_of_a_shell),
+        cmocka_unit_test(a_template_is_its_letter_on_the_map),
         cmocka_unit_test(the_bounds_of_an_oblique_cylinder_hold_it_and_touch_it),
-        cmocka_unit_test(a_repetition_is_the_union_of_all_its_copies),
-        cmocka_unit_test(a_repetition_holds_a_billion_copies),
         cmocka_unit_test(parameters_that_make_no_shape_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -115,6 +115,43 @@ static void stress_and_speed_follow_from_the_fields(void **state)
     particles_destroy(&simulation.particles);
 }
 
+static void a_field_that_cannot_be_chosen_is_told_with_what_could(void **state)
+{
+    (void)state;
+    struct simulation simulation;
+    struct views views;
+    set_up(&simulation, &views);
+    static const struct {
+        const char *field, *told;
+    } cases[] = {
+        {"presure", "the particles have no field \"presure\" (did you mean \"pressure\"?)"},
+        {"velocty.x", "the particles have no field \"velocty.x\" (did you mean \"velocity\"?)"},
+        {"materal", "the particles have no field \"materal\" (did you mean \"material\"?)"},
+        {"velocity.q",
+         "\"velocity\" has 3 components, choose one: velocity.x, velocity.y, velocity.z"},
+        {"stress", "\"stress\" has 6 components, choose one: stress.xx, stress.yy, stress.zz, "
+                   "stress.xy, stress.yz, stress.zx"},
+        {"pressure.x", "\"pressure.x\": pressure has no components"},
+    };
+    static const char *const more[] = {"material"};
+    const struct view *view;
+    int component;
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        struct error *error = views_choose(&views, cases[i].field, more, 1, &view, &component);
+        assert_non_null(error);
+        assert_string_equal(error_message(error, 0), cases[i].told);
+        error_free(error);
+    }
+    struct error *error = views_choose(&views, "colour", NULL, 0, &view, &component);
+    assert_non_null(strstr(error_message(error, 0), "(known: mass, "));
+    error_free(error);
+    assert_null(views_choose(&views, "pressure", NULL, 0, &view, &component));
+    assert_int_equal(component, 0);
+    assert_null(views_choose(&views, "stress.zx", NULL, 0, &view, &component));
+    assert_int_equal(component, 5);
+    particles_destroy(&simulation.particles);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -122,6 +159,7 @@ int main(void)
         cmocka_unit_test(names_that_are_no_view_are_not_found),
         cmocka_unit_test(a_component_reads_as_a_column_of_the_whole),
         cmocka_unit_test(stress_and_speed_follow_from_the_fields),
+        cmocka_unit_test(a_field_that_cannot_be_chosen_is_told_with_what_could),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,52 @@
+# What `make install` and the Debian package hold. Two components: the program with its materials, examples,
+# templates, man page and schema; and the library with its public headers. The package is the program alone.
+include(GNUInstallDirs)
+set(share ${CMAKE_INSTALL_DATAROOTDIR}/bolide)
+
+# The man page lists the commands as the program itself explains them; editors take the schema.
+set(man_page ${CMAKE_BINARY_DIR}/bolide.1)
+set(schema ${CMAKE_BINARY_DIR}/case.schema.json)
+set(make_man_page ${CMAKE_SOURCE_DIR}/packaging/man-page)
+set(man_template ${CMAKE_SOURCE_DIR}/packaging/bolide.1.in)
+add_custom_command(OUTPUT ${man_page}
+    COMMAND ${make_man_page} $<TARGET_FILE:bolide> ${man_template} > ${man_page}
+    DEPENDS bolide ${make_man_page} ${man_template} VERBATIM)
+add_custom_command(OUTPUT ${schema}
+    COMMAND bolide schema > ${schema}
+    DEPENDS bolide VERBATIM)
+add_custom_target(install_files ALL DEPENDS ${man_page} ${schema} libbolide)
+
+install(TARGETS bolide RUNTIME COMPONENT program)
+install(FILES ${man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${schema} DESTINATION ${share} COMPONENT program)
+install(DIRECTORY materials examples templates DESTINATION ${share} COMPONENT program)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+
+# The headers keep their rooms: a program that uses the library writes `#include "model/case.h"`.
+install(TARGETS libbolide ARCHIVE COMPONENT library)
+install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bolide COMPONENT library
+    FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE PATTERN cli EXCLUDE)
+set(pkg_config_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH pkg_config_to_prefix /prefix/${pkg_config_folder} /prefix)
+configure_file(packaging/bolide.pc.in bolide.pc @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/bolide.pc DESTINATION ${pkg_config_folder} COMPONENT library)
+
+# cpack -G DEB: what the program is linked with becomes its dependencies; pictures need a font.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The Bolide authors")
+set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/package)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL program)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME bolide)
+set(CPACK_DEBIAN_PROGRAM_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION
+"Bolide computes what happens inside matter that is struck hard: shock fronts,
+elastic and plastic waves, collapsing pores, perforated plates. A case is one
+file that also says what its result must be.")
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)
+include(CPack)

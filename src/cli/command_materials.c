@@ -1,0 +1,109 @@
+/* bolide materials: the library as a table, and a material's file with its sources. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "cli/cli.h"
+#include "model/library.h"
+
+static const char row_format[] = "%-26s %-21s %-15s %9s %8s %8s  %s\n";
+
+static void print_header(void)
+{
+    printf("%s", colour(COLOUR_STRONG));
+    printf(row_format, "name", "eos", "strength", "density", "C_long", "C_shear", "description");
+    printf("%s", colour(COLOUR_NONE));
+    printf(row_format, "", "", "", "kg/m^3", "m/s", "m/s", "");
+}
+
+static struct error *print_row(const char *name, const struct material_input *input)
+{
+    struct point point;
+    struct response rest;
+    char density[32], sound_long[32], sound_shear[32] = "-";
+    if (!library_rest(&input->material, &point, &rest))
+        return error_new(ERROR_INPUT, "%s: sound does not travel at rest", name);
+    snprintf(density, sizeof density, "%.6g", point.density);
+    snprintf(sound_long, sizeof sound_long, "%.5g", rest.sound_long);
+    if (rest.sound_shear > 0.0)
+        snprintf(sound_shear, sizeof sound_shear, "%.5g", rest.sound_shear);
+    printf(row_format, name, input->eos.choice->name,
+           input->strength.choice ? input->strength.choice->name : "none", density, sound_long,
+           sound_shear, input->description ? input->description : "");
+    return NULL;
+}
+
+/* A file with mistakes is told after the others. */
+static struct error *list_materials(const char *folder)
+{
+    struct name_list names;
+    TRY(library_names(folder, &names));
+    print_header();
+    struct error *all = NULL;
+    for (int i = 0; i < names.count; i++) {
+        struct material_input input;
+        char *path = library_file(&folder, 1, names.names[i]);
+        struct error *error =
+            path ? library_read(path, &bolide_catalogue, &input)
+                 : error_new(ERROR_INPUT, "%s/%s.yaml: cannot be read", folder, names.names[i]);
+        if (!error) {
+            error = print_row(names.names[i], &input);
+            library_release(&input);
+        }
+        free(path);
+        all = error_join(all, error);
+    }
+    printf("%d materials in %s, at rest; gases at 101.325 kPa. `bolide materials NAME` prints one "
+           "with "
+           "the sources of its values.\n",
+           names.count, folder);
+    library_names_free(&names);
+    return all;
+}
+
+static struct error *print_file(const char *path)
+{
+    char buffer[4096];
+    size_t length;
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno));
+    while ((length = fread(buffer, 1, sizeof buffer, file)) > 0)
+        fwrite(buffer, 1, length, stdout);
+    struct error *error =
+        ferror(file) ? error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno)) : NULL;
+    fclose(file);
+    return error;
+}
+
+static struct error *print_material(const char *folder, const char *name)
+{
+    char *path = library_file(&folder, 1, name);
+    if (path) {
+        struct error *error = print_file(path);
+        free(path);
+        return error;
+    }
+    char *text = library_unknown(&folder, 1, name);
+    struct error *error =
+        text ? error_new(ERROR_INPUT, "%s", text) : error_new(ERROR_SYSTEM, "out of memory");
+    free(text);
+    return error;
+}
+
+int command_materials(const struct cli_options *options)
+{
+    char *folder = share_folder("materials");
+    struct error *error;
+    if (!folder)
+        error = error_new(ERROR_INPUT, "no materials found; set BOLIDE_SHARE to the folder that "
+                                       "holds examples/ and materials/");
+    else if (options->names.count)
+        error = print_material(folder, options->names.text[0]);
+    else
+        error = list_materials(folder);
+    free(folder);
+    return error ? report_error(error) : EXIT_OK;
+}

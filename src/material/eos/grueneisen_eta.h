@@ -1,0 +1,47 @@
+/* Mie-Grüneisen with constant gamma rho, as one formula of eta = rho/rho_0 in compression and tension:
+ *
+ *   p = rho_0 C_0^2 f(eta) + rho_0 gamma_0 e
+ *   f = (eta - 1) [eta - gamma_0 (eta - 1)/2] / [eta - s (eta - 1)]^2
+ *
+ * In compression its shock adiabat from rest is U_s = C_0 + s U_p.
+ * Source: Wang, Chen and Huang (2024), (19). */
+#ifndef BOLIDE_EOS_GRUENEISEN_ETA_H
+#define BOLIDE_EOS_GRUENEISEN_ETA_H
+
+#include "material/point.h"
+
+struct eos_grueneisen_eta {
+    double density; /* rho_0, kg/m^3 */
+    double sound;   /* C_0 (a_0 of the source), m/s */
+    double slope;   /* s of U_s = C_0 + s U_p */
+    double gamma;   /* Grüneisen coefficient at rho_0 */
+};
+
+BOLIDE_INLINE struct eos_value eos_grueneisen_eta(const struct eos_grueneisen_eta *solid,
+                                                  double density, double energy,
+                                                  const double *history)
+{
+    (void)history;
+    struct eos_value value;
+    double eta = density / solid->density, k = eta - 1.0;
+    double thermal = solid->density * solid->gamma;
+    double over = eta - solid->slope * k;
+    /* Beyond the largest compression of the adiabat the denominator is held at its guard value. */
+    double guard = 1e-3;
+    value.status = 0;
+    if (over < guard) {
+        over = guard;
+        value.status = POINT_OUT_OF_RANGE;
+    }
+    double under = k * (eta - 0.5 * solid->gamma * k);
+    double f = under / square(over);
+    double f_slope = (2.0 * eta - 1.0 - solid->gamma * k) / square(over) -
+                     2.0 * under * (1.0 - solid->slope) / (over * square(over));
+    double c2 = square(solid->sound);
+    value.pressure = solid->density * c2 * f + thermal * energy;
+    value.dp_drho = c2 * f_slope;
+    value.dp_de = thermal;
+    return value;
+}
+
+#endif

@@ -1,0 +1,41 @@
+/* Mie-Grüneisen about a polynomial shock adiabat, mu = rho/rho_0 - 1:
+ *
+ *   p = p_H (1 - gamma mu/2) + gamma rho e                                    (2-65)
+ *   p_H = rho_0 C_0^2 [mu + (2s - 1) mu^2 + (s - 1)(3s - 1) mu^3]   mu > 0
+ *   p_H = rho_0 C_0^2 mu                                            mu <= 0   (2-66)
+ *
+ * The adiabat is U_s = C_0 + s U_p up to third order in mu. Source: Cui, dissertation (2014). */
+#ifndef BOLIDE_EOS_GRUENEISEN_POLYNOMIAL_H
+#define BOLIDE_EOS_GRUENEISEN_POLYNOMIAL_H
+
+#include "material/point.h"
+
+struct eos_grueneisen_polynomial {
+    double density; /* rho_0, kg/m^3 */
+    double sound;   /* C_0, m/s */
+    double slope;   /* s of U_s = C_0 + s U_p */
+    double gamma;   /* Grüneisen coefficient, constant */
+};
+
+BOLIDE_INLINE struct eos_value eos_grueneisen_polynomial(
+    const struct eos_grueneisen_polynomial *solid, double density, double energy,
+    const double *history)
+{
+    (void)history;
+    struct eos_value value;
+    double mu = density / solid->density - 1.0, s = solid->slope;
+    double second = mu > 0.0 ? 2.0 * s - 1.0 : 0.0;
+    double third = mu > 0.0 ? (s - 1.0) * (3.0 * s - 1.0) : 0.0;
+    double modulus = solid->density * square(solid->sound);
+    double curve = modulus * mu * (1.0 + mu * (second + mu * third));
+    double slope = modulus * (1.0 + mu * (2.0 * second + 3.0 * mu * third)); /* dp_H/dmu */
+    double share = 1.0 - 0.5 * solid->gamma * mu;
+    value.pressure = curve * share + solid->gamma * density * energy;
+    value.dp_drho =
+        (slope * share - 0.5 * solid->gamma * curve) / solid->density + solid->gamma * energy;
+    value.dp_de = solid->gamma * density;
+    value.status = 0;
+    return value;
+}
+
+#endif

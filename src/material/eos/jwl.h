@@ -1,0 +1,43 @@
+/* Jones-Wilkins-Lee: the products of an explosive, or the explosive itself, without its burning.
+ * With V = rho_0/rho and the energy of an initial volume E = E_0 + rho_0 e:
+ *
+ *   p = A [1 - w/(R_1 V)] exp(-R_1 V) + B [1 - w/(R_2 V)] exp(-R_2 V) + w E/V
+ *
+ * e counts from the explosive at rest, so that E_0 is the heat of the reaction for products; for an
+ * unreacted explosive it makes the pressure vanish at rest; it is zero where e holds the chemical energy.
+ * Source: Lee and Tarver, Phys. Fluids 23 (1980) 2362, in the form of Cui, dissertation (2014), (2-60),
+ * and Parshikov (2013), (5.4)-(5.7). */
+#ifndef BOLIDE_EOS_JWL_H
+#define BOLIDE_EOS_JWL_H
+
+#include "material/point.h"
+
+struct eos_jwl {
+    double density; /* rho_0 of the explosive, kg/m^3 */
+    double a, b;    /* Pa */
+    double r1, r2;
+    double omega;
+    double energy; /* E_0, J/m^3 of initial volume */
+};
+
+BOLIDE_INLINE struct eos_value eos_jwl(const struct eos_jwl *jwl, double density, double energy,
+                                       const double *history)
+{
+    (void)history;
+    struct eos_value value;
+    double compression = density / jwl->density, volume = 1.0 / compression;
+    double first = jwl->a * exp(-jwl->r1 * volume), second = jwl->b * exp(-jwl->r2 * volume);
+    double share1 = 1.0 - jwl->omega * compression / jwl->r1;
+    double share2 = 1.0 - jwl->omega * compression / jwl->r2;
+    double heat = energy + jwl->energy / jwl->density;
+    value.pressure = first * share1 + second * share2 + jwl->omega * density * heat;
+    /* d/drho = (1/rho_0) d/d(rho/rho_0), and dV/d(rho/rho_0) = -V^2 */
+    double slope1 = first * (jwl->r1 * square(volume) * share1 - jwl->omega / jwl->r1);
+    double slope2 = second * (jwl->r2 * square(volume) * share2 - jwl->omega / jwl->r2);
+    value.dp_drho = (slope1 + slope2) / jwl->density + jwl->omega * heat;
+    value.dp_de = jwl->omega * density;
+    value.status = 0;
+    return value;
+}
+
+#endif

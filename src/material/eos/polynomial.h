@@ -1,0 +1,36 @@
+/* Polynomial in the compression mu = rho/rho_0 - 1, without energy: the intact ceramics and glasses of
+ * the Johnson-Holmquist models.
+ *
+ *   p = K_1 mu + K_2 mu^2 + K_3 mu^3   mu > 0
+ *   p = K_1 mu                         mu <= 0
+ *
+ * Source: Johnson and Holmquist (1999); Parshikov (2013), (2.45). */
+#ifndef BOLIDE_EOS_POLYNOMIAL_H
+#define BOLIDE_EOS_POLYNOMIAL_H
+
+#include "material/point.h"
+
+struct eos_polynomial {
+    double density;        /* rho_0, kg/m^3: zero pressure */
+    double bulk_modulus;   /* K_1, Pa */
+    double second_modulus; /* K_2, Pa */
+    double third_modulus;  /* K_3, Pa */
+};
+
+BOLIDE_INLINE struct eos_value eos_polynomial(const struct eos_polynomial *solid, double density,
+                                              double energy, const double *history)
+{
+    (void)energy;
+    (void)history;
+    struct eos_value value;
+    double mu = density / solid->density - 1.0;
+    double second = mu > 0.0 ? solid->second_modulus : 0.0;
+    double third = mu > 0.0 ? solid->third_modulus : 0.0;
+    value.pressure = mu * (solid->bulk_modulus + mu * (second + mu * third));
+    value.dp_drho = (solid->bulk_modulus + mu * (2.0 * second + 3.0 * mu * third)) / solid->density;
+    value.dp_de = 0.0;
+    value.status = 0;
+    return value;
+}
+
+#endif

@@ -1,0 +1,26 @@
+/* Rubber and other media of constant sound speed without energy: p = C_0^2 (rho - rho_0).
+ * Source: Parshikov (2013), section 2.6. */
+#ifndef BOLIDE_EOS_RUBBER_H
+#define BOLIDE_EOS_RUBBER_H
+
+#include "material/point.h"
+
+struct eos_rubber {
+    double density; /* rho_0, kg/m^3: zero pressure */
+    double sound;   /* C_0, m/s */
+};
+
+BOLIDE_INLINE struct eos_value eos_rubber(const struct eos_rubber *rubber, double density,
+                                          double energy, const double *history)
+{
+    (void)energy;
+    (void)history;
+    struct eos_value value;
+    value.dp_drho = square(rubber->sound);
+    value.pressure = value.dp_drho * (density - rubber->density);
+    value.dp_de = 0.0;
+    value.status = 0;
+    return value;
+}
+
+#endif

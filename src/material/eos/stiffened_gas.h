@@ -1,0 +1,32 @@
+/* Stiffened gas: a liquid or solid of constant sound speed at rest, heated like a gas.
+ *
+ *   p = C_0^2 (rho - rho_0) + (gamma - 1) rho e
+ *
+ * which is p = (gamma - 1) rho e' - gamma p_inf with gamma p_inf = rho_0 C_0^2 and the energy counted
+ * from the state at rest, e = e' - C_0^2/(gamma - 1). Source: Wang, Chen and Huang (2024), (18). */
+#ifndef BOLIDE_EOS_STIFFENED_GAS_H
+#define BOLIDE_EOS_STIFFENED_GAS_H
+
+#include "material/point.h"
+
+struct eos_stiffened_gas {
+    double density; /* rho_0, kg/m^3: zero pressure at zero energy */
+    double sound;   /* C_0, m/s, at rest */
+    double gamma;
+};
+
+BOLIDE_INLINE struct eos_value eos_stiffened_gas(const struct eos_stiffened_gas *gas,
+                                                 double density, double energy,
+                                                 const double *history)
+{
+    (void)history;
+    struct eos_value value;
+    double c2 = square(gas->sound), heat = gas->gamma - 1.0;
+    value.pressure = c2 * (density - gas->density) + heat * density * energy;
+    value.dp_drho = c2 + heat * energy;
+    value.dp_de = heat * density;
+    value.status = 0;
+    return value;
+}
+
+#endif

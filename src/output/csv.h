@@ -1,0 +1,38 @@
+/* Tables of comma-separated values, as this program writes them: one line of heads, fields in quotes
+ * where they hold commas, quotes or line breaks. */
+#ifndef BOLIDE_CSV_H
+#define BOLIDE_CSV_H
+
+#include <stdio.h>
+
+#include "base/error.h"
+
+struct csv {
+    int columns;
+    int64_t rows; /* without the heads */
+    char *text;   /* holds all fields; owned */
+    const char **field;
+};
+
+/* Reads PATH as far as it makes sense: a row that is too short is filled up with empty fields, one
+ * that is too long is cut. A missing file is a table without columns. ERROR_SYSTEM when the file
+ * cannot be read. */
+struct error *csv_read(const char *path, struct csv *csv);
+void csv_free(struct csv *csv);
+
+/* The head of COLUMN, and the field at ROW and COLUMN; "" where there is none. */
+const char *csv_head(const struct csv *csv, int column);
+const char *csv_field(const struct csv *csv, int64_t row, int column);
+
+/* The column headed NAME, -1 if there is none. */
+int csv_column(const struct csv *csv, const char *name);
+
+/* The number at ROW and COLUMN, NAN where there is none. */
+double csv_number(const struct csv *csv, int64_t row, int column);
+
+/* Writes TEXT (NULL: nothing) as one field in quotes, and a number with as many digits as reading the
+ * same bits again takes. */
+void csv_put_text(FILE *file, const char *text);
+void csv_put_number(FILE *file, double value);
+
+#endif

@@ -1,0 +1,145 @@
+/* report.html as a whole; see page.h. */
+#include "output/page.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "output/file.h"
+#include "output/page_internal.h"
+
+static struct error *out_of_memory(void)
+{
+    return error_new(ERROR_SYSTEM, "out of memory for a report");
+}
+
+static struct error *read_table(const char *folder, const char *name, struct csv *csv)
+{
+    char *path = path_join(folder, name);
+    struct error *error = path ? csv_read(path, csv) : out_of_memory();
+    free(path);
+    return error;
+}
+
+/* Its policy forbids the page whatever it does not hold itself. */
+static void put_head(const struct page *page, const char *title)
+{
+    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
+          "data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
+          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+          "<meta name=\"color-scheme\" content=\"light dark\">\n<title>",
+          page->file);
+    page_text(page->file, title);
+    fprintf(page->file, "</title>\n<style>\n%s</style>\n</head>\n<body>\n", page_style);
+}
+
+/* "demo · 2-D · sph · 4928 particles · until 2 ns" */
+static void put_header(const struct page *page, const char *title)
+{
+    static const char *const words[][3] = {
+        {"name", "", ""},        {"dimension", "", "-D"},
+        {"method", "", ""},      {"particles", "", " particles"},
+        {"until", "until ", ""},
+    };
+    fputs("<header><h1>", page->file);
+    page_text(page->file, title);
+    fputs("</h1>\n<p class=\"lead\">", page->file);
+    bool begun = false;
+    for (size_t i = 0; i < COUNT_OF(words); i++) {
+        if (!*summary_value(&page->summary, "run", NULL, words[i][0]))
+            continue;
+        fprintf(page->file, "%s%s", begun ? " · " : "", words[i][1]);
+        summary_put(page, "run", NULL, words[i][0]);
+        fputs(words[i][2], page->file);
+        begun = true;
+    }
+    fputs("</p></header>\n<main>\n", page->file);
+}
+
+/* A text file of the folder, folded away; nothing where there is none. */
+static struct error *put_file(const struct page *page, const char *name, const char *words)
+{
+    char *path = path_join(page->folder, name), *text = NULL;
+    size_t size;
+    struct error *error = path ? file_read(path, &text, &size) : out_of_memory();
+    if (!error && text && *text) {
+        fprintf(page->file, "<details><summary>%s</summary><pre>", words);
+        page_text(page->file, text);
+        fputs("</pre></details>\n", page->file);
+    }
+    free(text);
+    free(path);
+    return error;
+}
+
+static struct error *put_page(const struct page *page)
+{
+    const char *title = summary_value(&page->summary, "run", NULL, "title");
+    if (!*title)
+        title = summary_value(&page->summary, "run", NULL, "name");
+    if (!*title)
+        title = "Results of a run";
+    put_head(page, title);
+    put_header(page, title);
+    page_verdict(page);
+    TRY(page_pictures(page));
+    TRY(page_history(page));
+    page_about(page);
+    page_speed(page);
+    fputs("<section id=\"files\"><h2>The case and the log</h2>\n", page->file);
+    TRY(put_file(page, "case.yaml", "The case as run, with all defaults (case.yaml)"));
+    TRY(put_file(page, "run.log", "What the run said (run.log)"));
+    fprintf(page->file,
+            "</section>\n</main>\n<footer><p>Made by Bolide.</p></footer>\n<script>\n%s"
+            "</script>\n</body>\n</html>\n",
+            page_script);
+    return NULL;
+}
+
+/* Writes the page to PATH; half a page is never there. */
+static struct error *put_file_of_page(struct page *page, const char *path)
+{
+    TRY(file_begin(path, &page->file));
+    struct error *error = put_page(page);
+    if (!error)
+        return file_end(path, page->file);
+    fclose(page->file);
+    char *beside = file_beside(path);
+    if (beside)
+        unlink(beside);
+    free(beside);
+    return error;
+}
+
+static struct error *look_for_run(const char *folder)
+{
+    char *path = path_join(folder, "run.log");
+    if (!path)
+        return out_of_memory();
+    bool there = access(path, R_OK) == 0;
+    free(path);
+    return there ? NULL
+                 : error_new(ERROR_INPUT, "%s: holds no results of a run (there is no run.log)",
+                             folder);
+}
+
+struct error *page_write(const char *folder)
+{
+    struct page page = {.folder = folder};
+    TRY(look_for_run(folder));
+    struct error *error = read_table(folder, "summary.csv", &page.summary);
+    if (!error)
+        error = read_table(folder, "checks.csv", &page.checks);
+    if (!error)
+        error = read_table(folder, "history.csv", &page.history);
+    char *path = path_join(folder, "report.html");
+    if (!error)
+        error = path ? put_file_of_page(&page, path) : out_of_memory();
+    free(path);
+    csv_free(&page.summary);
+    csv_free(&page.checks);
+    csv_free(&page.history);
+    return error;
+}

@@ -1,0 +1,12 @@
+/* report.html: the results of a run as one page that needs nothing beside itself: no network, no other
+ * file. It is made from the files of the results folder alone, by the run at its end and by
+ * `bolide report`, and shows what is there. */
+#ifndef BOLIDE_PAGE_H
+#define BOLIDE_PAGE_H
+
+#include "base/error.h"
+
+/* Writes FOLDER/report.html. ERROR_INPUT when FOLDER holds no results of a run (no run.log). */
+struct error *page_write(const char *folder);
+
+#endif

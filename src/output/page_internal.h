@@ -1,0 +1,75 @@
+/* The parts of report.html; private to the page*.c files. Each writes its section to page->file, whose
+ * errors show when it is closed. */
+#ifndef BOLIDE_PAGE_INTERNAL_H
+#define BOLIDE_PAGE_INTERNAL_H
+
+#include <stdio.h>
+
+#include "output/csv.h"
+#include "output/picture_scale.h"
+
+struct page {
+    const char *folder;
+    FILE *file;
+    struct csv summary, checks, history;
+};
+
+/* page_text.c */
+
+/* TEXT with everything escaped that HTML could take for its own, in an attribute too. What is not UTF-8
+ * and what no document may hold become replacement characters. */
+void page_text(FILE *file, const char *text);
+
+enum { QUANTITY_TEXT = 160 };
+/* VALUE of UNIT (SI) as a person reads it, to five digits: "-2.0005e9", "Pa" gives "−2.0005 GPa",
+ * "2.66e-19", "" gives "2.66 × 10⁻¹⁹". Returns BUFFER of QUANTITY_TEXT bytes. */
+const char *quantity_text(double value, const char *unit, char *buffer);
+void page_quantity(FILE *file, double value, const char *unit);
+
+/* SIZE bytes as base64. */
+void page_base64(FILE *file, const unsigned char *bytes, size_t size);
+
+/* page_summary.c */
+
+/* The value that the summary has under these words, "" if there is none. NAME may be NULL: any. */
+const char *summary_value(const struct csv *summary, const char *about, const char *name,
+                          const char *quantity);
+/* Writes the same, a number with its unit. */
+void summary_put(const struct page *page, const char *about, const char *name,
+                 const char *quantity);
+
+void page_verdict(const struct page *page);
+void page_about(const struct page *page);
+void page_speed(const struct page *page);
+
+/* page_history.c */
+struct error *page_history(const struct page *page);
+
+/* page_pictures.c */
+struct error *page_pictures(const struct page *page);
+
+/* page_plot.c: a line plot as inline SVG. */
+
+enum { PLOT_SERIES = 12 };
+struct page_series {
+    char label[160];
+    const double *value; /* SI */
+    bool dashed;
+    bool optional; /* left out where it is but a billionth of the largest series */
+};
+
+struct page_plot {
+    const char *title, *x_name, *x_unit, *unit;
+    int64_t count; /* points of each series */
+    const double *x;
+    int series_count;
+    struct page_series series[PLOT_SERIES];
+};
+
+/* Draws PLOT; nothing where it has less than two points or no series is left. */
+void page_plot(FILE *file, const struct page_plot *plot);
+
+/* page_style.c */
+extern const char page_style[], page_script[];
+
+#endif

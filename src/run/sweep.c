@@ -1,0 +1,288 @@
+/* The table and the plots of a sweep; see sweep.h. The loop over its runs is verify's. */
+#include "run/sweep.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/csv.h"
+#include "output/file.h"
+#include "output/picture.h"
+
+const char sweep_table_name[] = "sweep.csv";
+
+static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
+
+/* Makes TEXT a name of a file in place: what has a meaning to a shell or a file system becomes "_". */
+static void make_name(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < 128 &&
+            !strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.+-=,", *text))
+            *text = '_';
+}
+
+/* "U0=500 m/s,pore=1 mm" of the values from FIRST on. */
+static char *values_text(const struct sweep_value *values, int first, int count)
+{
+    char *text = text_copy("");
+    for (int i = first; i < count && text; i++) {
+        char *longer =
+            text_format("%s%s%s=%s", text, i > first ? "," : "", values[i].key, values[i].text);
+        free(text);
+        text = longer;
+    }
+    return text;
+}
+
+char *sweep_run_name(const struct sweep_value *values, int count)
+{
+    char *name = values_text(values, 0, count);
+    if (name)
+        make_name(name);
+    return name;
+}
+
+/* The unit of the swept value at INDEX where all runs have a quantity of one dimension; else NULL. */
+static const char *swept_unit(const struct verify_case *runs, int count, int index, char *buffer)
+{
+    const struct quantity *first = &runs[0].sweep[index].quantity;
+    for (int i = 0; i < count; i++) {
+        const struct quantity *other = &runs[i].sweep[index].quantity;
+        if (isnan(other->value) || !dimension_equal(other->dimension, first->dimension))
+            return NULL;
+    }
+    return dimension_text(first->dimension, buffer);
+}
+
+/* The checks of the first run that has any: all runs have the same. */
+static const struct check_results *checks_of(const struct verify_case *runs, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (runs[i].result.checks.count)
+            return &runs[i].result.checks;
+    return &runs[0].result.checks;
+}
+
+static const struct check_result *find_check(const struct verify_case *run, const char *name)
+{
+    for (int i = 0; i < run->result.checks.count; i++)
+        if (!strcmp(run->result.checks.item[i].name, name))
+            return &run->result.checks.item[i];
+    return NULL;
+}
+
+static void put_head(FILE *file, const char *name, const char *unit)
+{
+    char *head = unit && unit[0] ? text_format(",%s [%s]", name, unit) : text_format(",%s", name);
+    if (head) {
+        fputc(',', file);
+        csv_put_text(file, head + 1);
+    }
+    free(head);
+}
+
+static void put_heads(FILE *file, const struct verify_case *runs, int count)
+{
+    char unit[DIMENSION_TEXT];
+    const struct check_results *checks = checks_of(runs, count);
+    fputs("run", file);
+    for (int k = 0; k < runs[0].sweep_values; k++)
+        put_head(file, runs[0].sweep[k].key, swept_unit(runs, count, k, unit));
+    for (int k = 0; k < checks->count; k++) {
+        put_head(file, checks->item[k].name, checks->item[k].unit);
+        char *verdict = text_format("%s verdict", checks->item[k].name);
+        put_head(file, verdict ? verdict : "verdict", NULL);
+        free(verdict);
+    }
+    fputs(",verdict\n", file);
+}
+
+static void put_row(FILE *file, const struct verify_case *runs, int count,
+                    const struct verify_case *run)
+{
+    char unit[DIMENSION_TEXT];
+    const struct check_results *checks = checks_of(runs, count);
+    const char *slash = strrchr(run->name, '/');
+    csv_put_text(file, slash ? slash + 1 : run->name);
+    for (int k = 0; k < run->sweep_values; k++) {
+        fputc(',', file);
+        if (swept_unit(runs, count, k, unit))
+            csv_put_number(file, run->sweep[k].quantity.value);
+        else
+            csv_put_text(file, run->sweep[k].text);
+    }
+    for (int k = 0; k < checks->count; k++) {
+        const struct check_result *check = find_check(run, checks->item[k].name);
+        fputc(',', file);
+        if (check && !isnan(check->measured))
+            csv_put_number(file, check->measured);
+        fprintf(file, ",%s", !check ? "" : check->passed ? "passed" : "FAILED");
+    }
+    fprintf(file, ",%s\n", run->error ? "not finished" : run->passed ? "passed" : "FAILED");
+}
+
+static struct error *write_table(const char *folder, const struct verify_case *runs, int count)
+{
+    FILE *file;
+    char *path = path_join(folder, sweep_table_name);
+    struct error *error = path ? file_begin(path, &file) : out_of_memory();
+    if (!error) {
+        put_heads(file, runs, count);
+        for (int i = 0; i < count; i++)
+            put_row(file, runs, count, &runs[i]);
+        error = file_end(path, file);
+    }
+    free(path);
+    return error;
+}
+
+/* A run as a plot sees it. */
+struct dot {
+    double x;
+    const struct check_result *check;
+    int group;   /* the first run with the same swept values but for the first */
+    char *label; /* these values */
+};
+
+/* By group in the order of the runs, then by place. */
+static int compare_dots(const void *a, const void *b)
+{
+    const struct dot *one = a, *other = b;
+    if (one->group != other->group)
+        return one->group - other->group;
+    return (one->x > other->x) - (one->x < other->x);
+}
+
+static bool differ_in_first_only(const struct verify_case *a, const struct verify_case *b)
+{
+    for (int k = 1; k < a->sweep_values; k++)
+        if (strcmp(a->sweep[k].text, b->sweep[k].text) != 0)
+            return false;
+    return true;
+}
+
+static int group_of(const struct verify_case *runs, int run)
+{
+    int first = 0;
+    while (!differ_in_first_only(&runs[first], &runs[run]))
+        first++;
+    return first;
+}
+
+/* The runs in which the check NAME measured something; returns how many. */
+static int take_dots(const struct verify_case *runs, int count, const char *name, bool ordinal,
+                     struct dot *dots)
+{
+    int taken = 0;
+    for (int i = 0; i < count; i++) {
+        const struct check_result *check = find_check(&runs[i], name);
+        if (!check || !isfinite(check->measured))
+            continue;
+        dots[taken++] =
+            (struct dot){ordinal ? i + 1.0 : runs[i].sweep[0].quantity.value, check,
+                         group_of(runs, i), values_text(runs[i].sweep, 1, runs[i].sweep_values)};
+    }
+    qsort(dots, (size_t)taken, sizeof *dots, compare_dots);
+    return taken;
+}
+
+/* Fills X and Y, of 3 COUNT + 1 places each, and the series: a point a run, and, where there is one group,
+ * the limits as one series behind them. Returns how many series. */
+static int make_series(const struct dot *dots, int count, double *x, double *y,
+                       struct series *series)
+{
+    int used = 0;
+    bool one_group = dots[0].group == dots[count - 1].group;
+    for (int i = 0; i < count; i++) {
+        double *low = y + count + i, *high = y + 2 * count + 1 + i;
+        x[i] = x[count + i] = x[2 * count + 1 + i] = dots[i].x;
+        y[i] = dots[i].check->measured;
+        *low = dots[i].check->low;
+        *high = dots[i].check->high;
+    }
+    x[2 * count] = y[2 * count] = NAN; /* the line breaks between low and high */
+    if (one_group)
+        series[used++] = (struct series){"limits", 2 * count + 1, x + count, y + count, true};
+    for (int first = 0, end; first < count; first = end) {
+        for (end = first; end < count && dots[end].group == dots[first].group;)
+            end++;
+        series[used++] = (struct series){one_group ? "measured" : dots[first].label, end - first,
+                                         x + first, y + first, false};
+    }
+    return used;
+}
+
+/* Draws what COUNT runs measured into PATH. */
+static struct error *draw(const char *path, const char *x_name, const char *x_unit,
+                          const struct dot *dots, int count)
+{
+    size_t places = 3 * (size_t)count + 1;
+    struct series *series = memory_allocate(((size_t)count + 1) * sizeof *series);
+    double *x = memory_allocate(places * sizeof *x), *y = memory_allocate(places * sizeof *y);
+    const char *name = dots[0].check->name;
+    char *title = text_format("%s over %s", name, x_name);
+    struct error *error = series && x && y && title ? NULL : out_of_memory();
+    if (!error) {
+        struct plot plot = {.title = title,
+                            .x_name = x_name,
+                            .x_unit = x_unit,
+                            .y_name = name,
+                            .y_unit = dots[0].check->unit,
+                            .count = make_series(dots, count, x, y, series),
+                            .series = series};
+        error = picture_plot(path, &plot);
+    }
+    free(title);
+    free(y);
+    free(x);
+    free(series);
+    return error;
+}
+
+/* The picture of the check NAME, where two runs measured something. Without a quantity on the first axis
+ * the runs are counted. */
+static struct error *draw_check(const char *folder, const struct verify_case *runs, int count,
+                                const char *name, struct dot *dots)
+{
+    char unit[DIMENSION_TEXT];
+    const char *x_unit = swept_unit(runs, count, 0, unit);
+    char *file = text_format("%s.png", name);
+    if (file)
+        make_name(file);
+    char *path = file ? path_join(folder, file) : NULL;
+    struct error *error = path ? NULL : out_of_memory();
+    int taken = take_dots(runs, count, name, !x_unit, dots);
+    if (!error && taken > 1)
+        error =
+            draw(path, x_unit ? runs[0].sweep[0].key : "run", x_unit ? x_unit : "", dots, taken);
+    for (int i = 0; i < taken; i++)
+        free(dots[i].label);
+    free(path);
+    free(file);
+    return error;
+}
+
+static struct error *draw_checks(const char *folder, const struct verify_case *runs, int count)
+{
+    const struct check_results *checks = checks_of(runs, count);
+    struct dot *dots = memory_allocate((size_t)count * sizeof *dots);
+    struct error *error = dots ? folder_make(folder) : out_of_memory();
+    for (int k = 0; k < checks->count && !error; k++)
+        error = draw_check(folder, runs, count, checks->item[k].name, dots);
+    free(dots);
+    return error;
+}
+
+struct error *sweep_write(const char *folder, const struct verify_case *runs, int count)
+{
+    if (count == 0)
+        return NULL;
+    TRY(folder_make(folder));
+    TRY(write_table(folder, runs, count));
+    char *pictures = path_join(folder, "pictures");
+    struct error *error = pictures ? draw_checks(pictures, runs, count) : out_of_memory();
+    free(pictures);
+    return error;
+}

@@ -1,0 +1,143 @@
+/* What `bolide check` tells of a mixture, and of shapes and lattices that cannot be. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "run/catalogue.h"
+#include "run/estimate.h"
+
+static const char strip[] =
+    "format: 1\n"
+    "dimension: 2\n"
+    "resolution: d\n"
+    "solver: sph\n"
+    "let: {d: 10 nm, cell: 16*d, a: 2*d, b: 5.5*d, c: 10.5*d, e: 14*d}\n"
+    "materials: {heavy: {library: steel-cube-parshikov}, light: {library: aluminium}}\n"
+    "bodies:\n"
+    "  carrier: {material: heavy, box: {from: [0, 0], to: [4*cell, cell]}}\n"
+    "  inclusions:\n"
+    "    material: light\n"
+    "    replaces: carrier\n"
+    "    repeat:\n"
+    "      shape: {polygon: [[a, b], [b, a], [c, a], [e, b], [e, c], [c, e], [b, e], [a, c]]}\n"
+    "      count: [4, 1]\n"
+    "      step: [cell, cell]\n"
+    "run: {until: 1 ns}\n";
+
+/* Reads TEXT and what stands behind it. */
+static struct error *read_text(const char *text, const char *more, struct simulation_case **input)
+{
+    static const char *const library[] = {BOLIDE_SOURCE_DIR "/materials"};
+    const struct case_options options = {.library_paths = library, .library_count = 1};
+    FILE *file = fopen("estimate.yaml", "w");
+    assert_non_null(file);
+    fprintf(file, "%s%s", text, more);
+    fclose(file);
+    return case_read("estimate.yaml", &options, &bolide_catalogue, input);
+}
+
+static void estimate_strip(const char *walls, struct estimate *estimate,
+                           struct simulation_case **input)
+{
+    struct error *error = read_text(strip, walls, input);
+    if (error)
+        fail_msg("%s", error_message(error, 0));
+    error = estimate_run(*input, 1, estimate);
+    if (error)
+        fail_msg("%s", error_message(error, 0));
+}
+
+static void assert_near(double value, double wanted)
+{
+    if (!(fabs(value - wanted) <= 1e-12 * fabs(wanted)))
+        fail_msg("%.15g is not %.15g", value, wanted);
+}
+
+static void a_mixture_has_a_mean_density_and_a_mass_of_each_material(void **state)
+{
+    (void)state;
+    struct simulation_case *input;
+    struct estimate estimate;
+    estimate_strip("", &estimate, &input);
+    const double heavy = case_body(input, 0)->start.density,
+                 light = case_body(input, 1)->start.density;
+    assert_true(heavy > 2.0 * light);
+    assert_near(estimate.material_mass[0], heavy * 4 * 136 * 1e-16);
+    assert_near(estimate.material_mass[1], light * 4 * 120 * 1e-16);
+    assert_near(estimate.mean_density, (136.0 * heavy + 120.0 * light) / 256.0);
+    assert_near(estimate.box.high.x, 64e-8);
+    estimate_free(&estimate);
+    case_free(input);
+}
+
+static void two_walls_bound_the_mean_density_of_their_axis(void **state)
+{
+    (void)state;
+    struct simulation_case *input;
+    struct estimate free_strip, walled;
+    estimate_strip("", &free_strip, &input);
+    case_free(input);
+    estimate_strip("walls:\n"
+                   "  target: {mirror: x, at: -cell, side: low}\n"
+                   "  below: {mirror: y, at: -cell/2, side: low}\n"
+                   "  above: {mirror: y, at: 3*cell/2, side: high}\n",
+                   &walled, &input);
+    assert_near(walled.mean_density, 0.5 * free_strip.mean_density);
+    assert_near(walled.box.low.y, -8e-8);
+    assert_true(walled.box.low.x == 0.0);
+    estimate_free(&free_strip);
+    estimate_free(&walled);
+    case_free(input);
+}
+
+static void assert_refused(const char *shape, const char *message)
+{
+    static const char head[] = "format: 1\n"
+                               "dimension: 2\n"
+                               "resolution: 1 mm\n"
+                               "solver: sph\n"
+                               "materials: {iron: {library: aluminium}}\n"
+                               "run: {until: 1 ns}\n"
+                               "bodies:\n"
+                               "  plate: {material: iron, ";
+    struct simulation_case *input;
+    struct error *error = read_text(head, shape, &input);
+    assert_non_null(error);
+    assert_string_equal(error_message(error, 0), message);
+    assert_int_equal(error_count(error), 1);
+    error_free(error);
+}
+
+static void a_shape_or_lattice_that_cannot_be_is_told_in_its_place(void **state)
+{
+    (void)state;
+    assert_refused("half_space: {point: [0, 0], normal: [1, 1]}}\n",
+                   "estimate.yaml:8:27: bodies.plate.half_space: this shape has no end: an "
+                   "intersection with another bounds it");
+    assert_refused("difference: [{half_space: {point: [0, 0], normal: [1, 0]}}, "
+                   "{ball: {center: [0, 0], radius: 1 m}}]}\n",
+                   "estimate.yaml:8:39: bodies.plate.difference: this shape has no end: an "
+                   "intersection with another bounds it");
+    assert_refused(
+        "polygon: [[0, 0], [1 mm, 0]]}\n",
+        "estimate.yaml:8:36: bodies.plate.polygon: a polygon wants at least three points");
+    assert_refused(
+        "box: {from: [0, 0], to: [1 m, 1 m]}, lattice: rings}\n",
+        "estimate.yaml:8:73: bodies.plate.lattice: the shape has no middle: rings want a "
+        "ball or shell, cut or not, or their `center`");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_mixture_has_a_mean_density_and_a_mass_of_each_material),
+        cmocka_unit_test(two_walls_bound_the_mean_density_of_their_axis),
+        cmocka_unit_test(a_shape_or_lattice_that_cannot_be_is_told_in_its_place),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

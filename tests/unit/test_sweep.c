@@ -1,0 +1,235 @@
+/* Sweeps: the values that their runs take, and what the runs come to together. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "output/csv.h"
+#include "run/catalogue.h"
+#include "run/sweep.h"
+
+#define HEAD                                                                                       \
+    "format: 1\ndimension: 1\nresolution: 1 mm\nsolver: sph\n"                                     \
+    "let: {slow: 10 m/s, speed: 5 m/s, gap: 1 mm}\n"                                               \
+    "materials: {gas: {library: gas-gamma-3}}\n"                                                   \
+    "bodies: {all: {material: gas, velocity: [speed], energy: 2 J/kg, box: {from: [0 m], to: [20 " \
+    "mm]}}}\n"                                                                                     \
+    "run: {until: 1 s, max_steps: 2}\n"                                                            \
+    "output: {snapshots: no}\n"                                                                    \
+    "checks: {\"the speed\": {mean: velocity.x, is: speed, within: 1 %}, slow: {mean: "            \
+    "velocity.x, at_most: 15 m/s}}\n"
+
+static const char two_ways[] =
+    HEAD "sweep: {speed: [2*slow, 10 m/s], bodies.all.energy: [1 J/kg, 3 kJ/kg]}\n"
+         "short: {sweep: {speed: [7 m/s], bodies.all.energy: [4 J/kg]}}\n";
+
+static void write_case(const char *text)
+{
+    FILE *file = fopen("case.yaml", "w");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
+    assert_int_equal(fclose(file), 0);
+}
+
+static int enter_folder(void **state)
+{
+    (void)state;
+    static char folder[] = "/tmp/bolide-sweep-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    return chdir(folder);
+}
+
+static int leave_folder(void **state)
+{
+    (void)state;
+    char folder[4096], command[4200];
+    assert_non_null(getcwd(folder, sizeof folder));
+    assert_int_equal(chdir("/"), 0);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command);
+}
+
+static const char *const folders[] = {BOLIDE_SOURCE_DIR "/materials"};
+
+static struct error *read_run(int run, bool quick, struct simulation_case **input)
+{
+    const struct case_options options = {
+        .quick = quick, .sweep_run = run, .library_paths = folders, .library_count = 1};
+    return case_read("case.yaml", &options, &bolide_catalogue, input);
+}
+
+static void the_last_key_changes_fastest(void **state)
+{
+    (void)state;
+    static const double speeds[] = {5.0, 20.0, 20.0, 10.0, 10.0};
+    static const double energies[] = {2.0, 1.0, 3000.0, 1.0, 3000.0};
+    write_case(two_ways);
+    for (int run = 0; run <= 4; run++) {
+        struct simulation_case *input = NULL;
+        assert_null(read_run(run, false, &input));
+        const struct body_input *body = case_body(input, 0);
+        assert_int_equal(input->sweep_runs, 4);
+        assert_int_equal(input->sweep_values, run ? 2 : 0);
+        assert_true(body->velocity.at[0] == speeds[run]);
+        assert_true(body->energy == energies[run]);
+        case_free(input);
+    }
+}
+
+static void a_run_knows_its_values(void **state)
+{
+    (void)state;
+    struct simulation_case *input = NULL;
+    write_case(HEAD
+               "sweep: {speed: [2*slow], solver.sph.method: [standard], resolution: [1 mm]}\n");
+    assert_null(read_run(1, false, &input));
+    const struct sweep_value *values = input->sweep;
+    assert_int_equal(input->sweep_values, 3);
+    assert_string_equal(values[0].key, "speed");
+    assert_string_equal(values[0].text, "2*slow");
+    assert_true(values[0].quantity.value == 20.0 && values[0].quantity.dimension.time == -1);
+    assert_true(isnan(values[1].quantity.value));
+    char *name = sweep_run_name(values, 3);
+    assert_string_equal(name, "speed=2_slow,solver.sph.method=standard,resolution=1_mm");
+    free(name);
+    case_free(input);
+}
+
+static void the_short_form_has_a_sweep_of_its_own(void **state)
+{
+    (void)state;
+    struct simulation_case *input = NULL;
+    write_case(two_ways);
+    assert_null(read_run(1, true, &input));
+    assert_int_equal(input->sweep_runs, 1);
+    assert_true(case_body(input, 0)->velocity.at[0] == 7.0);
+    case_free(input);
+    write_case(HEAD "sweep: {speed: [1 m/s, 2 m/s]}\nshort: {sweep: }\n");
+    assert_null(read_run(0, true, &input));
+    assert_int_equal(input->sweep_runs, 0);
+    case_free(input);
+}
+
+static void a_mistake_stands_where_its_value_does(void **state)
+{
+    (void)state;
+    struct simulation_case *input = NULL;
+    write_case(HEAD "sweep:\n  speed: [1 m/s, 2 s]\n");
+    assert_null(read_run(1, false, &input));
+    case_free(input);
+    struct error *error = read_run(2, false, &input);
+    assert_non_null(error);
+    assert_non_null(strstr(error_message(error, 0), "bodies.all.velocity.1: \"speed\" is a time"));
+    error_free(error);
+    write_case(HEAD "sweep:\n  resolution: [1 mm, 2 s]\n");
+    error = read_run(2, false, &input);
+    assert_non_null(error);
+    assert_string_equal(error_message(error, 0),
+                        "case.yaml:12:22: resolution: \"2 s\" is a time (s), wanted a length (m)");
+    error_free(error);
+}
+
+static struct error *run_all(bool overwrite, bool resume, struct verify_result *result)
+{
+    const struct verify_options options = {
+        .reading = {.library_paths = folders, .library_count = 1},
+        .catalogue = &bolide_catalogue,
+        .running = {.overwrite = overwrite, .resume = resume, .threads = 1},
+    };
+    *result = (struct verify_result){0};
+    return verify_case("case.yaml", "all", "results", &options, result);
+}
+
+static void the_runs_make_one_table(void **state)
+{
+    (void)state;
+    struct verify_result result;
+    struct csv table;
+    write_case(two_ways);
+    struct error *error = run_all(false, false, &result);
+    assert_int_equal(error_kind(error), ERROR_CHECK); /* two runs are not slow */
+    assert_int_equal(error_count(error), 2);
+    error_free(error);
+    assert_int_equal(result.count, 4);
+    assert_int_equal(result.passed, 2);
+    assert_string_equal(result.item[3].name, "all/speed=10_m_s,bodies.all.energy=3_kJ_kg");
+    verify_result_free(&result);
+
+    assert_null(csv_read("results/sweep.csv", &table));
+    assert_int_equal(table.rows, 4);
+    assert_string_equal(csv_field(&table, 1, 0), "speed=2_slow,bodies.all.energy=3_kJ_kg");
+    assert_true(csv_number(&table, 2, csv_column(&table, "speed [m/s]")) == 10.0);
+    assert_true(csv_number(&table, 1, csv_column(&table, "bodies.all.energy [J/kg]")) == 3000.0);
+    assert_true(fabs(csv_number(&table, 0, csv_column(&table, "the speed [m/s]")) - 20.0) < 1e-9);
+    assert_string_equal(csv_field(&table, 0, csv_column(&table, "slow verdict")), "FAILED");
+    assert_string_equal(csv_field(&table, 0, csv_column(&table, "verdict")), "FAILED");
+    assert_string_equal(csv_field(&table, 3, csv_column(&table, "verdict")), "passed");
+    csv_free(&table);
+    assert_int_equal(access("results/pictures/the_speed.png", R_OK), 0);
+    assert_int_equal(access("results/speed=10_m_s,bodies.all.energy=1_J_kg/run.log", R_OK), 0);
+}
+
+static void results_give_way_only_when_asked(void **state)
+{
+    (void)state;
+    struct verify_result result;
+    struct error *error = run_all(false, false, &result);
+    assert_int_equal(error_kind(error), ERROR_INPUT);
+    assert_non_null(strstr(error_message(error, 0), "holds the results of a sweep already"));
+    error_free(error);
+    verify_result_free(&result);
+    error_free(run_all(true, false, &result));
+    assert_int_equal(result.passed, 2);
+    verify_result_free(&result);
+}
+
+/* Of four runs two have ended, and one has only begun. */
+static void a_sweep_goes_on_where_it_was_left(void **state)
+{
+    (void)state;
+    struct verify_result result;
+    assert_int_equal(system("rm -r results/speed=2_slow,bodies.all.energy=3_kJ_kg "
+                            "results/speed=10_m_s,bodies.all.energy=1_J_kg/checkpoint.h5 "
+                            "results/sweep.csv"),
+                     0);
+    error_free(run_all(false, true, &result));
+    assert_int_equal(result.count, 4);
+    assert_int_equal(result.passed, 2);
+    assert_int_equal(result.item[0].result.updates, 0);
+    assert_true(result.item[1].result.updates > 0 && result.item[2].result.updates > 0);
+    assert_int_equal(result.item[3].result.updates, 0);
+    verify_result_free(&result);
+    assert_int_equal(access("results/sweep.csv", R_OK), 0);
+}
+
+static void runs_of_one_name_are_a_mistake(void **state)
+{
+    (void)state;
+    struct verify_result result;
+    write_case(HEAD "sweep: {speed: [(slow), ' slow ']}\n");
+    struct error *error = run_all(true, false, &result);
+    assert_int_equal(error_kind(error), ERROR_INPUT);
+    assert_non_null(strstr(error_message(error, 0), "two runs of the sweep would be called"));
+    error_free(error);
+    verify_result_free(&result);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_last_key_changes_fastest),
+        cmocka_unit_test(a_run_knows_its_values),
+        cmocka_unit_test(the_short_form_has_a_sweep_of_its_own),
+        cmocka_unit_test(a_mistake_stands_where_its_value_does),
+        cmocka_unit_test(the_runs_make_one_table),
+        cmocka_unit_test(results_give_way_only_when_asked),
+        cmocka_unit_test(a_sweep_goes_on_where_it_was_left),
+        cmocka_unit_test(runs_of_one_name_are_a_mistake),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
