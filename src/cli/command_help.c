@@ -61,7 +61,7 @@ static void kind_text(const struct parameter *p, char *text, size_t size)
 
 static void print_parameter(const struct parameter *p, int indent)
 {
-    char kind[96], key[64];
+    char kind[96], key[96];
     kind_text(p, kind, sizeof kind);
     snprintf(key, sizeof key, "%s", p->key ? p->key : kind);
     if (!p->key)

@@ -44,6 +44,8 @@ char *share_folder(const char *name)
         found = folder_or_none(text_format("%s/../share/bolide/%s", program, name));
     if (!found)
         found = folder_or_none(text_copy(name));
+    if (!found && !program[0]) /* without /proc the program does not know where it is */
+        found = folder_or_none(text_format("/usr/share/bolide/%s", name));
     return found;
 }
 
