@@ -30,6 +30,7 @@ bench:
 docs:
 	@scripts/setup docs
 	@scripts/build release bolide
+	@rm -rf build/docs
 	@scripts/docs build/release/bolide build/docs
 
 install:
