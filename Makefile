@@ -38,7 +38,7 @@ install:
 	@cmake --install build/release --prefix $(prefix)
 
 package:
-	@scripts/setup run
+	@scripts/setup package
 	@scripts/build release bolide install_files
 	@cd build/release && cpack -G DEB
 
