@@ -235,10 +235,12 @@ static struct error *refresh_rows(struct sph *sph, struct simulation *simulation
     struct particles *p = &simulation->particles;
     struct reach reach = {particles_field(p, "diameter"), sph->parameters.smoothing};
     int64_t most = sph->parameters.rebuild;
-    if (!(most && sph->steps_since_build >= most) &&
-        neighbours_hold(&sph->neighbours, p, reach, simulation->threads))
-        return NULL;
     double begin = clock_seconds();
+    if (!(most && sph->steps_since_build >= most) &&
+        neighbours_hold(&sph->neighbours, p, reach, simulation->threads)) {
+        simulation_spend(simulation, "neighbours", clock_seconds() - begin);
+        return NULL;
+    }
     TRY(particles_sort(p));
     TRY(neighbours_build(&sph->neighbours, p, reach, &simulation->mirrors, &sph->groups,
                          simulation->threads));
