@@ -9,6 +9,7 @@
 
 #include "base/vector.h"
 #include "material/eos.h"
+#include "material/heat.h"
 #include "material/strength.h"
 
 enum { POINT_HISTORY = 1 };
@@ -39,6 +40,7 @@ struct response {
 struct material {
     struct eos eos;
     struct strength strength;
+    struct heat heat;
 };
 
 /* Reference density of the equation of state, kg/m^3. */

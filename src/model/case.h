@@ -84,10 +84,14 @@ struct sweep_value {
     struct quantity quantity; /* what the text comes to; value NAN: it is no quantity */
 };
 
+/* What a case of two dimensions stands for. */
+enum case_geometry { GEOMETRY_PLANE_STRAIN, GEOMETRY_PLANE_STRESS, GEOMETRY_AXISYMMETRIC };
+
 struct simulation_case {
     int64_t format;
     char *title;
     int64_t dimension;
+    int geometry; /* enum case_geometry; plane strain unless the dimension is 2 */
     double resolution;
     struct one_of solver;       /* "solver" */
     struct named_map materials; /* struct material_input */

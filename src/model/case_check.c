@@ -82,7 +82,8 @@ static void check_axis(struct checking *checking, const char *key, int axis)
 void case_fill_material(struct material_input *material)
 {
     struct material *plain = &material->material;
-    memset(plain, 0, sizeof *plain);
+    memset(&plain->eos, 0, sizeof plain->eos);
+    memset(&plain->strength, 0, sizeof plain->strength);
     plain->eos.kind = (enum eos_kind)material->eos.index;
     memcpy(&plain->eos.of, material->eos.value, material->eos.choice->size);
     plain->strength.kind = STRENGTH_NONE;

@@ -2,9 +2,37 @@
 #include "model/case_internal.h"
 
 static const char *const axis_names[] = {"x", "y", "z", NULL};
+static const char *const geometry_names[] = {"plane-strain", "plane-stress", "axisymmetric", NULL};
 static const char *const side_names[] = {"low", "high", NULL};
 static const char *const shear_names[] = {"stick", "slip", NULL};
 static const char *const tension_names[] = {"carried", "none", NULL};
+
+/* Of struct heat; NAN where a case says nothing. */
+static const struct parameter heat_table[] = {
+    {.key = "capacity",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct heat, capacity),
+     .unit = "J/(kg K)",
+     .standard = PARAMETER_OPTIONAL,
+     .below = INFINITY,
+     .help = "specific heat at constant volume"},
+    {.key = "conductivity",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct heat, conductivity),
+     .unit = "W/(m K)",
+     .standard = PARAMETER_OPTIONAL,
+     .below = INFINITY,
+     .closed = true,
+     .help = "heat conductivity"},
+    {.key = "temperature",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct heat, temperature),
+     .unit = "K",
+     .standard = "293 K",
+     .below = INFINITY,
+     .help = "of the state of no pressure and no energy"},
+    PARAMETER_END,
+};
 
 const struct parameter case_material_table[] = {
     {.key = "library",
@@ -35,6 +63,12 @@ const struct parameter case_material_table[] = {
      .standard = PARAMETER_OPTIONAL,
      .kind_of_thing = "strength",
      .help = "the strength; a material without is a fluid"},
+    {.key = "heat",
+     .kind = PARAMETER_TABLE,
+     .offset = offsetof(struct material_input, material.heat),
+     .standard = PARAMETER_OPTIONAL,
+     .table = heat_table,
+     .help = "its thermal constants, where temperatures are wanted"},
     PARAMETER_END,
 };
 
@@ -302,7 +336,14 @@ const struct parameter case_table[] = {
      .above = 1,
      .below = 3,
      .closed = true,
-     .help = "dimensions of space: 1, 2 (plane strain) or 3"},
+     .help = "dimensions of space: 1, 2 or 3"},
+    {.key = "geometry",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct simulation_case, geometry),
+     .standard = "plane-strain",
+     .names = geometry_names,
+     .help = "of two dimensions: plane-strain, plane-stress (a thin plate), or axisymmetric about "
+             "x = 0, where x is the radius"},
     {.key = "resolution",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct simulation_case, resolution),

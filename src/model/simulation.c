@@ -172,8 +172,11 @@ static struct error *check_counts(const struct simulation_case *input)
 struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
                                 int threads, struct simulation *simulation)
 {
-    *simulation = (struct simulation){
-        .input = input, .ranks = ranks, .threads = threads, .dimension = (int)input->dimension};
+    *simulation = (struct simulation){.input = input,
+                                      .ranks = ranks,
+                                      .threads = threads,
+                                      .dimension = (int)input->dimension,
+                                      .geometry = (enum case_geometry)input->geometry};
     TRY(check_counts(input));
     simulation->materials = input->materials.count;
     for (int i = 0; i < input->materials.count; i++)

@@ -26,6 +26,7 @@ struct simulation {
     const struct ranks *ranks;
     int threads;
     int dimension;
+    enum case_geometry geometry;
     int materials;
     struct material material[MATERIALS_MAX];
     struct mirrors mirrors;                      /* rigid slip walls */
