@@ -1,7 +1,7 @@
 # Thin front doors to scripts/ and CMake.
 prefix ?= /usr/local
 
-.PHONY: help demo build test bench docs install package format clean
+.PHONY: help demo build test bench docs install package format lint fuzz clean
 
 help:
 	@echo "make demo     install what is missing, build, run a case worth looking at"
@@ -12,6 +12,8 @@ help:
 	@echo "make install  install into $(prefix); prefix=... and DESTDIR=... change where"
 	@echo "make package  make a Debian package: build/release/package/*.deb"
 	@echo "make format   lay out the sources by .clang-format"
+	@echo "make lint     what clang-tidy and cppcheck find in the sources"
+	@echo "make fuzz     ten minutes of odd cases for the reader (libFuzzer)"
 	@echo "make clean    remove build/ and results/"
 
 demo:
@@ -45,6 +47,12 @@ package:
 format:
 	@scripts/setup format
 	@scripts/format
+
+lint:
+	@scripts/lint
+
+fuzz:
+	@scripts/fuzz
 
 clean:
 	rm -rf build results

@@ -1,6 +1,5 @@
-/* Expressions with units. Every number and name becomes a variable of its own, muparser
- * evaluates the formula of these variables, and the dimension is found by evaluating it again
- * with scaled base units.
+/* Reading expressions with units: every number and name becomes a variable of its own, so that
+ * what is left is a formula of variables.
  *
  * Where the unit of a number ends: a unit stands right behind its number, with or without a
  * blank, and reaches over '*', '/' and whole powers as long as unit symbols follow, in
@@ -8,32 +7,17 @@
  * second, and `3 m/(t0*2)` divides 3 m. Behind a number a unit wins over a name spelled alike
  * (`3 g`); further on in a unit such a word could be either and is refused. A sign before a bare
  * degC belongs to the number: `-40 degC` is 233.15 K. */
-#include "base/expression.h"
+#include "base/expression_internal.h"
 
-#include <muParserDLL.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 
-enum { LONGEST_EXPRESSION = 1000, FORMULA_SIZE = 6 * LONGEST_EXPRESSION + 1 };
-
 /* What muparser knows under these names, without its operators of logic and assignment. */
 static const char *const functions[] = {
     "abs",   "acos", "asin", "atan", "atan2", "cos",  "cosh", "exp",  "ln",
     "log10", "max",  "min",  "sin",  "sinh",  "sqrt", "tan",  "tanh",
-};
-
-struct reading {
-    const char *text, *at;
-    const struct named_quantity *names;
-    int names_count;
-    const char *unit_end; /* of the last literal that had a unit */
-    int length, variables;
-    char formula[FORMULA_SIZE];
-    int origin[FORMULA_SIZE]; /* the byte of `text` that a byte of the formula comes from */
-    struct quantity quantities[LONGEST_EXPRESSION];
-    double values[LONGEST_EXPRESSION]; /* what muparser sees of them */
 };
 
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -69,8 +53,8 @@ static bool is_word(const char *word, size_t length, const char *name)
     return strlen(name) == length && !memcmp(name, word, length);
 }
 
-static const struct named_quantity *find_name(const struct reading *reading, const char *word,
-                                              size_t length)
+static const struct named_quantity *find_name(const struct expression_reading *reading,
+                                              const char *word, size_t length)
 {
     for (int i = 0; i < reading->names_count; i++)
         if (is_word(word, length, reading->names[i].name))
@@ -84,6 +68,12 @@ static bool is_function(const char *word, size_t length)
         if (is_word(word, length, functions[i]))
             return true;
     return false;
+}
+
+/* 1, 2, 3 for x, y, z; 0 for any other word. */
+static int coordinate(const char *word, size_t length)
+{
+    return length == 1 && *word >= 'x' && *word <= 'z' ? *word - 'x' + 1 : 0;
 }
 
 static struct error *parse_unit(const char *start, const char *end, struct unit *unit)
@@ -104,12 +94,12 @@ static bool is_unit(const char *start, const char *end)
     return end > start && !error;
 }
 
-static const char *scan_factors(const struct reading *reading, const char *end,
+static const char *scan_factors(const struct expression_reading *reading, const char *end,
                                 const char **ambiguous);
 
 /* The end of the unit symbol or parenthesis at AT with its power, NULL where something else stands.
  * *ambiguous is set to a symbol that is a name as well. */
-static const char *scan_factor(const struct reading *reading, const char *at,
+static const char *scan_factor(const struct expression_reading *reading, const char *at,
                                const char **ambiguous)
 {
     const char *end;
@@ -137,7 +127,7 @@ static const char *scan_factor(const struct reading *reading, const char *at,
 }
 
 /* Goes on from END over the further factors of a unit. */
-static const char *scan_factors(const struct reading *reading, const char *end,
+static const char *scan_factors(const struct expression_reading *reading, const char *end,
                                 const char **ambiguous)
 {
     for (;;) {
@@ -155,8 +145,8 @@ static const char *scan_factors(const struct reading *reading, const char *end,
 
 /* Finds the unit behind a number that ends at AT: text from *start to *end, empty if there is
  * none. */
-static struct error *scan_unit(const struct reading *reading, const char *at, const char **start,
-                               const char **end)
+static struct error *scan_unit(const struct expression_reading *reading, const char *at,
+                               const char **start, const char **end)
 {
     const char *ambiguous = NULL, *number_end = at;
     at = skip_blanks(at);
@@ -164,7 +154,8 @@ static struct error *scan_unit(const struct reading *reading, const char *at, co
     const char *word = word_end(at);
     if (word > at) {
         int length = (int)(word - at);
-        bool known = find_name(reading, at, (size_t)length) || is_function(at, (size_t)length);
+        bool known = find_name(reading, at, (size_t)length) || is_function(at, (size_t)length) ||
+                     (reading->of_position && coordinate(at, (size_t)length));
         if (!is_unit(at, word) && (known || is_word(at, (size_t)length, "pi")))
             return error_new(ERROR_INPUT,
                              "\"%.*s\" behind a number is no unit: put \"*\" between them", length,
@@ -196,25 +187,35 @@ static struct error *scan_unit(const struct reading *reading, const char *at, co
     return NULL;
 }
 
-static void emit(struct reading *reading, char c, const char *origin)
+static void emit(struct expression_reading *reading, char c, const char *origin)
 {
     reading->origin[reading->length] = (int)(origin - reading->text);
     reading->formula[reading->length++] = c;
 }
 
+void expression_variable(int index, char name[VARIABLE_NAME])
+{
+    const char digits[VARIABLE_NAME] = {'v', (char)('0' + index / 100),
+                                        (char)('0' + index / 10 % 10), (char)('0' + index % 10)};
+    memcpy(name, digits, VARIABLE_NAME);
+}
+
 /* A blank and v000, v001, ..., so that neighbours do not run together. */
-static void emit_variable(struct reading *reading, struct quantity quantity, const char *origin)
+static void emit_variable(struct expression_reading *reading, struct quantity quantity,
+                          const char *origin)
 {
     int index = reading->variables++;
     reading->quantities[index] = quantity;
-    const char name[] = {' ', 'v', (char)('0' + index / 100), (char)('0' + index / 10 % 10),
-                         (char)('0' + index % 10)};
-    for (size_t i = 0; i < sizeof name; i++)
+    reading->axis[index] = 0;
+    char name[VARIABLE_NAME];
+    expression_variable(index, name);
+    emit(reading, ' ', origin);
+    for (size_t i = 0; name[i]; i++)
         emit(reading, name[i], origin);
 }
 
 /* Takes back a sign that stands before an operand, not between two; true if there was one. */
-static bool take_sign(struct reading *reading)
+static bool take_sign(struct expression_reading *reading)
 {
     const char *formula = reading->formula;
     int last = reading->length - 1;
@@ -225,7 +226,7 @@ static bool take_sign(struct reading *reading)
     int before = last - 1;
     while (before >= 0 && formula[before] == ' ')
         before--;
-    if (before >= 0 && !strchr("+-*/^(,", formula[before]))
+    if (before >= 0 && !strchr("+-*/^(,<>=", formula[before]))
         return false;
     reading->formula[last] = ' ';
     return true;
@@ -241,7 +242,7 @@ static double to_si(double number, const struct unit *unit)
     return scaled + unit->offset;
 }
 
-static struct error *read_literal(struct reading *reading)
+static struct error *read_literal(struct expression_reading *reading)
 {
     const char *start = reading->at, *end = start;
     while (is_digit(*end))
@@ -274,7 +275,7 @@ static struct error *read_literal(struct reading *reading)
     return NULL;
 }
 
-static bool behind_unit(const struct reading *reading, const char *word)
+static bool behind_unit(const struct expression_reading *reading, const char *word)
 {
     if (!reading->unit_end)
         return false;
@@ -282,7 +283,8 @@ static bool behind_unit(const struct reading *reading, const char *word)
     return (*sign == '*' || *sign == '/') && skip_blanks(sign + 1) == word;
 }
 
-static struct error *unknown_word(const struct reading *reading, const char *word, const char *end)
+static struct error *unknown_word(const struct expression_reading *reading, const char *word,
+                                  const char *end)
 {
     size_t length = (size_t)(end - word);
     if (is_function(word, length))
@@ -290,6 +292,11 @@ static struct error *unknown_word(const struct reading *reading, const char *wor
     if (is_unit(word, end))
         return error_new(ERROR_INPUT, "unknown name \"%.*s\" (a unit needs a number: \"1 %.*s\")",
                          (int)length, word, (int)length, word);
+    if (coordinate(word, length))
+        return error_new(ERROR_INPUT,
+                         "unknown name \"%c\" (as a position it stands only in what a body has at "
+                         "the start)",
+                         *word);
     int count = reading->names_count + (int)COUNT_OF(functions);
     const char **known = malloc((size_t)count * sizeof *known);
     char *name = text_copy_part(word, length);
@@ -311,7 +318,7 @@ static struct error *unknown_word(const struct reading *reading, const char *wor
     return error_new(ERROR_INPUT, "unknown name \"%.*s\"", (int)length, word);
 }
 
-static struct error *read_word(struct reading *reading)
+static struct error *read_word(struct expression_reading *reading)
 {
     const char *word = reading->at, *end = word_end(word);
     size_t length = (size_t)(end - word);
@@ -321,6 +328,14 @@ static struct error *read_word(struct reading *reading)
         for (const char *c = word; c < end; c++)
             emit(reading, *c, c);
         reading->at = skip_blanks(end);
+    } else if (reading->of_position && coordinate(word, length)) {
+        static const struct dimension metre = {.length = 1};
+        if (name)
+            return error_new(ERROR_INPUT,
+                             "\"%c\" is the position here: call the name of let something else",
+                             *word);
+        emit_variable(reading, (struct quantity){0.0, metre}, word);
+        reading->axis[reading->variables - 1] = (int8_t)coordinate(word, length);
     } else if (name) {
         emit_variable(reading, name->quantity, word);
     } else if (is_word(word, length, "pi")) {
@@ -332,7 +347,7 @@ static struct error *read_word(struct reading *reading)
 }
 
 /* Turns the text into a formula of variables. */
-static struct error *read_text(struct reading *reading)
+static struct error *read_text(struct expression_reading *reading)
 {
     while (*reading->at) {
         char c = *reading->at;
@@ -340,160 +355,38 @@ static struct error *read_text(struct reading *reading)
             TRY(read_literal(reading));
         else if (is_letter(c))
             TRY(read_word(reading));
-        else if (is_blank(c) || strchr("+-*/^(),", c)) {
+        else if (is_blank(c) || strchr(reading->of_position ? "+-*/^(),<>" : "+-*/^(),", c)) {
             emit(reading, is_blank(c) ? ' ' : c, reading->at);
             reading->at++;
+            if ((c == '<' || c == '>') && *reading->at == '=') {
+                emit(reading, '=', reading->at);
+                reading->at++;
+            }
         } else
             return error_new(ERROR_INPUT, "unexpected \"%c\"", c);
     }
     return NULL;
 }
 
-/* muparser's codes (enum EErrorCodes of muParserDef.h, which is C++), told in terms of the
- * user's text. Its own messages name our variables, and pass through a static buffer. */
-static struct error *syntax_error(const struct reading *reading, muParserHandle_t parser)
+struct error *expression_read(const char *text, const struct named_quantity *names, int count,
+                              bool of_position, struct expression_reading **reading)
 {
-    enum { UNEXPECTED_COMMA = 4, MISSING_PARENTHESIS = 11, TOO_MANY = 14, TOO_FEW = 15 };
-    switch (mupGetErrorCode(parser)) {
-    case UNEXPECTED_COMMA:
-        return error_new(ERROR_INPUT, "a comma stands outside a function");
-    case MISSING_PARENTHESIS:
-        return error_new(ERROR_INPUT, "a \")\" is missing");
-    case TOO_MANY:
-    case TOO_FEW:
-        return error_new(ERROR_INPUT, "a function has the wrong number of arguments");
-    }
-    int position = mupGetErrorPos(parser);
-    while (position >= 0 && position < reading->length && reading->formula[position] == ' ')
-        position++;
-    if (position >= 0 && position < reading->length)
-        return error_new(ERROR_INPUT, "cannot be read at \"%s\"",
-                         reading->text + reading->origin[position]);
-    return error_new(ERROR_INPUT, "the expression is incomplete");
-}
-
-/* A number between 1/2 and 2 that depends on the INDEX of a variable and on the TRIAL
- * (splitmix64). */
-static double any_number(int index, int trial)
-{
-    uint64_t z = ((uint64_t)index * 64 + (uint64_t)trial + 1) * UINT64_C(0x9E3779B97F4A7C15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
-    return 0.5 + 1.5 * (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-/* The dimension must not hang on the values: 0 mm is a length, U0 - U0 a velocity, and in 1 nm +
- * 200 GPa the first term drowns. So each quantity takes any number of its sign instead of its
- * value, and each occurrence of a name another one. Pure numbers keep theirs, for they may be
- * exponents. Where that gives zero or leaves the domain of a function another trial follows:
- * first with zeros as they are, then with zeros replaced as well (0*plate), at last with the
- * true values. */
-enum { TRIALS = 8, LAST_TRIAL = 2 * TRIALS };
-
-static double trial_value(struct quantity quantity, int index, int trial)
-{
-    bool pure = dimension_equal(quantity.dimension, (struct dimension){0});
-    bool keep = pure && (quantity.value != 0.0 || trial < TRIALS);
-    return keep || trial == LAST_TRIAL ? quantity.value
-                                       : copysign(any_number(index, trial), quantity.value);
-}
-
-/* The value where the base units are smaller by two to the power of -SHIFTS, exactly. */
-static double evaluate_scaled(struct reading *reading, muParserHandle_t parser, int trial,
-                              const int shifts[4])
-{
-    for (int i = 0; i < reading->variables; i++) {
-        struct dimension d = reading->quantities[i].dimension;
-        int shift = d.length * shifts[0] + d.mass * shifts[1] + d.time * shifts[2] +
-                    d.temperature * shifts[3];
-        reading->values[i] = ldexp(trial_value(reading->quantities[i], i, trial), shift);
-    }
-    return mupEval(parser);
-}
-
-/* With metre, kilogram, second and kelvin scaled in turn the value grows by a power of the
- * scale, the exponent of the dimension. A last evaluation with all of them scaled the other way,
- * each differently, must agree: it finds what a sum of different dimensions or a sine of a
- * length slipped through. */
-static struct error *find_dimension(struct reading *reading, muParserHandle_t parser,
-                                    struct dimension *dimension)
-{
-    enum { UP = 60 };
-    static const int all[4] = {-47, -53, -59, -61};
-    *dimension = (struct dimension){0};
-    double plain = 0.0;
-    int trial = 0;
-    for (; trial <= LAST_TRIAL; trial++) {
-        plain = evaluate_scaled(reading, parser, trial, (const int[4]){0});
-        if (isfinite(plain) && plain != 0.0)
-            break;
-    }
-    if (trial > LAST_TRIAL)
-        return NULL; /* zero whatever the values: like a bare 0 it has no dimension */
-    double exponents[4], expected = 0.0;
-    bool whole = true;
-    for (int i = 0; i < 4; i++) {
-        int shifts[4] = {0};
-        shifts[i] = UP;
-        exponents[i] = log2(evaluate_scaled(reading, parser, trial, shifts) / plain) / UP;
-        expected += exponents[i] * all[i];
-        whole = whole && fabs(exponents[i] - rint(exponents[i])) < 1e-8;
-    }
-    double found = log2(evaluate_scaled(reading, parser, trial, all) / plain);
-    if (!(fabs(found - expected) < 1e-6))
-        return error_new(ERROR_INPUT,
-                         "different dimensions are added or compared, or a function such "
-                         "as exp is taken of a value that has a dimension");
-    if (!whole)
-        return error_new(ERROR_INPUT, "the dimension of the value has a fractional power");
-    *dimension = (struct dimension){(int8_t)rint(exponents[0]), (int8_t)rint(exponents[1]),
-                                    (int8_t)rint(exponents[2]), (int8_t)rint(exponents[3])};
-    return NULL;
-}
-
-static struct error *evaluate(struct reading *reading, muParserHandle_t parser,
-                              struct quantity *result)
-{
-    for (int i = 0; i < reading->variables; i++) {
-        const char name[] = {'v', (char)('0' + i / 100), (char)('0' + i / 10 % 10),
-                             (char)('0' + i % 10), '\0'};
-        reading->values[i] = reading->quantities[i].value;
-        mupDefineVar(parser, name, &reading->values[i]);
-    }
-    mupSetExpr(parser, reading->formula);
-    int count = 0;
-    const double *values = mupEvalMulti(parser, &count);
-    if (mupError(parser) || !values)
-        return syntax_error(reading, parser);
-    if (count != 1)
-        return error_new(ERROR_INPUT, "a comma stands outside a function");
-    double value = values[0];
-    if (!isfinite(value))
-        return error_new(ERROR_INPUT, "the value is not finite");
-    TRY(find_dimension(reading, parser, &result->dimension));
-    result->value = value;
-    return NULL;
-}
-
-struct error *expression_evaluate(const char *text, const struct named_quantity *names, int count,
-                                  struct quantity *result)
-{
+    *reading = NULL;
     if (!*skip_blanks(text))
         return error_new(ERROR_INPUT, "the expression is empty");
     if (strlen(text) > LONGEST_EXPRESSION)
         return error_new(ERROR_INPUT, "an expression is longer than %d bytes", LONGEST_EXPRESSION);
-    struct reading *reading = memory_allocate(sizeof *reading);
-    if (!reading)
+    struct expression_reading *made = memory_allocate(sizeof *made);
+    if (!made)
         return error_new(ERROR_SYSTEM, "out of memory");
-    reading->text = reading->at = text;
-    reading->names = names;
-    reading->names_count = count;
-    struct error *error = read_text(reading);
-    if (!error) {
-        muParserHandle_t parser = mupCreate(muBASETYPE_FLOAT);
-        error = evaluate(reading, parser, result);
-        mupRelease(parser);
-    }
-    free(reading);
+    made->text = made->at = text;
+    made->names = names;
+    made->names_count = count;
+    made->of_position = of_position;
+    struct error *error = read_text(made);
+    if (error)
+        free(made);
+    else
+        *reading = made;
     return error;
 }

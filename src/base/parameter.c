@@ -29,6 +29,12 @@ static void names_release(int count, char **names)
     free(names);
 }
 
+static void field_release(struct field_value *field)
+{
+    position_expression_free(field->of_position);
+    field->of_position = NULL;
+}
+
 static void one_of_release(struct one_of *one_of)
 {
     if (one_of->choice && one_of->choice->table && one_of->value)
@@ -57,6 +63,15 @@ static void value_release(const struct parameter *parameter, void *value)
         struct vector_list *list = value;
         free(list->items);
         *list = (struct vector_list){0};
+        break;
+    }
+    case PARAMETER_FIELD:
+        field_release(value);
+        break;
+    case PARAMETER_FIELDS: {
+        struct field_list *list = value;
+        for (int i = 0; i < list->count; i++)
+            field_release(&list->at[i]);
         break;
     }
     case PARAMETER_TABLE:

@@ -14,6 +14,8 @@
  *   CHOICE     one of `names`                            int, the index in `names`
  *   VECTOR     a list of 1 to 3 expressions              struct vector_value (count 0: not given)
  *   VECTORS    a list of such lists                      struct vector_list
+ *   FIELD      an expression that may name the position  struct field_value; constant NAN when not given
+ *   FIELDS     a list of 1 to 6 such expressions         struct field_list (count 0: not given)
  *   NAMES      a list of scalars, or one scalar          struct name_list
  *   TABLE      a map with the keys of `table`            the nested struct itself
  *   ONE_OF     {name: {...}} or name, of `kind_of_thing` struct one_of
@@ -40,6 +42,8 @@ enum parameter_kind {
     PARAMETER_CHOICE,
     PARAMETER_VECTOR,
     PARAMETER_VECTORS,
+    PARAMETER_FIELD,
+    PARAMETER_FIELDS,
     PARAMETER_NAMES,
     PARAMETER_TABLE,
     PARAMETER_ONE_OF,
@@ -54,11 +58,12 @@ struct parameter {
     const char *key;
     enum parameter_kind kind;
     size_t offset;
-    const char
-        *unit; /* NUMBER, VECTOR(S): the SI unit that fixes the dimension, "" or NULL for none */
+    const char *
+        unit; /* NUMBER, VECTOR(S), FIELD(S): the SI unit that fixes the dimension, "" or NULL for none */
     const char *standard; /* default as typed, PARAMETER_REQUIRED or PARAMETER_OPTIONAL */
-    double above, below;  /* NUMBER, INTEGER: allowed is above < value < below; both 0: anything */
-    bool closed;          /* the bounds themselves are allowed too */
+    double above,
+        below; /* NUMBER, INTEGER, constant FIELD: allowed is above < value < below; both 0: anything */
+    bool closed; /* the bounds themselves are allowed too */
     const char *help;
     const struct parameter
         *table;                /* TABLE, MAP: the nested table, ended by a key and kind of zero */
@@ -83,6 +88,28 @@ struct vector_list {
     int count;
     struct vector_value *items;
 };
+
+/* A number, or an expression of the position. */
+struct field_value {
+    double constant;
+    struct position_expression *of_position; /* NULL: the number */
+};
+
+enum { FIELD_COMPONENTS = 6 };
+struct field_list {
+    int count;
+    struct field_value at[FIELD_COMPONENTS];
+};
+
+static inline bool field_is_given(const struct field_value *field)
+{
+    return field->of_position || !isnan(field->constant);
+}
+
+static inline double field_at(const struct field_value *field, struct vec3 place)
+{
+    return field->of_position ? position_expression_at(field->of_position, place) : field->constant;
+}
 
 struct name_list {
     int count;

@@ -3,12 +3,13 @@
 #include <stdlib.h>
 
 #include "cli/cli.h"
+#include "output/history.h"
 #include "run/estimate.h"
 #include "run/sweep.h"
 
-static const char *mass_unit(int64_t dimension)
+static const char *mass_unit(const struct simulation_case *input)
 {
-    return dimension == 3 ? "kg" : dimension == 2 ? "kg/m" : "kg/m^2";
+    return history_unit(LEDGER_MASS, (int)input->dimension, (enum case_geometry)input->geometry);
 }
 
 static void print_bodies(const struct simulation_case *input, const struct estimate *estimate)
@@ -22,9 +23,45 @@ static void print_bodies(const struct simulation_case *input, const struct estim
         readable(of->summary.diameter, "m", diameter, sizeof diameter);
         printf("  %-20s %-16s %12lld %10.5g %-5s %12s %7.5g %s %8.5g %s %8.5g %s\n",
                input->bodies.names[i], body->material, (long long)of->summary.particles,
-               of->summary.mass, mass_unit(input->dimension), diameter, body->start.density,
-               "kg/m3", of->sound_long, "m/s", of->sound_shear, "m/s");
+               of->summary.mass, mass_unit(input), diameter, of->summary.fastest.density, "kg/m3",
+               of->sound_long, "m/s", of->sound_shear, "m/s");
     }
+}
+
+/* `density 2697 to 2699 kg/m3` */
+static void print_range(const char *before, const char *what, const struct range *range,
+                        const char *unit)
+{
+    if (range->low == range->high)
+        printf("%s%s %.5g %s", before, what, range->low, unit);
+    else
+        printf("%s%s %.5g to %.5g %s", before, what, range->low, range->high, unit);
+}
+
+/* What differs from particle to particle of a body at the start, and its temperature where it has one. */
+static void print_start(const char *name, const struct body_summary *start)
+{
+    bool warm = !isnan(start->temperature.low);
+    const char *before = "";
+    if (!warm && start->speed.low == start->speed.high &&
+        start->density.low == start->density.high && start->pressure.low == start->pressure.high)
+        return;
+    printf("  %s starts with ", name);
+    if (start->density.low != start->density.high) {
+        print_range(before, "density", &start->density, "kg/m3");
+        before = ", ";
+    }
+    if (start->pressure.low != start->pressure.high) {
+        print_range(before, "pressure", &start->pressure, "Pa");
+        before = ", ";
+    }
+    if (start->speed.low != start->speed.high) {
+        print_range(before, "speed", &start->speed, "m/s");
+        before = ", ";
+    }
+    if (warm)
+        print_range(before, "temperature", &start->temperature, "K");
+    printf("\n");
 }
 
 /* `mean density 2025 kg/m3 in 20.4 um x 0.8 um; by mass: tungsten 84.2 %, lithium 15.8 %` */
@@ -58,7 +95,7 @@ static void print_run(const struct simulation_case *input, const struct estimate
     readable(estimate->bytes, "B", memory, sizeof memory);
     readable(estimate->seconds, "s", seconds, sizeof seconds);
     printf("  %lld particles, %.6g %s; %d checks\n", (long long)estimate->particles, estimate->mass,
-           mass_unit(input->dimension), input->checks.count);
+           mass_unit(input), input->checks.count);
     printf("  until %s; first step about %s (body %s); about %lld steps\n", until, step,
            input->bodies.names[estimate->step_body], (long long)estimate->steps);
     printf("  about %s of memory, roughly %s on %d thread%s\n", memory, seconds, threads,
@@ -93,6 +130,8 @@ static struct error *check_run(const char *path, const struct cli_options *optio
                name ? name : "", colour(COLOUR_NONE), input->title ? input->title : "",
                (long long)input->dimension, input->solver.choice->name);
         print_bodies(input, &estimate);
+        for (int i = 0; i < estimate.bodies; i++)
+            print_start(input->bodies.names[i], &estimate.body[i].summary);
         print_mixture(input, &estimate);
         print_run(input, &estimate, threads);
         print_warnings(input);

@@ -28,10 +28,12 @@ static void print_numbers(const struct exact_number *numbers, int count)
                numbers[i].unit[0] ? " " : "", numbers[i].unit);
 }
 
-/* The places among the numbers, a fifth of their range wider on either side. */
-static bool profile_range(const struct exact_number *numbers, int count, double *low, double *high)
+/* The places among the numbers, a fifth of their range wider on either side; from the centre of a
+ * solution that has one to a fifth beyond. */
+static bool profile_range(const struct exact_class *class, const struct exact_number *numbers,
+                          int count, double *low, double *high)
 {
-    *low = INFINITY;
+    *low = class->contact ? INFINITY : 0.0;
     *high = -INFINITY;
     for (int i = 0; i < count; i++)
         if (!strcmp(numbers[i].unit, "m")) {
@@ -39,7 +41,7 @@ static bool profile_range(const struct exact_number *numbers, int count, double 
             *high = maximum(*high, numbers[i].value);
         }
     double margin = 0.2 * (*high - *low);
-    *low -= margin;
+    *low -= class->contact ? margin : 0.0;
     *high += margin;
     return *low < *high;
 }
@@ -47,14 +49,18 @@ static bool profile_range(const struct exact_number *numbers, int count, double 
 static void print_profile(const struct exact_class *class, const void *solved, double time,
                           double low, double high, int64_t points)
 {
-    double contact = class->contact(solved, time);
-    printf("x [m],density [kg/m^3],velocity [m/s],pressure [Pa],energy [J/kg],stress.xx [Pa],"
-           "deviator.xx [Pa]\n");
+    printf(class->thermal ? "x [m],temperature [K]\n"
+                          : "x [m],density [kg/m^3],velocity [m/s],pressure [Pa],energy [J/kg],"
+                            "stress.xx [Pa],deviator.xx [Pa]\n");
     for (int64_t i = 0; i < points; i++) {
         double x = low + (high - low) * ((double)i + 0.5) / (double)points;
-        struct exact_state s = class->sample(solved, x < contact ? SIDE_LEFT : SIDE_RIGHT, x, time);
-        printf("%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", x, s.density, s.velocity, s.pressure,
-               s.energy, s.stress, s.deviator);
+        enum exact_side side = exact_side_at(class, solved, x, time);
+        struct exact_state s = class->sample(solved, side, x, time);
+        if (class->thermal)
+            printf("%.9g,%.9g\n", x, s.temperature);
+        else
+            printf("%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", x, s.density, s.velocity, s.pressure,
+                   s.energy, s.stress, s.deviator);
     }
 }
 
@@ -72,7 +78,7 @@ static struct error *print_solution(const struct choice *choice, const void *val
         double low, high;
         if (!points)
             print_numbers(numbers, count);
-        else if (time > 0.0 && profile_range(numbers, count, &low, &high))
+        else if (time > 0.0 && profile_range(class, numbers, count, &low, &high))
             print_profile(class, solved, time, low, high, points);
         else
             error = error_new(ERROR_INPUT, "a profile wants --time");

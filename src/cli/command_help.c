@@ -33,6 +33,8 @@ static void kind_text(const struct parameter *p, char *text, size_t size)
         [PARAMETER_TEXT] = "text",
         [PARAMETER_VECTOR] = "list of numbers",
         [PARAMETER_VECTORS] = "list of lists of numbers",
+        [PARAMETER_FIELD] = "field",
+        [PARAMETER_FIELDS] = "list of fields",
         [PARAMETER_NAMES] = "list of names",
         [PARAMETER_TABLE] = "map",
         [PARAMETER_MAP] = "map by name",
@@ -49,6 +51,8 @@ static void kind_text(const struct parameter *p, char *text, size_t size)
         snprintf(text, size, "list of %s", unit);
     else if (p->kind == PARAMETER_VECTORS && unit[0])
         snprintf(text, size, "list of lists of %s", unit);
+    else if ((p->kind == PARAMETER_FIELD || p->kind == PARAMETER_FIELDS) && unit[0])
+        snprintf(text, size, "%s, %s", words[p->kind], unit);
     else if (p->kind == PARAMETER_ONE_OF || p->kind == PARAMETER_LIST)
         snprintf(text, size, "%s<%s>", p->kind == PARAMETER_LIST ? "list of " : "",
                  p->kind_of_thing);
@@ -112,9 +116,11 @@ static struct error *print_fields(void)
 {
     const struct choice_list *solvers = catalogue_list(&bolide_catalogue, "solver");
     struct simulation *empty = memory_allocate(sizeof *empty);
+    const struct simulation_case no_case = {0};
     struct views views = {0};
     if (!empty)
         return error_new(ERROR_SYSTEM, "out of memory");
+    empty->input = &no_case;
     struct error *error = particles_create(3, 1.0, NULL, 0, &empty->particles);
     if (!error) {
         printf("fields of the particles, for checks and output.pictures:\n");
@@ -219,7 +225,8 @@ static bool help_inside(const struct parameter *p, const char *path)
     if (p->table && help_key(p->table, path))
         return true;
     bool items = p->kind == PARAMETER_LIST || p->kind == PARAMETER_VECTOR ||
-                 p->kind == PARAMETER_VECTORS || p->kind == PARAMETER_NAMES;
+                 p->kind == PARAMETER_VECTORS || p->kind == PARAMETER_FIELDS ||
+                 p->kind == PARAMETER_NAMES;
     if (p->kind != PARAMETER_MAP && !(items && is_number(path)))
         return false;
     if (rest && p->table)
@@ -254,8 +261,8 @@ static bool help_key(const struct parameter *table, const char *path)
 /* The nearest of all topics. */
 static int unknown_topic(const char *topic)
 {
-    const char *names[256] = {"case", "units", "fields", "let", "short"};
-    int count = 5, room = COUNT_OF(names);
+    const char *names[256] = {"case", "units", "fields", "let", "short", "long"};
+    int count = 6, room = COUNT_OF(names);
     for (int i = 0; i < command_count && count < room; i++)
         names[count++] = commands[i].name;
     for (const struct choice_list *list = bolide_catalogue.lists; list->kind_of_thing; list++) {
@@ -287,8 +294,10 @@ int command_help(const struct cli_options *options)
         struct error *error = print_fields();
         return error ? report_error(error) : EXIT_OK;
     } else {
-        if (!strncmp(topic, "short.", 6)) /* its keys are those of a case */
+        if (!strncmp(topic, "short.", 6)) /* the keys of a form are those of a case */
             topic += 6;
+        else if (!strncmp(topic, "long.", 5))
+            topic += 5;
         bool found = help_command(topic);
         found = help_thing(topic) || found;
         found = help_key(case_table, topic) || help_key(case_shaping_table, topic) || found;

@@ -30,6 +30,8 @@ static const struct option option_table[] = {
      OPTION_LIST, AT(settings), COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
     {"--short", NULL, "use the short form of cases that have one", OPTION_FLAG, AT(quick),
      COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
+    {"--long", NULL, "use the long form of cases that have one", OPTION_FLAG, AT(thorough),
+     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
     {"--all", NULL, "all cases that come with bolide", OPTION_FLAG, AT(all), COMMAND_VERIFY},
     {"--time", "T", "the time of the solution, with its unit: 5us (CASE: its end)", OPTION_TEXT,
      AT(time), COMMAND_EXACT},
@@ -147,6 +149,8 @@ struct error *options_read(const struct command *command, int count, char **word
                           command->name, command->usage, command->name);
     if (!error && options->overwrite && options->resume)
         error = error_new(ERROR_INPUT, "--overwrite and --resume exclude each other");
+    if (!error && options->quick && options->thorough)
+        error = error_new(ERROR_INPUT, "--short and --long exclude each other");
     return error;
 }
 

@@ -54,7 +54,9 @@ struct case_options case_reading(const struct cli_options *options, const char *
     return (struct case_options){
         .settings = options->settings.text,
         .setting_count = options->settings.count,
-        .quick = options->quick,
+        .form = options->quick      ? "short"
+                : options->thorough ? "long"
+                                    : NULL,
         .library_paths = materials,
         .library_count = *materials ? 1 : 0,
     };

@@ -2,8 +2,11 @@
 #include "exact/choices.h"
 
 #include "exact/elastic_plastic_riemann.h"
+#include "exact/gas_expansion.h"
 #include "exact/gas_riemann.h"
 #include "exact/impedance_match.h"
+#include "exact/sedov.h"
+#include "exact/temperature_jump.h"
 
 #define EXACT_CHOICE(identifier, name, help)                                    \
     {name, help, exact_##identifier##_table, sizeof(struct exact_##identifier), \

@@ -13,7 +13,12 @@
     X(elastic_plastic_riemann, "elastic-plastic-riemann",                                         \
       "two barotropic, perfectly plastic solids that meet at a plane: elastic and plastic waves") \
     X(impedance_match, "impedance-match",                                                         \
-      "planar impact of two materials with linear shock relations")
+      "planar impact of two materials with linear shock relations")                               \
+    X(sedov, "sedov", "a strong blast in a gas from a point, a line or a plane")                  \
+    X(gas_expansion, "gas-expansion",                                                             \
+      "a slab, cylinder or ball of gas that expands evenly into a vacuum")                        \
+    X(temperature_jump, "temperature-jump",                                                       \
+      "heat between two bodies of different temperature, in an infinite or an insulated rod")
 
 #define EXACT_COUNT_ONE(identifier, name, help) +1
 enum { exact_choice_count = 0 EXACT_LIST(EXACT_COUNT_ONE) };

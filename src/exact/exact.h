@@ -10,7 +10,7 @@
 /* The state of a one-dimensional solution at a place and time. SI units. Stress is positive in tension
  * along x; deviator is its S_xx part. */
 struct exact_state {
-    double density, velocity, pressure, energy, stress, deviator;
+    double density, velocity, pressure, energy, stress, deviator, temperature;
 };
 
 /* Which material a point belongs to: an exact solution keeps its contact between SIDE_LEFT and
@@ -26,18 +26,27 @@ struct exact_number {
 enum { EXACT_NUMBERS = 32 };
 
 struct exact_class {
-    size_t size; /* of the solved problem */
+    size_t size;  /* of the solved problem */
+    bool thermal; /* its states are of a body at rest: temperature alone; others have none */
     /* Solves the problem of PARAMETERS (the choice's struct). ERROR_INPUT when it has no solution of
      * the kind (vacuum, say). */
     struct error *(*solve)(const void *parameters, void *solved);
-    /* The state at X and TIME (measured from the start, x in the frame of the case) on SIDE. */
+    /* The state at X and TIME (measured from the start, x in the frame of the case) on SIDE. In a
+     * solution with a centre x is the distance from it. */
     struct exact_state (*sample)(const void *solved, enum exact_side side, double x, double time);
-    /* The star state beside the contact. */
+    /* The star state beside the contact; NULL: there is no contact. */
     struct exact_state (*star)(const void *solved, enum exact_side side);
     /* Fills at most EXACT_NUMBERS named numbers; returns how many. TIME > 0 adds the places of fronts. */
     int (*numbers)(const void *solved, double time, struct exact_number *numbers);
-    /* Place of the contact at TIME. */
+    /* Place of the contact at TIME; NULL: there is none, but a centre. */
     double (*contact)(const void *solved, double time);
 };
+
+/* On which side of the contact X lies at TIME; left where there is no contact. */
+static inline enum exact_side exact_side_at(const struct exact_class *exact, const void *solved,
+                                            double x, double time)
+{
+    return !exact->contact || x < exact->contact(solved, time) ? SIDE_LEFT : SIDE_RIGHT;
+}
 
 #endif

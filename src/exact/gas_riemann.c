@@ -45,9 +45,11 @@ static double sound_speed(const struct exact_gas *gas)
 static struct exact_state gas_state(const struct exact_gas *gas, double density, double velocity,
                                     double pressure)
 {
-    struct exact_state state = {density, velocity, pressure, 0.0, -pressure, 0.0};
-    state.energy = pressure / ((gas->gamma - 1.0) * density);
-    return state;
+    return (struct exact_state){.density = density,
+                                .velocity = velocity,
+                                .pressure = pressure,
+                                .energy = pressure / ((gas->gamma - 1.0) * density),
+                                .stress = -pressure};
 }
 
 /* How much the wave that takes GAS to PRESSURE changes its velocity, away from the contact positive. */

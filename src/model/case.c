@@ -119,7 +119,7 @@ struct error *case_read(const char *path, const struct case_options *options,
     input->name = case_name(path);
     struct error *error = input->name
                               ? document_open(path, options->settings, options->setting_count,
-                                              options->quick ? "short" : NULL, &input->document)
+                                              options->form, &input->document)
                               : out_of_memory();
     if (!error)
         error = read_document(input, options);
@@ -156,4 +156,12 @@ struct error *case_write(const struct simulation_case *input, FILE *file)
     struct error *error = document_write(file, case_table, &whole);
     free(materials);
     return error;
+}
+
+int case_find_body(const struct simulation_case *input, const char *name)
+{
+    for (int i = 0; name && i < input->bodies.count; i++)
+        if (!strcmp(input->bodies.names[i], name))
+            return i;
+    return -1;
 }

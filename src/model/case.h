@@ -22,12 +22,16 @@ struct body_input {
     char *material;
     struct one_of shape;   /* "shape", inline */
     struct one_of lattice; /* "lattice" */
-    struct vector_value velocity;
-    double density, pressure, energy; /* NAN: not given; of the three, two at most */
-    double resolution;                /* NAN: the case's */
-    struct name_list replaces;        /* bodies whose particles give way inside this shape */
-    int material_index;               /* filled by case_read */
-    struct point start; /* filled by case_read: density, energy, pressure at the start */
+    struct field_list velocity;
+    struct field_value density, pressure, energy, temperature;
+    struct field_list stress;  /* xx, yy, zz, xy, yz, zx, as many as the dimension has */
+    double resolution;         /* NAN: the case's */
+    struct name_list replaces; /* bodies whose particles give way inside this shape */
+    bool driven;               /* keeps its velocity whatever pushes back */
+    double stop;               /* s, from then on it stands still; NAN: never */
+    int material_index;        /* filled by case_read */
+    bool varies;        /* filled by case_read: its state at the start is one of the position */
+    struct point start; /* filled by case_read, unless it varies: the state at the start */
 };
 
 /* walls: NAME: {mirror: x, at: 0 mm, side: low}: a rigid slip wall normal to an axis; the material is on
@@ -47,6 +51,29 @@ struct contact_input {
     struct name_list between; /* two bodies */
     int shear, tension;
     int body[2]; /* filled by case_read */
+};
+
+/* probes: NAME: {a probe, of: body, fields: [...], every: ...}: what is recorded while the case runs. */
+struct probe_input {
+    struct one_of probe;         /* "probe", inline: `tracer: [1 mm, 0 mm]`, `body: plate` */
+    char *of;                    /* a body; NULL: all */
+    struct name_list fields;     /* count 0: all */
+    int axis;                    /* 0, 1, 2; -1: not given */
+    struct vector_value between; /* positions along `axis`; count 0: everywhere */
+    double every;                /* s; NAN: every step */
+};
+
+/* profiles: NAME: {fields: [...], along: x, bins: 100}: means over bins at every snapshot. */
+enum profile_by { PROFILE_BY_NOTHING, PROFILE_BY_MATERIAL, PROFILE_BY_BODY };
+enum { PROFILE_BINS = 100000 };
+struct profile_input {
+    struct name_list fields;
+    int along;                   /* an axis */
+    int64_t bins;                /* where no width is given */
+    double width;                /* m, of a bin; NAN: not given */
+    char *of;                    /* a body; NULL: all */
+    struct vector_value between; /* positions along the axis; count 0: everywhere */
+    int by;                      /* enum profile_by */
 };
 
 /* output: {every, pictures: [pressure, ...], ...} */
@@ -70,10 +97,15 @@ struct check_input {
     char *of;                    /* a body; NULL: all */
     struct vector_value between; /* positions along `axis`; count 0: everywhere */
     int axis;
-    struct one_of against;  /* "exact"; not given: the case's own */
-    struct quantity is;     /* wanted value; NAN: none */
-    struct quantity within; /* allowed distance from `is`: a fraction of it, or a quantity */
+    struct vector_value about; /* positions are distances from this point; count 0: along `axis` */
+    struct one_of against;     /* "exact"; not given: the case's own */
+    struct quantity is;        /* wanted value; NAN: none */
+    struct quantity within;    /* allowed distance from `is`: a fraction of it, or a quantity */
     struct quantity at_most, at_least;
+    double at; /* s, when it is measured; NAN: at the end */
+    char *
+        relative; /* what the value is divided by: "start", its own then, or a check; NULL: nothing */
+    int relative_check;    /* filled by case_read: that check; -1: none */
     struct quantity scale; /* divides error norms; NAN: the exact solution's own range */
     char *source;          /* where the wanted value comes from, shown in the table */
 };
@@ -100,10 +132,12 @@ struct simulation_case {
     struct named_map contacts;  /* struct contact_input */
     struct run_input run;
     struct output_input output;
-    struct one_of exact;     /* "exact": what checks measure against; not given: nothing */
-    struct named_map checks; /* struct check_input */
-    int sweep_runs;          /* filled by case_read: runs that a sweep asks for; 0: it has none */
-    int sweep_values;        /* of this run of it; 0: the case itself */
+    struct named_map probes;   /* struct probe_input */
+    struct named_map profiles; /* struct profile_input */
+    struct one_of exact;       /* "exact": what checks measure against; not given: nothing */
+    struct named_map checks;   /* struct check_input */
+    int sweep_runs;            /* filled by case_read: runs that a sweep asks for; 0: it has none */
+    int sweep_values;          /* of this run of it; 0: the case itself */
     struct sweep_value *sweep;
     char *name; /* filled by case_read: the name of the case's folder or file */
     const struct catalogue *catalogue;
@@ -114,7 +148,7 @@ struct simulation_case {
 struct case_options {
     const char *const *settings; /* --set */
     int setting_count;
-    bool quick;                       /* use the `short` form */
+    const char *form;                 /* "short" or "long": that form of it; NULL: neither */
     int sweep_run;                    /* the run of the case's sweep, from 1; 0: the case itself */
     const char *const *library_paths; /* folders with material files */
     int library_count;
@@ -123,7 +157,7 @@ struct case_options {
 /* The table of a whole case file, for help and reference. */
 extern const struct parameter case_table[];
 
-/* Keys that shape a case before that table reads it: include, let, short, sweep. For help. */
+/* Keys that shape a case before that table reads it: include, let, short, long, sweep. For help. */
 extern const struct parameter case_shaping_table[];
 
 /* Reads and checks PATH. Materials are resolved, start states found, references between names checked;
@@ -136,6 +170,9 @@ void sweep_values_free(struct sweep_value *values, int count);
 
 /* Writes the case as run: YAML with every default filled in, that case_read takes again. */
 struct error *case_write(const struct simulation_case *input, FILE *file);
+
+/* The index of the body called NAME; -1 when there is none, or NAME is NULL. */
+int case_find_body(const struct simulation_case *input, const char *name);
 
 /* The items of a case's maps. */
 static inline struct material_input *case_material(const struct simulation_case *c, int index)
@@ -153,6 +190,14 @@ static inline struct wall_input *case_wall(const struct simulation_case *c, int 
 static inline struct contact_input *case_contact(const struct simulation_case *c, int index)
 {
     return (struct contact_input *)c->contacts.items + index;
+}
+static inline struct probe_input *case_probe(const struct simulation_case *c, int index)
+{
+    return (struct probe_input *)c->probes.items + index;
+}
+static inline struct profile_input *case_profile(const struct simulation_case *c, int index)
+{
+    return (struct profile_input *)c->profiles.items + index;
 }
 static inline struct check_input *case_check(const struct simulation_case *c, int index)
 {

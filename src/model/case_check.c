@@ -103,6 +103,59 @@ static void check_replaces(struct checking *checking, const struct body_input *b
     }
 }
 
+/* A coordinate that the case has not would be zero everywhere, and is a mistake. */
+static void check_position(struct checking *checking, const char *key,
+                           const struct field_value *field)
+{
+    const struct simulation_case *input = checking->input;
+    if (!field->of_position || !dimension_known(checking))
+        return;
+    for (int axis = (int)input->dimension; axis < 3; axis++)
+        if (position_expression_uses(field->of_position, axis))
+            wrong(checking, key, "the case has %d dimension%s, and no position %c",
+                  (int)input->dimension, input->dimension == 1 ? "" : "s", "xyz"[axis]);
+}
+
+static void check_positions(struct checking *checking, const char *key,
+                            const struct field_list *list)
+{
+    char item[PATH_TEXT];
+    for (int i = 0; i < list->count; i++) {
+        snprintf(item, sizeof item, "%s.%d", key, i + 1);
+        check_position(checking, item, &list->at[i]);
+    }
+}
+
+/* As many components as a stress has in the dimension of the case; a thin plate bears none across. */
+static void check_stress(struct checking *checking, const struct body_input *body)
+{
+    static const char *const forms[] = {"[xx, yy, zz]", "[xx, yy, zz, xy]",
+                                        "[xx, yy, zz, xy, yz, zx]"};
+    static const int counts[] = {3, 4, 6};
+    const int64_t dimension = checking->input->dimension;
+    const struct field_value *across = &body->stress.at[2];
+    if (body->stress.count == 0 || !dimension_known(checking))
+        return;
+    if (body->stress.count != counts[dimension - 1])
+        wrong(checking, "stress", "%s is wanted in %d dimension%s", forms[dimension - 1],
+              (int)dimension, dimension == 1 ? "" : "s");
+    else if (checking->input->geometry == GEOMETRY_PLANE_STRESS &&
+             (across->of_position || across->constant != 0.0))
+        wrong(checking, "stress.3", "in plane stress the stress zz is zero");
+}
+
+static void check_start_keys(struct checking *checking, const struct body_input *body)
+{
+    check_position(checking, "density", &body->density);
+    check_position(checking, "pressure", &body->pressure);
+    check_position(checking, "energy", &body->energy);
+    check_position(checking, "temperature", &body->temperature);
+    check_positions(checking, "velocity", &body->velocity);
+    check_positions(checking, "stress", &body->stress);
+    check_stress(checking, body);
+}
+
+/* A state that varies is judged where the particles are. */
 static void check_start(struct checking *checking, struct body_input *body)
 {
     const char *key;
@@ -112,7 +165,16 @@ static void check_start(struct checking *checking, struct body_input *body)
     snprintf(path, sizeof path, "materials.%s", input->materials.names[body->material_index]);
     if (is_wrong(checking, "") || document_is_wrong(input->document, path))
         return;
-    const char *text = body_start_state(body, &material->material, &key);
+    const struct material *plain = &material->material;
+    const char *text = heat_wrong(&plain->heat, &plain->eos);
+    if (text && field_is_given(&body->temperature)) {
+        wrong(checking, "temperature", "the material \"%s\" has no temperature: %s", body->material,
+              text);
+        return;
+    }
+    text = body_start_wrong(body, plain, &key);
+    if (!text && !body->varies)
+        text = body_state_at(body, plain, (struct vec3){0}, &body->start, &key);
     if (text)
         wrong(checking, key, "%s", text);
 }
@@ -149,6 +211,8 @@ static void check_body(struct checking *checking, int index)
     if (body->material)
         body->material_index =
             find_name(checking, &input->materials, "material", body->material, "material");
+    body->varies = body_varies(body);
+    check_start_keys(checking, body);
     if (body->material_index >= 0)
         check_start(checking, body);
     check_shape(checking, body);
@@ -210,17 +274,72 @@ static void check_limits(struct checking *checking, const struct check_input *ch
         wrong(checking, "within", "a fraction, or a quantity of the dimension of `is`, is wanted");
 }
 
+static void check_between(struct checking *checking, const struct vector_value *between)
+{
+    if (between->count != 0 && !(between->count == 2 && between->at[0] < between->at[1]))
+        wrong(checking, "between", "two positions are wanted, the smaller first");
+}
+
+/* A chain of ratios would hide what is compared with what. */
+static void check_relative(struct checking *checking, struct check_input *check, int index)
+{
+    const struct simulation_case *input = checking->input;
+    check->relative_check = -1;
+    if (!check->relative || !strcmp(check->relative, "start"))
+        return;
+    const int other = find_name(checking, &input->checks, "check", check->relative, "relative");
+    if (other == index)
+        wrong(checking, "relative", "a check cannot be relative to itself");
+    else if (other >= 0 && case_check(input, other)->relative)
+        wrong(checking, "relative", "the check \"%s\" is relative itself", check->relative);
+    check->relative_check = other;
+}
+
 static void check_check(struct checking *checking, int index)
 {
-    const struct check_input *check = case_check(checking->input, index);
+    struct check_input *check = case_check(checking->input, index);
     if (check->of)
         find_name(checking, &checking->input->bodies, "body", check->of, "of");
-    if (check->between.count != 0 &&
-        !(check->between.count == 2 && check->between.at[0] < check->between.at[1]))
-        wrong(checking, "between", "two positions are wanted, the smaller first");
+    check_between(checking, &check->between);
     check_axis(checking, "axis", check->axis);
+    if (check->about.count != 0 && dimension_known(checking) &&
+        check->about.count != checking->input->dimension)
+        wrong(checking, "about", "%d component%s wanted, one a dimension; found %d",
+              (int)checking->input->dimension, checking->input->dimension == 1 ? " is" : "s are",
+              check->about.count);
+    check_relative(checking, check, index);
+    if (check->at > checking->input->run.until &&
+        !document_is_wrong(checking->input->document, "run"))
+        wrong(checking, "at", "the run ends before, at %.9g s", checking->input->run.until);
     if (!is_wrong(checking, ""))
         check_limits(checking, check);
+}
+
+/* The name becomes that of a file. */
+static void check_file_name(struct checking *checking)
+{
+    if (strchr(checking->name, '/') || checking->name[0] == '.' || !checking->name[0])
+        wrong(checking, "", "its name becomes that of a file: no `/`, and no `.` in front");
+}
+
+static void check_probe(struct checking *checking, int index)
+{
+    const struct probe_input *probe = case_probe(checking->input, index);
+    check_file_name(checking);
+    if (probe->of)
+        find_name(checking, &checking->input->bodies, "body", probe->of, "of");
+    check_between(checking, &probe->between);
+    check_axis(checking, "axis", probe->axis);
+}
+
+static void check_profile(struct checking *checking, int index)
+{
+    const struct profile_input *profile = case_profile(checking->input, index);
+    check_file_name(checking);
+    if (profile->of)
+        find_name(checking, &checking->input->bodies, "body", profile->of, "of");
+    check_between(checking, &profile->between);
+    check_axis(checking, "along", profile->along);
 }
 
 static void check_wall(struct checking *checking, int index)
@@ -229,6 +348,10 @@ static void check_wall(struct checking *checking, int index)
     const struct simulation_case *input = checking->input;
     const struct wall_input *wall = case_wall(input, index);
     check_axis(checking, "mirror", wall->axis);
+    if (input->geometry == GEOMETRY_AXISYMMETRIC && wall->axis == 0 &&
+        (wall->side == WALL_LOW ? wall->at != 0.0 : wall->at <= 0.0))
+        wrong(checking, "at", "the axis of symmetry bounds x from below, at 0 m: %s",
+              wall->side == WALL_LOW ? "leave this wall out" : "put this wall beyond it");
     for (int i = 0; i < index && !is_wrong(checking, ""); i++) {
         const struct wall_input *other = case_wall(input, i);
         char path[PATH_TEXT];
@@ -270,6 +393,8 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "bodies", &input->bodies, check_body);
     check_map(&checking, "walls", &input->walls, check_wall);
     check_map(&checking, "contacts", &input->contacts, check_contact);
+    check_map(&checking, "probes", &input->probes, check_probe);
+    check_map(&checking, "profiles", &input->profiles, check_profile);
     check_map(&checking, "checks", &input->checks, check_check);
     return checking.error;
 }

@@ -9,6 +9,8 @@ enum { CASE_FORMAT = 1 };
 
 /* An entry of `materials`, and a file of the library. */
 extern const struct parameter case_material_table[];
+extern const struct parameter case_probe_table[];   /* struct probe_input */
+extern const struct parameter case_profile_table[]; /* struct profile_input */
 
 /* Fills material->material, plain data, from what was read. */
 void case_fill_material(struct material_input *material);
@@ -25,10 +27,34 @@ void case_measure_sweep(struct simulation_case *input);
  * that was read with mistakes it checks the rest. */
 struct error *case_check_meaning(struct simulation_case *input);
 
-/* The state at the start from what BODY gives of density, pressure and energy (NAN: not given), into
- * body->start. NULL, or a text (static) that tells what is wrong; *key is then the key that it is
- * about, "" for the body as a whole. */
-const char *body_start_state(struct body_input *body, const struct material *material,
+/* What is given of a state at the start; NAN: not given. */
+struct start_given {
+    double density, pressure, energy, temperature;
+    bool stressed; /* a stress in place of the pressure */
+    struct sym3 stress;
+};
+
+/* The functions below return NULL, or a text (static) that tells what is wrong; *key is then the key of a
+ * body that it is about, "" for the body as a whole. */
+
+/* The state that follows from what is GIVEN, of density, pressure and energy two at most. */
+const char *start_state(const struct start_given *given, const struct material *material,
+                        struct point *result, const char **key);
+
+/* What is wrong with the choice of what BODY gives, whatever the values. */
+const char *body_start_wrong(const struct body_input *body, const struct material *material,
                              const char **key);
+
+/* True when BODY gives its state by expressions of the position. */
+bool body_varies(const struct body_input *body);
+
+/* The state that the keys of BODY give at PLACE. */
+const char *body_state_at(const struct body_input *body, const struct material *material,
+                          struct vec3 place, struct point *point, const char **key);
+
+/* State and velocity, as many components as the case has, at PLACE of a BODY that has been checked. */
+const char *body_start_at(const struct body_input *body, const struct material *material,
+                          struct vec3 place, struct point *point, double velocity[3],
+                          const char **key);
 
 #endif

@@ -1,4 +1,4 @@
-/* A document: lay the short form and the settings over it, find the node of a path, and tell where a
+/* A document: lay the short or long form and the settings over it, find the node of a path, and tell where a
  * mistake stands. */
 #include "model/document.h"
 
@@ -8,8 +8,8 @@
 #include "base/memory.h"
 #include "model/document_internal.h"
 
-/* The overlay that a document may carry, taken away whether it is wanted or not. */
-static const char overlay_key[] = "short";
+/* The overlays that a document may carry, taken away whether they are wanted or not. */
+static const char *const overlay_keys[] = {"short", "long"};
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
@@ -202,19 +202,23 @@ struct error *document_include(struct document *document, struct node *map,
     return fill_in(map, library->root);
 }
 
+/* The wanted one is merged when all are taken, so that none of them can bring another. */
 static struct error *merge_overlay(struct document *document, const char *wanted)
 {
-    const char *key = wanted ? wanted : overlay_key;
-    int index = entry_index(document->root, key);
-    if (index < 0)
-        return NULL;
-    struct node *overlay = node_take(document->root, index);
+    struct node *overlay[COUNT_OF(overlay_keys)];
     struct error *error = NULL;
-    if (overlay->kind == NODE_MAP && wanted)
-        error = node_merge(document->root, overlay);
-    else if (overlay->kind != NODE_MAP)
-        error = place_error(overlay->place, key, "a map is wanted here");
-    node_free(overlay);
+    for (size_t i = 0; i < COUNT_OF(overlay_keys); i++) {
+        int index = entry_index(document->root, overlay_keys[i]);
+        overlay[i] = index < 0 ? NULL : node_take(document->root, index);
+    }
+    for (size_t i = 0; i < COUNT_OF(overlay_keys); i++) {
+        if (overlay[i] && overlay[i]->kind != NODE_MAP)
+            error = error_join(
+                error, place_error(overlay[i]->place, overlay_keys[i], "a map is wanted here"));
+        else if (overlay[i] && wanted && !strcmp(overlay_keys[i], wanted))
+            error = error_join(error, node_merge(document->root, overlay[i]));
+        node_free(overlay[i]);
+    }
     return error;
 }
 

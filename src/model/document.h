@@ -12,9 +12,9 @@ struct document;
 /* Opens the YAML file PATH. The maps of the files that its key `include` names, one or a list, the later
  * over the earlier, their paths from its folder, are merged below its own. Then SETTINGS are applied,
  * COUNT texts `path.to.key=value` (the --set of the command line; the value is parsed as YAML; a new key
- * may be added where its map exists). When OVERLAY is not NULL and the document has a map of that key at
- * its top (`short`), the map is merged over the document before the settings; in any case the key is
- * removed from the top. */
+ * may be added where its map exists). The document may have maps of the keys `short` and `long` at its
+ * top: that of OVERLAY, when it is one of the two, is merged over the document before the settings; in any
+ * case both keys are removed. */
 struct error *document_open(const char *path, const char *const *settings, int count,
                             const char *overlay, struct document **document);
 

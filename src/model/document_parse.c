@@ -13,6 +13,8 @@ struct parse {
     struct fy_parser *parser;
     struct fy_diag *messages;
     const char *origin;
+    const char *text; /* of LENGTH bytes */
+    size_t length;
     bool located;
     struct error *twins; /* keys given twice: they do not stop the reading, so that all are told */
 };
@@ -89,7 +91,41 @@ static struct place place_of(const struct parse *parse, struct fy_event *event,
     return place;
 }
 
-/* What libfyaml found wrong, in our words' form. */
+/* What the likelier messages of libfyaml, by their start, mean to who wrote the file. */
+static const struct {
+    const char *start, *meaning;
+} meanings[] = {
+    {"could not find expected ':'", "a colon, and a blank behind it, are missing after this key"},
+    {"did not find expected node content", "a value is missing here"},
+    {"flow mapping with invalid extra", "no bracket is open that this one could close"},
+    {"flow sequence with invalid extra", "no bracket is open that this one could close"},
+    {"flow sequence without a closing", "a bracket above is still open"},
+    {"invalid indentation in mapping", "this line is indented unlike the keys above it"},
+    {"invalid multiline plain key",
+     "the next line is indented deeper than this one, or its key holds no value"},
+    {"invalid nested block mapping",
+     "a second colon in this line: a text that holds \": \" needs quotes"},
+    {"invalid trailing content after",
+     "the quoted text ends before this: put the whole in double quotes"},
+    {"mismatched flow", "this bracket is not of the kind of the last one that is open"},
+    {"missing comma in flow", "a comma or a closing bracket is missing before this"},
+    {"plain scalar cannot start with", "a text that starts with this sign needs quotes"},
+    {"tab character may not be used", "a tab cannot indent a line; take blanks"},
+    {"wrongly indented double-quoted scalar",
+     "the quote that opens here is not closed in its line"},
+    {"wrongly indented single-quoted scalar",
+     "the quote that opens here is not closed in its line"},
+};
+
+static const char *meaning_of(const char *message)
+{
+    for (size_t i = 0; i < COUNT_OF(meanings); i++)
+        if (!strncmp(message, meanings[i].start, strlen(meanings[i].start)))
+            return meanings[i].meaning;
+    return message;
+}
+
+/* What libfyaml found wrong. */
 static struct error *syntax_error(const struct parse *parse)
 {
     struct error *error = NULL;
@@ -101,7 +137,7 @@ static struct error *syntax_error(const struct parse *parse)
             place.line = found->line;
             place.column = found->column;
         }
-        error = error_join(error, place_error(place, "", "%s", found->msg));
+        error = error_join(error, place_error(place, "", "%s", meaning_of(found->msg)));
     }
     if (!error) {
         struct place place = {parse->origin, 0, 0};
@@ -110,9 +146,31 @@ static struct error *syntax_error(const struct parse *parse)
     return error;
 }
 
-static struct error *take_text(struct fy_token *token, struct place place, char **text)
+/* Whether two quotes in a row stand in single quotes, each written twice: libfyaml 0.7.12 takes them for
+ * something else, and forgets memory over it. */
+static bool has_misread_quotes(const struct parse *parse, struct fy_event *event)
+{
+    static const char two_quotes[] = "''''";
+    enum { SIZE = sizeof two_quotes - 1 };
+    const struct fy_mark *start = fy_event_start_mark(event), *end = fy_event_end_mark(event);
+    if (style_of(event) != FYSS_SINGLE_QUOTED || !start || !end)
+        return false;
+    const size_t stop = end->input_pos < parse->length ? end->input_pos : parse->length;
+    for (size_t at = start->input_pos; at + SIZE <= stop; at++)
+        if (!memcmp(parse->text + at, two_quotes, SIZE))
+            return true;
+    return false;
+}
+
+/* The text of a scalar's event. */
+static struct error *take_text(const struct parse *parse, struct fy_event *event,
+                               struct place place, char **text)
 {
     size_t length = 0;
+    struct fy_token *token = event->scalar.value;
+    if (has_misread_quotes(parse, event))
+        return place_error(place, "",
+                           "two quotes in a row cannot stand in single quotes; take double quotes");
     const char *bytes = token ? fy_token_get_text(token, &length) : "";
     if (!bytes)
         return error_new(ERROR_SYSTEM, "out of memory");
@@ -147,7 +205,7 @@ static struct error *build_entry(struct parse *parse, struct fy_event *event, in
     struct place place = place_of(parse, event, map->place);
     bool simple = event->type == FYET_SCALAR;
     char *key = NULL;
-    struct error *error = simple ? take_text(event->scalar.value, place, &key) : NULL;
+    struct error *error = simple ? take_text(parse, event, place, &key) : NULL;
     fy_parser_event_free(parse->parser, event);
     if (error)
         return error;
@@ -217,7 +275,7 @@ static struct error *build(struct parse *parse, struct fy_event *event, struct p
     struct error *error;
     if (node->kind == NODE_SCALAR) {
         node->plain = style_of(event) == FYSS_PLAIN;
-        error = take_text(event->scalar.value, place, &node->text);
+        error = take_text(parse, event, place, &node->text);
     } else {
         error = build_children(parse, depth, node);
     }
@@ -319,7 +377,7 @@ struct error *node_parse(const char *text, size_t length, const char *origin, bo
     struct fy_diag_cfg quiet;
     fy_diag_cfg_default(&quiet);
     quiet.fp = NULL;
-    struct parse parse = {.origin = origin, .located = located};
+    struct parse parse = {.origin = origin, .text = text, .length = length, .located = located};
     parse.messages = fy_diag_create(&quiet);
     if (!parse.messages)
         return error_new(ERROR_SYSTEM, "out of memory");

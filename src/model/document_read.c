@@ -188,6 +188,8 @@ static void clear_value(const struct parameter *parameter, void *value)
 {
     if (parameter->kind == PARAMETER_NUMBER)
         *(double *)value = NAN;
+    else if (parameter->kind == PARAMETER_FIELD)
+        *(struct field_value *)value = (struct field_value){NAN, NULL};
     else if (parameter->kind == PARAMETER_QUANTITY)
         *(struct quantity *)value = (struct quantity){.value = NAN};
     else if (parameter->kind == PARAMETER_CHOICE)
@@ -295,8 +297,10 @@ static void read_table(struct reading *reading, const struct node *map, const st
                        (char *)values + parameter->offset);
             given[owner[at]] = true;
         } else if (path || strcmp(entry->key, let_key) != 0) {
-            complain_unknown(reading, entry->key_place, path, "unknown key", entry->key, names,
-                             count);
+            complain_unknown(reading, entry->key_place, path,
+                             strchr(entry->key, ':') ? "a blank is missing behind the colon in"
+                                                     : "unknown key",
+                             entry->key, names, count);
             const char *near = nearest_name(entry->key, names, count);
             for (at = 0; near && at < count; at++)
                 given[owner[at]] = given[owner[at]] || !strcmp(near, names[at]);
@@ -344,7 +348,8 @@ static void read_let(struct reading *reading, const struct node *let)
         struct quantity quantity = {.value = NAN};
         if (!is_identifier(entry->key)) {
             complain(reading, entry->key_place, &path,
-                     "a name is made of letters, digits and _, and starts with a letter");
+                     "a name is made of letters, digits and _, and starts with a letter%s",
+                     strchr(entry->key, ':') ? "; a blank is missing behind the colon" : "");
             continue;
         }
         if (!read_quantity(reading, entry, &path, "a quantity", &quantity))

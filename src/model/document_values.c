@@ -17,7 +17,8 @@ static size_t path_text(const struct path *path, char *text, size_t size)
     const char *dot = length > 0 ? "." : "";
     int added = path->key ? snprintf(text + length, size - length, "%s%s", dot, path->key)
                           : snprintf(text + length, size - length, "%s%d", dot, path->item);
-    return minimum((double)size - 1.0, (double)length + added);
+    length += (size_t)added;
+    return length < size ? length : size - 1;
 }
 
 void mark_wrong(struct reading *reading, const struct path *path)
@@ -160,8 +161,10 @@ static const char *setting_text(const struct reading *reading, const char *text,
     return buffer;
 }
 
-bool read_quantity(struct reading *reading, const struct node *node, const struct path *path,
-                   const char *wanted, struct quantity *quantity)
+/* Any expression; it may name the position where FIELD is not NULL. */
+static bool read_expression(struct reading *reading, const struct node *node,
+                            const struct path *path, const char *wanted, struct quantity *quantity,
+                            struct position_expression **field)
 {
     if (node->kind != NODE_SCALAR || node_is_empty(node)) {
         complain_kind(reading, node, path, wanted);
@@ -171,14 +174,22 @@ bool read_quantity(struct reading *reading, const struct node *node, const struc
         mark_wrong(reading, path);
         return false;
     }
+    const struct named_quantity *names = reading->names;
     struct error *error =
-        expression_evaluate(node->text, reading->names, reading->name_count, quantity);
+        field ? position_expression_compile(node->text, names, reading->name_count, quantity, field)
+              : expression_evaluate(node->text, names, reading->name_count, quantity);
     char from[TEXT_MAX];
     for (int i = 0; error && i < error_count(error); i++)
         complain(reading, node->place, path, "\"%.60s\": %s%s", node->text, error_message(error, i),
                  setting_text(reading, node->text, from));
     error_free(error);
     return !error;
+}
+
+bool read_quantity(struct reading *reading, const struct node *node, const struct path *path,
+                   const char *wanted, struct quantity *quantity)
+{
+    return read_expression(reading, node, path, wanted, quantity, NULL);
 }
 
 static struct dimension unit_dimension(const char *unit)
@@ -190,14 +201,15 @@ static struct dimension unit_dimension(const char *unit)
     return parsed.dimension;
 }
 
-/* An expression of the dimension of UNIT; a bare zero has every dimension. */
+/* An expression of the dimension of UNIT; a bare zero has every dimension. FIELD is as above. */
 static bool read_dimensioned(struct reading *reading, const struct node *node,
-                             const struct path *path, const char *unit, double *value)
+                             const struct path *path, const char *unit, double *value,
+                             struct position_expression **field)
 {
     struct dimension wanted = unit_dimension(unit);
     struct quantity quantity;
     char buffer[TEXT_MAX], other[TEXT_MAX], from[TEXT_MAX];
-    if (!read_quantity(reading, node, path, quantity_text(wanted, buffer), &quantity))
+    if (!read_expression(reading, node, path, quantity_text(wanted, buffer), &quantity, field))
         return false;
     bool zero = quantity.value == 0.0 && dimension_equal(quantity.dimension, unit_dimension(""));
     if (!zero && !dimension_equal(quantity.dimension, wanted)) {
@@ -236,7 +248,7 @@ static void read_number(struct reading *reading, const struct node *node, const 
                         const struct parameter *parameter, double *value)
 {
     double number;
-    if (!read_dimensioned(reading, node, path, parameter->unit, &number))
+    if (!read_dimensioned(reading, node, path, parameter->unit, &number, NULL))
         return;
     *value = number;
     check_range(reading, node, path, parameter, number);
@@ -336,6 +348,40 @@ static void read_vectors(struct reading *reading, const struct node *node, const
     }
 }
 
+/* What an expression of the position may come to is judged where it is evaluated. */
+static void read_field(struct reading *reading, const struct node *node, const struct path *path,
+                       const struct parameter *parameter, struct field_value *value)
+{
+    struct field_value field = {NAN, NULL};
+    if (read_dimensioned(reading, node, path, parameter->unit, &field.constant,
+                         &field.of_position)) {
+        *value = field;
+        if (!field.of_position)
+            check_range(reading, node, path, parameter, field.constant);
+    } else {
+        position_expression_free(field.of_position);
+    }
+}
+
+static void read_fields(struct reading *reading, const struct node *node, const struct path *path,
+                        const struct parameter *parameter, struct field_list *value)
+{
+    if (node->kind != NODE_LIST) {
+        complain_kind(reading, node, path, "a list of values");
+        return;
+    }
+    if (node->count < 1 || node->count > FIELD_COMPONENTS) {
+        complain(reading, node->place, path, "1 to %d values are wanted, found %d",
+                 FIELD_COMPONENTS, node->count);
+        return;
+    }
+    value->count = node->count;
+    for (int i = 0; i < node->count; i++) {
+        struct path item = {path, NULL, i + 1};
+        read_field(reading, node->child[i], &item, parameter, &value->at[i]);
+    }
+}
+
 static void read_names(struct reading *reading, const struct node *node, const struct path *path,
                        struct name_list *value)
 {
@@ -386,6 +432,12 @@ void read_scalar(struct reading *reading, const struct node *node, const struct 
         break;
     case PARAMETER_VECTORS:
         read_vectors(reading, node, path, parameter, value);
+        break;
+    case PARAMETER_FIELD:
+        read_field(reading, node, path, parameter, value);
+        break;
+    case PARAMETER_FIELDS:
+        read_fields(reading, node, path, parameter, value);
         break;
     case PARAMETER_NAMES:
         read_names(reading, node, path, value);

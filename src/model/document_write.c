@@ -61,6 +61,10 @@ static bool is_given(const struct parameter *parameter, const void *value)
         return ((const struct vector_value *)value)->count > 0;
     case PARAMETER_VECTORS:
         return ((const struct vector_list *)value)->count > 0;
+    case PARAMETER_FIELD:
+        return field_is_given(value);
+    case PARAMETER_FIELDS:
+        return ((const struct field_list *)value)->count > 0;
     case PARAMETER_NAMES:
         return ((const struct name_list *)value)->count > 0;
     case PARAMETER_ONE_OF:
@@ -152,6 +156,24 @@ static void write_vectors(FILE *file, const struct vector_list *list, const char
     fputc(']', file);
 }
 
+static void write_field(FILE *file, const struct field_value *field, const char *unit)
+{
+    if (field->of_position)
+        write_text(file, position_expression_text(field->of_position));
+    else
+        write_number(file, field->constant, unit);
+}
+
+static void write_fields(FILE *file, const struct field_list *list, const char *unit)
+{
+    fputc('[', file);
+    for (int i = 0; i < list->count; i++) {
+        fputs(i ? ", " : "", file);
+        write_field(file, &list->at[i], unit);
+    }
+    fputc(']', file);
+}
+
 /* A value that stands on its key's line. */
 static void write_scalar(FILE *file, const struct parameter *parameter, const void *value)
 {
@@ -181,6 +203,12 @@ static void write_scalar(FILE *file, const struct parameter *parameter, const vo
         break;
     case PARAMETER_VECTORS:
         write_vectors(file, value, parameter->unit);
+        break;
+    case PARAMETER_FIELD:
+        write_field(file, value, parameter->unit);
+        break;
+    case PARAMETER_FIELDS:
+        write_fields(file, value, parameter->unit);
         break;
     case PARAMETER_NAMES:
         write_names(file, value);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "model/case_internal.h"
 
 /* An id keeps the index of a site in 48 bits. */
 static const double sites_limit = 281474976710656.0;
@@ -170,7 +171,14 @@ static const char *place_text(const struct simulation_case *input, struct vec3 p
     return buffer;
 }
 
-/* The wall that PLACE lies behind, -1 for none. A particle on a wall would meet its own image. */
+/* What a square metre of the plane stands for at PLACE: a metre of depth, or the radius, for a radian. */
+static double depth_at(const struct simulation_case *input, struct vec3 place)
+{
+    return input->geometry == GEOMETRY_AXISYMMETRIC ? place.x : 1.0;
+}
+
+/* The wall that PLACE lies behind, -1 for none, the number of walls for the axis of symmetry. A particle on a wall
+ * would meet its own image. */
 static int wall_before(const struct simulation_case *input, struct vec3 place)
 {
     const double at[3] = {place.x, place.y, place.z};
@@ -179,30 +187,90 @@ static int wall_before(const struct simulation_case *input, struct vec3 place)
         if (wall->side == WALL_LOW ? at[wall->axis] <= wall->at : at[wall->axis] >= wall->at)
             return i;
     }
-    return -1;
+    return depth_at(input, place) > 0.0 ? -1 : input->walls.count;
 }
 
 /* What one walk over a body found. */
 struct finding {
-    int64_t particles;
-    double volume; /* of all of them, m^dimension */
-    int wall;      /* that a particle lies behind, -1: none */
+    struct body_summary summary; /* without the diameter */
+    double volume;               /* of all particles, m^dimension */
+    double sound;                /* in summary.fastest */
+    int wall;                    /* that a particle lies behind, -1: none */
     struct vec3 wall_place;
     int conflict;
     struct vec3 conflict_place;
+    const char *start_wrong; /* of the first particle without a state; NULL: none */
+    const char *start_key;   /* that it is about */
+    struct vec3 start_place;
 };
+
+/* What a particle of BODY starts with: NULL, or what is wrong. */
+static const char *start_at(const struct simulation_case *input, int body, struct vec3 place,
+                            struct point *point, double velocity[3], const char **key)
+{
+    const struct body_input *of = case_body(input, body);
+    const struct material *material = &case_material(input, of->material_index)->material;
+    return body_start_at(of, material, place, point, velocity, key);
+}
+
+static void extend(struct range *range, double value)
+{
+    range->low = fmin(range->low, value);
+    range->high = fmax(range->high, value);
+}
+
+static void note_state(const struct material *material, struct point point, struct finding *finding)
+{
+    struct body_summary *summary = &finding->summary;
+    extend(&summary->density, point.density);
+    extend(&summary->pressure, point.pressure);
+    if (!heat_wrong(&material->heat, &material->eos))
+        extend(&summary->temperature,
+               heat_temperature(&material->heat, &material->eos, point.density, point.energy));
+    struct response response = material_evaluate(material, &point);
+    if (summary->particles == 1 || response.sound_long > finding->sound) {
+        summary->fastest = point;
+        finding->sound = response.sound_long;
+    }
+}
+
+static void explore_start(const struct simulation_case *input, int body, struct vec3 place,
+                          double volume, struct finding *finding)
+{
+    struct body_summary *summary = &finding->summary;
+    struct point point;
+    double velocity[3] = {0.0};
+    const char *key, *wrong = start_at(input, body, place, &point, velocity, &key);
+    if (wrong) {
+        if (!finding->start_wrong) {
+            finding->start_wrong = wrong;
+            finding->start_key = key;
+            finding->start_place = place;
+        }
+        return;
+    }
+    const struct body_input *of = case_body(input, body);
+    summary->mass += point.density * volume;
+    extend(&summary->speed, sqrt(square(velocity[0]) + square(velocity[1]) + square(velocity[2])));
+    if (of->varies || summary->particles == 1)
+        note_state(&case_material(input, of->material_index)->material, point, finding);
+}
 
 static struct error *explore_body(const struct simulation_case *input, int body,
                                   const struct ranks *ranks, struct finding *finding)
 {
+    const struct range none = {NAN, NAN};
     *finding = (struct finding){.wall = -1, .conflict = -1};
+    struct body_summary *summary = &finding->summary;
+    summary->density = summary->pressure = summary->temperature = summary->speed = none;
     struct walk walk;
     struct error *error = walk_begin(&walk, input, body, ranks);
     int64_t site;
     struct vec3 place;
     while (!error && walk_next(&walk, &site, &place)) {
-        finding->particles++;
+        summary->particles++;
         finding->volume += walk.row.volume;
+        explore_start(input, body, place, walk.row.volume * depth_at(input, place), finding);
         if (finding->wall < 0) {
             finding->wall = wall_before(input, place);
             finding->wall_place = place;
@@ -223,7 +291,11 @@ static struct error *judge_body(const struct simulation_case *input, int body,
     const int other = finding->conflict;
     char place[PLACE_TEXT];
     struct error *error = NULL;
-    if (finding->wall >= 0)
+    if (finding->wall == input->walls.count)
+        error = input_error(input, "bodies", name,
+                            "the particle at %s does not lie at x > 0: x is the radius",
+                            place_text(input, finding->wall_place, place));
+    else if (finding->wall >= 0)
         error = input_error(input, "bodies", name, "the particle at %s lies behind wall \"%s\"",
                             place_text(input, finding->wall_place, place),
                             input->walls.names[finding->wall]);
@@ -234,7 +306,15 @@ static struct error *judge_body(const struct simulation_case *input, int body,
                                "other in `replaces`",
                                input->bodies.names[other],
                                place_text(input, finding->conflict_place, place)));
-    if (ranks_sum(ranks, finding->particles) == 0)
+    if (finding->start_wrong) {
+        char key[128];
+        snprintf(key, sizeof key, "%.80s%s%s", name, finding->start_key[0] ? "." : "",
+                 finding->start_key);
+        error =
+            error_join(error, input_error(input, "bodies", key, "%s (at %s)", finding->start_wrong,
+                                          place_text(input, finding->start_place, place)));
+    }
+    if (ranks_sum(ranks, finding->summary.particles) == 0)
         error = error_join(error, input_error(input, "bodies", name,
                                               "no particle: the shape is smaller than the "
                                               "resolution, or replaced everywhere"));
@@ -252,7 +332,7 @@ static struct error *explore(const struct simulation_case *input, const struct r
     TRY(ranks_agree(ranks, error));
     for (int body = 0; body < input->bodies.count; body++) {
         error = error_join(error, judge_body(input, body, ranks, findings));
-        total += findings[body].particles;
+        total += findings[body].summary.particles;
     }
     if (total > INT32_MAX)
         error = error_join(error, input_error(input, "resolution", NULL,
@@ -266,7 +346,6 @@ static struct error *fill_body(struct simulation *simulation, int body, int32_t 
 {
     const struct simulation_case *input = simulation->input;
     const struct body_input *of = case_body(input, body);
-    const struct point *start = &of->start;
     struct particles *particles = &simulation->particles;
     struct walk walk;
     struct error *error = walk_begin(&walk, input, body, simulation->ranks);
@@ -274,18 +353,20 @@ static struct error *fill_body(struct simulation *simulation, int body, int32_t 
     struct vec3 place;
     while (!error && walk_next(&walk, &site, &place)) {
         const int32_t i = (*next)++;
+        struct point start;
+        const char *key;
+        start_at(input, body, place, &start, particles->velocity[i], &key);
         particles->id[i] = particle_id(body, site);
         particles->body[i] = (uint16_t)body;
         particles->material[i] = (uint16_t)of->material_index;
-        particles->mass[i] = start->density * walk.row.volume;
-        particles->density[i] = start->density;
-        particles->energy[i] = start->energy;
-        particles->pressure[i] = start->pressure;
+        particles->mass[i] = start.density * walk.row.volume * depth_at(input, place);
+        particles->density[i] = start.density;
+        particles->energy[i] = start.energy;
+        particles->pressure[i] = start.pressure;
+        memcpy(particles->deviator[i], &start.deviator, sizeof start.deviator);
         particles->position[i][0] = place.x;
         particles->position[i][1] = place.y;
         particles->position[i][2] = place.z;
-        for (int axis = 0; axis < of->velocity.count; axis++)
-            particles->velocity[i][axis] = of->velocity.at[axis];
     }
     walk_end(&walk);
     return error;
@@ -301,7 +382,7 @@ struct error *generate_particles(struct simulation *simulation)
         error = explore(input, simulation->ranks, findings);
     int64_t total = 0;
     for (int body = 0; !error && body < input->bodies.count; body++)
-        total += findings[body].particles;
+        total += findings[body].summary.particles;
     free(findings);
     int32_t next = 0;
     if (!error)
@@ -344,10 +425,9 @@ struct error *generate_summary(const struct simulation_case *input, struct body_
     struct error *error = explore(input, &alone, findings);
     for (int body = 0; body < input->bodies.count; body++) {
         const struct finding *finding = &findings[body];
-        summary[body].particles = finding->particles;
-        summary[body].mass = case_body(input, body)->start.density * finding->volume;
+        summary[body] = finding->summary;
         summary[body].diameter =
-            diameter_of(finding->volume / (double)finding->particles, input->dimension);
+            diameter_of(finding->volume / (double)finding->summary.particles, input->dimension);
     }
     free(findings);
     return error;

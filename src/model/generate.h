@@ -5,11 +5,19 @@
 #include "model/lattice.h"
 #include "model/simulation.h"
 
+struct range {
+    double low, high;
+};
+
 /* What a body will be, for `bolide check`. */
 struct body_summary {
     int64_t particles;
     double mass;     /* kg, kg/m or kg/m^2 in 3-D, 2-D, 1-D */
     double diameter; /* of a particle, of the mean where they differ, m */
+    struct range density, pressure, temperature,
+        speed;            /* at the start; temperature NAN: it has none */
+    struct point fastest; /* the state at the start, of particles that differ the one with the
+                             fastest sound */
 };
 
 struct lattice body_lattice(const struct simulation_case *input, int body);

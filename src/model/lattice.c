@@ -177,10 +177,9 @@ struct lattice lattice_make(const struct one_of *lattice, const struct one_of *s
 /* A line along x: of a hexagonal lattice they are shifted in turn, by a quarter of a step either way. */
 static struct lattice_row make_line(const struct lattice *lattice, int64_t index)
 {
-    const double y =
-        lattice->origin.y + ((double)(index % lattice->count[1]) + 0.5) * lattice->spacing.y;
-    const double z =
-        lattice->origin.z + ((double)(index / lattice->count[1]) + 0.5) * lattice->spacing.z;
+    const int64_t across = index % lattice->count[1], up = index / lattice->count[1];
+    const double y = lattice->origin.y + ((double)across + 0.5) * lattice->spacing.y;
+    const double z = lattice->origin.z + ((double)up + 0.5) * lattice->spacing.z;
     const double width = (double)lattice->count[0] * lattice->spacing.x;
     return (struct lattice_row){
         .index = index,

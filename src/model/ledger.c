@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-static const char *const cause_names[LEDGER_CAUSES] = {[LEDGER_WALLS] = "walls"};
+static const char *const cause_names[LEDGER_CAUSES] = {
+    [LEDGER_WALLS] = "walls", [LEDGER_AXIS] = "axis", [LEDGER_PISTONS] = "pistons"};
 
 /* Behind the entries of the ledger, what else particles_totals sums. */
 enum { TOTAL_KINETIC = LEDGER_ENTRIES, TOTAL_INTERNAL, TOTAL_MOMENTUM_SCALE, TOTALS };

@@ -125,15 +125,14 @@ bool library_rest(const struct material *material, struct point *point, struct r
 {
     static const double atmosphere = 101325.0;
     const char *key;
-    struct body_input body = {
-        .density = material_density(material), .pressure = NAN, .energy = 0.0};
-    if (body_start_state(&body, material, &key)) {
-        body.pressure = atmosphere;
-        body.energy = NAN;
-        if (body_start_state(&body, material, &key))
+    struct start_given given = {
+        .density = material_density(material), .pressure = NAN, .energy = 0.0, .temperature = NAN};
+    if (start_state(&given, material, point, &key)) {
+        given.pressure = atmosphere;
+        given.energy = NAN;
+        if (start_state(&given, material, point, &key))
             return false;
     }
-    *point = body.start;
     *response = material_evaluate(material, point);
     return true;
 }

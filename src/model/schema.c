@@ -144,7 +144,7 @@ static void write_vector(struct writer *w, const struct parameter *p)
 {
     text(w, "type", "array");
     plain(w, "minItems", "1");
-    plain(w, "maxItems", "3");
+    number(w, "maxItems", p->kind == PARAMETER_FIELDS ? FIELD_COMPONENTS : 3);
     begin(w, "items", '{');
     write_number(w, p);
     end(w, '}');
@@ -218,6 +218,7 @@ static void write_value(struct writer *w, const struct parameter *p)
 {
     switch (p->kind) {
     case PARAMETER_NUMBER:
+    case PARAMETER_FIELD:
         write_number(w, p);
         break;
     case PARAMETER_QUANTITY:
@@ -240,6 +241,7 @@ static void write_value(struct writer *w, const struct parameter *p)
         names(w, p->names);
         break;
     case PARAMETER_VECTOR:
+    case PARAMETER_FIELDS:
         write_vector(w, p);
         break;
     case PARAMETER_VECTORS:
@@ -411,8 +413,10 @@ static void write_shaping_keys(struct writer *w)
         {"let", "\"type\": [\"object\", \"null\"], "
                 "\"propertyNames\": {\"pattern\": \"^[A-Za-z_][A-Za-z0-9_]*$\"}, "
                 "\"additionalProperties\": {\"type\": [\"string\", \"number\"], \"minLength\": 1}"},
-        {"short", "\"$ref\": \"#/$defs/part.case\", "
-                  "\"properties\": {\"short\": false, \"include\": false}"},
+        {"short", "\"$ref\": \"#/$defs/part.case\", \"properties\": "
+                  "{\"short\": false, \"long\": false, \"include\": false}"},
+        {"long", "\"$ref\": \"#/$defs/part.case\", \"properties\": "
+                 "{\"short\": false, \"long\": false, \"include\": false}"},
         {"sweep", "\"type\": [\"object\", \"null\"], "
                   "\"additionalProperties\": {\"type\": \"array\", \"minItems\": 1, \"items\": "
                   "{\"type\": [\"string\", \"number\", \"boolean\"], \"minLength\": 1}}"},

@@ -33,6 +33,8 @@ static struct error *set_mirrors(const struct simulation_case *input, struct mir
     struct error *error = NULL;
     for (int axis = 0; axis < 3; axis++)
         mirrors->low[axis] = mirrors->high[axis] = NAN;
+    if (input->geometry == GEOMETRY_AXISYMMETRIC)
+        mirrors->low[0] = 0.0;
     for (int i = 0; i < input->walls.count; i++) {
         const struct wall_input *wall = case_wall(input, i);
         const char *name = input->walls.names[i], axis = axis_names[wall->axis];
@@ -41,7 +43,7 @@ static struct error *set_mirrors(const struct simulation_case *input, struct mir
         struct error *mistake = NULL;
         if (wall->axis >= input->dimension)
             mistake = input_error(input, "walls", name, "the case has no %c axis", axis);
-        else if (!isnan(*at))
+        else if (!isnan(*at) && *at != wall->at)
             mistake = input_error(input, "walls", name, "there is another %s wall on the %c axis",
                                   low ? "low" : "high", axis);
         *at = wall->at;

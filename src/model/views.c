@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/start_place.h"
+
 /* Particles that are computed at once when one component of them is wanted. */
 enum { CHUNK = 256, COMPONENTS_MAX = 6 };
 
@@ -34,6 +36,48 @@ static void compute_speed(const void *context, int64_t begin, int64_t end, doubl
         *out++ = sqrt(square(u[0]) + square(u[1]) + square(u[2]));
     }
 }
+
+static void compute_displacement(const void *context, int64_t begin, int64_t end, double *out)
+{
+    const struct simulation *simulation = context;
+    double(*moved)[3] = (double(*)[3])out;
+    start_places(simulation, begin, end, moved);
+    for (int64_t i = begin; i < end; i++)
+        for (int k = 0; k < 3; k++)
+            moved[i - begin][k] = simulation->particles.position[i][k] - moved[i - begin][k];
+}
+
+static void compute_temperature(const void *context, int64_t begin, int64_t end, double *out)
+{
+    const struct simulation *simulation = context;
+    const struct particles *particles = &simulation->particles;
+    for (int64_t i = begin; i < end; i++) {
+        const struct material *material = &simulation->material[particles->material[i]];
+        *out++ = heat_temperature(&material->heat, &material->eos, particles->density[i],
+                                  particles->energy[i]);
+    }
+}
+
+static bool has_temperature(const struct simulation *simulation)
+{
+    bool all = simulation->materials > 0;
+    for (int m = 0; m < simulation->materials; m++)
+        all &= !heat_wrong(&simulation->material[m].heat, &simulation->material[m].eos);
+    return all;
+}
+
+static const struct view temperature_view = {
+    .name = "temperature",
+    .unit = "K",
+    .help = "temperature, where all materials have a heat capacity",
+    .components = 1,
+    .compute = compute_temperature};
+
+static const struct view displacement_view = {.name = "displacement",
+                                              .unit = "m",
+                                              .help = "position less the place at the start",
+                                              .components = 3,
+                                              .compute = compute_displacement};
 
 static const struct view computed_views[] = {
     {.name = "stress",
@@ -78,6 +122,16 @@ void views_of_particles(struct views *views, const struct simulation *simulation
         view.context = particles;
         views_add(views, view);
     }
+    if (has_temperature(simulation)) {
+        struct view view = temperature_view;
+        view.context = simulation;
+        views_add(views, view);
+    }
+    if (simulation->input) {
+        struct view view = displacement_view;
+        view.context = simulation;
+        views_add(views, view);
+    }
 }
 
 static const char *const *component_names(int components)
@@ -85,6 +139,11 @@ static const char *const *component_names(int components)
     static const char *const vector_names[3] = {"x", "y", "z"};
     static const char *const tensor_names[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
     return components == 6 ? tensor_names : vector_names;
+}
+
+const char *view_component_name(int components, int component)
+{
+    return components == 1 ? "" : component_names(components)[component];
 }
 
 /* The index of component NAME of a vector or tensor, -1 when there is none. */
@@ -113,7 +172,7 @@ const struct view *views_find(const struct views *views, const char *name, int *
 
 static struct error *choose_component(const struct view *view)
 {
-    char text[256];
+    char text[256] = "";
     size_t used = 0;
     for (int i = 0; i < view->components && used < sizeof text; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s.%s", i ? ", " : "",

@@ -24,7 +24,8 @@ struct views {
 };
 
 /* Adds the particle core's own views: every double field of the store that is declared with a name, and
- * from them speed, stress (6), equivalent_stress. */
+ * from them speed, stress (6), equivalent_stress; of a simulation that was made from a case also
+ * displacement; temperature where all materials have a heat capacity. */
 void views_of_particles(struct views *views, const struct simulation *simulation);
 
 void views_add(struct views *views, struct view view);
@@ -37,6 +38,9 @@ const struct view *views_find(const struct views *views, const char *name, int *
  * or it has several components. MORE are COUNT other words that would have been right, for suggestions. */
 struct error *views_choose(const struct views *views, const char *field, const char *const *more,
                            int count, const struct view **view, int *component);
+
+/* What COMPONENT of a view of COMPONENTS is called: "x", "xy"; "" for that of a scalar. */
+const char *view_component_name(int components, int component);
 
 /* Copies the view of particles begin .. end - 1 to OUT. */
 void view_read(const struct view *view, int64_t begin, int64_t end, double *out);

@@ -215,7 +215,7 @@ static struct error *compare_cases(const char *stored, const char *now)
     int number = 1;
     for (;; number++) {
         size_t length = strcspn(stored, "\n"), other = strcspn(now, "\n");
-        if (length != other || memcmp(stored, now, length) || !stored[length] || !now[other])
+        if (length != other || memcmp(stored, now, length) != 0 || !stored[length] || !now[other])
             break;
         stored += length + 1;
         now += other + 1;

@@ -1,8 +1,10 @@
 /* Tables of comma-separated values; see csv.h. Fields are unquoted in place. */
 #include "output/csv.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/memory.h"
 #include "output/file.h"
@@ -131,4 +133,49 @@ void csv_put_number(FILE *file, double value)
             break;
     }
     fputs(text, file);
+}
+
+/* The place behind the head and the first KEEP rows; a last line without its end is no row. */
+static struct error *place_behind(FILE *file, const char *path, int64_t keep, off_t *place)
+{
+    int64_t lines = 0;
+    *place = 0;
+    for (int c; lines < keep + 1 && (c = getc(file)) != EOF;) {
+        ++*place;
+        lines += c == '\n';
+    }
+    if (ferror(file))
+        return error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno));
+    if (lines < keep + 1)
+        return error_new(ERROR_INPUT, "%s: has %lld rows where %lld were written: cannot go on",
+                         path, (long long)(lines ? lines - 1 : 0), (long long)keep);
+    return NULL;
+}
+
+/* Opens PATH to go on behind KEEP rows. What an interrupted run wrote behind them is cut off. */
+static struct error *open_behind(const char *path, int64_t keep, FILE **file)
+{
+    *file = fopen(path, "r+e");
+    if (!*file)
+        return error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno));
+    off_t place;
+    struct error *error = place_behind(*file, path, keep, &place);
+    if (!error && (fseeko(*file, place, SEEK_SET) || ftruncate(fileno(*file), place)))
+        error = error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno));
+    if (error)
+        fclose(*file);
+    return error;
+}
+
+struct error *csv_grow(const char *path, int64_t keep, FILE **file)
+{
+    if (keep > 0)
+        return open_behind(path, keep, file);
+    *file = fopen(path, "we");
+    return *file ? NULL : error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno));
+}
+
+void csv_put_head(FILE *file, const char *name, const char *unit)
+{
+    fprintf(file, *unit ? "%s [%s]" : "%s%s", name, unit);
 }

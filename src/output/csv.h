@@ -30,6 +30,13 @@ int csv_column(const struct csv *csv, const char *name);
 /* The number at ROW and COLUMN, NAN where there is none. */
 double csv_number(const struct csv *csv, int64_t row, int column);
 
+/* Opens PATH for a table that grows: afresh, or with KEEP > 0 to go on behind the head and the first KEEP
+ * rows; what an interrupted run wrote behind them is cut off. ERROR_INPUT when there are fewer. */
+struct error *csv_grow(const char *path, int64_t keep, FILE **file);
+
+/* Writes the head of a column in UNIT, "" for a plain number: `pressure [Pa]`. */
+void csv_put_head(FILE *file, const char *name, const char *unit);
+
 /* Writes TEXT (NULL: nothing) as one field in quotes, and a number with as many digits as reading the
  * same bits again takes. */
 void csv_put_text(FILE *file, const char *text);

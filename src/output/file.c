@@ -142,6 +142,7 @@ static const struct {
     {"snapshots", {".vtkhdf", ".vtkhdf.series"}},
     {"pictures", {".png", NULL}},
     {"probes", {".csv", NULL}},
+    {"profiles", {".csv", NULL}},
 };
 
 static bool ends_with(const char *name, size_t length, const char *ending)

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/memory.h"
 #include "output/csv.h"
@@ -21,48 +20,14 @@ static struct error *system_error(const char *path, int number)
     return error_new(ERROR_SYSTEM, "%s: %s", path, number ? strerror(number) : "cannot be written");
 }
 
-/* The place behind the head and the first KEEP rows; a last line without its end is no row. */
-static struct error *place_behind(FILE *file, const char *path, int64_t keep, off_t *place)
-{
-    int64_t lines = 0;
-    *place = 0;
-    for (int c; lines < keep + 1 && (c = getc(file)) != EOF;) {
-        ++*place;
-        lines += c == '\n';
-    }
-    if (ferror(file))
-        return system_error(path, errno);
-    if (lines < keep + 1)
-        return error_new(ERROR_INPUT, "%s: has %lld rows where %lld were written: cannot go on",
-                         path, (long long)(lines ? lines - 1 : 0), (long long)keep);
-    return NULL;
-}
-
-/* Opens PATH to go on behind KEEP rows. What an interrupted run wrote behind them is cut off. */
-static struct error *open_behind(const char *path, int64_t keep, FILE **file)
-{
-    *file = fopen(path, "r+e");
-    if (!*file)
-        return system_error(path, errno);
-    off_t place;
-    struct error *error = place_behind(*file, path, keep, &place);
-    if (!error && (fseeko(*file, place, SEEK_SET) || ftruncate(fileno(*file), place)))
-        error = system_error(path, errno);
-    if (error)
-        fclose(*file);
-    return error;
-}
-
 struct error *history_open(const char *path, int64_t keep, struct history **history)
 {
     struct history *made = calloc(1, sizeof *made);
     char *copy = text_copy(path);
     struct error *error = made && copy ? NULL : error_new(ERROR_SYSTEM, "out of memory");
     FILE *file = NULL;
-    if (!error && keep > 0)
-        error = open_behind(path, keep, &file);
-    else if (!error && !(file = fopen(path, "we")))
-        error = system_error(path, errno);
+    if (!error)
+        error = csv_grow(path, keep, &file);
     if (error) {
         free(copy);
         free(made);
@@ -98,31 +63,39 @@ static void column(struct line *line, const char *name, const char *part, const 
         putc(',', line->file);
     line->begun = true;
     if (line->head) {
-        fprintf(line->file, *unit ? "%s%s [%s]" : "%s%s", name, part, unit);
+        fputs(name, line->file);
+        csv_put_head(line->file, part, unit);
         return;
     }
     csv_put_number(line->file, value);
 }
 
-/* What the entries of a ledger are called, and their units in 1-D, 2-D and 3-D. */
+/* What the entries of a ledger are called, and their units in 1-D, 2-D, 3-D and axisymmetry. */
 static const struct {
-    const char *name, *unit[3];
+    const char *name, *unit[4];
 } entries[LEDGER_ENTRIES] = {
-    [LEDGER_MASS] = {"mass", {"kg/m^2", "kg/m", "kg"}},
-    [LEDGER_MOMENTUM_X] = {"momentum.x", {"kg/(m*s)", "kg/s", "kg*m/s"}},
-    [LEDGER_MOMENTUM_Y] = {"momentum.y", {"kg/(m*s)", "kg/s", "kg*m/s"}},
-    [LEDGER_MOMENTUM_Z] = {"momentum.z", {"kg/(m*s)", "kg/s", "kg*m/s"}},
-    [LEDGER_ANGULAR_X] = {"angular_momentum.x", {"kg/s", "kg*m/s", "kg*m^2/s"}},
-    [LEDGER_ANGULAR_Y] = {"angular_momentum.y", {"kg/s", "kg*m/s", "kg*m^2/s"}},
-    [LEDGER_ANGULAR_Z] = {"angular_momentum.z", {"kg/s", "kg*m/s", "kg*m^2/s"}},
-    [LEDGER_ENERGY] = {"energy", {"J/m^2", "J/m", "J"}},
+    [LEDGER_MASS] = {"mass", {"kg/m^2", "kg/m", "kg", "kg/rad"}},
+    [LEDGER_MOMENTUM_X] = {"momentum.x", {"kg/(m*s)", "kg/s", "kg*m/s", "kg*m/(rad*s)"}},
+    [LEDGER_MOMENTUM_Y] = {"momentum.y", {"kg/(m*s)", "kg/s", "kg*m/s", "kg*m/(rad*s)"}},
+    [LEDGER_MOMENTUM_Z] = {"momentum.z", {"kg/(m*s)", "kg/s", "kg*m/s", "kg*m/(rad*s)"}},
+    [LEDGER_ANGULAR_X] = {"angular_momentum.x", {"kg/s", "kg*m/s", "kg*m^2/s", "kg*m^2/(rad*s)"}},
+    [LEDGER_ANGULAR_Y] = {"angular_momentum.y", {"kg/s", "kg*m/s", "kg*m^2/s", "kg*m^2/(rad*s)"}},
+    [LEDGER_ANGULAR_Z] = {"angular_momentum.z", {"kg/s", "kg*m/s", "kg*m^2/s", "kg*m^2/(rad*s)"}},
+    [LEDGER_ENERGY] = {"energy", {"J/m^2", "J/m", "J", "J/rad"}},
 };
 
+const char *history_unit(enum ledger_entry entry, int dimension, enum case_geometry geometry)
+{
+    return entries[entry].unit[geometry == GEOMETRY_AXISYMMETRIC ? 3 : dimension - 1];
+}
+
 static void totals_columns(struct line *line, const char *prefix, const struct totals *totals,
-                           int dimension)
+                           const struct simulation *simulation)
 {
     for (int i = 0; i < LEDGER_ENTRIES; i++)
-        column(line, prefix, entries[i].name, entries[i].unit[dimension - 1], totals->entry[i]);
+        column(line, prefix, entries[i].name,
+               history_unit((enum ledger_entry)i, simulation->dimension, simulation->geometry),
+               totals->entry[i]);
 }
 
 struct range {
@@ -187,21 +160,20 @@ static struct row find_row(const struct simulation *simulation, double dt,
 static void write_line(FILE *file, bool head, const struct row *row)
 {
     const struct simulation *simulation = row->simulation;
-    int dimension = simulation->dimension;
-    const char *joule = entries[LEDGER_ENERGY].unit[dimension - 1];
+    const char *joule = history_unit(LEDGER_ENERGY, simulation->dimension, simulation->geometry);
     struct line line = {file, head, false};
     column(&line, "time", "", "s", simulation->time);
     column(&line, "step", "", "", (double)simulation->step);
     column(&line, "dt", "", "s", row->dt);
     column(&line, "particles", "", "", (double)row->count);
-    totals_columns(&line, "", &row->now, dimension);
+    totals_columns(&line, "", &row->now, simulation);
     column(&line, "kinetic_energy", "", joule, row->now.kinetic);
     column(&line, "internal_energy", "", joule, row->now.internal);
     column(&line, "energy_drift", "", "", row->drift);
     for (int i = 0; i < LEDGER_CAUSES; i++) {
         char prefix[32];
         snprintf(prefix, sizeof prefix, "%s.", ledger_cause_name((enum ledger_cause)i));
-        totals_columns(&line, prefix, &row->booked[i], dimension);
+        totals_columns(&line, prefix, &row->booked[i], simulation);
     }
     range_columns(&line, "density", "kg/m^3", row->density);
     range_columns(&line, "pressure", "Pa", row->pressure);

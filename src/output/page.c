@@ -85,6 +85,7 @@ static struct error *put_page(const struct page *page)
     put_header(page, title);
     page_verdict(page);
     TRY(page_pictures(page));
+    TRY(page_profiles(page));
     TRY(page_history(page));
     page_about(page);
     page_speed(page);

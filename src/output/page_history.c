@@ -182,7 +182,7 @@ static void plot_step(const struct page *page, const struct table *table)
     plot.x += skipped;
     plot.count -= skipped;
     plot.series[plot.series_count++] =
-        (struct page_series){"step", step->value + skipped, false, false};
+        (struct page_series){.label = "step", .value = step->value + skipped};
     plot.unit = step->unit;
     page_plot(page->file, &plot);
 }
@@ -296,7 +296,20 @@ static void put_conservation(const struct page *page, const struct table *table)
         page->file);
 }
 
-/* One plot for all columns of the same unit. */
+/* A plot of a probe says in its title what a line alone is. */
+static void put_probe_plot(const struct page *page, struct page_plot *plot, const char *name)
+{
+    char title[256];
+    bool alone = plot->series_count == 1;
+    snprintf(title, sizeof title, "%.100s%s%.120s", name, alone ? ": " : "",
+             alone ? plot->series[0].label : "");
+    struct page_plot titled = *plot;
+    titled.title = title;
+    page_plot(page->file, &titled);
+    plot->series_count = 0;
+}
+
+/* One plot for all columns of the same unit, or more where they are many. */
 static void plot_probe(const struct page *page, const struct table *table, const char *name)
 {
     for (int i = 1; i < table->columns; i++) {
@@ -308,9 +321,12 @@ static void plot_probe(const struct page *page, const struct table *table, const
             continue;
         struct page_plot plot = plot_over_time(table, name);
         for (int k = i; k < table->columns; k++)
-            if (!strcmp(table->column[k].unit, unit))
+            if (!strcmp(table->column[k].unit, unit) &&
+                !add(&plot, table->column[k].name, &table->column[k])) {
+                put_probe_plot(page, &plot, name);
                 add(&plot, table->column[k].name, &table->column[k]);
-        page_plot(page->file, &plot);
+            }
+        put_probe_plot(page, &plot, name);
     }
 }
 

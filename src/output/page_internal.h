@@ -45,6 +45,9 @@ void page_speed(const struct page *page);
 /* page_history.c */
 struct error *page_history(const struct page *page);
 
+/* page_profiles.c */
+struct error *page_profiles(const struct page *page);
+
 /* page_pictures.c */
 struct error *page_pictures(const struct page *page);
 
@@ -55,7 +58,8 @@ struct page_series {
     char label[160];
     const double *value; /* SI */
     bool dashed;
-    bool optional; /* left out where it is but a billionth of the largest series */
+    bool optional;            /* left out where it is but a billionth of the largest series */
+    const double *low, *high; /* edges of a band about it; NULL: none */
 };
 
 struct page_plot {

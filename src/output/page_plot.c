@@ -92,6 +92,34 @@ static void stroke_flush(struct stroke *stroke)
     stroke->begun = false;
 }
 
+/* The part of a band from FIRST on that has no gap; returns what is behind it. */
+static int64_t draw_band_part(FILE *file, const struct frame *frame, const struct page_plot *plot,
+                              const struct page_series *series, int64_t first)
+{
+    int64_t end = first;
+    for (; end < plot->count && isfinite(series->low[end]) && isfinite(series->high[end]); end++)
+        fprintf(file, "%s%.1f %.1f", end == first ? "M" : "L", place_x(frame, plot->x[end]),
+                place_y(frame, series->high[end]));
+    for (int64_t i = end; i > first; i--)
+        fprintf(file, "L%.1f %.1f", place_x(frame, plot->x[i - 1]),
+                place_y(frame, series->low[i - 1]));
+    if (end > first)
+        fputc('Z', file);
+    return end > first ? end : first + 1;
+}
+
+static void draw_band(FILE *file, const struct frame *frame, const struct page_plot *plot,
+                      int index)
+{
+    const struct page_series *series = &plot->series[index];
+    if (!series->low)
+        return;
+    fprintf(file, "<path class=\"band b%d\" d=\"", index % 6);
+    for (int64_t i = 0; i < plot->count;)
+        i = draw_band_part(file, frame, plot, series, i);
+    fputs("\"/>\n", file);
+}
+
 static void draw_series(FILE *file, const struct frame *frame, const struct page_plot *plot,
                         int index)
 {
@@ -157,8 +185,13 @@ static struct frame make_frame(const struct page_plot *plot, const bool *shown,
 {
     struct frame frame = {.x = range_of(plot->x, plot->count), .y = range_empty()};
     for (int s = 0; s < plot->series_count; s++)
-        for (int64_t i = 0; shown[s] && i < plot->count; i++)
+        for (int64_t i = 0; shown[s] && i < plot->count; i++) {
             range_include(&frame.y, plot->series[s].value[i]);
+            if (plot->series[s].low) {
+                range_include(&frame.y, plot->series[s].low[i]);
+                range_include(&frame.y, plot->series[s].high[i]);
+            }
+        }
     frame.x = range_drawable(frame.x, false);
     frame.y = range_padded(range_drawable(frame.y, false), 0.06, false);
     *x_unit = multiple_find(range_reach(frame.x), plot->x_unit);
@@ -196,6 +229,17 @@ static void draw_caption(FILE *file, const struct page_plot *plot, const bool *s
     fputs("</figcaption>\n", file);
 }
 
+/* The first finite one of COUNT values, from their end on with STEP -1; NAN when there is none. */
+static double first_number(const double *value, int64_t count, int step)
+{
+    for (int64_t i = 0; i < count; i++) {
+        double here = value[step > 0 ? i : count - 1 - i];
+        if (isfinite(here))
+            return here;
+    }
+    return NAN;
+}
+
 /* The plot in words, for who cannot see it: where each line begins and ends. */
 static void draw_words(FILE *file, const struct page_plot *plot, const bool *shown)
 {
@@ -208,9 +252,9 @@ static void draw_words(FILE *file, const struct page_plot *plot, const bool *sho
         fputs("; ", file);
         page_text(file, plot->series[s].label);
         fputs(" from ", file);
-        page_quantity(file, plot->series[s].value[0], plot->unit);
+        page_quantity(file, first_number(plot->series[s].value, plot->count, 1), plot->unit);
         fputs(" to ", file);
-        page_quantity(file, plot->series[s].value[plot->count - 1], plot->unit);
+        page_quantity(file, first_number(plot->series[s].value, plot->count, -1), plot->unit);
     }
 }
 
@@ -233,6 +277,9 @@ void page_plot(FILE *file, const struct page_plot *plot)
     draw_words(file, plot, shown);
     fputs("\">\n", file);
     draw_axes(file, &frame, x_label);
+    for (int s = 0; s < plot->series_count; s++)
+        if (shown[s])
+            draw_band(file, &frame, plot, s);
     for (int s = 0; s < plot->series_count; s++)
         if (shown[s])
             draw_series(file, &frame, plot, s);

@@ -67,7 +67,7 @@ static void scientific_text(double value, char *buffer, size_t size)
     snprintf(number, sizeof number, "%.4e", value);
     char *exponent = strchr(number, 'e');
     *exponent = '\0';
-    snprintf(power, sizeof power, "%d", atoi(exponent + 1));
+    snprintf(power, sizeof power, "%d", (int)strtol(exponent + 1, NULL, 10));
     for (const char *c = power; *c; c++)
         strcat(digits, *c == '-' ? "⁻" : raised[*c - '0']);
     snprintf(buffer, size, "%g\u00a0×\u00a010%s", strtod(number, NULL), digits);

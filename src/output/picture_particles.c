@@ -29,6 +29,7 @@ enum { SLICE = 4096 };
 
 /* The plane of the picture, and what of space is in it. */
 struct plane {
+    bool rings;             /* the particles are those of axisymmetry */
     int across, up, normal; /* axes of space; normal -1: none */
     struct range extent[3]; /* of the particles with their size */
     bool wall[3][2];        /* the low, the high end of the extent is a mirror wall */
@@ -47,10 +48,12 @@ struct dots {
     struct range values;
 };
 
-/* The edge of the square or cube that a particle fills. */
-static double particle_diameter(const struct particles *particles, int64_t i)
+/* The edge of the square or cube that a particle fills; of RINGS that of their section. */
+static double particle_diameter(const struct particles *particles, bool rings, int64_t i)
 {
     double volume = particles->mass[i] / particles->density[i];
+    if (rings) /* mass is that of a radian */
+        volume /= fabs(particles->position[i][0]);
     return particles->dimension == 3   ? cbrt(volume)
            : particles->dimension == 2 ? sqrt(volume)
                                        : volume;
@@ -73,9 +76,11 @@ static void end_at_walls(struct plane *plane, const struct mirrors *mirrors)
 }
 
 /* Finds extents, mean diameter, and in 3-D the two longest axes. */
-static struct plane survey(const struct particles *particles, const struct mirrors *mirrors)
+static struct plane survey(const struct particles *particles, const struct mirrors *mirrors,
+                           bool rings)
 {
-    struct plane plane = {.across = 0,
+    struct plane plane = {.rings = rings,
+                          .across = 0,
                           .up = 1,
                           .normal = -1,
                           .extent = {range_empty(), range_empty(), range_empty()}};
@@ -84,7 +89,7 @@ static struct plane survey(const struct particles *particles, const struct mirro
     for (int64_t i = 0; i < particles->count; ++i) {
         for (int axis = 0; axis < 3; ++axis)
             range_include(&plane.extent[axis], particles->position[i][axis]);
-        double logarithm = log(particle_diameter(particles, i));
+        double logarithm = log(particle_diameter(particles, rings, i));
         if (isfinite(logarithm)) {
             logarithms += logarithm;
             ++counted;
@@ -119,7 +124,7 @@ static bool gather_one(const struct particles *particles, const struct plane *pl
 {
     const double *position = particles->position[i];
     double depth = plane->normal < 0 ? 0.0 : position[plane->normal] - plane->middle;
-    double diameter = particle_diameter(particles, i);
+    double diameter = particle_diameter(particles, plane->rings, i);
     /* A particle blown to next to nothing would cover all others. */
     diameter = minimum(isfinite(diameter) ? diameter : plane->diameter, 4.0 * plane->diameter);
     if (!isfinite(position[plane->across]) || !isfinite(position[plane->up]) ||
@@ -458,7 +463,8 @@ struct error *picture_particles(const char *path, const struct simulation *simul
     TRY(shown_find(simulation, views, field, &shown));
     if (simulation->particles.dimension == 1)
         return draw_line_problem(path, simulation, &shown, field, fixed);
-    struct plane plane = survey(&simulation->particles, &simulation->mirrors);
+    struct plane plane = survey(&simulation->particles, &simulation->mirrors,
+                                simulation->geometry == GEOMETRY_AXISYMMETRIC);
     struct dots dots;
     struct error *error = gather(&simulation->particles, &shown, &plane, &dots);
     if (!error)

@@ -182,7 +182,9 @@ static void add_power(struct ticks *ticks, struct range range, int factor, int e
         number_text(text, at, exponent < 0 ? -exponent : 0);
         return;
     }
-    snprintf(text, TICK_TEXT, factor == 1 ? "" : "%d·", factor);
+    text[0] = '\0';
+    if (factor != 1)
+        snprintf(text, TICK_TEXT, "%d·", factor);
     append_power_of_ten(text, TICK_TEXT, exponent);
 }
 

@@ -174,7 +174,7 @@ static struct error *write_points(hid_t group, const struct particles *particles
     for (size_t i = 0; i < COUNT_OF(columns); i++)
         TRY(write_column(&columns[i]));
     for (int i = 0; i < views->count; i++)
-        if (strcmp(views->view[i].name, "position")) /* that is "Points" */
+        if (strcmp(views->view[i].name, "position") != 0) /* that is "Points" */
             TRY(write_view(group, &views->view[i], count));
     return NULL;
 }

@@ -89,9 +89,11 @@ uint64_t particles_hash(const struct particles *particles);
 size_t particles_bytes(const struct particles *particles);
 
 /* An id tells what made the particle: a body and the index of its lattice site. */
+enum { PARTICLE_SITE_BITS = 48 };
+#define PARTICLE_SITE (((uint64_t)1 << PARTICLE_SITE_BITS) - 1)
 BOLIDE_INLINE uint64_t particle_id(int body, int64_t site)
 {
-    return (uint64_t)body << 48 | (uint64_t)site;
+    return (uint64_t)body << PARTICLE_SITE_BITS | (uint64_t)site;
 }
 
 #endif

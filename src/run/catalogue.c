@@ -6,6 +6,7 @@
 #include "model/lattice.h"
 #include "model/shape_kinds.h"
 #include "run/measure.h"
+#include "run/probes.h"
 #include "sph/sph.h"
 
 #define COUNT_SHAPE(identifier, help) +1
@@ -19,6 +20,7 @@ static const struct choice_list lists[] = {
     {"lattice", "how the particles of a body stand at the start", lattice_choices, LATTICE_KINDS},
     {"exact", "an exact solution that results are measured against", exact_choices,
      exact_choice_count},
+    {"probe", "what is recorded while a case runs", probe_choices, PROBES},
     {"measure", "what a check measures", measure_choices, MEASURES},
     {0},
 };

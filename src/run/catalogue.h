@@ -4,7 +4,7 @@
 
 #include "base/parameter.h"
 
-/* The kinds solver, eos, strength, shape, exact and measure. */
+/* The kinds solver, eos, strength, shape, exact, probe and measure. */
 extern const struct catalogue bolide_catalogue;
 
 #endif

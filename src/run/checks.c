@@ -75,10 +75,17 @@ static struct error *solve_exact(struct prepared_check *prepared)
     const struct exact_state some = {0};
     if (isnan(exact_field(&some, parameters->field)))
         return measure_error(m,
-                             "exact solutions know density, velocity.x, pressure, energy, "
-                             "stress.xx and deviator.xx, not \"%s\"",
+                             "exact solutions know density, velocity.x, speed, pressure, energy, "
+                             "stress.xx, deviator.xx and temperature, not \"%s\"",
                              parameters->field);
     m->exact = against->choice->thing;
+    if (m->exact->thermal != !strcmp(parameters->field, "temperature"))
+        return measure_error(m, "%s %s", against->choice->name,
+                             m->exact->thermal ? "knows temperature and nothing else"
+                                               : "has no temperature");
+    if (class_of(m->check)->needs_contact && !m->exact->contact)
+        return measure_error(m, "`%s` needs an exact solution with a contact; %s has none",
+                             m->check->measure.choice->name, against->choice->name);
     prepared->solved = memory_allocate(m->exact->size);
     if (!prepared->solved)
         return error_new(ERROR_SYSTEM, "out of memory for an exact solution");
@@ -97,10 +104,14 @@ static struct error *prepare_check(struct prepared_check *prepared)
     const struct measurement *m = &prepared->measurement;
     const struct measure_class *class = class_of(m->check);
     struct unit unit, field_unit;
-    TRY(class->unit(m, &prepared->unit));
+    TRY(class->unit(m, &prepared->raw_unit));
+    prepared->unit = m->check->relative ? "" : prepared->raw_unit;
     TRY(unit_parse(prepared->unit, &unit));
     if (m->check->between.count != 0 && m->check->between.count != 2)
         return measure_error(m, "`between` wants two positions");
+    if (class->of_bodies && m->check->between.count)
+        return measure_error(m, "`between` has no meaning for `%s`",
+                             m->check->measure.choice->name);
     if (class->needs_exact) {
         const char *text;
         TRY(measure_field_unit(m, &text));
@@ -112,8 +123,23 @@ static struct error *prepare_check(struct prepared_check *prepared)
     return solve_exact(prepared);
 }
 
+/* A ratio is one of two values of the same unit. */
+static struct error *check_ratio(const struct checks *checks, const struct prepared_check *prepared)
+{
+    const struct measurement *m = &prepared->measurement;
+    if (!m->check->relative || m->check->relative_check < 0)
+        return NULL;
+    const struct prepared_check *other = &checks->item[m->check->relative_check];
+    if (!strcmp(prepared->raw_unit, other->raw_unit))
+        return NULL;
+    return measure_error(m, "`relative`: this is in %s, but \"%s\" in %s",
+                         prepared->raw_unit[0] ? prepared->raw_unit : "plain numbers",
+                         m->check->relative,
+                         other->raw_unit[0] ? other->raw_unit : "plain numbers");
+}
+
 struct error *checks_prepare(const struct simulation *simulation, const struct views *views,
-                             struct checks **result)
+                             const struct probes *probes, struct checks **result)
 {
     const struct simulation_case *input = simulation->input;
     struct checks *checks = memory_allocate(sizeof *checks);
@@ -127,10 +153,16 @@ struct error *checks_prepare(const struct simulation *simulation, const struct v
     *checks = (struct checks){input->checks.count, items};
     struct error *error = NULL;
     for (int i = 0; i < checks->count; i++) {
-        items[i].measurement = (struct measurement){
-            simulation, views, NULL, case_check(input, i), input->checks.names[i], NULL, NULL};
+        items[i].measurement = (struct measurement){.simulation = simulation,
+                                                    .views = views,
+                                                    .probes = probes,
+                                                    .check = case_check(input, i),
+                                                    .name = input->checks.names[i],
+                                                    .at_start = NAN};
         error = error_join(error, prepare_check(&items[i]));
     }
+    for (int i = 0; i < checks->count && !error; i++)
+        error = check_ratio(checks, &items[i]);
     if (error) {
         checks_free(checks);
         checks = NULL;
@@ -147,25 +179,78 @@ void checks_free(struct checks *checks)
     free(checks);
 }
 
-static struct error *evaluate(const struct prepared_check *prepared,
-                              const struct measurement *measurement, struct check_result *result)
+static struct measurement measurement_at(const struct prepared_check *prepared,
+                                         const struct check_moment *moment,
+                                         const struct check_memory *memory)
 {
-    result->name = text_copy(measurement->name);
-    result->source = text_copy(measurement->check->source);
-    result->measure = measurement->check->measure.choice->name;
+    struct measurement measurement = prepared->measurement;
+    measurement.simulation = moment->simulation;
+    measurement.views = moment->views;
+    measurement.start = moment->start;
+    measurement.at_start = memory->start;
+    return measurement;
+}
+
+static bool relative_to_start(const struct check_input *check)
+{
+    return check->relative && check->relative_check < 0;
+}
+
+struct error *checks_start(const struct checks *checks, const struct check_moment *moment)
+{
+    for (int i = 0; i < checks->count; i++) {
+        struct check_memory *memory = &moment->memory[i];
+        *memory = (struct check_memory){NAN, NAN, NAN};
+        struct measurement m = measurement_at(&checks->item[i], moment, memory);
+        const struct measure_class *class = class_of(m.check);
+        if (relative_to_start(m.check))
+            TRY(class->measure(&m, &memory->start));
+        else if (class->start)
+            TRY(class->start(&m, &memory->start));
+    }
+    return NULL;
+}
+
+static struct error *measure_now(const struct prepared_check *prepared,
+                                 const struct check_moment *moment, struct check_memory *memory)
+{
+    struct measurement m = measurement_at(prepared, moment, memory);
+    memory->time = moment->simulation->time;
+    return class_of(m.check)->measure(&m, &memory->measured);
+}
+
+struct error *checks_watch(const struct checks *checks, const struct check_moment *moment)
+{
+    for (int i = 0; i < checks->count; i++)
+        if (moment->simulation->time >= checks->item[i].measurement.check->at &&
+            isnan(moment->memory[i].time))
+            TRY(measure_now(&checks->item[i], moment, &moment->memory[i]));
+    return NULL;
+}
+
+/* MEMORY holds what all checks measured. */
+static struct error *judge(const struct prepared_check *prepared, const struct check_memory *memory,
+                           int index, struct check_result *result)
+{
+    const struct check_input *check = prepared->measurement.check;
+    result->name = text_copy(prepared->measurement.name);
+    result->source = text_copy(check->source);
+    result->measure = check->measure.choice->name;
     snprintf(result->unit, sizeof result->unit, "%s", prepared->unit);
     result->wanted = prepared->wanted;
     result->low = prepared->low;
     result->high = prepared->high;
-    if (!result->name)
-        return error_new(ERROR_SYSTEM, "out of memory for checks");
-    TRY(class_of(measurement->check)->measure(measurement, &result->measured));
+    result->time = memory[index].time;
+    result->measured = memory[index].measured;
+    if (relative_to_start(check))
+        result->measured /= memory[index].start;
+    else if (check->relative)
+        result->measured /= memory[check->relative_check].measured;
     result->passed = result->measured >= result->low && result->measured <= result->high;
-    return NULL;
+    return result->name ? NULL : error_new(ERROR_SYSTEM, "out of memory for checks");
 }
 
-struct error *checks_evaluate(const struct checks *checks, const struct simulation *simulation,
-                              const struct views *views, const struct totals *start,
+struct error *checks_evaluate(const struct checks *checks, const struct check_moment *moment,
                               struct check_results *results)
 {
     results->failed = 0;
@@ -173,13 +258,12 @@ struct error *checks_evaluate(const struct checks *checks, const struct simulati
     results->item = memory_allocate(((size_t)checks->count + 1) * sizeof *results->item);
     if (!results->item)
         return error_new(ERROR_SYSTEM, "out of memory for checks");
+    for (int i = 0; i < checks->count; i++)
+        if (isnan(checks->item[i].measurement.check->at))
+            TRY(measure_now(&checks->item[i], moment, &moment->memory[i]));
     for (int i = 0; i < checks->count; i++) {
-        struct measurement measurement = checks->item[i].measurement;
-        measurement.simulation = simulation;
-        measurement.views = views;
-        measurement.start = start;
         struct check_result *result = &results->item[results->count++];
-        TRY(evaluate(&checks->item[i], &measurement, result));
+        TRY(judge(&checks->item[i], moment->memory, i, result));
         results->failed += !result->passed;
     }
     return NULL;

@@ -1,5 +1,5 @@
-/* The checks of a case: each measures something at the end of the run and compares it with what the
- * case says is right. */
+/* The checks of a case: each measures something, at its time or at the end of the run, and compares it
+ * with what the case says is right. */
 #ifndef BOLIDE_CHECKS_H
 #define BOLIDE_CHECKS_H
 
@@ -10,9 +10,9 @@ struct check_result {
     char *name, *source; /* source may be NULL */
     const char *measure; /* static text */
     char unit[24];
-    double measured;
-    double wanted;    /* NAN: there are only limits */
-    double low, high; /* allowed from .. to; -INFINITY, INFINITY: no limit */
+    double measured, time; /* s, when it was measured; NAN: never */
+    double wanted;         /* NAN: there are only limits */
+    double low, high;      /* allowed from .. to; -INFINITY, INFINITY: no limit */
     bool passed;
 };
 
@@ -21,21 +21,40 @@ struct check_results {
     struct check_result *item;
 };
 
+/* What a resumed run must remember of a check: numbers only, as a checkpoint takes them. */
+struct check_memory {
+    double start;          /* what is wanted from time zero; NAN: nothing */
+    double measured, time; /* of one whose time has come, and when that was; NAN: it has not */
+};
+enum { CHECK_MEMORY_NUMBERS = sizeof(struct check_memory) / sizeof(double) };
+
 struct checks;
 
 /* Readies the checks of a run before its first step: finds their fields in VIEWS, looks at
- * dimensions, solves the exact problems. All mistakes come joined in one ERROR_INPUT. */
+ * dimensions, solves the exact problems. PROBES (NULL: none), which stay, keep what checks read. All
+ * mistakes come joined in one ERROR_INPUT. */
 struct error *checks_prepare(const struct simulation *simulation, const struct views *views,
-                             struct checks **checks);
+                             const struct probes *probes, struct checks **checks);
 void checks_free(struct checks *checks);
 
-/* Measures everything now. START are the totals at time zero. Collective. */
-struct error *checks_evaluate(const struct checks *checks, const struct simulation *simulation,
-                              const struct views *views, const struct totals *start,
+/* A run's moment: START are the totals at time zero, MEMORY has an entry a check. */
+struct check_moment {
+    const struct simulation *simulation;
+    const struct views *views;
+    const struct totals *start;
+    struct check_memory *memory;
+};
+
+/* Fills the memory at time zero. Collective. */
+struct error *checks_start(const struct checks *checks, const struct check_moment *moment);
+/* Measures the checks whose time has come, after a step. Collective. */
+struct error *checks_watch(const struct checks *checks, const struct check_moment *moment);
+/* Measures the others now, and judges all. Collective. */
+struct error *checks_evaluate(const struct checks *checks, const struct check_moment *moment,
                               struct check_results *results);
 
-/* Draws FOLDER/check-FIELD.png for every field of a 1-D case that is measured against an exact
- * solution: the solution as a line, the particles as dots. */
+/* Draws FOLDER/check-FIELD.png for every field that is measured against an exact solution: the
+ * solution as a line, the particles as dots, over the check's axis or distance. */
 struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,
                           const struct views *views, const char *folder);
 

@@ -6,8 +6,8 @@
 
 struct prepared_check {
     struct measurement measurement; /* without the totals at the start */
-    const char *unit;
-    void *solved; /* owned */
+    const char *unit, *raw_unit;    /* of the result, and of what it is before it is divided */
+    void *solved;                   /* owned */
     double wanted, low, high;
 };
 

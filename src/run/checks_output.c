@@ -65,14 +65,14 @@ struct error *check_results_write(const struct check_results *results, const cha
 {
     FILE *file;
     TRY(file_begin(path, &file));
-    fprintf(file, "check,measure,unit,measured,wanted,low,high,verdict,source\n");
+    fprintf(file, "check,measure,unit,measured,wanted,low,high,verdict,source,time\n");
     for (int i = 0; i < results->count; i++) {
         const struct check_result *r = &results->item[i];
         csv_put_text(file, r->name);
         fprintf(file, ",%s,%s,%.17g,%.17g,%.17g,%.17g,%s,", r->measure, r->unit, r->measured,
                 r->wanted, r->low, r->high, r->passed ? "passed" : "failed");
         csv_put_text(file, r->source);
-        fputc('\n', file);
+        fprintf(file, ",%.17g\n", r->time);
     }
     return file_end(path, file);
 }
@@ -113,12 +113,13 @@ static struct error *draw(const struct measurement *m, const struct samples *sam
         drawing.x[i] = samples->at[i].at;
         drawing.value[i] = samples->at[i].value;
     }
-    double time = m->simulation->time, contact = m->exact->contact(m->solved, time);
+    static const char *const axes[] = {"x", "y", "z"};
+    double time = m->simulation->time;
     double low = samples->at[0].at, high = samples->at[samples->count - 1].at;
     for (int i = 0; i < CURVE_POINTS; i++) {
         double x = low + (high - low) * i / (CURVE_POINTS - 1);
         struct exact_state state =
-            m->exact->sample(m->solved, x < contact ? SIDE_LEFT : SIDE_RIGHT, x, time);
+            m->exact->sample(m->solved, exact_side_at(m->exact, m->solved, x, time), x, time);
         drawing.curve_x[i] = x;
         drawing.curve[i] = exact_field(&state, parameters->field);
     }
@@ -127,7 +128,7 @@ static struct error *draw(const struct measurement *m, const struct samples *sam
         {"particles", samples->count, drawing.x, drawing.value, false},
     };
     struct plot plot = {.title = m->simulation->input->title,
-                        .x_name = "x",
+                        .x_name = m->check->about.count ? "distance" : axes[m->check->axis],
                         .x_unit = "m",
                         .y_name = parameters->field,
                         .y_unit = unit,
@@ -179,8 +180,6 @@ static bool drawn_before(const struct checks *checks, int index)
 struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,
                           const struct views *views, const char *folder)
 {
-    if (simulation->dimension != 1)
-        return NULL;
     for (int i = 0; i < checks->count; i++) {
         struct measurement m = checks->item[i].measurement;
         m.simulation = simulation;

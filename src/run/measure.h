@@ -7,25 +7,33 @@
 #include "exact/exact.h"
 #include "model/views.h"
 
+struct probes;
+
 /* What a measure may look at. */
 struct measurement {
     const struct simulation *simulation;
     const struct views *views;
-    const struct totals *start; /* at time zero */
+    const struct probes *probes; /* NULL: there are none */
+    const struct totals *start;  /* at time zero */
     const struct check_input *check;
     const char *name;                /* of the check, for messages */
     const struct exact_class *exact; /* NULL: nothing to compare with */
     const void *solved;
+    double at_start; /* what the class kept from time zero */
 };
 
 struct measure_class {
     bool needs_exact;
-    bool of_field; /* the parameters start with a struct measure_field */
+    bool needs_contact; /* an exact solution that has one */
+    bool of_field;      /* the parameters start with a struct measure_field */
     /* The SI unit of the value, "" for a ratio; an ERROR_INPUT when the measure makes no sense
      * here. */
     struct error *(*unit)(const struct measurement *measurement, const char **unit);
     /* The value; NAN when there is nothing to measure (no particle in the window, no front). */
     struct error *(*measure)(const struct measurement *measurement, double *value);
+    bool of_bodies; /* of whole bodies: `between` has no meaning */
+    /* What the measure wants to keep from time zero; may be NULL. */
+    struct error *(*start)(const struct measurement *measurement, double *value);
 };
 
 struct measure_field {
@@ -34,9 +42,18 @@ struct measure_field {
 
 struct measure_front {
     char *field;
-    struct quantity value; /* of the field at the front */
+    struct quantity value; /* of the field at the front; NAN: not given */
+    bool half;             /* it is half the jump instead */
     int from;              /* enum front_end */
     double slab;           /* m; particles are averaged over slabs of this thickness; 0: not */
+    double frame;          /* m/s, of the frame in which the place is told */
+};
+struct measure_recorded {
+    char *probe, *column;
+    int take;             /* enum take of measure_recorded.c */
+    double after, before; /* s; NAN: the whole run */
+    bool absolute;
+    struct quantity noise; /* NAN: a hundredth of the range */
 };
 enum front_end { FRONT_FROM_LOW, FRONT_FROM_HIGH };
 
@@ -50,6 +67,34 @@ enum conserved_total {
     CONSERVED_ENERGY
 };
 
+/* total, decay: momentum.x, kinetic_energy, ... */
+struct measure_total {
+    int quantity;
+};
+
+struct measure_extent {
+    int along; /* x, y, z or the radius */
+};
+
+struct measure_turn {
+    int axis;
+};
+
+struct measure_pieces {
+    double link;
+};
+
+struct measure_asymmetry {
+    char *field;
+    int across, parity;
+    struct vector_value center;
+};
+
+struct measure_shear_layer {
+    int value; /* what of the fit */
+    double speed, plane;
+};
+
 /* Relative change since START of a total of SIMULATION, less what the ledger booked. Mass is
  * measured by its start value, momentum by sum m|u|, angular momentum by sum m|u| times the size of
  * the cloud of particles about the origin, energy by the largest of total, kinetic and internal
@@ -57,18 +102,23 @@ enum conserved_total {
 double conserved_change(const struct simulation *simulation, const struct totals *start,
                         enum conserved_total total);
 
-enum { MEASURES = 11 };
+enum { MEASURES = 20 };
 extern const struct choice measure_choices[MEASURES];
 
 extern const struct parameter measure_field_table[];
 extern const struct parameter measure_front_table[], measure_conserved_table[];
+extern const struct parameter measure_total_table[], measure_extent_table[], measure_turn_table[],
+    measure_pieces_table[], measure_asymmetry_table[], measure_shear_layer_table[],
+    measure_recorded_table[];
+extern const struct measure_class measure_total, measure_decay, measure_spread, measure_extent,
+    measure_turn, measure_pieces, measure_asymmetry, measure_shear_layer;
 extern const struct measure_class measure_mean, measure_minimum, measure_maximum, measure_l1,
     measure_rms, measure_max_error, measure_contact_max, measure_contact_rms, measure_front,
-    measure_conserved, measure_finite;
+    measure_conserved, measure_finite, measure_recorded;
 
 /* One particle as a measure sees it. */
 struct sample {
-    double at; /* position along the check's axis */
+    double at; /* position along the check's axis, or distance from its point */
     double value, volume;
     int body;
 };
@@ -83,11 +133,37 @@ struct samples {
 struct error *measure_field_unit(const struct measurement *measurement, const char **unit);
 struct error *measure_no_unit(const struct measurement *measurement, const char **unit);
 
+/* Which particles are looked at. */
+struct selection {
+    int body;                    /* -1: all */
+    int axis;                    /* along which they stand */
+    struct vector_value between; /* count 0: everywhere */
+    struct vector_value about;   /* places are distances from this point; count 0: along the axis */
+};
+
+/* The owned particles of SELECTION with COMPONENT of VIEW. */
+struct error *samples_select(const struct particles *particles, const struct view *view,
+                             int component, const struct selection *selection,
+                             struct samples *samples);
+/* The index of the body that the check is `of`, -1 for all. */
+int measure_body(const struct measurement *measurement);
+
+/* Collective: the mean of the places AT of the particles of BODY (-1: all), by mass. */
+struct vec3 measure_center(const struct measurement *measurement, const double (*at)[3], int body);
+
 /* The owned particles that the check speaks of (`of`, `between`) with the values of its field. */
 struct error *samples_take(const struct measurement *measurement, struct samples *samples);
 void samples_free(struct samples *samples);
-/* Sorts by position, low first. */
+/* Sorts by position, low first, and by value at the same place. */
 void samples_sort(struct samples *samples);
+
+/* Whether FRONT makes sense for a field of UNIT: an ERROR_INPUT, not located, where it does not. */
+struct error *front_check(const struct measure_front *front, const char *unit);
+
+/* Where SAMPLES of TIME, which it sorts and may average, first cross the value of FRONT, told in its frame;
+ * NAN where they do not. *level is that value. */
+double front_place(struct samples *samples, const struct measure_front *front, double time,
+                   double *level);
 
 /* On which side of the contact a body started: the side of the middle of its shape. A particle is
  * compared with the exact state of its own body's side, wherever it drifted. */
@@ -99,5 +175,8 @@ double exact_field(const struct exact_state *state, const char *field);
 /* An ERROR_INPUT at the check in the case file. */
 struct error *measure_error(const struct measurement *measurement, const char *format, ...)
     BOLIDE_PRINTF(2, 3);
+
+/* ERROR (NULL stays NULL), which it takes, told at the check. */
+struct error *measure_located(const struct measurement *measurement, struct error *error);
 
 #endif

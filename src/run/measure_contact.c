@@ -59,5 +59,13 @@ static struct error *contact_rms(const struct measurement *measurement, double *
     return NULL;
 }
 
-const struct measure_class measure_contact_max = {true, true, measure_no_unit, contact_max};
-const struct measure_class measure_contact_rms = {true, true, measure_no_unit, contact_rms};
+const struct measure_class measure_contact_max = {.needs_exact = true,
+                                                  .needs_contact = true,
+                                                  .of_field = true,
+                                                  .unit = measure_no_unit,
+                                                  .measure = contact_max};
+const struct measure_class measure_contact_rms = {.needs_exact = true,
+                                                  .needs_contact = true,
+                                                  .of_field = true,
+                                                  .unit = measure_no_unit,
+                                                  .measure = contact_rms};

@@ -74,6 +74,9 @@ static struct error *max_error(const struct measurement *measurement, double *va
     return NULL;
 }
 
-const struct measure_class measure_l1 = {true, true, measure_no_unit, l1};
-const struct measure_class measure_rms = {true, true, measure_no_unit, rms};
-const struct measure_class measure_max_error = {true, true, measure_no_unit, max_error};
+const struct measure_class measure_l1 = {
+    .needs_exact = true, .of_field = true, .unit = measure_no_unit, .measure = l1};
+const struct measure_class measure_rms = {
+    .needs_exact = true, .of_field = true, .unit = measure_no_unit, .measure = rms};
+const struct measure_class measure_max_error = {
+    .needs_exact = true, .of_field = true, .unit = measure_no_unit, .measure = max_error};

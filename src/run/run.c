@@ -68,13 +68,25 @@ static struct error *no_step(const struct run *run)
                      p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
 }
 
+/* The time that a step must not pass: the end, or that of a body which stops before. */
+static double next_event(const struct run *run)
+{
+    double event = run->input->run.until;
+    for (int i = 0; i < run->input->bodies.count; i++) {
+        double stop = case_body(run->input, i)->stop;
+        if (stop > run->simulation.time && stop < event)
+            event = stop;
+    }
+    return event;
+}
+
 static struct error *take_step(struct run *run)
 {
     struct simulation *simulation = &run->simulation;
-    double until = run->input->run.until;
+    double event = next_event(run);
     TRY(run->method->prepare(run->solver, simulation, &run->limit));
-    double dt = step_towards(run->limit.dt, simulation->time, until);
-    double after = dt == until - simulation->time ? until : simulation->time + dt;
+    double dt = step_towards(run->limit.dt, simulation->time, event);
+    double after = dt == event - simulation->time ? event : simulation->time + dt;
     if (!(dt > 0.0) || !(after > simulation->time))
         return no_step(run);
     TRY(run->method->advance(run->solver, simulation, dt));
@@ -104,13 +116,29 @@ static bool told_to_stop(const struct run *run)
     return ranks_maximum(&run->ranks, stop) > 0.0;
 }
 
+static struct check_moment moment_of(struct run *run)
+{
+    return (struct check_moment){&run->simulation, &run->views, &run->start, run->check_memory};
+}
+
+static struct error *watch_checks(struct run *run)
+{
+    const struct check_moment moment = moment_of(run);
+    return checks_watch(run->checks, &moment);
+}
+
 static struct error *loop(struct run *run)
 {
+    const struct check_moment beginning = moment_of(run);
+    if (!run->options->resume)
+        TRY(checks_start(run->checks, &beginning));
     TRY(run_watch(run, false));
+    TRY(watch_checks(run));
     while (!at_end(run) && !told_to_stop(run)) {
         TRY(take_step(run));
         run_observe(run);
         TRY(run_watch(run, at_end(run)));
+        TRY(watch_checks(run));
         TRY(run_checkpoint_if_due(run));
         run_progress(run);
     }
@@ -118,21 +146,25 @@ static struct error *loop(struct run *run)
     return NULL;
 }
 
-/* What the pressures at the start can set free: m p^2/(2 rho^2 C^2), the acoustic energy of matter that
- * expands to no pressure, body by body. */
+/* What the stresses at the start can set free: m p^2/(2 rho^2 C^2), the acoustic energy of matter that
+ * expands to no pressure, and the elastic energy m S:S/(4 G rho) of its deviator. */
 static double released_energy(const struct run *run)
 {
-    double energy = 0.0;
-    for (int i = 0; i < run->input->bodies.count; i++) {
-        const struct body_input *body = case_body(run->input, i);
-        struct point point = body->start;
+    const struct particles *p = &run->simulation.particles;
+    struct exact_sum sum = {0};
+    for (int32_t i = 0; i < p->count; i++) {
+        struct point point = {.density = p->density[i], .energy = p->energy[i]};
+        memcpy(&point.deviator, p->deviator[i], sizeof point.deviator);
         struct response response =
-            material_evaluate(&case_material(run->input, body->material_index)->material, &point);
-        struct totals totals = particles_totals(&run->simulation.particles, &run->ranks, i);
-        energy += 0.5 * totals.entry[LEDGER_MASS] *
-                  square(point.pressure / (point.density * response.sound_long));
+            material_evaluate(&run->simulation.material[p->material[i]], &point);
+        exact_sum_add(&sum, 0.5 * p->mass[i] *
+                                square(point.pressure / (point.density * response.sound_long)));
+        if (response.shear_modulus > 0.0)
+            exact_sum_add(&sum, p->mass[i] * sym3_square(point.deviator) /
+                                    (4.0 * response.shear_modulus * point.density));
     }
-    return energy;
+    ranks_sum_exact(&run->ranks, &sum, 1);
+    return exact_sum_value(&sum);
 }
 
 static struct totals totals_at_start(const struct run *run)
@@ -142,7 +174,7 @@ static struct totals totals_at_start(const struct run *run)
     return totals;
 }
 
-/* The state and the solver, without particles. */
+/* The state, the solver and the probes, without particles. */
 static struct error *make_solver(struct run *run)
 {
     TRY(simulation_create(run->input, &run->ranks, threads_at_most(run->options),
@@ -151,6 +183,7 @@ static struct error *make_solver(struct run *run)
     run->solver = memory_allocate(run->method->size);
     if (!run->solver)
         return error_new(ERROR_SYSTEM, "out of memory for the solver");
+    TRY(probes_create(run->input, &run->probes));
     return run->method->create(run->solver, &run->simulation, run->input->solver.value);
 }
 
@@ -167,12 +200,15 @@ static struct error *make_particles(struct run *run)
     return NULL;
 }
 
-/* Readies what comes later, checks and pictures, so that their mistakes are told now. */
+/* Readies what comes later, probes, checks and pictures, so that their mistakes are told now. */
 static struct error *look_ahead(struct run *run)
 {
     const struct name_list *pictures = &run->input->output.pictures;
     run_observe(run);
-    struct error *error = checks_prepare(&run->simulation, &run->views, &run->checks);
+    struct error *error = probes_prepare(&run->probes, &run->simulation, &run->views);
+    error = error_join(error, profiles_prepare(&run->simulation, &run->views, &run->profiles));
+    error = error_join(error,
+                       checks_prepare(&run->simulation, &run->views, &run->probes, &run->checks));
     for (int i = 0; i < pictures->count; i++) {
         struct error *mistake =
             picture_field_check(&run->simulation, &run->views, pictures->names[i]);
@@ -218,8 +254,8 @@ static struct error *conclude(struct run *run)
 {
     struct run_result *result = run->result;
     if (result->finished) {
-        TRY(checks_evaluate(run->checks, &run->simulation, &run->views, &run->start,
-                            &result->checks));
+        const struct check_moment moment = moment_of(run);
+        TRY(checks_evaluate(run->checks, &moment, &result->checks));
         char *path = run_path(run, "checks.csv");
         char *pictures = run_path(run, "pictures");
         struct error *error = NULL;
@@ -295,11 +331,14 @@ static struct error *run_through(struct run *run)
 static void destroy(struct run *run)
 {
     checks_free(run->checks);
+    probes_free(&run->probes);
+    profiles_free(&run->profiles);
     if (run->solver && run->method)
         run->method->destroy(run->solver);
     free(run->solver);
     simulation_destroy(&run->simulation);
     free(run->snapshot_times);
+    free(run->check_memory);
     free(run->case_text);
     free(run);
 }
@@ -311,6 +350,12 @@ static struct run *run_new(const struct simulation_case *input, const struct run
     memset(result, 0, sizeof *result);
     if (!run)
         return NULL;
+    run->check_memory =
+        memory_allocate(((size_t)input->checks.count + 1) * sizeof *run->check_memory);
+    if (!run->check_memory) {
+        free(run);
+        return NULL;
+    }
     run->input = input;
     run->options = options;
     run->result = result;

@@ -4,6 +4,8 @@
 
 #include "output/checkpoint.h"
 #include "output/history.h"
+#include "run/probes.h"
+#include "run/profiles.h"
 #include "run/run.h"
 
 struct run {
@@ -15,6 +17,8 @@ struct run {
     const struct solver_class *method;
     void *solver;
     struct views views;
+    struct probes probes;
+    struct profiles profiles;
     struct checks *checks;
     struct limit limit;
     double step; /* the last one taken, s */
@@ -22,6 +26,7 @@ struct run {
     /* What a resumed run needs beside the state: the totals at time zero, how many times each
      * output has been due and been written, and when. */
     struct totals start;
+    struct check_memory *check_memory;
     int64_t history_due, snapshots_due; /* times the interval has passed */
     int64_t history_rows, snapshots;
     double *snapshot_times;

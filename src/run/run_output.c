@@ -121,11 +121,13 @@ struct error *run_open_folder(struct run *run)
     if (!options->resume)
         TRY(write_case(run));
     TRY(open_log(run));
-    return open_history(run);
+    TRY(open_history(run));
+    return probes_open(&run->probes, options->output, options->resume);
 }
 
 struct error *run_close_files(struct run *run, struct error *error)
 {
+    error = error_join(error, probes_close(&run->probes));
     if (run->history)
         error = error_join(error, history_close(run->history));
     if (run->log)
@@ -146,8 +148,7 @@ static double history_interval(const struct run *run)
     return isnan(given) ? 0.01 * run->input->run.until : given;
 }
 
-/* True when TIME has reached the next multiple of INTERVAL, of which DUE have been; counts it. */
-static bool is_due(double time, double interval, int64_t *due)
+bool output_is_due(double time, double interval, int64_t *due)
 {
     if (isnan(interval) || time < (double)*due * interval)
         return false;
@@ -220,6 +221,8 @@ static struct error *write_snapshot(struct run *run)
     if (!run->options->output)
         return NULL;
     TRY(draw_pictures(run, number));
+    TRY(profiles_write(&run->profiles, &run->simulation, &run->views, run->options->output,
+                       number));
     if (!run->input->output.snapshots)
         return NULL;
     char *name = text_format("snapshots/%06lld.vtkhdf", (long long)number);
@@ -236,13 +239,16 @@ struct error *run_watch(struct run *run, bool last)
 {
     double clock = clock_seconds(), time = run->simulation.time;
     bool first = run->snapshots == 0;
-    bool row = is_due(time, history_interval(run), &run->history_due) || last;
-    bool snapshot = is_due(time, run->input->output.every, &run->snapshots_due) || last || first;
+    bool row = output_is_due(time, history_interval(run), &run->history_due) || last;
+    bool snapshot =
+        output_is_due(time, run->input->output.every, &run->snapshots_due) || last || first;
     struct error *error = row ? watch_energy(run) : NULL;
     if (!error && row && run->history)
         error = history_row(run->history, &run->simulation, run->step, &run->start);
     if (run->history)
         run->history_rows = history_rows(run->history);
+    if (!error)
+        error = probes_watch(&run->probes, &run->simulation, &run->views, last);
     if (!error && snapshot)
         error = write_snapshot(run);
     double spent = clock_seconds() - clock;
@@ -307,6 +313,10 @@ static struct error *visit_extra(void *context, struct visitor *visitor)
     for (size_t i = 0; i < COUNT_OF(arrays); i++)
         TRY(visitor->visit(visitor, arrays[i].name, arrays[i].number, arrays[i].data,
                            arrays[i].count, 1));
+    if (run->input->checks.count)
+        TRY(visitor->visit(visitor, "run/checks", NUMBER_DOUBLE, run->check_memory,
+                           run->input->checks.count, CHECK_MEMORY_NUMBERS));
+    TRY(probes_visit(&run->probes, visitor));
     if (run->snapshots < 1)
         return error_new(ERROR_SYSTEM, "a checkpoint without a first snapshot");
     if (!memory_reserve((void **)&run->snapshot_times, &run->snapshot_room, run->snapshots,
@@ -326,6 +336,7 @@ struct error *run_checkpoint(struct run *run)
 {
     if (!run->options->output)
         return NULL;
+    TRY(probes_flush(&run->probes));
     char *path = run_path(run, "checkpoint.h5");
     struct checkpoint checkpoint = checkpoint_of(run);
     struct error *error = path ? checkpoint_write(path, &checkpoint) : out_of_memory();

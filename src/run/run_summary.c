@@ -83,11 +83,9 @@ static void put_body(FILE *file, const struct run *run, int index)
     const struct particles *particles = &run->simulation.particles;
     const struct body_input *body = case_body(input, index);
     const char *name = input->bodies.names[index];
-    const char *mass = input->dimension == 3 ? "kg" : input->dimension == 2 ? "kg/m" : "kg/m^2";
+    const char *mass =
+        history_unit(LEDGER_MASS, run->simulation.dimension, run->simulation.geometry);
     struct totals totals = particles_totals(particles, &run->ranks, index);
-    struct point point = body->start;
-    struct response response =
-        material_evaluate(&case_material(input, body->material_index)->material, &point);
     int64_t count = 0;
     for (int32_t i = 0; i < particles->count; i++)
         count += particles->body[i] == index;
@@ -96,6 +94,11 @@ static void put_body(FILE *file, const struct run *run, int index)
     put_number(file, "body", name, "mass", totals.entry[LEDGER_MASS], mass);
     put_number(file, "body", name, "resolution",
                isnan(body->resolution) ? input->resolution : body->resolution, "m");
+    if (body->varies)
+        return;
+    struct point point = body->start;
+    struct response response =
+        material_evaluate(&case_material(input, body->material_index)->material, &point);
     put_number(file, "body", name, "density", point.density, "kg/m^3");
     put_number(file, "body", name, "sound_long", response.sound_long, "m/s");
     put_number(file, "body", name, "sound_shear", response.sound_shear, "m/s");

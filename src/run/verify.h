@@ -18,7 +18,7 @@ struct verify_case {
 };
 
 struct verify_options {
-    struct case_options reading; /* material folders, settings, the short form */
+    struct case_options reading; /* material folders, settings, the form */
     const struct catalogue *catalogue;
     /* How each is run. Output is the folder in which each case gets one of its name. */
     struct run_options running;

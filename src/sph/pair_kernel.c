@@ -1,26 +1,14 @@
 /* The pair loop for one instruction set, named by BOLIDE_ISA; see pair_kernel.h.
  *
- * A row is compressed to the neighbours within support, their records are turned into eight lanes a field, and
- * lane k sums the neighbours k, k + 8, ...; lanes are added in a fixed order. So a sum depends on the row's
- * neighbours in support and their order alone. Contact terms are (1.20)-(1.37) of Parshikov (2013), with velocity
- * and traction split into the part along the pair and the part across it. */
-#include <string.h>
-
+ * Contact terms are (1.20)-(1.37) of Parshikov (2013), with velocity and traction split into the part along the
+ * pair and the part across it; how rows become lanes is lanes.h. */
+#include "sph/pair_kernel.h"
 #include "riemann/dukowicz.h"
 #include "riemann/exact_gas.h"
 #include "sph/kernel.h"
-#include "sph/pair_kernel.h"
+#include "sph/lanes.h"
 
-enum { LANES = 8, FIELDS = 24, CHUNK = 512 };
-
-#define ALIGNED __attribute__((aligned(64)))
-/* A kernel is instantiated by inlining all of this with its kind as a constant. Sanitized builds call instead: they
- * check the same code once, and compile in seconds. */
-#if defined(BOLIDE_SANITIZE)
-#define INLINE static
-#else
-#define INLINE static inline __attribute__((always_inline))
-#endif
+enum { FIELDS = 24 };
 
 /* Eight neighbours, field by field, and for each whether a contact law cuts shear or tension. */
 struct lanes {
@@ -32,59 +20,13 @@ struct lanes {
 struct sums {
     double traction[3][LANES] ALIGNED, gradient[9][LANES] ALIGNED, power[LANES] ALIGNED;
     double weight[LANES] ALIGNED, drift[3][LANES] ALIGNED; /* V W', V W' (U* - U) */
+    double hoop[2][LANES] ALIGNED;                         /* A (w - d) W' e_x, A x W' e_x */
 };
 
+/* In the same order; what the kind has not stays zero. */
 struct totals_of_row {
-    double traction[3], gradient[9], power, weight, drift[3];
+    double traction[3], gradient[9], power, weight, drift[3], hoop[2];
 };
-
-#if defined(__AVX512F__)
-typedef double vector8 __attribute__((vector_size(64)));
-typedef long long index8 __attribute__((vector_size(64)));
-
-/* Turns eight rows of eight into eight columns. */
-INLINE void transpose(const double *const row[LANES], int offset, double (*column)[LANES])
-{
-    vector8 a[8], b[8];
-    for (int k = 0; k < 8; k++)
-        memcpy(&a[k], row[k] + offset, sizeof a[k]);
-    const index8 low = {0, 8, 2, 10, 4, 12, 6, 14}, high = {1, 9, 3, 11, 5, 13, 7, 15};
-    for (int k = 0; k < 8; k += 2) {
-        b[k] = __builtin_shuffle(a[k], a[k + 1], low);
-        b[k + 1] = __builtin_shuffle(a[k], a[k + 1], high);
-    }
-    const index8 pair_low = {0, 1, 8, 9, 4, 5, 12, 13}, pair_high = {2, 3, 10, 11, 6, 7, 14, 15};
-    for (int k = 0; k < 8; k += 4)
-        for (int m = 0; m < 2; m++) {
-            a[k + m] = __builtin_shuffle(b[k + m], b[k + m + 2], pair_low);
-            a[k + m + 2] = __builtin_shuffle(b[k + m], b[k + m + 2], pair_high);
-        }
-    const index8 half_low = {0, 1, 2, 3, 8, 9, 10, 11}, half_high = {4, 5, 6, 7, 12, 13, 14, 15};
-    for (int k = 0; k < 4; k++) {
-        vector8 first = __builtin_shuffle(a[k], a[k + 4], half_low);
-        vector8 second = __builtin_shuffle(a[k], a[k + 4], half_high);
-        memcpy(column[k], &first, sizeof first);
-        memcpy(column[k + 4], &second, sizeof second);
-    }
-}
-#else
-INLINE void transpose(const double *const row[LANES], int offset, double (*column)[LANES])
-{
-    for (int k = 0; k < LANES; k++)
-        for (int f = 0; f < 8; f++)
-            column[f][k] = row[k][offset + f];
-}
-#endif
-
-INLINE void stage(const struct pair_loop *loop, int stride, const int32_t *list,
-                  struct lanes *lanes)
-{
-    const double *row[LANES];
-    for (int k = 0; k < LANES; k++)
-        row[k] = loop->record + (size_t)list[k] * (size_t)stride;
-    for (int offset = 0; offset < stride; offset += 8)
-        transpose(row, offset, lanes->field + offset);
-}
 
 /* The laws between a body and the eight neighbours of LIST. */
 INLINE void stage_laws(const struct pair_loop *loop, int32_t i, const int32_t *list,
@@ -129,6 +71,12 @@ INLINE struct vec3 traction_of(int dimension, struct sym3 s, struct vec3 e)
     return sym3_dot(s, e);
 }
 
+/* The spin that stands STEP doubles apart from S on. */
+INLINE struct vec3 spin_from(int dimension, const double *s, int step)
+{
+    return dimension == 2 ? vec3_make(0.0, 0.0, s[0]) : vec3_make(s[0], s[step], s[2 * step]);
+}
+
 /* One own particle against eight neighbours. */
 INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, const double *own,
                       const struct lanes *lanes, struct sums *sums)
@@ -138,6 +86,7 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
     const int d = record_diameter(dimension), v = record_volume(dimension);
     const int u = record_velocity(dimension), s = record_stress(dimension);
     const int z = record_impedance(dimension, shear);
+    const int depth = record_depth(kind), spin = record_spin(kind);
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         struct vec3 x = vec3_make(lanes->field[0][k] - own[0], 0.0, 0.0);
@@ -190,6 +139,16 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
         struct vec3 t = vec3_scale(stress, e), w = vec3_scale(jump, e);
         if (dimension > 1) {
             struct vec3 across_u = vec3_sub(du, vec3_scale(along_u, e));
+            struct vec3 own_turn = {0.0, 0.0, 0.0}; /* what the spin of i adds at the contact */
+            if (kind.turn) {
+                double share = own[d] / (own[d] + lanes->field[d][k]);
+                struct vec3 spin_i = spin_from(dimension, own + spin, 1);
+                struct vec3 spin_j = spin_from(dimension, &lanes->field[spin][k], LANES);
+                own_turn = vec3_scale(share * r, vec3_cross(spin_i, e));
+                across_u = vec3_sub(
+                    across_u,
+                    vec3_add(own_turn, vec3_scale((1.0 - share) * r, vec3_cross(spin_j, e))));
+            }
             if (shear) {
                 struct contact_weights across =
                     kind.star == STAR_MEAN
@@ -213,12 +172,21 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
                 }
                 t = vec3_add(t, ta);
                 w = vec3_add(w, wa);
+                if (kind.turn)
+                    w = vec3_add(w, own_turn);
             } else {
                 w = vec3_add(w, vec3_scale(0.5, across_u));
             }
         }
-        double power = weight * vec3_dot(t, w);
-        t = vec3_scale(weight, t);
+        double force_weight = weight;
+        if (kind.depth) {
+            double pair_depth = 0.5 * fabs(own[depth] + lanes->field[depth][k]);
+            force_weight = weight * pair_depth;
+            sums->hoop[0][k] += weight * (pair_depth - own[depth]) * e.x;
+            sums->hoop[1][k] += weight * x.x * e.x;
+        }
+        double power = force_weight * vec3_dot(t, w);
+        t = vec3_scale(force_weight, t);
         w = vec3_scale(weight, w);
         sums->power[k] += power;
         if (kind.drift) {
@@ -246,79 +214,45 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
     }
 }
 
-INLINE double across_lanes(const double lane[LANES])
+INLINE struct totals_of_row totals_of_sums(struct pair_kind kind, const struct sums *sums)
 {
-    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) +
-           ((lane[1] + lane[5]) + (lane[3] + lane[7]));
-}
-
-INLINE struct totals_of_row totals_of_sums(bool drift, const struct sums *sums)
-{
-    struct totals_of_row totals;
+    struct totals_of_row totals = {0};
     for (int a = 0; a < 3; a++)
         totals.traction[a] = across_lanes(sums->traction[a]);
     for (int a = 0; a < 9; a++)
         totals.gradient[a] = across_lanes(sums->gradient[a]);
     totals.power = across_lanes(sums->power);
-    totals.weight = drift ? across_lanes(sums->weight) : 0.0;
+    totals.weight = kind.drift ? across_lanes(sums->weight) : 0.0;
     for (int a = 0; a < 3; a++)
-        totals.drift[a] = drift ? across_lanes(sums->drift[a]) : 0.0;
+        totals.drift[a] = kind.drift ? across_lanes(sums->drift[a]) : 0.0;
+    for (int a = 0; a < 2; a++)
+        totals.hoop[a] = kind.depth ? across_lanes(sums->hoop[a]) : 0.0;
     return totals;
 }
 
-/* Appends to LIST the neighbours of ENTRY within support of the particle. */
-INLINE int compress(const struct pair_loop *loop, int dimension, int stride, const double *own,
-                    const uint32_t *entry, int count, int32_t *list)
-{
-    const int d = record_diameter(dimension);
-    int kept = 0;
-    for (int q = 0; q < count; q++) {
-        int32_t j = (int32_t)(entry[q] & ENTRY_INDEX);
-        const double *other = loop->record + (size_t)j * (size_t)stride;
-        double sum = square(other[0] - own[0]);
-        if (dimension > 1)
-            sum += square(other[1] - own[1]);
-        if (dimension > 2)
-            sum += square(other[2] - own[2]);
-        list[kept] = j;
-        kept += sum < square(loop->smoothing * (own[d] + other[d]));
-    }
-    return kept;
-}
-
-/* Adds the entries of one part of a row. Entries are taken in chunks that begin in lane zero: the first
- * neighbour of a part in support always stands in lane zero. */
+/* Adds the entries of one part of a row. */
 INLINE void add_part(const struct pair_loop *loop, struct pair_kind kind, bool with_law, int32_t i,
                      const uint32_t *entry, int count, struct sums *sums)
 {
-    const int stride = record_stride(kind);
-    const double *own = loop->record + (size_t)i * (size_t)stride;
-    int32_t list[CHUNK + 2 * LANES];
+    const struct lane_records records = {loop->record, record_stride(kind), kind.dimension,
+                                         loop->empty, loop->smoothing};
+    const double *own = loop->record + (size_t)i * (size_t)records.stride;
+    struct lane_walk walk;
     struct lanes lanes;
-    int waiting = 0;
-    for (int q = 0; q < count; q += CHUNK) {
-        int length = count - q < CHUNK ? count - q : CHUNK;
-        waiting += compress(loop, kind.dimension, stride, own, entry + q, length, list + waiting);
-        bool last = q + length == count;
-        if (last)
-            while (waiting % LANES)
-                list[waiting++] = loop->empty;
-        int full = waiting / LANES * LANES;
-        for (int k = 0; k < full; k += LANES) {
-            stage(loop, stride, list + k, &lanes);
+    walk.looked_at = walk.ready = walk.waiting = 0;
+    while (lanes_walk(&walk, records, own, entry, count))
+        for (int k = 0; k < walk.ready; k += LANES) {
+            lanes_stage(records, walk.list + k, lanes.field);
             if (with_law)
-                stage_laws(loop, i, list + k, &lanes);
+                stage_laws(loop, i, walk.list + k, &lanes);
             add_lanes(kind, with_law, loop->smoothing, own, &lanes, sums);
         }
-        waiting -= full;
-        memmove(list, list + full, (size_t)waiting * sizeof *list);
-    }
 }
 
-INLINE void write_rates(const struct pair_rates *rates, int32_t i, double density,
+/* FACTOR turns sums of forces into those of a unit of mass. */
+INLINE void write_rates(const struct pair_rates *rates, int32_t i, double factor,
                         const struct totals_of_row *all, const struct totals_of_row *images)
 {
-    double factor = -2.0 / density;
     const double *g = all->gradient;
     for (int a = 0; a < 3; a++) {
         rates->acceleration[i][a] = factor * all->traction[a];
@@ -328,6 +262,10 @@ INLINE void write_rates(const struct pair_rates *rates, int32_t i, double densit
             rates->drift[i][a] = all->weight < 0.0 ? all->drift[a] / all->weight : 0.0;
     }
     rates->power[i] = factor * all->power;
+    if (rates->hoop_pull) {
+        rates->hoop_pull[i] = -2.0 * all->hoop[0];
+        rates->hoop_strain[i] = -all->hoop[1];
+    }
     /* dU^a/dx^b = -2 gradient[3 a + b], since the sums hold U* - U. */
     rates->strain_rate[i][0] = -2.0 * g[0];
     rates->strain_rate[i][1] = -2.0 * g[4];
@@ -343,13 +281,16 @@ INLINE void write_rates(const struct pair_rates *rates, int32_t i, double densit
 INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32_t i)
 {
     const uint32_t *entry = neighbours_row(loop->neighbours, i);
+    const double *own = loop->record + (size_t)i * (size_t)record_stride(kind);
+    double factor =
+        -2.0 / (kind.depth ? loop->density[i] * own[record_depth(kind)] : loop->density[i]);
     int count = (int)loop->neighbours->row[i].count, done = 0;
     struct sums sums = {0};
     struct totals_of_row all = {0}, images = {0};
     if (count == 0 || entry[count - 1] >> ENTRY_PART_SHIFT == 0) {
         add_part(loop, kind, false, i, entry, count, &sums);
-        all = totals_of_sums(kind.drift, &sums);
-        write_rates(&loop->rates, i, loop->density[i], &all, &images);
+        all = totals_of_sums(kind, &sums);
+        write_rates(&loop->rates, i, factor, &all, &images);
         return;
     }
     for (unsigned part = 0; part < 4; part++) {
@@ -357,7 +298,7 @@ INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32
         while (done < count && entry[done] >> ENTRY_PART_SHIFT == part)
             done++;
         if (part == PART_IMAGE) {
-            all = totals_of_sums(kind.drift, &sums);
+            all = totals_of_sums(kind, &sums);
             memset(&sums, 0, sizeof sums);
         }
         if (done > begin && part & PART_LAW)
@@ -365,7 +306,7 @@ INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32
         else if (done > begin)
             add_part(loop, kind, false, i, entry + begin, done - begin, &sums);
     }
-    images = totals_of_sums(kind.drift, &sums);
+    images = totals_of_sums(kind, &sums);
     for (int a = 0; a < 3; a++)
         all.traction[a] += images.traction[a];
     for (int a = 0; a < 9; a++)
@@ -374,37 +315,50 @@ INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32
     all.weight += images.weight;
     for (int a = 0; a < 3; a++)
         all.drift[a] += images.drift[a];
-    write_rates(&loop->rates, i, loop->density[i], &all, &images);
+    for (int a = 0; a < 2; a++)
+        all.hoop[a] += images.hoop[a];
+    write_rates(&loop->rates, i, factor, &all, &images);
 }
 
-#define INSTANCE(name, dimension, shear, star, drift)                          \
+/* Each body of the rows' loop is an instance; its name says of which kind. */
+#define INSTANCE(name, ...)                                                    \
     static void name(const struct pair_loop *loop, int32_t begin, int32_t end) \
     {                                                                          \
-        const struct pair_kind kind = {dimension, shear, star, drift};         \
+        const struct pair_kind kind = {__VA_ARGS__};                           \
         for (int32_t i = begin; i < end; i++)                                  \
             row_rates(loop, kind, i);                                          \
     }
 
-#define INSTANCES(medium, dimension, shear)                                  \
-    INSTANCE(medium##_acoustic, dimension, shear, STAR_ACOUSTIC, false)      \
-    INSTANCE(medium##_mean, dimension, shear, STAR_MEAN, false)              \
-    INSTANCE(medium##_dukowicz, dimension, shear, STAR_DUKOWICZ, false)      \
-    INSTANCE(medium##_acoustic_drift, dimension, shear, STAR_ACOUSTIC, true) \
-    INSTANCE(medium##_mean_drift, dimension, shear, STAR_MEAN, true)         \
-    INSTANCE(medium##_dukowicz_drift, dimension, shear, STAR_DUKOWICZ, true)
+#define INSTANCES(medium, dimension, shear, depth)                                         \
+    INSTANCE(medium##_acoustic, dimension, shear, STAR_ACOUSTIC, false, depth, false)      \
+    INSTANCE(medium##_mean, dimension, shear, STAR_MEAN, false, depth, false)              \
+    INSTANCE(medium##_dukowicz, dimension, shear, STAR_DUKOWICZ, false, depth, false)      \
+    INSTANCE(medium##_acoustic_drift, dimension, shear, STAR_ACOUSTIC, true, depth, false) \
+    INSTANCE(medium##_mean_drift, dimension, shear, STAR_MEAN, true, depth, false)         \
+    INSTANCE(medium##_dukowicz_drift, dimension, shear, STAR_DUKOWICZ, true, depth, false)
 
-#define GAS_INSTANCES(medium, dimension)                                  \
-    INSTANCE(medium##_exact_gas, dimension, false, STAR_EXACT_GAS, false) \
-    INSTANCE(medium##_exact_gas_drift, dimension, false, STAR_EXACT_GAS, true)
+#define GAS_INSTANCES(medium, dimension, depth)                                         \
+    INSTANCE(medium##_exact_gas, dimension, false, STAR_EXACT_GAS, false, depth, false) \
+    INSTANCE(medium##_exact_gas_drift, dimension, false, STAR_EXACT_GAS, true, depth, false)
 
-INSTANCES(line, 1, false)
-INSTANCES(plane_fluid, 2, false)
-INSTANCES(plane_solid, 2, true)
-INSTANCES(space_fluid, 3, false)
-INSTANCES(space_solid, 3, true)
-GAS_INSTANCES(line, 1)
-GAS_INSTANCES(plane_fluid, 2)
-GAS_INSTANCES(space_fluid, 3)
+#define TURN_INSTANCES(medium, dimension, depth)                                \
+    INSTANCE(medium##_turn, dimension, true, STAR_ACOUSTIC, false, depth, true) \
+    INSTANCE(medium##_turn_drift, dimension, true, STAR_ACOUSTIC, true, depth, true)
+
+INSTANCES(line, 1, false, false)
+INSTANCES(plane_fluid, 2, false, false)
+INSTANCES(plane_solid, 2, true, false)
+INSTANCES(deep_fluid, 2, false, true)
+INSTANCES(deep_solid, 2, true, true)
+INSTANCES(space_fluid, 3, false, false)
+INSTANCES(space_solid, 3, true, false)
+GAS_INSTANCES(line, 1, false)
+GAS_INSTANCES(plane_fluid, 2, false)
+GAS_INSTANCES(deep_fluid, 2, true)
+GAS_INSTANCES(space_fluid, 3, false)
+TURN_INSTANCES(plane_solid, 2, false)
+TURN_INSTANCES(deep_solid, 2, true)
+TURN_INSTANCES(space_solid, 3, false)
 
 #define JOIN(a, b) a##b
 #define NAME_OF(isa) JOIN(pair_loop_run_, isa)
@@ -427,10 +381,18 @@ void NAME_OF(BOLIDE_ISA)(const struct pair_loop *loop, int32_t begin, int32_t en
     {              \
         NULL, NULL \
     }
-    static instance *const table[3][2][4][2] = {
+    enum { DEEP = 3 }; /* behind the dimensions */
+    static instance *const table[4][2][4][2] = {
         {STARS(line, GAS(line)), STARS(line, GAS(line))},
         {STARS(plane_fluid, GAS(plane_fluid)), STARS(plane_solid, NO_GAS)},
-        {STARS(space_fluid, GAS(space_fluid)), STARS(space_solid, NO_GAS)}};
+        {STARS(space_fluid, GAS(space_fluid)), STARS(space_solid, NO_GAS)},
+        {STARS(deep_fluid, GAS(deep_fluid)), STARS(deep_solid, NO_GAS)}};
+    static instance *const turning[4][2] = {{NULL, NULL},
+                                            {plane_solid_turn, plane_solid_turn_drift},
+                                            {space_solid_turn, space_solid_turn_drift},
+                                            {deep_solid_turn, deep_solid_turn_drift}};
     const struct pair_kind kind = loop->kind;
-    table[kind.dimension - 1][kind.shear][kind.star][kind.drift](loop, begin, end);
+    const int space = kind.depth ? DEEP : kind.dimension - 1;
+    (kind.turn ? turning[space][kind.drift]
+               : table[space][kind.shear][kind.star][kind.drift])(loop, begin, end);
 }

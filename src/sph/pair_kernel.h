@@ -1,8 +1,9 @@
 /* The pair loop: sums over neighbours of what the contact problems between particles give.
  *
  * A neighbour is seen through its record alone, a few doubles packed once a stage:
- *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear] [density bend]
- * where stress is sigma_xx alone for fluids and in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz, zx) in 3-D.
+ *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear] [density bend] [depth] [spin]
+ * where stress is sigma_xx alone for fluids and in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz, zx) in 3-D, and spin
+ * one component in 2-D, three in 3-D. With a depth d, the volume is the area A = m/(rho d) of a section of the plane.
  * The loop is compiled for several instruction sets with the same result to the last bit. */
 #ifndef BOLIDE_SPH_PAIR_KERNEL_H
 #define BOLIDE_SPH_PAIR_KERNEL_H
@@ -18,12 +19,14 @@ enum pair_star {
 };
 
 /* What instantiates a kernel. `shear`: stress is a tensor and shear impedances count. `drift`: the mean of
- * contact velocities is wanted too. */
+ * contact velocities is wanted too. `depth`: particles of the plane have a depth, the radius r of axisymmetry (-r
+ * behind the axis) or the thickness of a plate. `turn`: velocities are those at the contact point (acoustic, with
+ * shear). */
 struct pair_kind {
     int dimension;
     bool shear;
     enum pair_star star;
-    bool drift;
+    bool drift, depth, turn;
 };
 
 /* Offsets in a record, of the doubles after position. */
@@ -48,21 +51,30 @@ BOLIDE_INLINE int record_bend(int dimension, bool shear)
 {
     return record_impedance(dimension, shear) + 1 + (shear && dimension > 1);
 }
+BOLIDE_INLINE int record_depth(struct pair_kind kind)
+{
+    return record_bend(kind.dimension, kind.shear) + (record_has_bend(kind) ? 2 : 0);
+}
+BOLIDE_INLINE int record_spin(struct pair_kind kind) { return record_depth(kind) + kind.depth; }
 /* Doubles from one record to the next: whole cache lines. */
 BOLIDE_INLINE int record_stride(struct pair_kind kind)
 {
-    int used = record_bend(kind.dimension, kind.shear) + (record_has_bend(kind) ? 2 : 0);
+    int used = record_spin(kind) + (!kind.turn ? 0 : kind.dimension == 2 ? 1 : 3);
     return (used + 7) / 8 * 8;
 }
 
-/* Sums for particle i, with V = m/rho, W' = dW/dr, e from i to j, t* = sigma*.e, and U* as i sees it. */
+/* Sums for particle i, with V = m/rho, W' = dW/dr, e from i to j, t* = sigma*.e, and U* as i sees it. With depths,
+ * w = |d_i + d_j|/2 is the depth of a pair, A stands for V, and the sums of forces read -2/(rho d_i) sum A_j w W' ... */
 struct pair_rates {
     double (*acceleration)[3]; /* -(2/rho) sum V W' t*                (1.39), m/s^2 */
     double *power;             /* -(2/rho) sum V W' t*.(U* - U)       (1.40) less U.(1.39), W/kg */
     double (*strain_rate)[6];  /* symmetric part of dU^a/dx^b = 2 sum V W' (U - U*)^a e^b, 1/s */
     double (*spin)[3];         /* half the curl of U (1.57), (1.58), rad/s */
     double (*wall)[3];  /* the part of the acceleration that images gave; NULL without walls */
-    double (*drift)[3]; /* sum V W\' (U* - U) / sum V W\', m/s; NULL unless the kind has it */
+    double (*drift)[3]; /* sum V W' (U* - U) / sum V W', m/s; NULL unless the kind has it */
+    /* Of axisymmetry, NULL otherwise: -2 sum A_j (w - d_i) W' e_x, the part of the hoop stress that pulls inwards, and
+     * -sum A_j (x_j - x_i) W' e_x, the part of u/r that is hoop strain rate; both are one in the continuum. */
+    double *hoop_pull, *hoop_strain;
 };
 
 struct pair_loop {

@@ -22,7 +22,7 @@ void sph_evaluate(const struct sph *sph, struct simulation *simulation)
         p->pressure[i] = point.pressure;
         f.sound_long[i] = r.sound_long;
         f.sound_shear[i] = r.sound_shear;
-        f.diameter[i] = diameter_of(p->mass[i] / p->density[i], simulation->dimension);
+        f.diameter[i] = diameter_of(sph_volume(simulation, &f, i), simulation->dimension);
     }
 }
 
@@ -30,13 +30,14 @@ void sph_evaluate(const struct sph *sph, struct simulation *simulation)
 static void pack_owned(const struct sph *sph, const struct simulation *simulation,
                        const struct sph_fields *f, int32_t i, double *record)
 {
-    bool shear = sph->kind.shear;
+    const struct pair_kind kind = sph->kind;
+    bool shear = kind.shear;
     const struct particles *p = &simulation->particles;
     int dimension = simulation->dimension, k = 0;
     for (int axis = 0; axis < dimension; axis++)
         record[k++] = p->position[i][axis];
     record[k++] = f->diameter[i];
-    record[k++] = p->mass[i] / p->density[i];
+    record[k++] = sph_volume(simulation, f, i);
     for (int axis = 0; axis < dimension; axis++)
         record[k++] = p->velocity[i][axis];
     const double *s = p->deviator[i];
@@ -55,17 +56,24 @@ static void pack_owned(const struct sph *sph, const struct simulation *simulatio
     record[k++] = p->density[i] * f->sound_long[i];
     if (shear)
         record[k++] = p->density[i] * f->sound_shear[i];
-    if (record_has_bend(sph->kind)) {
+    if (record_has_bend(kind)) {
         record[k++] = p->density[i];
-        record[k] = sph->bend[p->material[i]];
+        record[k++] = sph->bend[p->material[i]];
     }
+    if (kind.depth)
+        record[k++] = sph_depth(simulation, f, i);
+    const double *spin = f->rates.spin[i];
+    if (kind.turn)
+        memcpy(record + k, dimension == 2 ? spin + 2 : spin,
+               (dimension == 2 ? 1 : 3) * sizeof *spin);
 }
 
 /* Turns the record of a particle into that of its image: place mirrored, normal velocity and the shear
- * stresses with one normal index negated. */
-static void reflect(const struct simulation *simulation, bool shear, image_code image,
+ * stresses with one normal index negated, spin as a pseudovector; behind the axis a radius is negative. */
+static void reflect(const struct simulation *simulation, struct pair_kind kind, image_code image,
                     double *record)
 {
+    const bool shear = kind.shear;
     int dimension = simulation->dimension;
     struct vec3 sign = image_sign(image);
     double x[3] = {0.0, 0.0, 0.0}, signs[3] = {sign.x, sign.y, sign.z};
@@ -85,6 +93,16 @@ static void reflect(const struct simulation *simulation, bool shear, image_code 
         stress[4] *= sign.y * sign.z;
         stress[5] *= sign.z * sign.x;
     }
+    if (sph_axisymmetric(simulation) && image % 3 == 1)
+        record[record_depth(kind)] *= -1.0;
+    double *spin = record + record_spin(kind);
+    if (kind.turn && dimension == 2)
+        spin[0] *= sign.x * sign.y;
+    if (kind.turn && dimension == 3) {
+        spin[0] *= sign.y * sign.z;
+        spin[1] *= sign.z * sign.x;
+        spin[2] *= sign.x * sign.y;
+    }
 }
 
 void sph_pack(struct sph *sph, const struct simulation *simulation)
@@ -100,7 +118,7 @@ void sph_pack(struct sph *sph, const struct simulation *simulation)
     for (int32_t g = 0; g < ghosts->count; g++) {
         double *record = sph->record + (size_t)(p->count + g) * stride;
         memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
-        reflect(simulation, sph->kind.shear, ghosts->image[g], record);
+        reflect(simulation, sph->kind, ghosts->image[g], record);
     }
     /* The record that fills up lanes has no volume; its contact problem must only have an answer. */
     double *empty = sph->record + (size_t)(p->count + ghosts->count) * stride;
@@ -112,6 +130,48 @@ void sph_pack(struct sph *sph, const struct simulation *simulation)
         empty[bend] = 1.0;
         empty[bend + 1] = 2.0;
     }
+}
+
+void sph_find_viscosity(const struct sph *sph, const struct simulation *simulation,
+                        const struct sph_fields *f)
+{
+    const struct particles *p = &simulation->particles;
+    double quadratic = sph->parameters.viscosity_quadratic,
+           linear = sph->parameters.viscosity_linear;
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < p->count; i++) {
+        const double *rate = f->rates.strain_rate[i];
+        double k = maximum(-(rate[0] + rate[1] + rate[2]), 0.0), d = f->diameter[i];
+        f->viscosity[i] = p->density[i] * d * k * (quadratic * d * k + linear * f->sound_long[i]);
+    }
+}
+
+void sph_limit_step(const struct sph *sph, const struct simulation *simulation,
+                    const struct sph_fields *f, struct limit *limit)
+{
+    const struct particles *p = &simulation->particles;
+    double courant = sph->parameters.courant;
+    struct limit smallest = {(double)INFINITY, "sound speed", 0};
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct limit own = smallest;
+#pragma omp for schedule(static)
+        for (int32_t i = 0; i < p->count; i++) {
+            const double *rate = f->rates.strain_rate[i];
+            double divergence = rate[0] + rate[1] + rate[2], d = f->diameter[i];
+            double stretch = 4.0 * d * divergence;
+            double dt = courant * d / sqrt(square(f->sound_long[i]) + square(stretch));
+            if (dt < own.dt || (dt == own.dt && p->id[i] < own.id)) {
+                own.dt = dt;
+                own.id = p->id[i];
+                own.why = fabs(stretch) > f->sound_long[i] ? "volume rate" : "sound speed";
+            }
+        }
+#pragma omp critical(bolide_sph_limit)
+        if (own.dt < smallest.dt || (own.dt == smallest.dt && own.id < smallest.id))
+            smallest = own;
+    }
+    *limit = smallest;
 }
 
 /* The particle with the smallest id whose new state is impossible. */
@@ -151,12 +211,17 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
         /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2, without taking differences. */
         motion.energy =
             p->energy[i] + dt * f->rates.power[i] - (total ? 0.5 * square(dt) * a2 : 0.0);
+        if (f->heat_rate)
+            motion.energy += dt * f->heat_rate[i];
         struct sym3 strain = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]};
         motion.strain_rate = strain;
         motion.spin = vec3_make(f->rates.spin[i][0], f->rates.spin[i][1], f->rates.spin[i][2]);
-        struct point point = {.deviator = {s[0], s[1], s[2], s[3], s[4], s[5]},
+        struct point point = {.density = p->density[i],
+                              .deviator = {s[0], s[1], s[2], s[3], s[4], s[5]},
                               .history = {p->plastic_strain[i]}};
-        struct response r = material_step(material, &point, &motion);
+        struct response r =
+            f->thickness ? sph_thin_step(material, divergence, &point, &motion, &f->thickness[i])
+                         : material_step(material, &point, &motion);
         p->density[i] = point.density;
         p->energy[i] = point.energy;
         p->pressure[i] = point.pressure;
@@ -169,7 +234,8 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
         s[5] = point.deviator.zx;
         f->sound_long[i] = r.sound_long;
         f->sound_shear[i] = r.sound_shear;
-        f->diameter[i] = diameter_of(p->mass[i] / point.density, dimension);
+        double depth = f->thickness ? f->thickness[i] : f->rates.hoop_pull ? fabs(x[0]) : 1.0;
+        f->diameter[i] = diameter_of(p->mass[i] / (point.density * depth), dimension);
         bool possible = point.density > 0.0 && isfinite(point.density) &&
                         isfinite(point.pressure) && isfinite(point.energy) && isfinite(a2) &&
                         !(r.status & POINT_NO_SOUND);
@@ -220,20 +286,6 @@ static void update_block(const struct sph *sph, struct simulation *simulation,
     }
 }
 
-/* Walls push on particles: the impulse is booked, the work of a slip wall at rest is zero. */
-static void book_walls(struct simulation *simulation, const struct sph_fields *f, double dt)
-{
-    const struct particles *p = &simulation->particles;
-    for (int32_t i = 0; i < p->count; i++) {
-        const double *a = f->rates.wall[i];
-        if (a[0] == 0.0 && a[1] == 0.0 && a[2] == 0.0)
-            continue;
-        struct vec3 impulse = vec3_scale(dt * p->mass[i], vec3_make(a[0], a[1], a[2]));
-        struct vec3 place = vec3_make(p->position[i][0], p->position[i][1], p->position[i][2]);
-        ledger_book(&simulation->ledger, LEDGER_WALLS, 0.0, impulse, place, 0.0);
-    }
-}
-
 static struct error *impossible(const struct simulation *simulation, const struct failure *failure)
 {
     const struct particles *p = &simulation->particles;
@@ -250,12 +302,30 @@ static struct error *impossible(const struct simulation *simulation, const struc
         p->velocity[i][1], p->velocity[i][2]);
 }
 
+/* Heat alone: density and deviator stay. */
+static void update_heat(const struct sph *sph, struct simulation *simulation,
+                        const struct sph_fields *f, double dt, struct failure *failure)
+{
+    struct particles *p = &simulation->particles;
+    for (int32_t i = 0; i < p->count; i++)
+        p->energy[i] += dt * f->heat_rate[i];
+    sph_evaluate(sph, simulation);
+    for (int32_t i = 0; i < p->count; i++)
+        if (!isfinite(p->energy[i]) || !isfinite(p->pressure[i]))
+            note_failure(failure, p->id[i], i);
+}
+
 struct error *sph_update(const struct sph *sph, struct simulation *simulation, double dt)
 {
     struct sph_fields f = sph_fields_of(sph, simulation);
     if (f.rates.wall)
-        book_walls(simulation, &f, dt);
+        sph_book_walls(simulation, &f, dt);
+    sph_hold_bodies(simulation, &f, dt);
     struct failure failure = {false, 0, 0};
+    if (sph_still(sph)) {
+        update_heat(sph, simulation, &f, dt, &failure);
+        return failure.any ? impossible(simulation, &failure) : NULL;
+    }
 #pragma omp parallel num_threads(simulation->threads)
     {
         struct failure own = {false, 0, 0};
@@ -266,5 +336,7 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation, d
         if (own.any)
             note_failure(&failure, own.id, own.index);
     }
+    if (sph_axisymmetric(simulation))
+        sph_cross_axis(simulation);
     return failure.any ? impossible(simulation, &failure) : NULL;
 }

@@ -10,12 +10,15 @@
 #include "base/memory.h"
 #include "model/generate.h"
 #include "riemann/bend.h"
+#include "sph/heat_kernel.h"
 #include "sph/sph_internal.h"
 
 static const char *const method_names[] = {"contact", "standard", NULL};
 static const char *const contact_names[] = {"acoustic", "dukowicz", "exact-gas", NULL};
 static const char *const energy_names[] = {"total", "internal", NULL};
-static const char *const motion_names[] = {"particle", "contact", NULL};
+static const char *const motion_names[] = {"particle", "contact", "none", NULL};
+static const char *const rotation_names[] = {"faithful", "corrected", NULL};
+static const char *const conduction_names[] = {"none", "contact", "harmonic", NULL};
 
 static const struct parameter sph_table[] = {
     {.key = "method",
@@ -58,7 +61,15 @@ static const struct parameter sph_table[] = {
      .standard = "particle",
      .names = motion_names,
      .help =
-         "what moves a particle: its own velocity, or the kernel mean of its contact velocities"},
+         "what moves a particle: its own velocity, the kernel mean of its contact velocities, or "
+         "nothing: heat flows and that is all"},
+    {.key = "rotation",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct sph_parameters, rotation),
+     .standard = "faithful",
+     .names = rotation_names,
+     .help = "velocities that meet at a contact: the particles' own, which brakes rotation as the "
+             "source does, or corrected by their spin to the contact point"},
     {.key = "viscosity_quadratic",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct sph_parameters, viscosity_quadratic),
@@ -75,6 +86,22 @@ static const struct parameter sph_table[] = {
      .below = 1e3,
      .closed = true,
      .help = "coefficient of D rho C k in the artificial viscosity of the standard method"},
+    {.key = "conduction",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct sph_parameters, conduction),
+     .standard = "none",
+     .names = conduction_names,
+     .help =
+         "heat conduction; contact: by the contact temperature of a decaying jump; harmonic: by "
+         "the harmonic mean of conductivities"},
+    {.key = "conduction_limit",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct sph_parameters, conduction_limit),
+     .standard = PARAMETER_OPTIONAL,
+     .above = 0.0,
+     .below = 1.0,
+     .help = "beta of dt = min beta rho C_V h^2/lambda; when not given 0.15 for harmonic, for "
+             "contact 0.35 in one dimension and 0.2 in more"},
     {.key = "skin",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct sph_parameters, skin),
@@ -102,10 +129,18 @@ static const struct field_declaration sph_field_table[] = {
     {"strain_rate", NULL, "symmetric velocity gradient", NUMBER_DOUBLE, 6, FIELD_DERIVED},
     {"spin", NULL, "half the curl of velocity", NUMBER_DOUBLE, 3, FIELD_DERIVED},
 };
+enum { SPIN_FIELD = COUNT_OF(sph_field_table) - 1 };
 static const struct field_declaration wall_field = {
     "wall_acceleration", NULL, "acceleration by walls", NUMBER_DOUBLE, 3, FIELD_DERIVED};
 static const struct field_declaration drift_field = {
     "drift", NULL, "mean contact velocity less own velocity", NUMBER_DOUBLE, 3, FIELD_DERIVED};
+static const struct field_declaration hoop_fields[] = {
+    {"hoop_pull", NULL, "acceleration by hoop stress", NUMBER_DOUBLE, 1, FIELD_DERIVED},
+    {"hoop_strain", NULL, "part of u/r that is strain rate", NUMBER_DOUBLE, 1, FIELD_DERIVED}};
+static const struct field_declaration thickness_field = {
+    "thickness", "1", "thickness relative to the start", NUMBER_DOUBLE, 1, FIELD_STATE};
+static const struct field_declaration heat_field = {
+    "heat_rate", NULL, "specific power of conduction", NUMBER_DOUBLE, 1, FIELD_DERIVED};
 static const struct field_declaration viscosity_field = {
     "viscosity", "Pa", "artificial viscous pressure", NUMBER_DOUBLE, 1, FIELD_DERIVED};
 
@@ -132,6 +167,11 @@ static bool has_laws(const struct simulation *simulation)
 
 static bool is_standard(const struct sph *sph) { return sph->parameters.method == SPH_STANDARD; }
 
+static bool is_thin(const struct simulation *simulation)
+{
+    return simulation->geometry == GEOMETRY_PLANE_STRESS;
+}
+
 struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *simulation)
 {
     const struct particles *p = &simulation->particles;
@@ -140,13 +180,33 @@ struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *
         .sound_long = particles_field(p, "sound_long"),
         .sound_shear = particles_field(p, "sound_shear"),
         .viscosity = is_standard(sph) ? particles_field(p, "viscosity") : NULL,
+        .heat_rate = conduction_on(sph) ? particles_field(p, "heat_rate") : NULL,
+        .thickness = is_thin(simulation) ? particles_field(p, "thickness") : NULL,
         .rates = {.acceleration = particles_field(p, "acceleration"),
                   .power = particles_field(p, "power"),
                   .strain_rate = particles_field(p, "strain_rate"),
                   .spin = particles_field(p, "spin"),
                   .wall = has_walls(simulation) ? particles_field(p, "wall_acceleration") : NULL,
                   .drift = sph->kind.drift ? particles_field(p, "drift") : NULL}};
+    if (sph_axisymmetric(simulation)) {
+        f.rates.hoop_pull = particles_field(p, "hoop_pull");
+        f.rates.hoop_strain = particles_field(p, "hoop_strain");
+    }
     return f;
+}
+
+/* Spins correct what shear stress would brake, in the acoustic contact problem. */
+static struct error *choose_turn(struct sph *sph, const struct simulation *simulation)
+{
+    const char *wrong = NULL;
+    sph->kind.turn = sph->parameters.rotation == SPH_ROTATION_CORRECTED;
+    if (sph->kind.turn && sph->kind.star != STAR_ACOUSTIC)
+        wrong = "corrected goes with `method: contact` and `contact: acoustic`";
+    else if (sph->kind.turn && !sph->kind.shear)
+        wrong = simulation->dimension == 1 ? "nothing turns in one dimension"
+                                           : "corrected wants a material with strength: a fluid's "
+                                             "rotation is not braked";
+    return wrong ? input_error(simulation->input, "solver", "sph.rotation", "%s", wrong) : NULL;
 }
 
 /* Which pair loop the case needs, and what its contact problems take from the materials. */
@@ -160,6 +220,7 @@ static struct error *choose_kind(struct sph *sph, const struct simulation *simul
     kind->dimension = simulation->dimension;
     kind->star = is_standard(sph) ? STAR_MEAN : stars[parameters->contact];
     kind->drift = parameters->motion == SPH_MOTION_CONTACT;
+    kind->depth = sph_axisymmetric(simulation) || is_thin(simulation);
     for (int m = 0; m < simulation->materials; m++) {
         const struct material *material = &simulation->material[m];
         kind->shear |= material_has_strength(material) && simulation->dimension > 1;
@@ -171,8 +232,12 @@ static struct error *choose_kind(struct sph *sph, const struct simulation *simul
                                "exact-gas solves contacts of ideal gases, and material \"%s\" is "
                                "none: use acoustic or dukowicz",
                                simulation->input->materials.names[m]);
+        if (is_thin(simulation) && !material_has_strength(material))
+            return input_error(
+                simulation->input, "materials", simulation->input->materials.names[m],
+                "plane stress is for plates that have strength, and this is a fluid");
     }
-    return NULL;
+    return choose_turn(sph, simulation);
 }
 
 /* An image of an image along one axis does not exist, so two walls must not be nearer than a reach. */
@@ -197,16 +262,25 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     TRY(choose_kind(sph, simulation));
     sph->groups = (struct contact_groups){simulation->group_of_body, &simulation->law[0][0],
                                           has_laws(simulation) ? CONTACT_GROUPS : 1};
-    struct field_declaration fields[COUNT_OF(sph_field_table) + 3];
+    struct field_declaration fields[COUNT_OF(sph_field_table) + 7];
     int count = 0;
     for (size_t k = 0; k < COUNT_OF(sph_field_table); k++)
         fields[count++] = sph_field_table[k];
+    if (sph->kind.turn) /* the spins of the step before enter the next */
+        fields[SPIN_FIELD].kind = FIELD_STATE;
     if (has_walls(simulation))
         fields[count++] = wall_field;
+    for (size_t k = 0; k < COUNT_OF(hoop_fields) && sph_axisymmetric(simulation); k++)
+        fields[count++] = hoop_fields[k];
+    if (is_thin(simulation))
+        fields[count++] = thickness_field;
     if (is_standard(sph))
         fields[count++] = viscosity_field;
     if (sph->kind.drift)
         fields[count++] = drift_field;
+    TRY(conduction_create(sph, simulation));
+    if (conduction_on(sph))
+        fields[count++] = heat_field;
     double support = 2.0 * sph->parameters.smoothing * largest_diameter(simulation->input);
     TRY(check_walls(simulation, 0.5 * support));
     double cell = growth_room * support * (1.0 + sph->parameters.skin);
@@ -215,6 +289,10 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
 
 static struct error *sph_start(void *solver, struct simulation *simulation)
 {
+    struct sph_fields fields = sph_fields_of(solver, simulation);
+    for (int32_t i = 0; fields.thickness && i < simulation->particles.count; i++)
+        if (fields.thickness[i] == 0.0) /* fresh */
+            fields.thickness[i] = 1.0;
     sph_evaluate(solver, simulation);
     return NULL;
 }
@@ -246,6 +324,8 @@ static struct error *refresh_rows(struct sph *sph, struct simulation *simulation
                          simulation->threads));
     sph->steps_since_build = 0;
     simulation_spend(simulation, "neighbours", clock_seconds() - begin);
+    if (conduction_on(sph))
+        TRY(conduction_reserve(sph, simulation));
     return reserve_records(sph, simulation);
 }
 
@@ -266,75 +346,48 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
     for (int32_t b = 0; b < p->blocks; b++)
         pair_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
+    if (sph_axisymmetric(simulation))
+        sph_add_hoop(simulation, fields);
 }
 
-/* q = a D^2 rho k|k| + b D rho C k in compression, k = -div U (2.5). */
-static void find_viscosity(const struct sph *sph, const struct simulation *simulation,
-                           const struct sph_fields *f)
+/* Pair sums of the mechanics, and the step that they allow. */
+static void prepare_motion(struct sph *sph, struct simulation *simulation,
+                           const struct sph_fields *fields, struct limit *limit)
 {
-    const struct particles *p = &simulation->particles;
-    double quadratic = sph->parameters.viscosity_quadratic,
-           linear = sph->parameters.viscosity_linear;
-#pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < p->count; i++) {
-        const double *rate = f->rates.strain_rate[i];
-        double k = maximum(-(rate[0] + rate[1] + rate[2]), 0.0), d = f->diameter[i];
-        f->viscosity[i] = p->density[i] * d * k * (quadratic * d * k + linear * f->sound_long[i]);
+    double begin = clock_seconds();
+    if (is_standard(sph)) {
+        /* Viscosity needs the divergence of the same level first. */
+        for (int32_t i = 0; i < simulation->particles.count; i++)
+            fields->viscosity[i] = 0.0;
+        sph_pack(sph, simulation);
+        sum_pairs(sph, simulation, fields);
+        sph_find_viscosity(sph, simulation, fields);
     }
-}
-
-/* dt = K D / sqrt(C^2 + (4 D div U)^2) (1.87), the smallest, of equal ones that of the smallest id. */
-static void limit_step(const struct sph *sph, const struct simulation *simulation,
-                       const struct sph_fields *f, struct limit *limit)
-{
-    const struct particles *p = &simulation->particles;
-    double courant = sph->parameters.courant;
-    struct limit smallest = {(double)INFINITY, "sound speed", 0};
-#pragma omp parallel num_threads(simulation->threads)
-    {
-        struct limit own = smallest;
-#pragma omp for schedule(static)
-        for (int32_t i = 0; i < p->count; i++) {
-            const double *rate = f->rates.strain_rate[i];
-            double divergence = rate[0] + rate[1] + rate[2], d = f->diameter[i];
-            double stretch = 4.0 * d * divergence;
-            double dt = courant * d / sqrt(square(f->sound_long[i]) + square(stretch));
-            if (dt < own.dt || (dt == own.dt && p->id[i] < own.id)) {
-                own.dt = dt;
-                own.id = p->id[i];
-                own.why = fabs(stretch) > f->sound_long[i] ? "volume rate" : "sound speed";
-            }
-        }
-#pragma omp critical(bolide_sph_limit)
-        if (own.dt < smallest.dt || (own.dt == smallest.dt && own.id < smallest.id))
-            smallest = own;
-    }
-    *limit = smallest;
+    sph_pack(sph, simulation);
+    simulation_spend(simulation, "records", clock_seconds() - begin);
+    begin = clock_seconds();
+    sum_pairs(sph, simulation, fields);
+    simulation_spend(simulation, "pairs", clock_seconds() - begin);
+    begin = clock_seconds();
+    sph_limit_step(sph, simulation, fields, limit);
+    simulation_spend(simulation, "points", clock_seconds() - begin);
 }
 
 static struct error *sph_prepare(void *solver, struct simulation *simulation, struct limit *limit)
 {
     struct sph *sph = solver;
+    sph_stop_bodies(simulation);
     TRY(ranks_agree(simulation->ranks, refresh_rows(sph, simulation)));
     struct sph_fields fields = sph_fields_of(sph, simulation);
-    double begin = clock_seconds();
-    if (is_standard(sph)) {
-        /* Viscosity needs the divergence of the same level first. */
-        for (int32_t i = 0; i < simulation->particles.count; i++)
-            fields.viscosity[i] = 0.0;
-        sph_pack(sph, simulation);
-        sum_pairs(sph, simulation, &fields);
-        find_viscosity(sph, simulation, &fields);
+    *limit = (struct limit){(double)INFINITY, "nothing", 0};
+    if (!sph_still(sph))
+        prepare_motion(sph, simulation, &fields, limit);
+    if (conduction_on(sph)) {
+        double begin = clock_seconds();
+        conduction_prepare(sph, simulation, &fields, limit);
+        simulation_spend(simulation, "heat", clock_seconds() - begin);
     }
-    sph_pack(sph, simulation);
-    simulation_spend(simulation, "records", clock_seconds() - begin);
-    begin = clock_seconds();
-    sum_pairs(sph, simulation, &fields);
-    simulation_spend(simulation, "pairs", clock_seconds() - begin);
-    begin = clock_seconds();
-    limit_step(sph, simulation, &fields, limit);
     limit->dt = ranks_minimum(simulation->ranks, limit->dt);
-    simulation_spend(simulation, "points", clock_seconds() - begin);
     return NULL;
 }
 
@@ -366,6 +419,7 @@ static void sph_destroy(void *solver)
 {
     struct sph *sph = solver;
     neighbours_free(&sph->neighbours);
+    conduction_destroy(sph);
     free(sph->record);
 }
 
@@ -382,7 +436,8 @@ static double sph_bytes(const void *parameters, int dimension)
     double neighbours = dimension == 1   ? 2.0 * reach
                         : dimension == 2 ? 3.14159 * square(reach)
                                          : 4.18879 * reach * square(reach);
-    return fields + 16 * sizeof(double) + 4 * sizeof(double) + sizeof(struct row) +
+    double heat = sph->conduction == SPH_CONDUCTION_NONE ? 0.0 : (1 + HEAT_STRIDE) * sizeof(double);
+    return fields + heat + 16 * sizeof(double) + 4 * sizeof(double) + sizeof(struct row) +
            1.25 * neighbours * sizeof(uint32_t);
 }
 

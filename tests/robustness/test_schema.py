@@ -33,6 +33,7 @@ VARIANTS = [
     (True, "format: 1", "format: 1\ninclude: [a.yaml, b.yaml]"),
     (True, "run:", "sweep: {U0: [500 m/s, 1 km/s]}\nrun:"),
     (True, "run:", "short: {let: {U0: 1 m/s}, sweep: {U0: [2 m/s]}, bodies: {plate: {velocity: [0]}}}\nrun:"),
+    (True, "run:", "long: {resolution: 0.1 mm, run: {until: 2 us}}\nrun:"),
     (True, "run:", "walls:\noutput:\nrun:"),
     (True, "copper: {eos", "copper: {library: aluminium, eos"),
     (True, "density: 8930 kg/m^3, ", "density: 8930 kg/m^3*(1 - 4/73), "),

@@ -1,6 +1,7 @@
 /* The pair sums written straight from the formulas, slowly: rotation into the axes R, S, T of each pair,
  * contact values component by component, and rotation back. It judges the fast loop.
- * Source: Parshikov (2013), (1.5), (1.19), (1.31)-(1.40), (1.56), (1.58), (1.72)-(1.78), (2.52)-(2.54). */
+ * Source: Parshikov (2013), (1.5), (1.19), (1.31)-(1.40), (1.56), (1.58), (1.72)-(1.78), (2.52)-(2.54);
+ * depths and spins: docs/sph.md. */
 #ifndef BOLIDE_TEST_NAIVE_PAIRS_H
 #define BOLIDE_TEST_NAIVE_PAIRS_H
 
@@ -14,6 +15,8 @@
 /* One side of a pair, images already reflected. */
 struct naive_particle {
     double mass, density, diameter, x[3], u[3], stress[3][3], z_long, z_shear, bend;
+    double depth,
+        spin[3]; /* one and zero where the kind has none; behind an axis the depth is negative */
 };
 
 /* The sums for one particle, and beside each number the sum of the magnitudes of its terms. */
@@ -23,6 +26,7 @@ struct naive_sums {
     double power, power_size;
     double gradient[3][3], spin[3], gradient_size;
     double weight, drift[3];
+    double hoop_pull, hoop_strain, hoop_size;
 };
 
 static inline double naive_slope(double r, double h, int dimension)
@@ -99,6 +103,19 @@ static inline void naive_contact(struct pair_kind kind, unsigned law,
     }
 }
 
+/* The velocity of SIDE at the point A where the pair meets. */
+static inline void naive_at_contact(const struct naive_particle *side, const double a[3],
+                                    double u[3])
+{
+    double arm[3];
+    for (int k = 0; k < 3; k++)
+        arm[k] = a[k] - side->x[k];
+    for (int k = 0; k < 3; k++) {
+        int b = (k + 1) % 3, c = (k + 2) % 3;
+        u[k] = side->u[k] + side->spin[b] * arm[c] - side->spin[c] * arm[b];
+    }
+}
+
 /* Adds the pair (i, j), seen by i. IMAGE: j is an image. */
 static inline void naive_pair(struct pair_kind kind, double smoothing, unsigned law,
                               const struct naive_particle *i, const struct naive_particle *j,
@@ -114,8 +131,13 @@ static inline void naive_pair(struct pair_kind kind, double smoothing, unsigned 
         e[k] = (j->x[k] - i->x[k]) / r;
     double a[3][3], u[2][3], traction[2][3], sigma[2][3], turned_u[3], turned_sigma[3];
     naive_axes(e, a);
-    naive_turn(a, i->u, u[0]);
-    naive_turn(a, j->u, u[1]);
+    double meet[3], met_i[3], met_j[3];
+    for (int k = 0; k < 3; k++)
+        meet[k] = i->x[k] + r * e[k] * i->diameter / (i->diameter + j->diameter);
+    naive_at_contact(i, meet, met_i);
+    naive_at_contact(j, meet, met_j);
+    naive_turn(a, met_i, u[0]);
+    naive_turn(a, met_j, u[1]);
     naive_turn(i->stress, e, traction[0]);
     naive_turn(j->stress, e, traction[1]);
     naive_turn(a, traction[0], sigma[0]);
@@ -126,10 +148,14 @@ static inline void naive_pair(struct pair_kind kind, double smoothing, unsigned 
     naive_turn_back(a, turned_sigma, sigma_star);
 
     double slope = naive_slope(r, h, kind.dimension);
-    double push = -2.0 * j->mass / (i->density * j->density) * slope; /* of (1.39) and (1.40) */
-    double volume = j->mass / j->density * slope;
+    double volume = j->mass / (j->density * fabs(j->depth)) * slope;
+    double between = 0.5 * fabs(i->depth + j->depth);
+    double push = -2.0 * between / (i->density * i->depth) * volume; /* of (1.39) and (1.40) */
     double work = 0.0, speed = 0.0, stress = 0.0, own_speed = 0.0;
     sums->weight += volume;
+    sums->hoop_pull -= 2.0 * volume * (between - i->depth) * e[0];
+    sums->hoop_strain -= volume * (j->x[0] - i->x[0]) * e[0];
+    sums->hoop_size += 2.0 * fabs(volume) * (between + fabs(i->depth) + r);
     for (int k = 0; k < 3; k++) {
         sums->acceleration[k] += push * sigma_star[k];
         sums->drift[k] += volume * (u_star[k] - i->u[k]);

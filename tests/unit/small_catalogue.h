@@ -95,6 +95,15 @@ static const struct choice measures[] = {
     {"conserved", "a total", mean_table, sizeof(struct mean), NULL},
 };
 
+static const struct parameter tracer_table[] = {
+    {.key = "at", .kind = PARAMETER_VECTOR, .offset = 0, .unit = "m"},
+    PARAMETER_END,
+};
+static const struct choice probes[] = {
+    {"tracer", "a particle", tracer_table, sizeof(struct vector_value), NULL},
+    {"body", "a body", mean_table, sizeof(struct mean), NULL},
+};
+
 static const struct choice exact[] = {{"impact", "two plates", NULL, 0, NULL}};
 
 static const struct choice_list lists[] = {
@@ -103,6 +112,7 @@ static const struct choice_list lists[] = {
     {"shape", "shapes", shapes, COUNT_OF(shapes)},
     {"lattice", "lattices", lattice_choices, LATTICE_KINDS},
     {"solver", "solvers", solvers, COUNT_OF(solvers)},
+    {"probe", "probes", probes, COUNT_OF(probes)},
     {"measure", "measures", measures, COUNT_OF(measures)},
     {"exact", "exact solutions", exact, COUNT_OF(exact)},
     {0},

@@ -18,7 +18,7 @@ static struct error *read_case(const char *path, const char *const *settings, in
 {
     struct case_options options = {.settings = settings,
                                    .setting_count = count,
-                                   .quick = quick,
+                                   .form = quick ? "short" : NULL,
                                    .library_paths = library_paths,
                                    .library_count = COUNT_OF(library_paths)};
     return case_read(path, &options, &small_catalogue, input);
@@ -166,8 +166,8 @@ static void a_good_case_is_read_in_si_units(void **state)
     assert_true(sph->smoothing == 1.1 && sph->contact == 0);
     assert_true(input->resolution == 50e-6 && input->run.until == 5e-6);
     const struct body_input *flyer = case_body(input, 0);
-    assert_true(flyer->velocity.at[0] == 800.0 / 3 + 0.3);
-    assert_true(isnan(flyer->pressure) && flyer->start.pressure == 0.0);
+    assert_true(flyer->velocity.at[0].constant == 800.0 / 3 + 0.3);
+    assert_true(!field_is_given(&flyer->pressure) && flyer->start.pressure == 0.0);
     assert_true(flyer->start.density == 2700.0 && flyer->material_index == 0);
     const struct body_input *many = case_body(input, 2);
     const struct unite *unite = many->shape.value;
@@ -244,7 +244,7 @@ static void settings_and_the_short_form_lie_over_the_file(void **state)
         "title=",
     };
     struct simulation_case *input = good_case(impact, settings, COUNT_OF(settings) - 1, true);
-    assert_true(case_body(input, 0)->velocity.at[0] == 900.0 / 3 + 0.3);
+    assert_true(case_body(input, 0)->velocity.at[0].constant == 900.0 / 3 + 0.3);
     assert_int_equal(((const struct sph *)input->solver.value)->contact, 1);
     assert_true(case_material(input, 0)->material.strength.of.perfect_plastic.yield == 500e6);
     assert_true(input->output.history == 1e-9 && input->output.every == 0.5e-6);
@@ -279,7 +279,7 @@ static void a_wrong_setting_is_told_as_typed(void **state)
                     "--set run.untl=3 us: run: unknown key \"untl\" (did you mean \"until\"?)\n");
     expect_messages(impact, settings + 4, 4,
                     "--set nonsense: a setting is path.to.key=value\n"
-                    "--set bodies.flyer=[: flow sequence without a closing bracket\n"
+                    "--set bodies.flyer=[: a bracket above is still open\n"
                     "--set bodies.many.union.4=: bodies.many.union.4: the list has items 1 to 3\n"
                     "--set resolution.x=1: resolution.x: \"50 um\" is a value without keys\n");
 }
@@ -340,18 +340,48 @@ static void a_written_case_reads_back_to_the_same_bits(void **state)
         assert_non_null(file);
         assert_null(case_write(input, file));
         fclose(file);
-        double resolution = input->resolution, density = case_body(input, 3)->density;
+        double resolution = input->resolution, density = case_body(input, 3)->density.constant;
         double energy = case_body(input, 3)->start.energy;
         case_free(input);
         assert_null(strstr(text[i], "library"));
         input = good_case(text[i], NULL, 0, false);
-        assert_true(resolution == input->resolution && density == case_body(input, 3)->density);
+        assert_true(resolution == input->resolution &&
+                    density == case_body(input, 3)->density.constant);
         assert_true(energy == case_body(input, 3)->start.energy);
         assert_string_equal(input->title, "Wilkins' plate impact: # 1");
         assert_string_equal(case_check(input, 1)->source, "a \"book\"\n");
         assert_string_equal(input->checks.names[1], "yes: this");
         assert_true(case_check(input, 0)->within.value == 0.005);
     }
+    assert_string_equal(text[0], text[1]);
+    free(text[0]);
+    free(text[1]);
+    case_free(input);
+}
+
+static void fields_are_written_with_their_names_filled_in(void **state)
+{
+    (void)state;
+    static const char *const settings[] = {
+        "bodies.flyer.velocity=['U0*x/plate']", "bodies.flyer.density='2700 kg/m^3*(1 + x/(1 m))'",
+        "bodies.target={material: soft, box: {from: [plate], to: [10*plate]},"
+        " stress: [-1 MPa*(x < 2*plate), 0, 0], energy: 5 J/kg}"};
+    struct simulation_case *input = good_case(impact, settings, 3, false);
+    assert_true(case_body(input, 0)->varies && case_body(input, 1)->varies);
+    char *text[2];
+    size_t length;
+    for (int i = 0; i < 2; i++) {
+        FILE *file = open_memstream(&text[i], &length);
+        assert_null(case_write(input, file));
+        fclose(file);
+        case_free(input);
+        input = good_case(text[i], NULL, 0, false);
+    }
+    assert_non_null(strstr(text[0], "    velocity: [\"(800 m/s)*x/(0.005 m)\"]\n"
+                                    "    density: \"(2700 kg/m^3)*(1 + x/(1 m))\"\n"));
+    assert_non_null(strstr(text[0],
+                           "    energy: 5 J/kg\n"
+                           "    stress: [\"-(1000000 Pa)*(x < 2*(0.005 m))\", 0 Pa, 0 Pa]"));
     assert_string_equal(text[0], text[1]);
     free(text[0]);
     free(text[1]);
@@ -459,6 +489,7 @@ int main(void)
         cmocka_unit_test(a_setting_that_spoils_an_expression_is_named),
         cmocka_unit_test(a_library_that_is_not_there_is_told),
         cmocka_unit_test(a_written_case_reads_back_to_the_same_bits),
+        cmocka_unit_test(fields_are_written_with_their_names_filled_in),
         cmocka_unit_test(a_case_is_called_as_its_folder_or_file),
         cmocka_unit_test(every_material_of_the_library_can_be_used),
         cmocka_unit_test(cut_off_cases_do_no_harm),

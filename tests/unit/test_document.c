@@ -69,13 +69,13 @@ static const struct parameter all_table[] = {
     PARAMETER_END,
 };
 
-/* Reads TEXT with its overlay `short` if SHORTLY; all messages, a line each, come in *told. */
-static struct document *read_text(const char *text, bool shortly, struct all *all, char **told)
+/* Reads TEXT with its OVERLAY, NULL: without; all messages, a line each, come in *told. */
+static struct document *read_text(const char *text, const char *overlay, struct all *all,
+                                  char **told)
 {
     struct document *document = NULL;
     memset(all, 0, sizeof *all);
-    struct error *error =
-        document_open_text(text, "a.yaml", NULL, 0, shortly ? "short" : NULL, &document);
+    struct error *error = document_open_text(text, "a.yaml", NULL, 0, overlay, &document);
     if (!error)
         error = document_read(document, all_table, &catalogue, all);
     *told = text_copy("");
@@ -91,7 +91,7 @@ static struct document *read_text(const char *text, bool shortly, struct all *al
 static void good(const char *text, struct all *all)
 {
     char *told;
-    document_free(read_text(text, false, all, &told));
+    document_free(read_text(text, NULL, all, &told));
     assert_string_equal(told, "");
     free(told);
 }
@@ -100,7 +100,7 @@ static void bad(const char *text, const char *messages)
 {
     struct all all;
     char *told;
-    document_free(read_text(text, false, &all, &told));
+    document_free(read_text(text, NULL, &all, &told));
     assert_string_equal(told, messages);
     free(told);
 }
@@ -181,16 +181,18 @@ static void an_overlay_lies_over_the_document_when_wanted(void **state)
 {
     (void)state;
     static const char text[] = "point: {x: 1 m, y: 2 m}\nnames: [a, b]\n"
-                               "short: {point: {y: 3 m}, names: c, count: 5}\n";
-    for (int shortly = 0; shortly < 2; shortly++) {
+                               "short: {point: {y: 3 m}, names: c, count: 5}\n"
+                               "long: {point: {y: 4 m}}\n";
+    static const char *const overlays[] = {NULL, "short", "long"};
+    for (int i = 0; i < 3; i++) {
         struct all all;
         char *told;
-        document_free(read_text(text, shortly, &all, &told));
+        document_free(read_text(text, overlays[i], &all, &told));
         assert_string_equal(told, "");
         free(told);
-        assert_true(all.point.x == 1.0 && all.point.y == (shortly ? 3.0 : 2.0));
-        assert_int_equal(all.names.count, shortly ? 1 : 2);
-        assert_int_equal(all.count, shortly ? 5 : 7);
+        assert_true(all.point.x == 1.0 && all.point.y == 2.0 + i);
+        assert_int_equal(all.names.count, i == 1 ? 1 : 2);
+        assert_int_equal(all.count, i == 1 ? 5 : 7);
         parameters_release(all_table, &all);
     }
 }
@@ -213,7 +215,7 @@ static void an_error_points_to_the_nearest_that_stands_in_the_file(void **state)
     char *told;
     struct document *document = read_text("point:\n  x: 1 m\nmarks: [dot, {cross: 2 m}]\n"
                                           "points:\n  a.b: {x: 1 m}\n",
-                                          false, &all, &told);
+                                          NULL, &all, &told);
     assert_string_equal(told, "");
     free(told);
     for (size_t i = 0; i < COUNT_OF(cases); i++) {

@@ -227,7 +227,6 @@ static void bodies_that_part_are_refused(void **state)
 static void every_choice_has_a_table_and_a_class(void **state)
 {
     (void)state;
-    assert_int_equal(exact_choice_count, 3);
     for (int i = 0; i < exact_choice_count; i++) {
         const struct exact_class *class = exact_choices[i].thing;
         assert_non_null(exact_choices[i].table);

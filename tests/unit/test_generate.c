@@ -17,7 +17,7 @@ static void a_box_has_its_exact_mass_and_every_particle_its_start_state(void **s
     struct shape_box box = {VECTOR(-1.0, 0.0, 2.0), VECTOR(1.0, 0.5, 3.0)};
     open_workshop(&w, 3, 0.125);
     struct body_input *body = add_body(&w, "box", &box);
-    body->velocity = (struct vector_value)VECTOR(1.0, -2.0, 3.0);
+    body->velocity = (struct field_list){3, {{1.0, NULL}, {-2.0, NULL}, {3.0, NULL}}};
     body->start = (struct point){.density = 8.0, .energy = 5.0, .pressure = 7.0};
     assert_made(&w, &alone, &simulation);
     const struct particles *p = &simulation.particles;

@@ -35,7 +35,7 @@ static struct error *read_with(const char *path, bool quick, struct simulation_c
 {
     static const char *const folders[] = {BOLIDE_SOURCE_DIR "/materials"};
     const struct case_options options = {
-        .quick = quick, .library_paths = folders, .library_count = 1};
+        .form = quick ? "short" : NULL, .library_paths = folders, .library_count = 1};
     return case_read(path, &options, &small_catalogue, input);
 }
 
@@ -88,7 +88,7 @@ static void the_case_lies_over_what_it_includes(void **state)
     assert_string_equal(input->title, "mine");
     assert_int_equal(input->bodies.count, 2);
     assert_string_equal(input->bodies.names[0], "flyer");
-    assert_true(case_body(input, 0)->velocity.at[0] == 40.0);
+    assert_true(case_body(input, 0)->velocity.at[0].constant == 40.0);
     assert_true(input->run.until == 1e-6 && input->resolution == 1e-3);
     case_free(input);
 }
@@ -102,7 +102,7 @@ static void later_files_lie_over_earlier_ones(void **state)
     struct simulation_case *input = read_good("case.yaml", false);
     assert_string_equal(input->title, "second");
     assert_true(input->resolution == 4e-3);
-    assert_true(case_body(input, 0)->velocity.at[0] == 7.0);
+    assert_true(case_body(input, 0)->velocity.at[0].constant == 7.0);
     case_free(input);
 }
 

@@ -26,6 +26,7 @@ struct bench {
     struct simulation simulation;
     struct views views;
     struct totals start;
+    struct check_memory memory;
     struct exact_gas_riemann gas;
 };
 
@@ -70,7 +71,8 @@ static int setup(void **state)
     b->check_names[0] = it;
     b->input.checks = (struct named_map){0, b->check_names, &b->check};
     b->check.is.value = b->check.within.value = b->check.scale.value = NAN;
-    b->check.at_least.value = NAN;
+    b->check.at_least.value = b->check.at = NAN;
+    b->check.relative_check = -1;
     b->check.at_most.value = 1e300;
     b->ranks = ranks_alone();
     b->simulation.input = &b->input;
@@ -104,8 +106,9 @@ static struct error *evaluate(struct bench *b, struct check_result *result)
 {
     struct checks *checks;
     struct check_results results;
-    TRY(checks_prepare(&b->simulation, &b->views, &checks));
-    struct error *error = checks_evaluate(checks, &b->simulation, &b->views, &b->start, &results);
+    TRY(checks_prepare(&b->simulation, &b->views, NULL, &checks));
+    struct check_moment moment = {&b->simulation, &b->views, &b->start, &b->memory};
+    struct error *error = checks_evaluate(checks, &moment, &results);
     if (!error) {
         *result = results.item[0];
         result->name = result->source = NULL;
@@ -168,7 +171,8 @@ static void extremes_are_found_and_nonsense_is_not_hidden(void **state)
 static void front_lies_between_the_particles_that_straddle_the_value(void **state)
 {
     struct bench *b = *state;
-    struct measure_front front = {(char[]){"pressure"}, {2.5, pascal}, FRONT_FROM_HIGH, 0.0};
+    struct measure_front front = {
+        .field = (char[]){"pressure"}, .value = {2.5, pascal}, .from = FRONT_FROM_HIGH};
     limit_dimension(b, metre);
     for (int i = 0; i < 10; i++)
         b->simulation.particles.pressure[i] = 10.0;
@@ -184,11 +188,28 @@ static void front_lies_between_the_particles_that_straddle_the_value(void **stat
 static void slabs_average_a_ragged_front(void **state)
 {
     struct bench *b = *state;
-    struct measure_front front = {(char[]){"pressure"}, {2.5, pascal}, FRONT_FROM_HIGH, 0.1};
+    struct measure_front front = {.field = (char[]){"pressure"},
+                                  .value = {2.5, pascal},
+                                  .from = FRONT_FROM_HIGH,
+                                  .slab = 0.1};
     limit_dimension(b, metre);
     for (int i = 0; i < ALL; i += 2) /* alternately 10 and 0 up to the middle: mean 5 */
         b->simulation.particles.pressure[i] = i < EACH ? 10.0 : 0.0;
     assert_float_equal(value_of(b, "front", &front), 0.5, 1e-12);
+}
+
+static void a_front_is_told_in_the_frame_of_the_matter_ahead(void **state)
+{
+    struct bench *b = *state;
+    struct measure_front front = {.field = (char[]){"pressure"},
+                                  .value = {2.5, pascal},
+                                  .from = FRONT_FROM_HIGH,
+                                  .frame = -0.5};
+    limit_dimension(b, metre);
+    for (int i = 0; i < 10; i++)
+        b->simulation.particles.pressure[i] = 10.0;
+    b->simulation.time = 0.25;
+    assert_float_equal(value_of(b, "front", &front), (9.5 + 0.75) / ALL + 0.125, 1e-14);
 }
 
 static void use_gas(struct bench *b)
@@ -196,6 +217,24 @@ static void use_gas(struct bench *b)
     b->input.exact.choice = choice_of(exact_choices, exact_choice_count, "gas-riemann");
     b->input.exact.value = &b->gas;
     limit_dimension(b, one);
+}
+
+static void about_a_point_places_are_distances(void **state)
+{
+    struct bench *b = *state;
+    struct measure_front front = {
+        .field = (char[]){"pressure"}, .value = {2.5, pascal}, .from = FRONT_FROM_HIGH};
+    b->check.about = (struct vector_value){1, {0.5}};
+    limit_dimension(b, pascal);
+    for (int i = 0; i < ALL; i++) /* 10 within 0.25 of the middle */
+        b->simulation.particles.pressure[i] = i >= 10 && i < 30 ? 10.0 : 0.0;
+    b->check.between = (struct vector_value){2, {0.0, 0.2}};
+    assert_float_equal(value_of(b, "mean", &pressure), 10.0, 0.0);
+    b->check.between = (struct vector_value){2, {0.3, 1.0}};
+    assert_float_equal(value_of(b, "mean", &pressure), 0.0, 0.0);
+    b->check.between.count = 0;
+    limit_dimension(b, metre);
+    assert_float_equal(value_of(b, "front", &front), (9.5 + 0.75) / ALL, 1e-14);
 }
 
 /* At time zero the exact solution is the start itself. */
@@ -281,7 +320,7 @@ static void within_is_a_fraction_of_what_is_wanted_or_a_quantity(void **state)
 static void expect_mistake(struct bench *b, const char *text)
 {
     struct checks *checks;
-    struct error *error = checks_prepare(&b->simulation, &b->views, &checks);
+    struct error *error = checks_prepare(&b->simulation, &b->views, NULL, &checks);
     assert_non_null(error);
     assert_int_equal(error_kind(error), ERROR_INPUT);
     assert_non_null(strstr(error_message(error, 0), text));
@@ -340,6 +379,8 @@ int main(void)
         TEST(extremes_are_found_and_nonsense_is_not_hidden),
         TEST(front_lies_between_the_particles_that_straddle_the_value),
         TEST(slabs_average_a_ragged_front),
+        TEST(a_front_is_told_in_the_frame_of_the_matter_ahead),
+        TEST(about_a_point_places_are_distances),
         TEST(error_norms_measure_the_distance_from_the_exact_solution),
         TEST(a_particle_is_judged_by_the_side_on_which_its_body_started),
         TEST(contact_norms_take_ten_particles_a_side),

@@ -393,6 +393,29 @@ static void probes_are_plotted_by_unit(void **state)
     char *page = page_of_folder();
     assert_int_equal(count_of(page, "<svg"), 2);
     expect_on_page(page, "gauge over time; pressure from 1\u00a0Pa to 2\u00a0Pa; stress.xx");
+    expect_on_page(page, "gauge: speed over time");
+    free(page);
+}
+
+static void the_last_profile_is_drawn_with_its_band(void **state)
+{
+    (void)state;
+    char path[128];
+    put("run.log", "");
+    snprintf(path, sizeof path, "%s/profiles", folder);
+    assert_int_equal(mkdir(path, 0777), 0);
+    put("profiles/layer-000000.csv", "x [m],particles,pressure.mean [Pa],pressure.spread [Pa]\n"
+                                     "0,1,7,1\n1,1,8,1\n");
+    put("profiles/layer-000001.csv",
+        "material,x [m],particles,pressure.mean [Pa],pressure.spread [Pa]\n"
+        "\"lead\",0,1,2,1\n\"lead\",1,0,nan,nan\n\"lead\",2,1,4,1\n"
+        "\"tin\",0,1,5,0\n\"tin\",1,1,6,0\n\"tin\",2,1,8,0\n");
+    put("profiles/odd.csv", "x\n");
+    char *page = page_of_folder();
+    assert_int_equal(count_of(page, "<svg"), 1);
+    assert_int_equal(count_of(page, "class=\"band b0\""), 1);
+    assert_int_equal(count_of(page, "class=\"band b1\""), 1);
+    expect_on_page(page, "layer: pressure over x; lead from 2\u00a0Pa to 4\u00a0Pa; tin from 5");
     free(page);
 }
 
@@ -416,6 +439,7 @@ int main(void)
         IN_FOLDER(long_histories_stay_small),
         IN_FOLDER(of_many_pictures_forty_are_chosen_evenly),
         IN_FOLDER(probes_are_plotted_by_unit),
+        IN_FOLDER(the_last_profile_is_drawn_with_its_band),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -252,6 +252,41 @@ static void a_run_ends_at_its_time_to_the_bit(void **state)
     run_result_free(&result);
 }
 
+static void a_step_ends_where_a_body_stops(void **state)
+{
+    (void)state;
+    const char *const settings[] = {"bodies.slab.stop=0.65s", NULL};
+    struct run_options options = {.threads = 1, .max_steps = 3};
+    struct run_result part = run_text(flight_text, settings, &options);
+    assert_true(part.time == 0.65);
+    options.max_steps = 0;
+    struct run_result whole = run_text(flight_text, settings, &options);
+    assert_true(whole.time == 1.0);
+    assert_int_equal(whole.steps, 5);
+    run_result_free(&part);
+    run_result_free(&whole);
+}
+
+static void a_check_measured_early_survives_a_resume(void **state)
+{
+    (void)state;
+    const char *const settings[] = {
+        "checks.early={mean: position.x, at: 0.3 s, relative: start, at_most: 2}", NULL};
+    const char *folder = fresh_folder("test_run_early");
+    struct run_options options = {.threads = 1, .output = folder, .max_steps = 2};
+    struct run_result whole = run_text(flight_text, settings, &(struct run_options){.threads = 1});
+    struct run_result part = run_text(flight_text, settings, &options);
+    run_result_free(&part);
+    options.resume = true;
+    options.max_steps = 0;
+    part = run_text(flight_text, settings, &options);
+    assert_true(part.checks.item[1].measured == whole.checks.item[1].measured);
+    assert_float_equal(whole.checks.item[1].measured, (0.5 + 0.6) / 0.5, 1e-12);
+    assert_true(part.checks.item[1].time == 0.3);
+    run_result_free(&part);
+    run_result_free(&whole);
+}
+
 static void a_failed_check_is_no_error(void **state)
 {
     (void)state;
@@ -483,6 +518,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_remains_is_spread_over_the_last_two_steps),
         cmocka_unit_test(a_run_ends_at_its_time_to_the_bit),
+        cmocka_unit_test(a_step_ends_where_a_body_stops),
+        cmocka_unit_test(a_check_measured_early_survives_a_resume),
         cmocka_unit_test(a_failed_check_is_no_error),
         cmocka_unit_test(watching_a_run_does_not_change_it),
         cmocka_unit_test(a_stopped_run_goes_on_as_if_nothing_had_happened),

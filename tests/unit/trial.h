@@ -18,6 +18,17 @@ struct trial {
 
 static inline double bend_of(uint64_t id) { return 1.25 + 0.25 * (double)(id % 3); }
 
+/* Depth and spin of a particle, where the kind has them. */
+static inline double depth_of(struct pair_kind kind, uint64_t id)
+{
+    return kind.depth ? 0.4 + 0.3 * (double)(id % 5) : 1.0;
+}
+static inline double spin_of(struct pair_kind kind, uint64_t id, int axis)
+{
+    bool has = kind.turn && (kind.dimension == 3 || axis == 2);
+    return has ? 700.0 * ((double)((id + (uint64_t)axis) % 7) - 3.0) : 0.0;
+}
+
 static inline void random_state(struct scene *scene, struct pair_kind kind, struct dice *dice)
 {
     struct particles *p = &scene->particles;
@@ -51,7 +62,8 @@ static inline void pack(const struct trial *t, int32_t i, double *record)
         record[record_velocity(dimension) + axis] = p->velocity[i][axis];
     }
     record[record_diameter(dimension)] = t->scene.reach.diameter[i];
-    record[record_volume(dimension)] = p->mass[i] / p->density[i];
+    const struct pair_kind kind = t->loop.kind;
+    record[record_volume(dimension)] = p->mass[i] / (p->density[i] * depth_of(kind, p->id[i]));
     for (int k = 0; k < record_stresses(dimension, shear); k++)
         record[record_stress(dimension) + k] = p->deviator[i][stresses_of[dimension][k]];
     record[record_impedance(dimension, shear)] = p->energy[i];
@@ -61,6 +73,10 @@ static inline void pack(const struct trial *t, int32_t i, double *record)
         record[record_bend(dimension, shear)] = p->density[i];
         record[record_bend(dimension, shear) + 1] = bend_of(p->id[i]);
     }
+    if (kind.depth)
+        record[record_depth(kind)] = depth_of(kind, p->id[i]);
+    for (int axis = dimension == 2 ? 2 : 0, k = 0; kind.turn && axis < 3; axis++)
+        record[record_spin(kind) + k++] = spin_of(kind, p->id[i], axis);
 }
 
 /* The record of a ghost from its particle, reflected. */
@@ -84,6 +100,11 @@ static inline void reflect(const struct trial *t, image_code image, double *reco
         stress[4] *= sign.y * sign.z;
         stress[5] *= sign.z * sign.x;
     }
+    if (t->loop.kind.depth && image % 3 == 1)
+        record[record_depth(t->loop.kind)] *= -1.0;
+    const double turned[3] = {sign.y * sign.z, sign.z * sign.x, sign.x * sign.y};
+    for (int axis = dimension == 2 ? 2 : 0, k = 0; t->loop.kind.turn && axis < 3; axis++)
+        record[record_spin(t->loop.kind) + k++] *= turned[axis];
 }
 
 static inline struct pair_rates rates_new(int32_t count)
@@ -93,7 +114,9 @@ static inline struct pair_rates rates_new(int32_t count)
                                .strain_rate = calloc((size_t)count, 6 * sizeof(double)),
                                .spin = calloc((size_t)count, 3 * sizeof(double)),
                                .wall = calloc((size_t)count, 3 * sizeof(double)),
-                               .drift = calloc((size_t)count, 3 * sizeof(double))};
+                               .drift = calloc((size_t)count, 3 * sizeof(double)),
+                               .hoop_pull = calloc((size_t)count, sizeof(double)),
+                               .hoop_strain = calloc((size_t)count, sizeof(double))};
     return rates;
 }
 
@@ -105,6 +128,8 @@ static inline void rates_free(struct pair_rates *rates)
     free(rates->spin);
     free(rates->wall);
     free(rates->drift);
+    free(rates->hoop_pull);
+    free(rates->hoop_strain);
 }
 
 /* Builds rows and records of a scene whose particles are in place. */
@@ -194,9 +219,13 @@ static inline struct naive_particle naive_of(const struct trial *t, int32_t i, i
                     &t->scene.mirrors, image,
                     vec3_make(p->position[i][0], p->position[i][1], p->position[i][2]));
     double sign[3] = {s.x, s.y, s.z}, place[3] = {x.x, x.y, x.z};
+    const double turned[3] = {s.y * s.z, s.z * s.x, s.x * s.y};
+    n.depth =
+        depth_of(t->loop.kind, p->id[i]) * (t->loop.kind.depth && image % 3 == 1 ? -1.0 : 1.0);
     for (int a = 0; a < 3; a++) {
         n.x[a] = place[a];
         n.u[a] = sign[a] * p->velocity[i][a];
+        n.spin[a] = turned[a] * spin_of(t->loop.kind, p->id[i], a);
         for (int b = 0; b < 3; b++)
             if (a < dimension && b < dimension)
                 n.stress[a][b] = sign[a] * sign[b] * p->deviator[i][slot[a][b]];
@@ -232,6 +261,10 @@ static inline void compare_with_naive(const struct trial *t, int32_t i)
         assert_near(rates->spin[i][a], sums.spin[a], fraction * sums.gradient_size);
     }
     assert_near(rates->power[i], sums.power, fraction * sums.power_size);
+    if (t->loop.kind.depth) {
+        assert_near(rates->hoop_pull[i], sums.hoop_pull, fraction * sums.hoop_size);
+        assert_near(rates->hoop_strain[i], sums.hoop_strain, fraction * sums.hoop_size);
+    }
     for (int a = 0; t->loop.kind.drift && sums.weight < 0.0 && a < 3; a++)
         assert_near(rates->drift[i][a], sums.drift[a] / sums.weight,
                     fraction * sums.gradient_size / fabs(sums.weight));

@@ -1,0 +1,67 @@
+/* Particles of the plane that have a depth: a ring of radius r in axisymmetry (x = r, y = z, mass per radian), or a
+ * plate that thins under plane stress. The pair sums know of it by the depth in the records alone; what it adds to a
+ * particle by itself is here. */
+#include "sph/sph_internal.h"
+
+/* Of the equation of motion per radian, m dU/dt = ... - A sigma_tt g e_r with the g of the pair sums: a uniform
+ * pressure is then balanced as well as in the plane. The hoop stress does no work on E + U^2/2. */
+void sph_add_hoop(const struct simulation *simulation, const struct sph_fields *f)
+{
+    const struct particles *p = &simulation->particles;
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < p->count; i++) {
+        double radius = p->position[i][0];
+        double stress = p->deviator[i][2] - p->pressure[i] - (f->viscosity ? f->viscosity[i] : 0.0);
+        double pull = -stress * f->rates.hoop_pull[i] / (p->density[i] * radius);
+        f->rates.acceleration[i][0] += pull;
+        f->rates.power[i] -= p->velocity[i][0] * pull;
+        f->rates.strain_rate[i][2] = f->rates.hoop_strain[i] * p->velocity[i][0] / radius;
+        f->rates.hoop_pull[i] = pull;
+    }
+}
+
+void sph_cross_axis(struct simulation *simulation)
+{
+    struct particles *p = &simulation->particles;
+    for (int32_t i = 0; i < p->count; i++) {
+        double *x = p->position[i], *u = p->velocity[i];
+        if (!(x[0] < 0.0))
+            continue;
+        x[0] = -x[0];
+        struct vec3 impulse = vec3_make(-2.0 * p->mass[i] * u[0], 0.0, 0.0);
+        ledger_book(&simulation->ledger, LEDGER_AXIS, 0.0, impulse, vec3_make(x[0], x[1], 0.0),
+                    0.0);
+        u[0] = -u[0];
+        p->deviator[i][3] = -p->deviator[i][3];
+    }
+}
+
+struct response sph_thin_step(const struct material *material, double divergence,
+                              struct point *point, struct motion *motion, double *thickness)
+{
+    const struct point start = *point;
+    struct response r = material_evaluate(material, point);
+    const double modulus = start.density * square(r.sound_long), filled = motion->density;
+    double rate = -divergence * (1.0 - 2.0 * r.shear_modulus / modulus);
+    double slope = motion->dt * modulus, last_rate = 0.0, last_stress = 0.0;
+    for (int round = 0; round < 60; round++) {
+        double change = motion->dt * (divergence + rate);
+        *point = start;
+        motion->density = start.density * (2.0 - change) / (2.0 + change);
+        motion->strain_rate.zz = rate;
+        r = material_step(material, point, motion);
+        double stress = point->deviator.zz - point->pressure;
+        if (fabs(stress) <= 1e-14 * modulus) {
+            *thickness *= filled / point->density;
+            return r;
+        }
+        double secant = (stress - last_stress) / (rate - last_rate);
+        if (round > 0 && secant > 0.0 && isfinite(secant))
+            slope = secant;
+        last_rate = rate;
+        last_stress = stress;
+        rate -= stress / slope;
+    }
+    r.status |= POINT_OUT_OF_RANGE | POINT_NO_SOUND;
+    return r;
+}

@@ -1,0 +1,96 @@
+/* What acts on particles from outside, as the ledger books it: walls, the axis of symmetry, and what holds bodies,
+ * pistons that keep their velocity whatever pushes back and strikers that stop. */
+#include "sph/sph_internal.h"
+
+static struct vec3 vector_of(const double v[3]) { return vec3_make(v[0], v[1], v[2]); }
+
+/* The images behind the axis push as walls do; a particle sees those of the nearer of axis and wall. */
+static void book_of_axis(const struct simulation *simulation, const struct sph_fields *f,
+                         struct ledger *ledger, double dt, int32_t i, struct vec3 *push)
+{
+    const struct particles *p = &simulation->particles;
+    double radius = p->position[i][0], gap = simulation->mirrors.high[0] - radius;
+    double pull = f->rates.hoop_pull[i];
+    if (!(gap < radius)) {
+        pull += push->x;
+        push->x = 0.0;
+    }
+    ledger_book(ledger, LEDGER_AXIS, 0.0, vec3_make(dt * p->mass[i] * pull, 0.0, 0.0),
+                vector_of(p->position[i]), 0.0);
+}
+
+/* The work of a slip wall at rest is zero, and so is that of the hoop stress on the total energy. */
+void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, double dt)
+{
+    const struct particles *p = &simulation->particles;
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct ledger own = {0};
+#pragma omp for schedule(static)
+        for (int32_t i = 0; i < p->count; i++) {
+            struct vec3 push = vector_of(f->rates.wall[i]);
+            if (f->rates.hoop_pull)
+                book_of_axis(simulation, f, &own, dt, i, &push);
+            if (push.x != 0.0 || push.y != 0.0 || push.z != 0.0)
+                ledger_book(&own, LEDGER_WALLS, 0.0, vec3_scale(dt * p->mass[i], push),
+                            vector_of(p->position[i]), 0.0);
+        }
+#pragma omp critical(bolide_sph_walls)
+        ledger_join(&simulation->ledger, &own);
+    }
+}
+
+static bool stands(const struct simulation *simulation, int body)
+{
+    return simulation->time >= case_body(simulation->input, body)->stop;
+}
+
+static bool is_held(const struct simulation *simulation, int body)
+{
+    return stands(simulation, body) || case_body(simulation->input, body)->driven;
+}
+
+static bool any_body(const struct simulation *simulation,
+                     bool (*is)(const struct simulation *, int))
+{
+    for (int body = 0; body < simulation->input->bodies.count; body++)
+        if (is(simulation, body))
+            return true;
+    return false;
+}
+
+void sph_stop_bodies(struct simulation *simulation)
+{
+    struct particles *p = &simulation->particles;
+    if (!any_body(simulation, stands))
+        return;
+    for (int32_t i = 0; i < p->count; i++) {
+        double *u = p->velocity[i];
+        if (!stands(simulation, p->body[i]))
+            continue;
+        struct vec3 velocity = vector_of(u);
+        ledger_book(&simulation->ledger, LEDGER_PISTONS, 0.0, vec3_scale(-p->mass[i], velocity),
+                    vector_of(p->position[i]), -0.5 * p->mass[i] * vec3_dot(velocity, velocity));
+        u[0] = u[1] = u[2] = 0.0;
+    }
+}
+
+void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, double dt)
+{
+    const struct particles *p = &simulation->particles;
+    if (!any_body(simulation, is_held))
+        return;
+    for (int32_t i = 0; i < p->count; i++) {
+        if (!is_held(simulation, p->body[i]))
+            continue;
+        double *a = f->rates.acceleration[i];
+        struct vec3 impulse = vec3_scale(-dt * p->mass[i], vector_of(a));
+        ledger_book(&simulation->ledger, LEDGER_PISTONS, 0.0, impulse, vector_of(p->position[i]),
+                    vec3_dot(impulse, vector_of(p->velocity[i])));
+        for (int axis = 0; axis < 3; axis++) {
+            a[axis] = 0.0;
+            if (f->rates.drift)
+                f->rates.drift[i][axis] = 0.0;
+        }
+    }
+}

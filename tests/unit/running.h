@@ -1,0 +1,132 @@
+/* A case given as text, run by the SPH solver step by step in the hands of a test. */
+#ifndef BOLIDE_TEST_RUNNING_H
+#define BOLIDE_TEST_RUNNING_H
+
+#include "dice.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "model/generate.h"
+#include "output/checkpoint.h"
+#include "run/catalogue.h"
+#include "sph/sph_internal.h"
+
+/* How a case is run. */
+struct variant {
+    const char *name;
+    int threads;
+    double cell; /* factor of the store's cells */
+    const char *setting;
+    bool resumed; /* in the middle, by another simulation */
+};
+
+static char folder[64];
+
+static inline int make_folder(void **state)
+{
+    (void)state;
+    strcpy(folder, "/tmp/bolide-test-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static inline int remove_folder(void **state)
+{
+    (void)state;
+    char command[96];
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    return system(command);
+}
+
+struct running {
+    struct simulation_case *input;
+    struct ranks ranks;
+    struct simulation simulation;
+    const struct solver_class *solver;
+    struct sph sph;
+    struct limit limit;
+};
+
+static inline struct running *begin(const char *text, const struct variant *variant)
+{
+    char path[96];
+    snprintf(path, sizeof path, "%s/case.yaml", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+    struct case_options options = {.settings = &variant->setting,
+                                   .setting_count = variant->setting != NULL};
+    struct running *run = calloc(1, sizeof *run);
+    run->ranks = ranks_alone();
+    assert_success(case_read(path, &options, &bolide_catalogue, &run->input));
+    assert_success(simulation_create(run->input, &run->ranks, variant->threads, &run->simulation));
+    run->solver = run->input->solver.choice->thing;
+    assert_int_equal(run->solver->size, sizeof run->sph);
+    assert_success(run->solver->create(&run->sph, &run->simulation, run->input->solver.value));
+    run->simulation.particles.cell *= variant->cell;
+    return run;
+}
+
+static inline void end(struct running *run)
+{
+    run->solver->destroy(&run->sph);
+    simulation_destroy(&run->simulation);
+    case_free(run->input);
+    free(run);
+}
+
+/* One step of at most LONGEST. */
+static inline void step_of(struct running *run, double longest)
+{
+    assert_success(run->solver->prepare(&run->sph, &run->simulation, &run->limit));
+    double dt = minimum(run->limit.dt, longest);
+    assert_success(run->solver->advance(&run->sph, &run->simulation, dt));
+    run->simulation.time += dt;
+    run->simulation.step++;
+}
+
+static inline void step(struct running *run, int steps)
+{
+    for (int k = 0; k < steps; k++)
+        step_of(run, (double)INFINITY);
+}
+
+static inline struct error *nothing_more(void *context, struct visitor *visitor)
+{
+    (void)context;
+    (void)visitor;
+    return NULL;
+}
+
+/* Another simulation of the same case that goes on from where RUN stands; ends RUN. */
+static inline struct running *resume(struct running *run, const char *text,
+                                     const struct variant *variant)
+{
+    char path[96];
+    snprintf(path, sizeof path, "%s/checkpoint.h5", folder);
+    struct checkpoint checkpoint = {&run->simulation, run->solver, &run->sph,
+                                    nothing_more,     NULL,        text};
+    assert_success(checkpoint_write(path, &checkpoint));
+    uint64_t hash = particles_hash(&run->simulation.particles);
+    end(run);
+    run = begin(text, variant);
+    checkpoint.simulation = &run->simulation;
+    checkpoint.solver = &run->sph;
+    assert_success(checkpoint_read(path, &checkpoint));
+    assert_true(particles_hash(&run->simulation.particles) == hash);
+    assert_success(run->solver->start(&run->sph, &run->simulation));
+    return run;
+}
+
+/* A run of TEXT at time zero, its particles made. */
+static inline struct running *begin_fresh(const char *text, const struct variant *variant)
+{
+    struct running *run = begin(text, variant);
+    assert_success(generate_particles(&run->simulation));
+    assert_success(run->solver->start(&run->sph, &run->simulation));
+    return run;
+}
+
+#endif

@@ -1,0 +1,104 @@
+/* Bodies that something outside holds: pistons that are driven and strikers that stop, and what the ledger says. */
+#include "running.h"
+
+static const char push[] =
+    "format: 1\n"
+    "dimension: 2\n"
+    "resolution: 1 mm\n"
+    "solver: {sph: {smoothing: 1.2}}\n"
+    "materials:\n"
+    "  metal:\n"
+    "    eos: {mie-grueneisen: {density: 2700 kg/m^3, sound: 5350 m/s, slope: 1.35, gamma: 2.17, "
+    "bulk_modulus: 73 GPa}}\n"
+    "    strength: {perfect-plastic: {shear_modulus: 23 GPa, yield: 0.3 GPa}}\n"
+    "bodies:\n"
+    "  piston: {material: metal, box: {from: [-6 mm, 0 mm], to: [0 mm, 12 mm]}, "
+    "velocity: [800 m/s, 30 m/s], driven: yes, stop: 1.5 us}\n"
+    "  target: {material: metal, box: {from: [0 mm, 0 mm], to: [20 mm, 10 mm]}}\n"
+    "  anvil: {material: metal, box: {from: [20 mm, 0 mm], to: [24 mm, 12 mm]}, stop: 0 s}\n"
+    "walls:\n"
+    "  below: {mirror: y, at: 0 mm, side: low}\n"
+    "run: {until: 1 s}\n";
+
+static const struct variant plain = {"plain", 1, 1.0, NULL, false};
+static const struct variant by_contact = {"moved by contacts", 1, 1.0, "solver.sph.motion=contact",
+                                          false};
+
+static void assert_velocity(const struct running *run, int body, double x, double y)
+{
+    const struct particles *p = &run->simulation.particles;
+    for (int32_t i = 0; i < p->count; i++)
+        if (p->body[i] == body)
+            assert_true(p->velocity[i][0] == x && p->velocity[i][1] == y);
+}
+
+static void assert_closed(const struct running *run, const struct totals *start)
+{
+    const struct particles *p = &run->simulation.particles;
+    struct totals now = particles_totals(p, &run->ranks, -1);
+    struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
+    for (int entry = LEDGER_MOMENTUM_X; entry <= LEDGER_MOMENTUM_Z; entry++)
+        assert_near(now.entry[entry] - booked.entry[entry], start->entry[entry],
+                    1e-13 * start->momentum_scale);
+    assert_near(now.entry[LEDGER_ENERGY] - booked.entry[LEDGER_ENERGY], start->entry[LEDGER_ENERGY],
+                1e-12 * start->kinetic);
+}
+
+static void a_piston_keeps_its_velocity_until_it_stops(void **state)
+{
+    (void)state;
+    const struct variant *const variants[] = {&plain, &by_contact};
+    for (int k = 0; k < 2; k++) {
+        struct running *run = begin_fresh(push, variants[k]);
+        struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        while (run->simulation.time < 1.5e-6) {
+            step_of(run, 1.5e-6 - run->simulation.time);
+            assert_velocity(run, 0, 800.0, 30.0);
+            assert_velocity(run, 2, 0.0, 0.0);
+            assert_closed(run, &start);
+        }
+        struct totals moving = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_PISTONS);
+        assert_true(moving.entry[LEDGER_ENERGY] > 0.0);
+        struct totals piston = particles_totals(&run->simulation.particles, &run->ranks, 0);
+        step(run, 1);
+        assert_velocity(run, 0, 0.0, 0.0);
+        assert_closed(run, &start);
+        struct totals stopped = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_PISTONS);
+        assert_near(stopped.entry[LEDGER_ENERGY] - moving.entry[LEDGER_ENERGY], -piston.kinetic,
+                    1e-9 * piston.kinetic);
+        step(run, 30);
+        assert_velocity(run, 0, 0.0, 0.0);
+        assert_closed(run, &start);
+        struct totals resting = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_PISTONS);
+        assert_true(resting.entry[LEDGER_ENERGY] == stopped.entry[LEDGER_ENERGY]);
+        assert_true(resting.entry[LEDGER_MOMENTUM_X] != stopped.entry[LEDGER_MOMENTUM_X]);
+        end(run);
+    }
+}
+
+static void a_driven_body_moves_by_its_velocity(void **state)
+{
+    (void)state;
+    struct running *run = begin_fresh(push, &plain);
+    const struct particles *p = &run->simulation.particles;
+    double from = 0.0, to = 0.0;
+    for (int32_t i = 0; i < p->count; i++)
+        from += p->body[i] == 0 ? p->position[i][0] : 0.0;
+    step(run, 10);
+    int count = 0;
+    for (int32_t i = 0; i < p->count; i++) {
+        to += p->body[i] == 0 ? p->position[i][0] : 0.0;
+        count += p->body[i] == 0;
+    }
+    assert_near((to - from) / count, 800.0 * run->simulation.time, 1e-12);
+    end(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_piston_keeps_its_velocity_until_it_stops),
+        cmocka_unit_test(a_driven_body_moves_by_its_velocity),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,216 @@
+/* Expressions of the position: values, dimensions over all their pieces, and the text that is written. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <string.h>
+
+#include "base/expression.h"
+
+static const struct named_quantity names[] = {
+    {"Omega", {-3000.0, {0, 0, -1, 0}}},
+    {"plate", {0.003, {1, 0, 0, 0}}},
+    {"p0", {2e9, {-1, 1, -2, 0}}},
+    {"n", {-2.0, {0}}},
+    {"z", {1.0, {0}}},
+};
+
+static struct position_expression *compiled(const char *text, const char *unit_text)
+{
+    struct position_expression *expression;
+    struct quantity result;
+    struct unit unit;
+    struct error *error =
+        position_expression_compile(text, names, (int)COUNT_OF(names), &result, &expression);
+    if (error)
+        fail_msg("%s: %s", text, error_message(error, 0));
+    assert_non_null(expression);
+    assert_true(isnan(result.value));
+    assert_null(unit_parse(unit_text, &unit));
+    assert_true(dimension_equal(result.dimension, unit.dimension));
+    return expression;
+}
+
+static void assert_at(const char *text, struct vec3 place, double value, const char *unit)
+{
+    struct position_expression *expression = compiled(text, unit);
+    double found = position_expression_at(expression, place);
+    if (found != value)
+        fail_msg("%s: %.17g, not %.17g", text, found, value);
+    position_expression_free(expression);
+}
+
+static void assert_refused(const char *text, const char *message)
+{
+    struct position_expression *expression;
+    struct quantity result;
+    struct error *error =
+        position_expression_compile(text, names, (int)COUNT_OF(names), &result, &expression);
+    if (!error)
+        fail_msg("\"%s\" was accepted", text);
+    assert_null(expression);
+    if (strcmp(error_message(error, 0), message))
+        fail_msg("%s:\n%s\nnot\n%s", text, error_message(error, 0), message);
+    error_free(error);
+}
+
+static void an_expression_follows_the_position(void **state)
+{
+    (void)state;
+    const struct vec3 place = {2.0, -3.0, 4.0};
+    assert_at("x", place, 2.0, "m");
+    assert_at("Omega*y", place, 9000.0, "m/s");
+    assert_at("-Omega*x", place, 6000.0, "m/s");
+    assert_at("sqrt(x^2 + y^2)", place, sqrt(13.0), "m");
+    assert_at("p0*x*y/plate^2", place, 2e9 * 2.0 * -3.0 / (0.003 * 0.003), "Pa");
+    assert_at("1 km/s*exp(-(x - 2 m)/plate)", place, 1000.0, "m/s");
+    struct position_expression *expression = compiled("x + 1 m", "m");
+    assert_true(position_expression_at(expression, place) == 3.0);
+    assert_true(position_expression_at(expression, vec3_make(-1.0, 0.0, 0.0)) == 0.0);
+    assert_true(position_expression_uses(expression, 0) &&
+                !position_expression_uses(expression, 1));
+    position_expression_free(expression);
+}
+
+static void comparisons_make_pieces(void **state)
+{
+    (void)state;
+    static const char steps[] = "300 K + 700 K*(x > 1 m)*(y <= 2 m)";
+    assert_at(steps, vec3_make(2.0, 2.0, 0.0), 1000.0, "K");
+    assert_at(steps, vec3_make(1.0, 2.0, 0.0), 300.0, "K");
+    assert_at(steps, vec3_make(2.0, 2.5, 0.0), 300.0, "K");
+    assert_at("(x < plate)*x + (x >= plate)*plate", vec3_make(9.0, 0.0, 0.0), 0.003, "m");
+    assert_at("(-plate <= x)*1 m/s", vec3_make(-0.003, 0.0, 0.0), 1.0, "m/s");
+}
+
+static void every_piece_has_the_same_dimension(void **state)
+{
+    (void)state;
+    static const char mixed[] =
+        "different dimensions are added or compared, or a function such as exp is "
+        "taken of a value that has a dimension";
+    assert_refused("300 K*(x > 1 m) + 5 Pa*(x <= 1 m)", mixed);
+    assert_refused("300 K + 5 Pa*(x > 1 m)*(y > 1 m)", mixed);
+    assert_refused("300 K*(x > 1 s)", mixed);
+    assert_refused("exp(x)", mixed);
+    assert_refused("x + 1 s", mixed);
+    assert_refused("sqrt(x)", "the dimension of the value has a fractional power");
+}
+
+static void mistakes_are_told_as_in_any_expression(void **state)
+{
+    (void)state;
+    assert_refused("Omega*x + plat", "unknown name \"plat\" (did you mean \"plate\"?)");
+    assert_refused("z*1 m", "\"z\" is the position here: call the name of let something else");
+    assert_refused("(x > 1 m", "a \")\" is missing");
+    assert_refused("x = 1 m", "unexpected \"=\"");
+    assert_refused("x, y", "a comma stands outside a function");
+    assert_refused("2 x", "\"x\" behind a number is no unit: put \"*\" between them");
+    struct quantity result;
+    struct error *error = expression_evaluate("2*y", NULL, 0, &result);
+    assert_string_equal(error_message(error, 0),
+                        "unknown name \"y\" (as a position it stands only in what a body has at "
+                        "the start)");
+    error_free(error);
+}
+
+static void a_text_without_position_is_a_constant(void **state)
+{
+    (void)state;
+    struct position_expression *expression;
+    struct quantity result;
+    assert_null(position_expression_compile("2*plate + 1 mm", names, (int)COUNT_OF(names), &result,
+                                            &expression));
+    assert_null(expression);
+    struct quantity plain;
+    assert_null(expression_evaluate("2*plate + 1 mm", names, (int)COUNT_OF(names), &plain));
+    assert_true(result.value == plain.value);
+}
+
+/* Compiled again without names it is the same text and gives the same bits. */
+static void the_written_text_gives_the_same_bits(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "Omega*y",
+        "-Omega*x^n*plate^3/(1 m)",
+        "300 K + 700 K*(x > 1.1 mm)",
+        "-40 degC + 0.1 K*x/plate",
+        "(n)*x + (Omega)*1 s*x",
+        "sqrt(x^2+ y^2)*pi/3*atan2(y, -x)",
+        "p0*(1 - x/(7*plate))",
+    };
+    for (size_t i = 0; i < COUNT_OF(texts); i++) {
+        struct position_expression *expression, *again;
+        struct quantity result;
+        assert_null(position_expression_compile(texts[i], names, (int)COUNT_OF(names), &result,
+                                                &expression));
+        const char *written = position_expression_text(expression);
+        struct error *error = position_expression_compile(written, NULL, 0, &result, &again);
+        if (error)
+            fail_msg("%s: %s", written, error_message(error, 0));
+        assert_string_equal(written, position_expression_text(again));
+        for (int k = 1; k < 20; k++) {
+            const struct vec3 place = vec3_make(0.1 * k, -0.37 / k, 0.0);
+            assert_true(position_expression_at(expression, place) ==
+                        position_expression_at(again, place));
+        }
+        position_expression_free(expression);
+        position_expression_free(again);
+    }
+}
+
+/* No text of the grammar's pieces crashes the compiler, and what it takes it writes so that it takes it
+ * again. */
+static void random_texts_are_taken_and_written_or_refused(void **state)
+{
+    (void)state;
+    static const char *const operands[] = {"3 mm", "x",      "y",        "-z", "(x", "y)", "plate",
+                                           "(n)",  "sqrt(x", "-40 degC", "2",  "n",  "pi", "Omega"};
+    static const char *const operators[] = {"*", "+", " - ", "/", "^", " < ", ">=", ")*", ","};
+    uint32_t seed = 1;
+    int taken = 0;
+    for (int round = 0; round < 4000; round++) {
+        char text[200] = "";
+        for (int i = 0; i < 1 + round % 9; i++) {
+            seed = seed * 1664525u + 1013904223u;
+            strcat(text, i % 2 ? operators[(seed >> 16) % COUNT_OF(operators)]
+                               : operands[(seed >> 16) % COUNT_OF(operands)]);
+        }
+        struct position_expression *expression, *again;
+        struct quantity result;
+        struct error *error = position_expression_compile(text, names, (int)COUNT_OF(names) - 1,
+                                                          &result, &expression);
+        if (!error && expression) {
+            const char *written = position_expression_text(expression);
+            error = position_expression_compile(written, NULL, 0, &result, &again);
+            if (error)
+                fail_msg("%s, written as %s: %s", text, written, error_message(error, 0));
+            const struct vec3 place = vec3_make(0.3, -1.7, 2.2);
+            double value = position_expression_at(expression, place);
+            double same = position_expression_at(again, place);
+            assert_true(value == same || (isnan(value) && isnan(same)));
+            position_expression_free(expression);
+            position_expression_free(again);
+            taken++;
+        }
+        error_free(error);
+    }
+    assert_true(taken > 100);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_expression_follows_the_position),
+        cmocka_unit_test(comparisons_make_pieces),
+        cmocka_unit_test(every_piece_has_the_same_dimension),
+        cmocka_unit_test(mistakes_are_told_as_in_any_expression),
+        cmocka_unit_test(a_text_without_position_is_a_constant),
+        cmocka_unit_test(the_written_text_gives_the_same_bits),
+        cmocka_unit_test(random_texts_are_taken_and_written_or_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
