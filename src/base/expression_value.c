@@ -156,7 +156,7 @@ struct error *expression_try(const struct expression_reading *reading, muParserH
 static struct error *evaluate(struct expression_reading *reading, muParserHandle_t parser,
                               struct quantity *result)
 {
-    double value;
+    double value = NAN;
     expression_give(reading, parser, reading->values);
     TRY(expression_try(reading, parser, &value));
     if (!isfinite(value))

@@ -69,6 +69,7 @@ static void print_mixture(const struct simulation_case *input, const struct esti
 {
     const struct vec3 extent = vec3_sub(estimate->box.high, estimate->box.low);
     const double length[3] = {extent.x, extent.y, extent.z};
+    assert(input->dimension <= 3);
     printf("  mean density %.6g kg/m3 in ", estimate->mean_density);
     for (int axis = 0; axis < input->dimension; axis++) {
         char text[48];

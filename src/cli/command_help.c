@@ -121,6 +121,8 @@ static struct error *print_fields(void)
     if (!empty)
         return error_new(ERROR_SYSTEM, "out of memory");
     empty->input = &no_case;
+    empty->materials = 1;
+    empty->material[0].heat.capacity = 1.0; /* of an ideal gas: there is a temperature */
     struct error *error = particles_create(3, 1.0, NULL, 0, &empty->particles);
     if (!error) {
         printf("fields of the particles, for checks and output.pictures:\n");

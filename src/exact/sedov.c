@@ -12,7 +12,8 @@
  *   dln(G)/dV  = [1 + nu V dln(xi)/dV]/(1 - V)
  *
  * V falls from 2/(gamma + 1) at the shock to 1/gamma at the centre as long as gamma < 7 at a point,
- * for any gamma elsewhere. w = gamma V - 1 is the parameter. The partial fractions of the second
+ * for any gamma elsewhere. At a point and gamma = 7 V is 1/4 everywhere, G = (4/3) xi and the pressure
+ * goes as xi^3 (Primakoff's solution). w = gamma V - 1 is the parameter. The partial fractions of the second
  * line at V = 1 and V = A/B fall together at gamma = 2; they are summed so that nothing cancels. */
 #include "exact/sedov.h"
 
@@ -22,7 +23,7 @@
 
 struct sedov {
     int geometry;
-    double nu, gamma, density, energy;
+    double nu, gamma, density, energy, age;
     double heavy;           /* B */
     double a, b, c;         /* ln(xi) = a ln(V) + b ln(gamma V - 1) + c ln(A - B V) + constant */
     double alone, together; /* ln(G): coefficients of the two terms at V = 1 and A/B */
@@ -67,13 +68,26 @@ const struct parameter exact_sedov_table[] = {
      .unit = "",
      .standard = PARAMETER_REQUIRED,
      .above = 1.0,
-     .below = 7.0,
-     .help = "ratio of specific heats; from 7 on a vacuum would open at a point"},
+     .below = INFINITY,
+     .help = "ratio of specific heats; at a point at most 7, beyond which a vacuum opens there"},
+    {.key = "age",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct exact_sedov, age),
+     .unit = "s",
+     .standard = "0 s",
+     .below = INFINITY,
+     .closed = true,
+     .help = "time since the energy was set free, at the start of the case"},
     PARAMETER_END,
 };
 
 /* ln(1 + e x)/e, x at e = 0. */
 static double log_ratio(double e, double x) { return e == 0.0 ? x : log1p(e * x) / e; }
+
+static bool is_linear(const struct sedov *s)
+{
+    return s->geometry == RADIAL_BALL && s->gamma == 7.0;
+}
 
 static struct sedov_place place_at(const struct sedov *s, double depth)
 {
@@ -111,6 +125,17 @@ static double energy_share(const void *context, double depth)
     return density * at.v * at.v * at.v * (g + 1.0) / 2.0 * slope_at(s, depth, at.v);
 }
 
+/* The integral of energy_share from the shock to the centre. */
+static double whole_energy(const struct sedov *s)
+{
+    double integral = 0.0, low = 0.0;
+    for (double high = THIN_LAYER; low < CORE_DEPTH; high *= 2.0) {
+        integral += radial_integral(energy_share, s, low, high, LAYER_PANELS);
+        low = high;
+    }
+    return integral + energy_share(s, low) / (s->nu * s->b);
+}
+
 static struct error *sedov_solve(const void *parameters, void *solved)
 {
     static const char *const units[RADIAL_GEOMETRIES] = {"J/m^2", "J/m", "J"};
@@ -122,10 +147,13 @@ static struct error *sedov_solve(const void *parameters, void *solved)
         return error_new(ERROR_INPUT, "the energy of a %s is wanted in %s, above zero",
                          geometry_names[input->geometry], units[input->geometry]);
     double g = input->gamma, nu = radial_dimensions(input->geometry);
+    if (input->geometry == RADIAL_BALL && g > 7.0)
+        return error_new(ERROR_INPUT, "a vacuum opens at the point: gamma is %g, above 7", g);
     double a = nu + 2.0, b = (g - 1.0) * nu + 2.0, gap = b - a, spread = 2.0 * g + nu - 2.0;
     *s = (struct sedov){.geometry = input->geometry, .nu = nu, .gamma = g};
     s->density = input->density;
     s->energy = input->energy.value;
+    s->age = input->age;
     s->heavy = b;
     s->a = -2.0 / a;
     s->b = (g - 1.0) / spread;
@@ -134,12 +162,7 @@ static struct error *sedov_solve(const void *parameters, void *solved)
     s->alone = nu * (g / b + a / b * (2.0 / a - g / spread)) - 1.0;
     double vs = 2.0 / (g + 1.0), gap_change = log((a - b / g) / (a - b * vs));
     s->slack = fabs(s->a * log(g * vs)) + fabs(s->c * gap_change);
-    double integral = 0.0, low = 0.0;
-    for (double high = THIN_LAYER; low < CORE_DEPTH; high *= 2.0) {
-        integral += radial_integral(energy_share, s, low, high, LAYER_PANELS);
-        low = high;
-    }
-    integral += energy_share(s, low) / (nu * s->b);
+    double integral = is_linear(s) ? 1.0 / 72.0 : whole_energy(s);
     s->alpha = radial_surface(s->geometry) * square(2.0 / a) * integral;
     return NULL;
 }
@@ -166,19 +189,28 @@ static struct root_value depth_of(const void *context, double depth)
     return (struct root_value){sought->log_xi - at.xi, slope_at(sought->sedov, depth, at.v)};
 }
 
+/* The place inside the blast where xi has this logarithm. */
+static struct sedov_place place_of(const struct sedov *s, double log_xi)
+{
+    if (is_linear(s))
+        return (struct sedov_place){0.25, log_xi, log_xi, 3.0 * log_xi};
+    struct sought sought = {s, log_xi};
+    double deepest = (s->slack - log_xi) / s->b;
+    return place_at(s, root_find(depth_of, &sought, 0.0, deepest, 0.0));
+}
+
 static struct exact_state sedov_sample(const void *solved, enum exact_side side, double x,
                                        double time)
 {
     (void)side;
     const struct sedov *s = solved;
     struct exact_state state = {.density = s->density};
+    time += s->age;
     double g = s->gamma, radius = time > 0.0 ? shock_radius(s, time) : 0.0, r = fabs(x);
     if (!(r < radius))
         return state;
     /* Nearer to the centre than this there is nothing but pressure. */
-    struct sought sought = {s, log(maximum(r / radius, 1e-9))};
-    double depth = root_find(depth_of, &sought, 0.0, (s->slack - sought.log_xi) / s->b, 0.0);
-    struct sedov_place at = place_at(s, depth);
+    struct sedov_place at = place_of(s, log(maximum(r / radius, 1e-9)));
     state.density = s->density * (g + 1.0) / (g - 1.0) * exp(at.density);
     state.velocity = 2.0 / (s->nu + 2.0) * (x / time) * at.v;
     state.pressure = 2.0 / (g + 1.0) * s->density * square(shock_speed(s, time)) * exp(at.pressure);
@@ -194,9 +226,10 @@ static int sedov_numbers(const void *solved, double time, struct exact_number *n
     number_add(&list, "alpha", "", s->alpha);
     number_add(&list, "density behind the shock", "kg/m^3",
                s->density * (s->gamma + 1.0) / (s->gamma - 1.0));
-    if (time > 0.0) {
-        double speed = shock_speed(s, time);
-        number_add(&list, "shock radius", "m", shock_radius(s, time));
+    double since = time + s->age;
+    if (since > 0.0) {
+        double speed = shock_speed(s, since);
+        number_add(&list, "shock radius", "m", shock_radius(s, since));
         number_add(&list, "shock speed", "m/s", speed);
         number_add(&list, "velocity behind the shock", "m/s", 2.0 / (s->gamma + 1.0) * speed);
         number_add(&list, "pressure behind the shock", "Pa",

@@ -11,6 +11,7 @@ struct exact_sedov {
     int geometry;           /* enum radial_geometry: plane, line, point */
     struct quantity energy; /* J/m^2 on both sides of a plane, J/m of a line, J at a point */
     double density, gamma;
+    double age; /* s, since the energy was set free */
 };
 
 extern const struct parameter exact_sedov_table[];

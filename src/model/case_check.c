@@ -217,7 +217,7 @@ static void check_body(struct checking *checking, int index)
         check_start(checking, body);
     check_shape(checking, body);
     if (body->velocity.count == 0)
-        body->velocity.count = (int)input->dimension;
+        body->velocity.count = dimension_known(checking) ? (int)input->dimension : 0;
     else if (dimension_known(checking) && body->velocity.count != input->dimension)
         wrong(checking, "velocity", "%d component%s wanted, one a dimension; found %d",
               (int)input->dimension, input->dimension == 1 ? " is" : "s are", body->velocity.count);

@@ -94,6 +94,7 @@ static struct error *read_source(struct loading *loading, struct source *source,
     if (!error)
         error = origin ? node_parse(text, length, origin, true, root) : out_of_memory();
     free(text);
+    assert(error || *root);
     if (!error && (*root)->kind != NODE_MAP)
         error = place_error((*root)->place, "", "a map of keys and values is wanted here");
     return error;

@@ -251,7 +251,7 @@ static void read_entry(struct reading *reading, const struct node *entry, const 
     }
     struct one_of *one_of = value;
     const struct choice_list *list = things(reading, parameter->kind_of_thing);
-    if (given) {
+    if (given && one_of->choice) { /* without one a slip was given, and told */
         complain(reading, entry->key_place, path, "\"%s\" beside \"%s\": only one %s is wanted",
                  entry->key, one_of->choice->name, list->kind_of_thing);
         return;

@@ -378,6 +378,7 @@ struct error *generate_particles(struct simulation *simulation)
     struct finding *findings = memory_allocate((size_t)input->bodies.count * sizeof *findings);
     struct error *error =
         ranks_agree(simulation->ranks, findings ? NULL : error_new(ERROR_SYSTEM, "out of memory"));
+    assert(error || findings);
     if (!error)
         error = explore(input, simulation->ranks, findings);
     int64_t total = 0;
@@ -402,6 +403,7 @@ struct error *generate_warnings(const struct simulation_case *input)
         const double wanted = isnan(of->resolution) ? input->resolution : of->resolution;
         const struct lattice lattice = body_lattice(input, body);
         const double spacing[3] = {lattice.spacing.x, lattice.spacing.y, lattice.spacing.z};
+        assert(input->dimension <= 3);
         for (int axis = 0; axis < input->dimension; axis++)
             if (lattice.count[axis] == 1 && spacing[axis] < (1.0 - 1e-9) * wanted) {
                 warnings = error_join(

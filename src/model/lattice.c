@@ -76,6 +76,7 @@ static void make_lines(struct lattice *lattice, const struct one_of *shape, doub
     const double between_rows = lattice->kind == LATTICE_HEXAGONAL ? sqrt(0.75) : 1.0;
     /* An axis that the case has not: one site at zero, of unit width. */
     double origin[3] = {-0.5, -0.5, -0.5}, spacing[3] = {1.0, 1.0, 1.0};
+    assert(dimension <= 3);
     lattice->sites = 1.0;
     for (int axis = 0; axis < 3; axis++)
         lattice->count[axis] = 1;

@@ -27,6 +27,7 @@ static bool inside(const void *shape, struct vec3 point)
         return point.x >= ball->center.at[0] - ball->radius &&
                point.x < ball->center.at[0] + ball->radius;
     double distance_square = 0.0;
+    assert(ball->center.count <= 3);
     for (int axis = 0; axis < ball->center.count; axis++)
         distance_square += square(at[axis] - ball->center.at[axis]);
     return distance_square < square(ball->radius);

@@ -28,6 +28,9 @@ struct solver_class {
     void (*destroy)(void *solver);
     /* Bytes a particle, for `bolide check`, at DIMENSION. */
     double (*bytes)(const void *parameters, int dimension);
+    /* The step that a particle of DIAMETER allows in state POINT at the start, for `bolide check`. */
+    double (*step)(const void *parameters, int dimension, const struct material *material,
+                   const struct point *point, double diameter);
     /* Every field that it may add to the store, for help; NULL behind the last. */
     const struct field_declaration *(*field)(int index);
 };

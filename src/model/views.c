@@ -193,6 +193,9 @@ static struct error *no_such_field(const struct views *views, const char *field,
         names[known++] = more[i];
     char word[64];
     snprintf(word, sizeof word, "%.*s", (int)strcspn(field, "."), field);
+    if (!strcmp(word, temperature_view.name))
+        return error_new(ERROR_INPUT, "there is no temperature: not every material has a `heat: "
+                                      "{capacity: ...}` and an equation of state that gives one");
     const char *nearest = nearest_name(word, names, known);
     if (nearest)
         return error_new(ERROR_INPUT, "the particles have no field \"%s\" (did you mean \"%s\"?)",

@@ -18,10 +18,11 @@ static double level_edge(const struct cells *cells, int level)
 
 static uint64_t key_of(const struct cells *cells, int level, const int64_t at[3])
 {
-    int bits = axis_bits(cells->dimension);
+    const int dimension = cells->dimension, bits = axis_bits(dimension);
     uint64_t key = (uint64_t)level;
-    for (int axis = 0; axis < cells->dimension; axis++)
-        key = key << bits | (uint64_t)(at[axis] + axis_limit(cells->dimension));
+    assert(dimension <= 3);
+    for (int axis = 0; axis < dimension; axis++)
+        key = key << bits | (uint64_t)(at[axis] + axis_limit(dimension));
     return key;
 }
 

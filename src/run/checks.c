@@ -104,7 +104,12 @@ static struct error *prepare_check(struct prepared_check *prepared)
     const struct measurement *m = &prepared->measurement;
     const struct measure_class *class = class_of(m->check);
     struct unit unit, field_unit;
-    TRY(class->unit(m, &prepared->raw_unit));
+    prepared->unit = prepared->raw_unit = "";
+    const char *own_unit;
+    TRY(class->unit(m, &own_unit));
+    if (!own_unit)
+        return NULL;
+    prepared->raw_unit = own_unit;
     prepared->unit = m->check->relative ? "" : prepared->raw_unit;
     TRY(unit_parse(prepared->unit, &unit));
     if (m->check->between.count != 0 && m->check->between.count != 2)

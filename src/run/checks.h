@@ -34,7 +34,7 @@ struct checks;
  * dimensions, solves the exact problems. PROBES (NULL: none), which stay, keep what checks read. All
  * mistakes come joined in one ERROR_INPUT. */
 struct error *checks_prepare(const struct simulation *simulation, const struct views *views,
-                             const struct probes *probes, struct checks **checks);
+                             const struct probes *probes, struct checks **result);
 void checks_free(struct checks *checks);
 
 /* A run's moment: START are the totals at time zero, MEMORY has an entry a check. */

@@ -8,31 +8,21 @@
 #include "model/solver.h"
 #include "run/run.h"
 
-/* Updates a second that one thread is expected to make, and the Courant number of a solver that has
- * none among its parameters. */
-static const double expected_rate = 1e6, usual_courant = 0.4;
+/* Updates a second that one thread is expected to make. */
+static const double expected_rate = 1e6;
 
-/* The solver's parameter `courant`. */
-static double courant_of(const struct one_of *solver)
+static void add_body(const struct simulation_case *input, int index, struct estimate *estimate)
 {
-    const struct parameter *p = solver->choice->table;
-    for (; p && !PARAMETER_IS_END(p); p++)
-        if (p->kind == PARAMETER_NUMBER && !strcmp(p->key, "courant"))
-            return *(const double *)(const void *)((const char *)solver->value + p->offset);
-    return usual_courant;
-}
-
-static void add_body(const struct simulation_case *input, int index, double courant,
-                     struct estimate *estimate)
-{
+    const struct solver_class *class = input->solver.choice->thing;
     const struct body_input *body = case_body(input, index);
     struct body_estimate *of = &estimate->body[index];
     struct point point = of->summary.fastest;
-    struct response response =
-        material_evaluate(&case_material(input, body->material_index)->material, &point);
+    const struct material *material = &case_material(input, body->material_index)->material;
+    struct response response = material_evaluate(material, &point);
     of->sound_long = response.sound_long;
     of->sound_shear = response.sound_shear;
-    double step = courant * of->summary.diameter / response.sound_long;
+    double step = class->step(input->solver.value, (int)input->dimension, material, &point,
+                              of->summary.diameter);
     if (index == 0 || step < estimate->step) {
         estimate->step = step;
         estimate->step_body = index;
@@ -64,6 +54,7 @@ static void find_mean_density(const struct simulation_case *input, struct estima
     double wall[3][2] = {{NAN, NAN}, {NAN, NAN}, {NAN, NAN}}, volume = 1.0;
     for (int i = 0; i < input->walls.count; i++)
         wall[case_wall(input, i)->axis][case_wall(input, i)->side] = case_wall(input, i)->at;
+    assert(input->dimension <= 3);
     for (int axis = 0; axis < input->dimension; axis++) {
         if (wall[axis][WALL_LOW] < wall[axis][WALL_HIGH]) {
             low[axis] = wall[axis][WALL_LOW];
@@ -93,7 +84,7 @@ struct error *estimate_run(const struct simulation_case *input, int threads,
     error = error_join(error, run_foresee(input));
     for (int i = 0; i < bodies && !error; i++) {
         estimate->body[i].summary = summary[i];
-        add_body(input, i, courant_of(&input->solver), estimate);
+        add_body(input, i, estimate);
     }
     free(summary);
     if (error) {

@@ -18,10 +18,10 @@ struct estimate {
     double *material_mass; /* of each material of the case */
     struct bounds box;     /* of all bodies; on an axis with two walls what lies between them */
     double mean_density;   /* of that box, kg/m^3: voids count */
-    double step;    /* s: the Courant number times the smallest D/C_l of a body at the start */
-    int step_body;  /* whose it is */
-    double bytes;   /* of all particles */
-    double seconds; /* rough: a million updates a second and thread */
+    double step;           /* s: the smallest that a body allows at the start */
+    int step_body;         /* whose it is */
+    double bytes;          /* of all particles */
+    double seconds;        /* rough: a million updates a second and thread */
 };
 
 /* Also finds what a run would refuse before its first step; then ESTIMATE holds nothing. */

@@ -26,8 +26,8 @@ struct measure_class {
     bool needs_exact;
     bool needs_contact; /* an exact solution that has one */
     bool of_field;      /* the parameters start with a struct measure_field */
-    /* The SI unit of the value, "" for a ratio; an ERROR_INPUT when the measure makes no sense
-     * here. */
+    /* The SI unit of the value, "" for a ratio, NULL where it hangs on something that is wrong itself;
+     * an ERROR_INPUT when the measure makes no sense here. */
     struct error *(*unit)(const struct measurement *measurement, const char **unit);
     /* The value; NAN when there is nothing to measure (no particle in the window, no front). */
     struct error *(*measure)(const struct measurement *measurement, double *value);

@@ -104,6 +104,9 @@ static struct error *check_keys(const struct measurement *measurement, const cha
 {
     const struct measure_recorded *recorded = measurement->check->measure.value;
     struct unit parsed;
+    if (recorded->after > measurement->simulation->input->run.until)
+        return measure_error(measurement, "`after`: the run ends before, at %.9g s",
+                             measurement->simulation->input->run.until);
     if (recorded->after >= recorded->before)
         return measure_error(measurement, "`after` must be earlier than `before`");
     if (isnan(recorded->noise.value))
@@ -123,10 +126,11 @@ static struct error *unit(const struct measurement *measurement, const char **un
     const struct measure_recorded *recorded = measurement->check->measure.value;
     struct probe *probe;
     int column;
-    *unit = "";
+    *unit = NULL;
     TRY(find(measurement, &probe, &column));
     if (column == probe->columns)
         return NULL;
+    *unit = "";
     probe->kept = true;
     switch ((enum take)recorded->take) {
     case TAKE_LAST:
@@ -295,6 +299,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     struct probe *probe;
     int column;
     TRY(find(measurement, &probe, &column));
+    assert(probe);
     size_t room = ((size_t)probe->rows + 2) * sizeof(double);
     struct curve curve = {0, memory_allocate(room), memory_allocate(room)};
     bool made = curve.time && curve.value;

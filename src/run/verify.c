@@ -80,6 +80,7 @@ static struct error *run_of_sweep(struct simulation_case *input, const char *pat
         own_name ? add_case(result, path, text_format("%s/%s", name, own_name)) : NULL;
     struct error *error = verified && (own_folder || !folder) ? NULL : out_of_memory();
     if (!error) {
+        assert(verified);
         verified->sweep = input->sweep;
         verified->sweep_values = input->sweep_values;
         input->sweep = NULL;
@@ -129,8 +130,10 @@ static struct error *check_sweep(const char *path, int runs, const struct verify
 /* Results that are there already give way to nobody who does not ask for it. */
 static struct error *check_folder(const char *folder, const struct run_options *options)
 {
-    if (options->overwrite || options->resume || !is_there(folder, sweep_table_name))
+    if (!folder || options->overwrite || options->resume)
         return NULL;
+    if (!is_there(folder, sweep_table_name))
+        return folder_check(folder, false);
     return error_new(ERROR_INPUT,
                      "%s: holds the results of a sweep already (--overwrite replaces them, "
                      "--resume goes on with them)",

@@ -22,6 +22,21 @@ static double standard_limit(int conduction, int dimension)
     return dimension == 1 ? 0.35 : 0.2;
 }
 
+static double limit_of(const struct sph_parameters *parameters, int dimension)
+{
+    return isnan(parameters->conduction_limit) ? standard_limit(parameters->conduction, dimension)
+                                               : parameters->conduction_limit;
+}
+
+double conduction_step(const struct sph_parameters *parameters, int dimension,
+                       const struct heat *heat, double density, double diameter)
+{
+    if (parameters->conduction == SPH_CONDUCTION_NONE)
+        return (double)INFINITY;
+    double diffusivity = heat->conductivity / (density * heat->capacity);
+    return limit_of(parameters, dimension) * square(parameters->smoothing * diameter) / diffusivity;
+}
+
 static struct error *check_material(const struct simulation *simulation, int m)
 {
     const struct simulation_case *input = simulation->input;
@@ -46,9 +61,7 @@ struct error *conduction_create(struct sph *sph, const struct simulation *simula
                                  "nothing happens without motion unless heat flows: give "
                                  "`conduction` as well")
                    : NULL;
-    sph->conduction.limit = isnan(parameters->conduction_limit)
-                                ? standard_limit(parameters->conduction, simulation->dimension)
-                                : parameters->conduction_limit;
+    sph->conduction.limit = limit_of(parameters, simulation->dimension);
     struct error *error = NULL;
     for (int m = 0; m < simulation->materials; m++)
         error = error_join(error, check_material(simulation, m));

@@ -6,6 +6,7 @@
 #include "model/solver.h"
 
 struct sph;
+struct sph_parameters;
 struct sph_fields;
 
 struct conduction {
@@ -15,6 +16,10 @@ struct conduction {
 };
 
 bool conduction_on(const struct sph *sph);
+
+/* The step that conduction allows a particle of DIAMETER at DENSITY, INFINITY when it is off. */
+double conduction_step(const struct sph_parameters *parameters, int dimension,
+                       const struct heat *heat, double density, double diameter);
 
 /* ERROR_INPUT at a material that lacks what conduction needs, or at `motion: none` without conduction. */
 struct error *conduction_create(struct sph *sph, const struct simulation *simulation);

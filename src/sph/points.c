@@ -81,6 +81,7 @@ static void reflect(const struct simulation *simulation, struct pair_kind kind, 
     struct vec3 place = image_position(&simulation->mirrors, image, vec3_make(x[0], x[1], x[2]));
     double at[3] = {place.x, place.y, place.z};
     double *velocity = record + record_velocity(dimension);
+    assert(dimension <= 3);
     for (int axis = 0; axis < dimension; axis++) {
         record[axis] = at[axis];
         velocity[axis] *= signs[axis];

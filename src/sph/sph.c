@@ -441,6 +441,17 @@ static double sph_bytes(const void *parameters, int dimension)
            1.25 * neighbours * sizeof(uint32_t);
 }
 
+static double sph_step(const void *parameters, int dimension, const struct material *material,
+                       const struct point *point, double diameter)
+{
+    const struct sph_parameters *sph = parameters;
+    struct point at = *point;
+    double heat = conduction_step(sph, dimension, &material->heat, point->density, diameter);
+    if (sph->motion == SPH_MOTION_NONE)
+        return heat;
+    return minimum(heat, sph->courant * diameter / material_evaluate(material, &at).sound_long);
+}
+
 static const struct field_declaration *sph_field(int index)
 {
     const int always = (int)COUNT_OF(sph_field_table);
@@ -456,6 +467,7 @@ static const struct solver_class sph_class = {.size = sizeof(struct sph),
                                               .observe = sph_observe,
                                               .destroy = sph_destroy,
                                               .bytes = sph_bytes,
+                                              .step = sph_step,
                                               .field = sph_field};
 
 const struct choice sph_choice = {"sph", "smoothed particle hydrodynamics, contact or standard",

@@ -1,4 +1,4 @@
-/* Cases: bad ones against the messages that they must give, and what reading fills in. */
+/* Cases: what reading fills in, and what a case as run is written as. */
 #include <dirent.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -30,20 +30,6 @@ static void write_file(const char *path, const char *text, size_t length)
     assert_non_null(file);
     assert_int_equal(fwrite(text, 1, length, file), length);
     assert_int_equal(fclose(file), 0);
-}
-
-static char *read_file(const char *path)
-{
-    enum { LONGEST = 1 << 16 };
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return NULL;
-    char *text = calloc(1, LONGEST + 1);
-    assert_non_null(text);
-    size_t length = fread(text, 1, LONGEST, file);
-    text[length] = '\0';
-    fclose(file);
-    return text;
 }
 
 /* All messages, a line each. */
@@ -119,42 +105,6 @@ static const char impact[] =
     "%}\n"
     "  \"yes: this\": {conserved: momentum, within: 1e-12, source: \"a \\\"book\\\"\\n\"}\n"
     "short: {run: {until: 1 us}, resolution: 1 mm/3}\n";
-
-static void bad_cases_give_their_messages(void **state)
-{
-    (void)state;
-    char home[4096];
-    assert_non_null(getcwd(home, sizeof home));
-    assert_int_equal(chdir(BOLIDE_SOURCE_DIR "/tests/data/bad"), 0);
-    struct dirent **entries;
-    int count = scandir(".", &entries, NULL, alphasort), cases = 0, wrong = 0;
-    for (int i = 0; i < count; i++) {
-        char *name = entries[i]->d_name, *dot = strstr(name, ".yaml");
-        if (dot) {
-            struct simulation_case *input = NULL;
-            struct error *error = read_case(name, NULL, 0, false, &input);
-            char *found = messages(error);
-            char *path = text_format("%.*s.expected", (int)(dot - name), name);
-            char *expected = read_file(path);
-            bool input_error = error && error_kind(error) == ERROR_INPUT;
-            if (!expected || strcmp(found, expected) != 0 || !input_error || input) {
-                print_error("%s must say\n%sbut says\n%s", name, expected ? expected : "", found);
-                wrong++;
-            }
-            cases++;
-            free(path);
-            free(expected);
-            free(found);
-            error_free(error);
-            case_free(input);
-        }
-        free(entries[i]);
-    }
-    free(entries);
-    assert_int_equal(chdir(home), 0);
-    assert_true(cases >= 22);
-    assert_int_equal(wrong, 0);
-}
 
 static void a_good_case_is_read_in_si_units(void **state)
 {
@@ -480,7 +430,6 @@ static void garbled_cases_do_no_harm(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_cases_give_their_messages),
         cmocka_unit_test(a_good_case_is_read_in_si_units),
         cmocka_unit_test(keys_beside_the_library_replace_its_values),
         cmocka_unit_test(start_states_follow_from_two_of_three),

@@ -64,6 +64,7 @@ static struct bench *make_bench(int dimension)
     b->probe_names[0] = it;
     b->input.dimension = dimension;
     b->input.resolution = 0.1;
+    b->input.run.until = 10.0;
     b->input.bodies = (struct named_map){BODIES, b->names, b->body};
     b->input.probes = (struct named_map){1, b->probe_names, &b->given};
     b->input.profiles = (struct named_map){1, b->probe_names, &b->profile};

@@ -99,6 +99,16 @@ static double flight_bytes(const void *parameters, int dimension)
     return 100.0 * dimension;
 }
 
+static double flight_step(const void *parameters, int dimension, const struct material *material,
+                          const struct point *point, double diameter)
+{
+    (void)dimension;
+    (void)material;
+    (void)point;
+    (void)diameter;
+    return ((const struct flight_parameters *)parameters)->step;
+}
+
 static const struct solver_class flight_class = {sizeof(struct flight_parameters),
                                                  flight_create,
                                                  flight_start,
@@ -108,6 +118,7 @@ static const struct solver_class flight_class = {sizeof(struct flight_parameters
                                                  flight_observe,
                                                  flight_destroy,
                                                  flight_bytes,
+                                                 flight_step,
                                                  NULL};
 
 static const struct choice flight_choice = {"flight", "free flight", flight_table,
@@ -144,7 +155,7 @@ static const char *const case_file = "test_run_case.yaml";
 /* Reads TEXT with the solver of flight where it asks for that, under the settings NULL-ended. */
 static struct simulation_case *read_text(const char *text, const char *const *settings)
 {
-    static struct choice_list lists[8];
+    static struct choice_list lists[16];
     struct simulation_case *input;
     FILE *file = fopen(case_file, "w");
     assert_non_null(file);
