@@ -42,8 +42,8 @@ static int run_sweep(const struct simulation_case *input, const struct cli_optio
     struct error *error =
         verify_case(options->names.text[0], input->name, folder, &verifying, &result);
     if (result.count && result.item[0].sweep_values)
-        say(&listener, text_format("%d of %d runs passed; table in %s/sweep.csv, plots in "
-                                   "%s/pictures",
+        say(&listener, text_format("%d of %d runs passed; table in %s/sweep.csv, report: "
+                                   "%s/report.html",
                                    result.passed, input->sweep_runs, folder, folder));
     int status = error ? report_error(error) : EXIT_OK;
     if (*verifying.running.stop) {

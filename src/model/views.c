@@ -138,6 +138,7 @@ static const char *const *component_names(int components)
 {
     static const char *const vector_names[3] = {"x", "y", "z"};
     static const char *const tensor_names[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    assert(components <= 3 || components == 6);
     return components == 6 ? tensor_names : vector_names;
 }
 

@@ -74,6 +74,14 @@ static struct error *put_file(const struct page *page, const char *name, const c
     return error;
 }
 
+static void put_foot(const struct page *page)
+{
+    fprintf(page->file,
+            "</main>\n<footer><p>Made by Bolide.</p></footer>\n<script>\n%s</script>\n</body>\n"
+            "</html>\n",
+            page_script);
+}
+
 static struct error *put_page(const struct page *page)
 {
     const char *title = summary_value(&page->summary, "run", NULL, "title");
@@ -83,6 +91,12 @@ static struct error *put_page(const struct page *page)
         title = "Results of a run";
     put_head(page, title);
     put_header(page, title);
+    if (page->sweep.rows) {
+        page_sweep(page);
+        TRY(page_pictures(page));
+        put_foot(page);
+        return NULL;
+    }
     page_verdict(page);
     TRY(page_pictures(page));
     TRY(page_profiles(page));
@@ -92,10 +106,8 @@ static struct error *put_page(const struct page *page)
     fputs("<section id=\"files\"><h2>The case and the log</h2>\n", page->file);
     TRY(put_file(page, "case.yaml", "The case as run, with all defaults (case.yaml)"));
     TRY(put_file(page, "run.log", "What the run said (run.log)"));
-    fprintf(page->file,
-            "</section>\n</main>\n<footer><p>Made by Bolide.</p></footer>\n<script>\n%s"
-            "</script>\n</body>\n</html>\n",
-            page_script);
+    fputs("</section>\n", page->file);
+    put_foot(page);
     return NULL;
 }
 
@@ -126,19 +138,35 @@ static struct error *look_for_run(const char *folder)
                              folder);
 }
 
+static struct error *read_run(const char *folder, struct page *page)
+{
+    TRY(look_for_run(folder));
+    TRY(read_table(folder, "summary.csv", &page->summary));
+    TRY(read_table(folder, "checks.csv", &page->checks));
+    return read_table(folder, "history.csv", &page->history);
+}
+
+/* The words of the sweep's page are those of its first run. */
+static struct error *read_first_run(const char *folder, struct page *page)
+{
+    char *first = path_join(folder, csv_field(&page->sweep, 0, 0));
+    struct error *error =
+        first ? read_table(first, "summary.csv", &page->summary) : out_of_memory();
+    free(first);
+    return error;
+}
+
 struct error *page_write(const char *folder)
 {
     struct page page = {.folder = folder};
-    TRY(look_for_run(folder));
-    struct error *error = read_table(folder, "summary.csv", &page.summary);
+    struct error *error = read_table(folder, "sweep.csv", &page.sweep);
     if (!error)
-        error = read_table(folder, "checks.csv", &page.checks);
-    if (!error)
-        error = read_table(folder, "history.csv", &page.history);
+        error = page.sweep.rows ? read_first_run(folder, &page) : read_run(folder, &page);
     char *path = path_join(folder, "report.html");
     if (!error)
         error = path ? put_file_of_page(&page, path) : out_of_memory();
     free(path);
+    csv_free(&page.sweep);
     csv_free(&page.summary);
     csv_free(&page.checks);
     csv_free(&page.history);

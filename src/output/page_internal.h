@@ -12,6 +12,7 @@ struct page {
     const char *folder;
     FILE *file;
     struct csv summary, checks, history;
+    struct csv sweep; /* of a sweep: its table; SUMMARY is that of its first run */
 };
 
 /* page_text.c */
@@ -41,6 +42,9 @@ void summary_put(const struct page *page, const char *about, const char *name,
 void page_verdict(const struct page *page);
 void page_about(const struct page *page);
 void page_speed(const struct page *page);
+
+/* page_sweep.c */
+void page_sweep(const struct page *page);
 
 /* page_history.c */
 struct error *page_history(const struct page *page);

@@ -291,7 +291,8 @@ struct error *page_pictures(const struct page *page)
     if (!error)
         error = put_singles(page, &pictures, true, "profiles", "Profiles and exact solutions");
     if (!error)
-        error = put_singles(page, &pictures, false, "pictures", "Other pictures");
+        error = put_singles(page, &pictures, false, "pictures",
+                            page->sweep.rows ? "What the checks measured" : "Other pictures");
     pictures_free(&pictures);
     return error;
 }

@@ -53,6 +53,7 @@ const char page_style[] =
     ".phases td.bar{width:45%}\n"
     ".bar span{display:block;height:.7rem;margin-top:.4rem;background:var(--accent);\n"
     "border-radius:2px}\n"
+    "a{color:var(--accent)}\n"
     "figure{margin:0}\n"
     "img{display:block;max-width:100%;height:auto;margin:0 auto;background:#fff;\n"
     "border-radius:4px}\n"

@@ -77,8 +77,10 @@ static uint64_t key_of_point(const struct cells *cells, const struct cell_point 
     int level = level_of_reach(cells, point->reach);
     double edge = level_edge(cells, level), x[3] = {point->x, point->y, point->z};
     int64_t at[3] = {0, 0, 0};
-    for (int axis = 0; axis < cells->dimension; axis++)
-        at[axis] = cell_index(x[axis], edge, axis_limit(cells->dimension));
+    const int dimension = cells->dimension;
+    assert(dimension <= 3);
+    for (int axis = 0; axis < dimension; axis++)
+        at[axis] = cell_index(x[axis], edge, axis_limit(dimension));
     return key_of(cells, level, at);
 }
 

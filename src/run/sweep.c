@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "output/csv.h"
 #include "output/file.h"
+#include "output/page.h"
 #include "output/picture.h"
 
 const char sweep_table_name[] = "sweep.csv";
@@ -284,5 +285,5 @@ struct error *sweep_write(const char *folder, const struct verify_case *runs, in
     char *pictures = path_join(folder, "pictures");
     struct error *error = pictures ? draw_checks(pictures, runs, count) : out_of_memory();
     free(pictures);
-    return error;
+    return error ? error : page_write(folder);
 }

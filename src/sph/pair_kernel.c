@@ -20,12 +20,12 @@ struct lanes {
 struct sums {
     double traction[3][LANES] ALIGNED, gradient[9][LANES] ALIGNED, power[LANES] ALIGNED;
     double weight[LANES] ALIGNED, drift[3][LANES] ALIGNED; /* V W', V W' (U* - U) */
-    double hoop[2][LANES] ALIGNED;                         /* A (w - d) W' e_x, A x W' e_x */
+    double hoop[3][LANES] ALIGNED; /* A (w - d) W' e_x, A x W' e_x, A x W' |e_x| */
 };
 
 /* In the same order; what the kind has not stays zero. */
 struct totals_of_row {
-    double traction[3], gradient[9], power, weight, drift[3], hoop[2];
+    double traction[3], gradient[9], power, weight, drift[3], hoop[3];
 };
 
 /* The laws between a body and the eight neighbours of LIST. */
@@ -184,6 +184,7 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
             force_weight = weight * pair_depth;
             sums->hoop[0][k] += weight * (pair_depth - own[depth]) * e.x;
             sums->hoop[1][k] += weight * x.x * e.x;
+            sums->hoop[2][k] += weight * x.x * fabs(e.x);
         }
         double power = force_weight * vec3_dot(t, w);
         t = vec3_scale(force_weight, t);
@@ -225,7 +226,7 @@ INLINE struct totals_of_row totals_of_sums(struct pair_kind kind, const struct s
     totals.weight = kind.drift ? across_lanes(sums->weight) : 0.0;
     for (int a = 0; a < 3; a++)
         totals.drift[a] = kind.drift ? across_lanes(sums->drift[a]) : 0.0;
-    for (int a = 0; a < 2; a++)
+    for (int a = 0; a < 3; a++)
         totals.hoop[a] = kind.depth ? across_lanes(sums->hoop[a]) : 0.0;
     return totals;
 }
@@ -263,8 +264,10 @@ INLINE void write_rates(const struct pair_rates *rates, int32_t i, double factor
     }
     rates->power[i] = factor * all->power;
     if (rates->hoop_pull) {
-        rates->hoop_pull[i] = -2.0 * all->hoop[0];
-        rates->hoop_strain[i] = -all->hoop[1];
+        double both = -all->hoop[1], missing = square(all->hoop[2]);
+        missing = both > 0.0 ? missing / both : 0.0;
+        rates->hoop_pull[i] = -2.0 * all->hoop[0] + missing;
+        rates->hoop_strain[i] = both + missing;
     }
     /* dU^a/dx^b = -2 gradient[3 a + b], since the sums hold U* - U. */
     rates->strain_rate[i][0] = -2.0 * g[0];
@@ -315,7 +318,7 @@ INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32
     all.weight += images.weight;
     for (int a = 0; a < 3; a++)
         all.drift[a] += images.drift[a];
-    for (int a = 0; a < 2; a++)
+    for (int a = 0; a < 3; a++)
         all.hoop[a] += images.hoop[a];
     write_rates(&loop->rates, i, factor, &all, &images);
 }

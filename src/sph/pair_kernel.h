@@ -72,8 +72,10 @@ struct pair_rates {
     double (*spin)[3];         /* half the curl of U (1.57), (1.58), rad/s */
     double (*wall)[3];  /* the part of the acceleration that images gave; NULL without walls */
     double (*drift)[3]; /* sum V W' (U* - U) / sum V W', m/s; NULL unless the kind has it */
-    /* Of axisymmetry, NULL otherwise: -2 sum A_j (w - d_i) W' e_x, the part of the hoop stress that pulls inwards, and
-     * -sum A_j (x_j - x_i) W' e_x, the part of u/r that is hoop strain rate; both are one in the continuum. */
+    /* Of axisymmetry, NULL otherwise: g = -2 sum A_j (w - d_i) W' e_x, the part of the hoop stress that pulls inwards,
+     * and k = -sum A_j (x_j - x_i) W' e_x, the part of u/r that is hoop strain rate; both are one in the continuum.
+     * Both are given with (k+ - k-)^2/k more, k+ and k- the parts of k by neighbours outside and inside: what a free
+     * surface lacks on one side. */
     double *hoop_pull, *hoop_strain;
 };
 

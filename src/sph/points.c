@@ -220,9 +220,15 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
         struct point point = {.density = p->density[i],
                               .deviator = {s[0], s[1], s[2], s[3], s[4], s[5]},
                               .history = {p->plastic_strain[i]}};
-        struct response r =
-            f->thickness ? sph_thin_step(material, divergence, &point, &motion, &f->thickness[i])
-                         : material_step(material, &point, &motion);
+        struct response r;
+        if (f->thickness) { /* by copies, so that the other branch may keep its values in registers */
+            struct point thin = point;
+            struct motion within = motion;
+            r = sph_thin_step(material, divergence, &thin, &within, &f->thickness[i]);
+            point = thin;
+        } else {
+            r = material_step(material, &point, &motion);
+        }
         p->density[i] = point.density;
         p->energy[i] = point.energy;
         p->pressure[i] = point.pressure;

@@ -138,7 +138,7 @@ static const struct field_declaration hoop_fields[] = {
     {"hoop_pull", NULL, "acceleration by hoop stress", NUMBER_DOUBLE, 1, FIELD_DERIVED},
     {"hoop_strain", NULL, "part of u/r that is strain rate", NUMBER_DOUBLE, 1, FIELD_DERIVED}};
 static const struct field_declaration thickness_field = {
-    "thickness", "1", "thickness relative to the start", NUMBER_DOUBLE, 1, FIELD_STATE};
+    "thickness", "", "thickness relative to the start", NUMBER_DOUBLE, 1, FIELD_STATE};
 static const struct field_declaration heat_field = {
     "heat_rate", NULL, "specific power of conduction", NUMBER_DOUBLE, 1, FIELD_DERIVED};
 static const struct field_declaration viscosity_field = {
@@ -454,8 +454,11 @@ static double sph_step(const void *parameters, int dimension, const struct mater
 
 static const struct field_declaration *sph_field(int index)
 {
+    static const struct field_declaration *const at_times[] = {&viscosity_field, &thickness_field};
     const int always = (int)COUNT_OF(sph_field_table);
-    return index < always ? &sph_field_table[index] : index == always ? &viscosity_field : NULL;
+    if (index < always)
+        return &sph_field_table[index];
+    return index < always + (int)COUNT_OF(at_times) ? at_times[index - always] : NULL;
 }
 
 static const struct solver_class sph_class = {.size = sizeof(struct sph),

@@ -17,8 +17,8 @@ static inline struct error *joined(struct error *first, struct error *second)
 
 #define error_new(...) never_null(error_new(__VA_ARGS__))
 #define error_join(first, second) joined(first, second)
-#define error_context(error, ...)                                   \
+#define error_context(known, ...)                                   \
     ({                                                              \
-        struct error *bare = (error);                               \
+        struct error *bare = (known);                               \
         bare ? never_null(error_context(bare, __VA_ARGS__)) : NULL; \
     })

@@ -34,7 +34,7 @@ cat >use.c <<'END'
 int main(int count, char **words)
 {
     const char *const folders[] = {words[count - 1]};
-    const struct case_options reading = {.quick = true, .library_paths = folders, .library_count = 1};
+    const struct case_options reading = {.form = "short", .library_paths = folders, .library_count = 1};
     struct simulation_case *input;
     struct run_result result;
     struct error *error = case_read(words[1], &reading, &bolide_catalogue, &input);

@@ -26,7 +26,7 @@ struct naive_sums {
     double power, power_size;
     double gradient[3][3], spin[3], gradient_size;
     double weight, drift[3];
-    double hoop_pull, hoop_strain, hoop_size;
+    double hoop_pull, hoop_outside, hoop_inside, hoop_size;
 };
 
 static inline double naive_slope(double r, double h, int dimension)
@@ -154,7 +154,7 @@ static inline void naive_pair(struct pair_kind kind, double smoothing, unsigned 
     double work = 0.0, speed = 0.0, stress = 0.0, own_speed = 0.0;
     sums->weight += volume;
     sums->hoop_pull -= 2.0 * volume * (between - i->depth) * e[0];
-    sums->hoop_strain -= volume * (j->x[0] - i->x[0]) * e[0];
+    *(e[0] > 0.0 ? &sums->hoop_outside : &sums->hoop_inside) -= volume * (j->x[0] - i->x[0]) * e[0];
     sums->hoop_size += 2.0 * fabs(volume) * (between + fabs(i->depth) + r);
     for (int k = 0; k < 3; k++) {
         sums->acceleration[k] += push * sigma_star[k];

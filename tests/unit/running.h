@@ -48,7 +48,8 @@ struct running {
     struct limit limit;
 };
 
-static inline struct running *begin(const char *text, const struct variant *variant)
+/* The case and its simulation, before the solver is created. */
+static inline struct running *open_case(const char *text, const struct variant *variant)
 {
     char path[96];
     snprintf(path, sizeof path, "%s/case.yaml", folder);
@@ -64,6 +65,12 @@ static inline struct running *begin(const char *text, const struct variant *vari
     assert_success(simulation_create(run->input, &run->ranks, variant->threads, &run->simulation));
     run->solver = run->input->solver.choice->thing;
     assert_int_equal(run->solver->size, sizeof run->sph);
+    return run;
+}
+
+static inline struct running *begin(const char *text, const struct variant *variant)
+{
+    struct running *run = open_case(text, variant);
     assert_success(run->solver->create(&run->sph, &run->simulation, run->input->solver.value));
     run->simulation.particles.cell *= variant->cell;
     return run;

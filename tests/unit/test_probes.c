@@ -391,6 +391,11 @@ static void a_recorded_column_gives_its_numbers(void **state)
     assert_float_equal(recorded(b, rows, 5, r, rate), 2.0, 1e-15);
     r.take = take("mean");
     assert_float_equal(recorded(b, rows, 5, r, line), 3.0, 1e-15);
+    r.take = take("speed");
+    r.after = 2.0;
+    r.before = 4.0;
+    assert_float_equal(recorded(b, rows, 5, r, rate), 6.0, 1e-14);
+    r.after = NAN;
     r.before = NAN;
     r.take = take("maximum");
     assert_float_equal(recorded(b, rows, 5, r, line), 4.0, 0.0);

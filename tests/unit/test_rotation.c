@@ -127,6 +127,27 @@ static void it_keeps_its_angular_momentum_much_longer(void **state)
     }
 }
 
+static void it_is_refused_where_it_means_nothing(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *setting, *words;
+    } wrong[] = {{"solver.sph.contact=dukowicz", "sph.rotation: corrected goes with"},
+                 {"solver.sph.method=standard", "sph.rotation: corrected goes with"},
+                 {"materials.metal.strength=none", "wants a material with strength"}};
+    for (size_t k = 0; k < COUNT_OF(wrong); k++) {
+        const struct variant variant = {"", 1, 1.0, wrong[k].setting, false};
+        struct running *run = open_case(disc, &variant);
+        struct error *error =
+            run->solver->create(&run->sph, &run->simulation, run->input->solver.value);
+        assert_non_null(error);
+        assert_int_equal(error_kind(error), ERROR_INPUT);
+        assert_non_null(strstr(error_message(error, 0), wrong[k].words));
+        error_free(error);
+        end(run);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -134,6 +155,7 @@ int main(void)
         cmocka_unit_test(so_has_a_cube_in_space),
         cmocka_unit_test(without_the_correction_couples_brake_it),
         cmocka_unit_test(it_keeps_its_angular_momentum_much_longer),
+        cmocka_unit_test(it_is_refused_where_it_means_nothing),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -173,6 +173,7 @@ static void the_runs_make_one_table(void **state)
     assert_string_equal(csv_field(&table, 3, csv_column(&table, "verdict")), "passed");
     csv_free(&table);
     assert_int_equal(access("results/pictures/the_speed.png", R_OK), 0);
+    assert_int_equal(access("results/report.html", R_OK), 0);
     assert_int_equal(access("results/speed=10_m_s,bodies.all.energy=1_J_kg/run.log", R_OK), 0);
 }
 

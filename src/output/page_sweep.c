@@ -1,0 +1,109 @@
+/* The report of a sweep: its table, each run with a link to its own report. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/page_internal.h"
+
+/* The head of a column in parts: `pressure [Pa]`. */
+struct head {
+    char name[160], unit[48];
+};
+
+static struct head head_of(const struct csv *table, int column)
+{
+    struct head head = {"", ""};
+    const char *text = csv_head(table, column), *bracket = strrchr(text, '[');
+    snprintf(head.name, sizeof head.name, "%s", text);
+    if (bracket > text + 1 && text[strlen(text) - 1] == ']') {
+        snprintf(head.unit, sizeof head.unit, "%.*s", (int)strcspn(bracket + 1, "]"), bracket + 1);
+        if ((size_t)(bracket - text) <= sizeof head.name)
+            head.name[bracket - text - 1] = '\0';
+    }
+    return head;
+}
+
+/* Whether COLUMN judges the check of the column before it. */
+static bool is_verdict(const struct csv *table, int column)
+{
+    static const char ending[] = " verdict";
+    const char *text = csv_head(table, column);
+    const size_t length = strlen(text), size = strlen(ending);
+    return length > size && !strcmp(text + length - size, ending);
+}
+
+static void put_cell(const struct page *page, int64_t row, int column)
+{
+    const struct csv *table = &page->sweep;
+    const struct head head = head_of(table, column);
+    const double value = csv_number(table, row, column);
+    const bool judged = is_verdict(table, column + 1);
+    const bool failed = judged && !strcmp(csv_field(table, row, column + 1), "FAILED");
+    fprintf(page->file, "<td class=\"num%s\" data-label=\"", failed ? " bad" : "");
+    page_text(page->file, head.name);
+    fputs("\">", page->file);
+    if (failed)
+        fputs("<span class=\"mark\">✗ </span>", page->file);
+    if (isnan(value))
+        page_text(page->file, csv_field(table, row, column));
+    else
+        page_quantity(page->file, value, head.unit);
+    fputs("</td>", page->file);
+}
+
+static bool has_passed(const struct csv *table, int64_t row)
+{
+    return !strcmp(csv_field(table, row, table->columns - 1), "passed");
+}
+
+static void put_row(const struct page *page, int64_t row)
+{
+    const struct csv *table = &page->sweep;
+    const bool passed = has_passed(table, row);
+    fputs("<tr><th scope=\"row\"><a href=\"", page->file);
+    page_text(page->file, csv_field(table, row, 0));
+    fputs("/report.html\">", page->file);
+    page_text(page->file, csv_field(table, row, 0));
+    fputs("</a></th>", page->file);
+    for (int column = 1; column < table->columns - 1; column++)
+        if (!is_verdict(table, column))
+            put_cell(page, row, column);
+    fprintf(page->file, "<td class=\"%s\" data-label=\"verdict\"><span class=\"mark\">%s ",
+            passed ? "good" : "bad", passed ? "✓" : "✗");
+    page_text(page->file, csv_field(table, row, table->columns - 1));
+    fputs("</span></td></tr>\n", page->file);
+}
+
+static void put_table(const struct page *page)
+{
+    const struct csv *table = &page->sweep;
+    fputs("<table class=\"cards\"><caption>Runs</caption>\n<thead><tr><th scope=\"col\">run</th>",
+          page->file);
+    for (int column = 1; column < table->columns - 1; column++) {
+        if (is_verdict(table, column))
+            continue;
+        fputs("<th scope=\"col\" class=\"num\">", page->file);
+        page_text(page->file, head_of(table, column).name);
+        fputs("</th>", page->file);
+    }
+    fputs("<th scope=\"col\">verdict</th></tr></thead>\n<tbody>\n", page->file);
+    for (int64_t row = 0; row < table->rows; row++)
+        put_row(page, row);
+    fputs("</tbody></table>\n", page->file);
+}
+
+void page_sweep(const struct page *page)
+{
+    const struct csv *table = &page->sweep;
+    int64_t passed = 0;
+    for (int64_t row = 0; row < table->rows; row++)
+        passed += has_passed(table, row);
+    fprintf(page->file,
+            "<section id=\"sweep\"><h2>Verdict</h2>\n<p class=\"verdict %s\"><strong>%s: %lld of "
+            "%lld runs.</strong></p>\n",
+            passed == table->rows ? "good" : "bad", passed == table->rows ? "Passed" : "Failed",
+            (long long)(passed == table->rows ? passed : table->rows - passed),
+            (long long)table->rows);
+    put_table(page);
+    fputs("</section>\n", page->file);
+}
