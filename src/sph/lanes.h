@@ -75,7 +75,7 @@ struct lane_records {
 INLINE void lanes_stage(struct lane_records records, const int32_t *list, double (*field)[LANES])
 {
     const double *row[LANES];
-    for (int k = 0; k < LANES; k++)
+    for (int k = 0; k < LANES; k++) /* NOLINTNEXTLINE(clang-analyzer-core.*): it is filled up */
         row[k] = records.record + (size_t)list[k] * (size_t)records.stride;
     for (int offset = 0; offset < records.stride; offset += 8)
         transpose(row, offset, field + offset);

@@ -9,7 +9,7 @@ enum { STEPS = 120 };
 #endif
 
 /* A block strikes another, faces that slip and do not stick, in a corner of mirrors; an inclusion adheres. */
-#define BLOCKS                                                                                     \
+#define BLOCKS(floor)                                                                              \
     "materials:\n"                                                                                 \
     "  aluminium:\n"                                                                               \
     "    eos: {mie-grueneisen: {density: 2700 kg/m^3, sound: 5350 m/s, slope: 1.35, gamma: 2.17, " \
@@ -27,18 +27,18 @@ enum { STEPS = 120 };
     "contacts:\n"                                                                                  \
     "  faces: {between: [striker, target], shear: slip, tension: none}\n"                          \
     "walls:\n"                                                                                     \
-    "  floor: {mirror: y, at: -0.2 mm, side: low}\n"                                               \
+    "  floor: {mirror: y, at: " floor ", side: low}\n"                                             \
     "  back: {mirror: x, at: 31 mm, side: high}\n"                                                 \
     "run: {until: 1 s}\n"
 static const char plane_case[] =
     "format: 1\ntitle: Two blocks in a corner\ndimension: 2\nresolution: 1 mm\n"
-    "solver: {sph: {smoothing: 1.2}}\n" BLOCKS;
+    "solver: {sph: {smoothing: 1.2}}\n" BLOCKS("-1 mm");
 
 /* The same as thin plates, with spins. */
 static const char thin_case[] =
     "format: 1\ntitle: Two plates in a corner\ndimension: 2\nresolution: 1 mm\n"
     "geometry: plane-stress\n"
-    "solver: {sph: {smoothing: 1.2, rotation: corrected}}\n" BLOCKS;
+    "solver: {sph: {smoothing: 1.2, rotation: corrected}}\n" BLOCKS("-0.2 mm");
 
 /* A driven rod with a hot gas before it runs into a target on the axis, and stops. */
 static const char round_case[] =
@@ -137,7 +137,8 @@ static void judge(const char *text)
     struct outcome wanted = outcome_of(text, &base, &builds);
     print_message("%016llx after %d steps, rows built %d times\n", (unsigned long long)wanted.hash,
                   STEPS, (int)builds);
-    assert_true(wanted.walls.entry[LEDGER_MOMENTUM_Y] != 0.0);
+    assert_true(wanted.walls.entry[LEDGER_MOMENTUM_X] != 0.0 ||
+                wanted.walls.entry[LEDGER_MOMENTUM_Y] != 0.0);
     for (size_t k = 0; k < COUNT_OF(variants); k++) {
         struct outcome outcome = outcome_of(text, &variants[k], &builds);
         if (memcmp(&outcome, &wanted, sizeof outcome) != 0)
@@ -209,7 +210,8 @@ static void mass_momentum_and_energy_are_kept(void **state)
         assert_near(drift[LEDGER_ENERGY], 0.0, 1e-13 * start.entry[LEDGER_ENERGY]);
         for (int axis = 0; axis < 3; axis++)
             assert_near(drift[LEDGER_MOMENTUM_X + axis], 0.0, 1e-13 * now.momentum_scale);
-        assert_true(booked.entry[LEDGER_MOMENTUM_Y] != 0.0);
+        assert_true(booked.entry[LEDGER_MOMENTUM_X] != 0.0 ||
+                    booked.entry[LEDGER_MOMENTUM_Y] != 0.0);
         assert_true(now.kinetic != start.kinetic);
         end(run);
     }
