@@ -240,6 +240,19 @@ static double relative_loss(const struct table *table, const struct column *colu
     return lost / sqrt(2.0 * largest(table, mass->value) * largest(table, kinetic->value));
 }
 
+/* True when CAUSE has booked anything at all. */
+static bool has_booked(const struct table *table, const char *cause)
+{
+    size_t length = strlen(cause);
+    for (int i = 0; i < table->columns; i++) {
+        const struct column *column = &table->column[i];
+        if (!strncmp(column->name, cause, length) && column->name[length] == '.' &&
+            largest(table, column->value) != 0.0)
+            return true;
+    }
+    return false;
+}
+
 static void put_cell(FILE *file, const char *label, double value, const char *unit)
 {
     fputs("<td class=\"num\" data-label=\"", file);
@@ -262,7 +275,7 @@ static void put_balance(const struct page *page, const struct table *table, cons
     put_cell(page->file, "at the start", column->value[0], column->unit);
     put_cell(page->file, "at the end", column->value[table->rows - 1], column->unit);
     for (int i = 0; i < table->columns; i++)
-        if (name_before(&table->column[i], ending, cause))
+        if (name_before(&table->column[i], ending, cause) && has_booked(table, cause))
             put_cell(page->file, cause, table->column[i].value[table->rows - 1], column->unit);
     put_cell(page->file, "unaccounted for", relative_loss(table, column), "");
     fputs("</tr>\n", page->file);
@@ -276,7 +289,7 @@ static void put_conservation(const struct page *page, const struct table *table)
           "scope=\"col\" class=\"num\">at the end</th>",
           page->file);
     for (int i = 0; i < table->columns; i++)
-        if (name_before(&table->column[i], ".energy", cause)) {
+        if (name_before(&table->column[i], ".energy", cause) && has_booked(table, cause)) {
             fputs("<th scope=\"col\" class=\"num\">booked: ", page->file);
             page_text(page->file, cause);
             fputs("</th>", page->file);

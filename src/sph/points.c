@@ -26,18 +26,19 @@ void sph_evaluate(const struct sph *sph, struct simulation *simulation)
     }
 }
 
-/* Record of particle I; see pair_kernel.h for the order. */
-static void pack_owned(const struct sph *sph, const struct simulation *simulation,
-                       const struct sph_fields *f, int32_t i, double *record)
+/* Record of particle I; see pair_kernel.h for the order. What KIND has beyond the plain is a constant where this
+ * is inlined. */
+BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *simulation,
+                              const struct sph_fields *f, struct pair_kind kind, int32_t i,
+                              double *record)
 {
-    const struct pair_kind kind = sph->kind;
     bool shear = kind.shear;
     const struct particles *p = &simulation->particles;
     int dimension = simulation->dimension, k = 0;
     for (int axis = 0; axis < dimension; axis++)
         record[k++] = p->position[i][axis];
     record[k++] = f->diameter[i];
-    record[k++] = sph_volume(simulation, f, i);
+    record[k++] = kind.depth ? sph_volume(simulation, f, i) : p->mass[i] / p->density[i];
     for (int axis = 0; axis < dimension; axis++)
         record[k++] = p->velocity[i][axis];
     const double *s = p->deviator[i];
@@ -62,10 +63,11 @@ static void pack_owned(const struct sph *sph, const struct simulation *simulatio
     }
     if (kind.depth)
         record[k++] = sph_depth(simulation, f, i);
-    const double *spin = f->rates.spin[i];
-    if (kind.turn)
+    if (kind.turn) {
+        const double *spin = f->rates.spin[i];
         memcpy(record + k, dimension == 2 ? spin + 2 : spin,
                (dimension == 2 ? 1 : 3) * sizeof *spin);
+    }
 }
 
 /* Turns the record of a particle into that of its image: place mirrored, normal velocity and the shear
@@ -112,9 +114,19 @@ void sph_pack(struct sph *sph, const struct simulation *simulation)
     const struct ghosts *ghosts = &sph->neighbours.ghosts;
     struct sph_fields f = sph_fields_of(sph, simulation);
     size_t stride = (size_t)record_stride(sph->kind);
+    struct pair_kind kind = sph->kind;
+    bool plain = !kind.depth && !kind.turn;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < p->count; i++)
-        pack_owned(sph, simulation, &f, i, sph->record + (size_t)i * stride);
+    for (int32_t i = 0; i < p->count; i++) {
+        double *record = sph->record + (size_t)i * stride;
+        if (plain) {
+            struct pair_kind same = {kind.dimension, kind.shear, kind.star,
+                                     kind.drift,     false,      false};
+            pack_owned(sph, simulation, &f, same, i, record);
+        } else {
+            pack_owned(sph, simulation, &f, kind, i, record);
+        }
+    }
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t g = 0; g < ghosts->count; g++) {
         double *record = sph->record + (size_t)(p->count + g) * stride;
@@ -221,10 +233,11 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
                               .deviator = {s[0], s[1], s[2], s[3], s[4], s[5]},
                               .history = {p->plastic_strain[i]}};
         struct response r;
-        if (f->thickness) { /* by copies, so that the other branch may keep its values in registers */
+        if (f->thickness) { /* by copies: the other branch keeps its values in registers */
+            struct material own = *material;
             struct point thin = point;
             struct motion within = motion;
-            r = sph_thin_step(material, divergence, &thin, &within, &f->thickness[i]);
+            r = sph_thin_step(&own, divergence, &thin, &within, &f->thickness[i]);
             point = thin;
         } else {
             r = material_step(material, &point, &motion);

@@ -240,7 +240,8 @@ static struct error *choose_kind(struct sph *sph, const struct simulation *simul
     return choose_turn(sph, simulation);
 }
 
-/* An image of an image along one axis does not exist, so two walls must not be nearer than a reach. */
+/* An image of an image along one axis does not exist, so it must lie beyond reach: it is as far from a particle as
+ * the gap of the two walls and, on a lattice, a diameter. */
 static struct error *check_walls(const struct simulation *simulation, double reach)
 {
     for (int axis = 0; axis < simulation->dimension; axis++) {
@@ -281,8 +282,9 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     TRY(conduction_create(sph, simulation));
     if (conduction_on(sph))
         fields[count++] = heat_field;
-    double support = 2.0 * sph->parameters.smoothing * largest_diameter(simulation->input);
-    TRY(check_walls(simulation, 0.5 * support));
+    double diameter = largest_diameter(simulation->input);
+    double support = 2.0 * sph->parameters.smoothing * diameter;
+    TRY(check_walls(simulation, support - (1.0 + 1e-9) * diameter));
     double cell = growth_room * support * (1.0 + sph->parameters.skin);
     return particles_create(simulation->dimension, cell, fields, count, &simulation->particles);
 }
