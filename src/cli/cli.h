@@ -77,7 +77,7 @@ struct progress_pace terminal_pace(void);
 void terminal_clear_line(void);
 
 /* Escape sequences for stdout, "" where it is no terminal. */
-enum colour { COLOUR_NONE, COLOUR_GOOD, COLOUR_BAD, COLOUR_FAINT, COLOUR_STRONG };
+enum colour { COLOUR_NONE, COLOUR_GOOD, COLOUR_BAD, COLOUR_FAINT, COLOUR_STRONG, COLOUR_WARN };
 const char *colour(enum colour which);
 
 /* Catches SIGINT and SIGTERM; the flag that they set. */

@@ -39,6 +39,13 @@ static void print_rule(int width)
     putchar('\n');
 }
 
+static const char *colour_of(const struct check_result *result)
+{
+    return colour(check_failed(result)                   ? COLOUR_BAD
+                  : result->verdict == CHECK_FALLS_SHORT ? COLOUR_WARN
+                                                         : COLOUR_GOOD);
+}
+
 /* Each case's name stands at its first check. */
 static void print_table(const struct verify_result *result)
 {
@@ -65,15 +72,19 @@ static void print_table(const struct verify_result *result)
             const struct check_result *r = &verified->result.checks.item[k];
             check_measured_text(r, row.measured, sizeof row.measured);
             check_allowed_text(r, row.allowed, sizeof row.allowed);
+            char *verdict = check_verdict_text(r);
             printf("%-*s  %-*s  %-*s  %-*s  %s%s%s\n", name, k ? "" : verified->name, check,
-                   r->name, measured, row.measured, allowed, row.allowed,
-                   colour(r->passed ? COLOUR_GOOD : COLOUR_BAD), r->passed ? "passed" : "FAILED",
-                   colour(COLOUR_NONE));
+                   r->name, measured, row.measured, allowed, row.allowed, colour_of(r),
+                   verdict ? verdict : check_verdict_name(r->verdict), colour(COLOUR_NONE));
+            free(verdict);
         }
     }
     print_rule(name + check + measured + allowed + 15);
-    printf("%d of %d cases passed, %d of %d checks\n", result->passed, result->count,
+    printf("%d of %d cases passed, %d of %d checks", result->passed, result->count,
            result->checks_passed, result->checks);
+    if (result->checks_short)
+        printf(", %d fall%s short", result->checks_short, result->checks_short == 1 ? "s" : "");
+    putchar('\n');
 }
 
 static int verify_paths(const char *const *paths, int count, const struct cli_options *options)

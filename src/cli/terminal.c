@@ -34,8 +34,8 @@ void terminal_clear_line(void)
 
 const char *colour(enum colour which)
 {
-    static const char *const sequences[] = {"\033[0m", "\033[32m", "\033[1;31m", "\033[2m",
-                                            "\033[1m"};
+    static const char *const sequences[] = {"\033[0m", "\033[32m", "\033[1;31m",
+                                            "\033[2m", "\033[1m",  "\033[33m"};
     return isatty(STDOUT_FILENO) ? sequences[which] : "";
 }
 
@@ -54,8 +54,12 @@ static void say_line(void *context, const char *text)
 {
     (void)context;
     terminal_clear_line();
-    bool bad = strstr(text, "check FAILED") != NULL;
-    printf("%s%s%s\n", bad ? colour(COLOUR_BAD) : "", text, bad ? colour(COLOUR_NONE) : "");
+    bool bad = strstr(text, "check FAILED") != NULL, warn = strstr(text, "check falls short");
+    printf("%s%s%s\n",
+           bad    ? colour(COLOUR_BAD)
+           : warn ? colour(COLOUR_WARN)
+                  : "",
+           text, bad || warn ? colour(COLOUR_NONE) : "");
     fflush(stdout);
 }
 

@@ -108,6 +108,8 @@ struct check_input {
     int relative_check;    /* filled by case_read: that check; -1: none */
     struct quantity scale; /* divides error norms; NAN: the exact solution's own range */
     char *source;          /* where the wanted value comes from, shown in the table */
+    char *falls_short;     /* why the limit is not met; NULL: it must be */
+    double falls_short_if; /* above 0: `falls_short` holds */
 };
 
 /* sweep: {U0: [500 m/s, 1 km/s]}: one value that a run of the sweep takes. */

@@ -311,6 +311,10 @@ static void check_check(struct checking *checking, int index)
     if (check->at > checking->input->run.until &&
         !document_is_wrong(checking->input->document, "run"))
         wrong(checking, "at", "the run ends before, at %.9g s", checking->input->run.until);
+    if (check->falls_short && !check->falls_short[0])
+        wrong(checking, "falls_short", "the reason is wanted");
+    if (!check->falls_short && check->falls_short_if != 1.0)
+        wrong(checking, "falls_short_if", "this needs `falls_short` beside it");
     if (!is_wrong(checking, ""))
         check_limits(checking, check);
 }

@@ -339,6 +339,19 @@ static const struct parameter check_table[] = {
      .offset = offsetof(struct check_input, source),
      .standard = PARAMETER_OPTIONAL,
      .help = "where the wanted value comes from"},
+    {.key = "falls_short",
+     .kind = PARAMETER_TEXT,
+     .offset = offsetof(struct check_input, falls_short),
+     .standard = PARAMETER_OPTIONAL,
+     .help =
+         "why the limit is not met, where that is known: missing it is no failure, meeting it is"},
+    {.key = "falls_short_if",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct check_input, falls_short_if),
+     .standard = "1",
+     .above = -INFINITY,
+     .below = INFINITY,
+     .help = "above 0 in the runs of a sweep in which `falls_short` holds"},
     PARAMETER_END,
 };
 

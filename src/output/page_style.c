@@ -32,7 +32,7 @@ const char page_style[] =
     ".verdict.warn{border-color:var(--warn);background:var(--warn-back)}\n"
     ".good .mark,.verdict.good strong{color:var(--good)}\n"
     ".bad .mark,.verdict.bad strong{color:var(--bad)}\n"
-    ".verdict.warn strong{color:var(--warn)}\n"
+    ".warn .mark,.verdict.warn strong{color:var(--warn)}\n"
     ".mark{white-space:nowrap;font-weight:600}\n"
     "table{width:100%;border-collapse:collapse;margin:0 0 1.25rem;font-size:.9375rem;\n"
     "font-variant-numeric:tabular-nums}\n"

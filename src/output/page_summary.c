@@ -55,7 +55,7 @@ static void put_cell(const struct page *page, const char *about, const char *nam
 
 /* The columns of checks.csv. */
 struct check {
-    const char *name, *measure, *unit, *verdict, *source;
+    const char *name, *measure, *unit, *verdict, *source, *falls_short;
     double measured, wanted, low, high;
 };
 
@@ -67,6 +67,7 @@ static struct check read_check(const struct csv *csv, int64_t row)
         .unit = csv_field(csv, row, csv_column(csv, "unit")),
         .verdict = csv_field(csv, row, csv_column(csv, "verdict")),
         .source = csv_field(csv, row, csv_column(csv, "source")),
+        .falls_short = csv_field(csv, row, csv_column(csv, "falls_short")),
         .measured = csv_number(csv, row, csv_column(csv, "measured")),
         .wanted = csv_number(csv, row, csv_column(csv, "wanted")),
         .low = csv_number(csv, row, csv_column(csv, "low")),
@@ -75,6 +76,16 @@ static struct check read_check(const struct csv *csv, int64_t row)
 }
 
 static bool has_passed(const struct check *check) { return !strcmp(check->verdict, "passed"); }
+
+static bool falls_short(const struct check *check)
+{
+    return !strcmp(check->verdict, "falls short");
+}
+
+static bool has_failed(const struct check *check)
+{
+    return !has_passed(check) && !falls_short(check);
+}
 
 /* True where the limits lie evenly about the wanted value. */
 static bool is_symmetric(const struct check *check)
@@ -104,13 +115,19 @@ static void put_allowed(FILE *file, const struct check *check)
 
 static void put_check(FILE *file, const struct check *check)
 {
-    bool passed = has_passed(check);
-    fprintf(file, "<tr class=\"%s\"><th scope=\"row\">", passed ? "good" : "bad");
+    bool passed = has_passed(check), lacking = falls_short(check);
+    fprintf(file, "<tr class=\"%s\"><th scope=\"row\">",
+            passed    ? "good"
+            : lacking ? "warn"
+                      : "bad");
     page_text(file, check->name);
     fputs(" <span class=\"unit\">", file);
     page_text(file, check->measure);
     fprintf(file, "</span></th><td data-label=\"verdict\"><span class=\"mark\">%s</span></td>",
-            passed ? "✓ passed" : "✗ failed");
+            passed                                  ? "✓ passed"
+            : lacking                               ? "△ falls short"
+            : !strcmp(check->verdict, "passes now") ? "✗ passes now: take falls_short away"
+                                                    : "✗ failed");
     fputs("<td class=\"num\" data-label=\"measured\">", file);
     if (isnan(check->measured))
         fputs("nothing", file);
@@ -120,6 +137,10 @@ static void put_check(FILE *file, const struct check *check)
     put_allowed(file, check);
     fputs("</td><td data-label=\"source\">", file);
     page_text(file, check->source);
+    if (lacking) {
+        fprintf(file, "%sfalls short: ", check->source[0] ? "<br>" : "");
+        page_text(file, check->falls_short);
+    }
     fputs("</td></tr>\n", file);
 }
 
@@ -138,34 +159,45 @@ static void put_checks(const struct page *page)
     fputs("</tbody></table>\n", page->file);
 }
 
-/* "Failed: 2 of 16 checks: star stress left, energy" */
-static void put_failed(const struct page *page, int64_t failed)
+/* " star stress left, energy": the checks that are AMONG them. */
+static void put_names(const struct page *page, bool (*among)(const struct check *))
 {
-    fprintf(page->file, "<p class=\"verdict bad\"><strong>Failed: %lld of %lld checks.</strong> ",
-            (long long)failed, (long long)page->checks.rows);
     for (int64_t row = 0, told = 0; row < page->checks.rows; row++) {
         struct check check = read_check(&page->checks, row);
-        if (has_passed(&check))
+        if (!among(&check))
             continue;
-        fputs(told++ ? ", " : "", page->file);
+        fputs(told++ ? ", " : " ", page->file);
         page_text(page->file, check.name);
     }
-    fputs("</p>\n", page->file);
 }
 
 static void put_judged(const struct page *page)
 {
-    int64_t failed = 0, count = page->checks.rows;
+    int64_t failed = 0, lacking = 0, count = page->checks.rows;
     for (int64_t row = 0; row < count; row++) {
         struct check check = read_check(&page->checks, row);
-        failed += !has_passed(&check);
+        failed += has_failed(&check);
+        lacking += falls_short(&check);
     }
-    if (failed)
-        put_failed(page, failed);
-    else if (count)
+    if (failed) {
         fprintf(page->file,
-                "<p class=\"verdict good\"><strong>Passed: %s%lld check%s.</strong></p>\n",
+                "<p class=\"verdict bad\"><strong>Failed: %lld of %lld checks.</strong>",
+                (long long)failed, (long long)count);
+        put_names(page, has_failed);
+    } else if (lacking)
+        fprintf(page->file,
+                "<p class=\"verdict warn\"><strong>Passed: %lld of %lld checks.</strong>",
+                (long long)(count - lacking), (long long)count);
+    else if (count)
+        fprintf(page->file, "<p class=\"verdict good\"><strong>Passed: %s%lld check%s.</strong>",
                 count == 1 ? "" : "all ", (long long)count, count == 1 ? "" : "s");
+    if (lacking) {
+        fprintf(page->file, " <strong>%lld fall%s short:</strong>", (long long)lacking,
+                lacking == 1 ? "s" : "");
+        put_names(page, falls_short);
+    }
+    if (count)
+        fputs("</p>\n", page->file);
     else
         fputs("<p class=\"verdict\"><strong>Finished.</strong> The case has no checks.</p>\n",
               page->file);

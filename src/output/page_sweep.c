@@ -32,18 +32,27 @@ static bool is_verdict(const struct csv *table, int column)
     return length > size && !strcmp(text + length - size, ending);
 }
 
+static bool begins(const char *text, const char *with)
+{
+    return !strncmp(text, with, strlen(with));
+}
+
 static void put_cell(const struct page *page, int64_t row, int column)
 {
     const struct csv *table = &page->sweep;
     const struct head head = head_of(table, column);
     const double value = csv_number(table, row, column);
     const bool judged = is_verdict(table, column + 1);
-    const bool failed = judged && !strcmp(csv_field(table, row, column + 1), "FAILED");
-    fprintf(page->file, "<td class=\"num%s\" data-label=\"", failed ? " bad" : "");
+    const char *verdict = judged ? csv_field(table, row, column + 1) : "";
+    const bool failed = begins(verdict, "FAILED"), lacking = begins(verdict, "falls short");
+    fprintf(page->file, "<td class=\"num%s\" data-label=\"",
+            failed    ? " bad"
+            : lacking ? " warn"
+                      : "");
     page_text(page->file, head.name);
     fputs("\">", page->file);
-    if (failed)
-        fputs("<span class=\"mark\">✗ </span>", page->file);
+    if (failed || lacking)
+        fprintf(page->file, "<span class=\"mark\">%s </span>", failed ? "✗" : "△");
     if (isnan(value))
         page_text(page->file, csv_field(table, row, column));
     else
@@ -92,6 +101,24 @@ static void put_table(const struct page *page)
     fputs("</tbody></table>\n", page->file);
 }
 
+/* Why checks fall short: what the first run says in which they do. */
+static void put_reasons(const struct page *page)
+{
+    const struct csv *table = &page->sweep;
+    for (int column = 1; column < table->columns - 1; column++)
+        for (int64_t row = 0; row < table->rows && is_verdict(table, column); row++) {
+            const char *verdict = csv_field(table, row, column);
+            if (!begins(verdict, "falls short"))
+                continue;
+            fputs("<p class=\"warn\"><span class=\"mark\">△ </span>", page->file);
+            page_text(page->file, head_of(table, column - 1).name);
+            fputc(' ', page->file);
+            page_text(page->file, verdict);
+            fputs("</p>\n", page->file);
+            break;
+        }
+}
+
 void page_sweep(const struct page *page)
 {
     const struct csv *table = &page->sweep;
@@ -105,5 +132,6 @@ void page_sweep(const struct page *page)
             (long long)(passed == table->rows ? passed : table->rows - passed),
             (long long)table->rows);
     put_table(page);
+    put_reasons(page);
     fputs("</section>\n", page->file);
 }

@@ -251,15 +251,21 @@ static struct error *judge(const struct prepared_check *prepared, const struct c
         result->measured /= memory[index].start;
     else if (check->relative)
         result->measured /= memory[check->relative_check].measured;
-    result->passed = result->measured >= result->low && result->measured <= result->high;
+    const bool within = result->measured >= result->low && result->measured <= result->high;
+    /* What measured nothing is not excused. */
+    const bool expected =
+        check->falls_short && check->falls_short_if > 0.0 && !isnan(result->measured);
+    result->verdict = within ? (expected ? CHECK_PASSES_NOW : CHECK_PASSED)
+                             : (expected ? CHECK_FALLS_SHORT : CHECK_FAILED);
+    result->falls_short =
+        result->verdict == CHECK_FALLS_SHORT ? text_copy(check->falls_short) : NULL;
     return result->name ? NULL : error_new(ERROR_SYSTEM, "out of memory for checks");
 }
 
 struct error *checks_evaluate(const struct checks *checks, const struct check_moment *moment,
                               struct check_results *results)
 {
-    results->failed = 0;
-    results->count = 0;
+    *results = (struct check_results){0};
     results->item = memory_allocate(((size_t)checks->count + 1) * sizeof *results->item);
     if (!results->item)
         return error_new(ERROR_SYSTEM, "out of memory for checks");
@@ -269,7 +275,8 @@ struct error *checks_evaluate(const struct checks *checks, const struct check_mo
     for (int i = 0; i < checks->count; i++) {
         struct check_result *result = &results->item[results->count++];
         TRY(judge(&checks->item[i], moment->memory, i, result));
-        results->failed += !result->passed;
+        results->failed += check_failed(result);
+        results->falling_short += result->verdict == CHECK_FALLS_SHORT;
     }
     return NULL;
 }
@@ -279,7 +286,8 @@ void check_results_free(struct check_results *results)
     for (int i = 0; i < results->count; i++) {
         free(results->item[i].name);
         free(results->item[i].source);
+        free(results->item[i].falls_short);
     }
     free(results->item);
-    *results = (struct check_results){0, 0, NULL};
+    *results = (struct check_results){0};
 }

@@ -61,18 +61,36 @@ void check_allowed_text(const struct check_result *result, char *buffer, size_t 
         snprintf(buffer, size, "%s .. %s", low, high);
 }
 
+const char *check_verdict_name(enum check_verdict verdict)
+{
+    return verdict == CHECK_PASSED        ? "passed"
+           : verdict == CHECK_FALLS_SHORT ? "falls short"
+                                          : "FAILED";
+}
+
+char *check_verdict_text(const struct check_result *result)
+{
+    const char *name = check_verdict_name(result->verdict);
+    if (result->verdict == CHECK_PASSES_NOW)
+        return text_format("%s: passes now: take `falls_short` away", name);
+    return result->falls_short ? text_format("%s: %s", name, result->falls_short) : text_copy(name);
+}
+
 struct error *check_results_write(const struct check_results *results, const char *path)
 {
+    static const char *const verdicts[] = {"failed", "passed", "falls short", "passes now"};
     FILE *file;
     TRY(file_begin(path, &file));
-    fprintf(file, "check,measure,unit,measured,wanted,low,high,verdict,source,time\n");
+    fprintf(file, "check,measure,unit,measured,wanted,low,high,verdict,source,time,falls_short\n");
     for (int i = 0; i < results->count; i++) {
         const struct check_result *r = &results->item[i];
         csv_put_text(file, r->name);
         fprintf(file, ",%s,%s,%.17g,%.17g,%.17g,%.17g,%s,", r->measure, r->unit, r->measured,
-                r->wanted, r->low, r->high, r->passed ? "passed" : "failed");
+                r->wanted, r->low, r->high, verdicts[r->verdict]);
         csv_put_text(file, r->source);
-        fprintf(file, ",%.17g\n", r->time);
+        fprintf(file, ",%.17g,", r->time);
+        csv_put_text(file, r->falls_short);
+        fputc('\n', file);
     }
     return file_end(path, file);
 }

@@ -299,8 +299,11 @@ static void tell_end(struct run *run)
         const struct check_result *check = &result->checks.item[i];
         check_measured_text(check, measured, sizeof measured);
         check_allowed_text(check, allowed, sizeof allowed);
-        run_say(run, "  check %s: %s: %s (%s)", check->passed ? "passed" : "FAILED", check->name,
-                measured, allowed);
+        run_say(run, "  check %s: %s: %s (%s)%s%s", check_verdict_name(check->verdict), check->name,
+                measured, allowed, check->falls_short ? ": " : "",
+                check->falls_short                   ? check->falls_short
+                : check->verdict == CHECK_PASSES_NOW ? "; passes now: take `falls_short` away"
+                                                     : "");
     }
 }
 

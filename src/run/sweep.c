@@ -119,7 +119,13 @@ static void put_row(FILE *file, const struct verify_case *runs, int count,
         fputc(',', file);
         if (check && !isnan(check->measured))
             csv_put_number(file, check->measured);
-        fprintf(file, ",%s", !check ? "" : check->passed ? "passed" : "FAILED");
+        char *verdict = check ? check_verdict_text(check) : NULL;
+        fputc(',', file);
+        if (verdict && check->falls_short)
+            csv_put_text(file, verdict);
+        else if (verdict)
+            fputs(verdict, file);
+        free(verdict);
     }
     fprintf(file, ",%s\n", run->error ? "not finished" : run->passed ? "passed" : "FAILED");
 }

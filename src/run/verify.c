@@ -191,13 +191,14 @@ static struct error *named_error(const struct verify_case *verified)
 static struct error *sum_up(struct verify_result *result)
 {
     struct error *error = NULL;
-    result->passed = result->checks = result->checks_passed = 0;
+    result->passed = result->checks = result->checks_passed = result->checks_short = 0;
     for (int i = 0; i < result->count; i++) {
         const struct verify_case *verified = &result->item[i];
         const struct check_results *checks = &verified->result.checks;
         result->passed += verified->passed;
         result->checks += checks->count;
-        result->checks_passed += checks->count - checks->failed;
+        result->checks_passed += checks->count - checks->failed - checks->falling_short;
+        result->checks_short += checks->falling_short;
         if (verified->error)
             error = error_join(error, named_error(verified));
         else if (checks->failed)

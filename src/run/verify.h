@@ -28,7 +28,7 @@ struct verify_options {
 };
 
 struct verify_result {
-    int count, passed, checks, checks_passed;
+    int count, passed, checks, checks_passed, checks_short; /* these fall short */
     struct verify_case *item;
 };
 

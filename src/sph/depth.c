@@ -15,7 +15,9 @@ void sph_add_hoop(const struct simulation *simulation, const struct sph_fields *
         double pull = -stress * f->rates.hoop_pull[i] / (p->density[i] * radius);
         f->rates.acceleration[i][0] += pull;
         f->rates.power[i] -= p->velocity[i][0] * pull;
-        f->rates.strain_rate[i][2] = f->rates.hoop_strain[i] * p->velocity[i][0] / radius;
+        /* the radius grows as the particle moves, which may be with its contacts' velocity */
+        double velocity = p->velocity[i][0] + (f->rates.drift ? f->rates.drift[i][0] : 0.0);
+        f->rates.strain_rate[i][2] = f->rates.hoop_strain[i] * velocity / radius;
         f->rates.hoop_pull[i] = pull;
     }
 }

@@ -308,13 +308,13 @@ static void within_is_a_fraction_of_what_is_wanted_or_a_quantity(void **state)
     assert_null(evaluate(b, &result));
     assert_float_equal(result.low, -102.0, 1e-12);
     assert_float_equal(result.high, -98.0, 1e-12);
-    assert_false(result.passed);
+    assert_int_equal(result.verdict, CHECK_FAILED);
     b->check.within = (struct quantity){5.0, pascal};
     assert_null(evaluate(b, &result));
-    assert_true(result.passed);
+    assert_int_equal(result.verdict, CHECK_PASSED);
     b->simulation.particles.pressure[0] = NAN;
     assert_null(evaluate(b, &result));
-    assert_false(result.passed);
+    assert_int_equal(result.verdict, CHECK_FAILED);
 }
 
 static void expect_mistake(struct bench *b, const char *text)

@@ -40,7 +40,7 @@ struct stage {
     struct views views;
     struct totals start;
     struct checks *checks;
-    struct check_memory memory[4];
+    struct check_memory memory[5];
     struct check_results results;
 };
 
@@ -344,7 +344,39 @@ static void a_check_is_measured_at_its_time_and_remembered(void **state)
     assert_float_equal(stage_value(&s, 0), 3.0, 1e-15);
     assert_float_equal(s.results.item[0].time, 0.297, 1e-15);
     assert_float_equal(stage_value(&s, 1), 10.0, 1e-15);
-    assert_true(s.results.item[0].passed && !s.results.item[1].passed);
+    assert_int_equal(s.results.item[0].verdict, CHECK_PASSED);
+    assert_int_equal(s.results.item[1].verdict, CHECK_FAILED);
+    stage_close(&s);
+}
+
+static void a_check_that_falls_short_is_no_failure_until_it_passes(void **state)
+{
+    (void)state;
+    struct stage s;
+    stage_begin(&s,
+                "  short: {mean: velocity.x, at_most: -1 m/s, falls_short: it creeps}\n"
+                "  now: {mean: velocity.x, at_most: 4 m/s, falls_short: it creeps}\n"
+                "  here: {mean: velocity.x, at_most: 4 m/s, falls_short: it creeps, "
+                "falls_short_if: 1 - 1}\n"
+                "  there: {mean: velocity.x, at_most: -1 m/s, falls_short: it creeps, "
+                "falls_short_if: -2}\n"
+                "  never: {mean: velocity.x, at: 0.9 s, at_most: 4 m/s, falls_short: it creeps}\n");
+    for (int32_t i = 0; i < s.simulation.particles.count; i++)
+        s.simulation.particles.velocity[i][0] = 0.0;
+    stage_watch(&s, 0.1);
+    stage_value(&s, 0);
+    const enum check_verdict wanted[] = {CHECK_FALLS_SHORT, CHECK_PASSES_NOW, CHECK_PASSED,
+                                         CHECK_FAILED, CHECK_FAILED};
+    for (int i = 0; i < 5; i++)
+        assert_int_equal(s.results.item[i].verdict, wanted[i]);
+    assert_int_equal(s.results.failed, 3);
+    assert_int_equal(s.results.falling_short, 1);
+    char *text = check_verdict_text(&s.results.item[0]);
+    assert_string_equal(text, "falls short: it creeps");
+    free(text);
+    text = check_verdict_text(&s.results.item[1]);
+    assert_string_equal(text, "FAILED: passes now: take `falls_short` away");
+    free(text);
     stage_close(&s);
 }
 
@@ -355,7 +387,7 @@ static void a_check_whose_time_never_came_fails(void **state)
     stage_begin(&s, "  it: {mean: velocity.x, at: 0.2 s, at_most: 4 m/s}\n");
     stage_watch(&s, 0.1);
     assert_true(isnan(stage_value(&s, 0)));
-    assert_false(s.results.item[0].passed);
+    assert_int_equal(s.results.item[0].verdict, CHECK_FAILED);
     stage_close(&s);
 }
 
@@ -377,7 +409,8 @@ static void a_value_is_divided_by_that_at_the_start_or_of_another_check(void **s
     assert_float_equal(stage_value(&s, 0), 2.0, 1e-12);
     assert_float_equal(stage_value(&s, 1), 3.0, 1e-12);
     assert_float_equal(stage_value(&s, 3), log(2.0) / 0.25, 1e-12);
-    assert_true(s.results.item[0].passed && s.results.item[1].passed);
+    assert_int_equal(s.results.item[0].verdict, CHECK_PASSED);
+    assert_int_equal(s.results.item[1].verdict, CHECK_PASSED);
     assert_string_equal(s.results.item[0].unit, "");
     stage_close(&s);
 }
@@ -419,6 +452,7 @@ int main(void)
         cmocka_unit_test(stokes_layer_gives_the_printed_displacement),
         cmocka_unit_test(shear_layer_finds_the_viscosity_that_moved_the_rows),
         cmocka_unit_test(a_check_is_measured_at_its_time_and_remembered),
+        cmocka_unit_test(a_check_that_falls_short_is_no_failure_until_it_passes),
         cmocka_unit_test(a_check_whose_time_never_came_fails),
         cmocka_unit_test(a_value_is_divided_by_that_at_the_start_or_of_another_check),
         cmocka_unit_test(what_makes_no_sense_of_a_body_is_told_before_the_run),

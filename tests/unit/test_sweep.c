@@ -10,19 +10,21 @@
 
 #include "base/memory.h"
 #include "output/csv.h"
+#include "output/file.h"
 #include "run/catalogue.h"
 #include "run/sweep.h"
 
-#define HEAD                                                                                       \
+#define BODIES                                                                                     \
     "format: 1\ndimension: 1\nresolution: 1 mm\nsolver: sph\n"                                     \
     "let: {slow: 10 m/s, speed: 5 m/s, gap: 1 mm}\n"                                               \
     "materials: {gas: {library: gas-gamma-3}}\n"                                                   \
     "bodies: {all: {material: gas, velocity: [speed], energy: 2 J/kg, box: {from: [0 m], to: [20 " \
     "mm]}}}\n"                                                                                     \
     "run: {until: 1 s, max_steps: 2}\n"                                                            \
-    "output: {snapshots: no}\n"                                                                    \
-    "checks: {\"the speed\": {mean: velocity.x, is: speed, within: 1 %}, slow: {mean: "            \
-    "velocity.x, at_most: 15 m/s}}\n"
+    "output: {snapshots: no}\n"
+#define HEAD                                                                                   \
+    BODIES "checks: {\"the speed\": {mean: velocity.x, is: speed, within: 1 %}, slow: {mean: " \
+           "velocity.x, at_most: 15 m/s}}\n"
 
 static const char two_ways[] =
     HEAD "sweep: {speed: [2*slow, 10 m/s], bodies.all.energy: [1 J/kg, 3 kJ/kg]}\n"
@@ -177,6 +179,33 @@ static void the_runs_make_one_table(void **state)
     assert_int_equal(access("results/speed=10_m_s,bodies.all.energy=1_J_kg/run.log", R_OK), 0);
 }
 
+static void a_check_falls_short_in_the_runs_that_it_names(void **state)
+{
+    (void)state;
+    struct verify_result result;
+    struct csv table;
+    write_case(BODIES "checks: {fast: {mean: velocity.x, at_least: 20 m/s, falls_short: too slow, "
+                      "falls_short_if: 2 - speed/slow}}\n"
+                      "sweep: {speed: [slow, 3*slow]}\n");
+    assert_null(run_all(true, false, &result));
+    assert_int_equal(result.passed, 2);
+    assert_int_equal(result.checks, 2);
+    assert_int_equal(result.checks_passed, 1);
+    assert_int_equal(result.checks_short, 1);
+    verify_result_free(&result);
+    assert_null(csv_read("results/sweep.csv", &table));
+    const int verdict = csv_column(&table, "fast verdict");
+    assert_string_equal(csv_field(&table, 0, verdict), "falls short: too slow");
+    assert_string_equal(csv_field(&table, 1, verdict), "passed");
+    csv_free(&table);
+    char *page = NULL;
+    size_t size;
+    assert_null(file_read("results/report.html", &page, &size));
+    assert_non_null(strstr(page, "△ </span>fast falls short: too slow"));
+    free(page);
+    assert_int_equal(system("rm -r results"), 0);
+}
+
 static void results_give_way_only_when_asked(void **state)
 {
     (void)state;
@@ -229,6 +258,7 @@ int main(void)
         cmocka_unit_test(a_run_knows_its_values),
         cmocka_unit_test(the_short_form_has_a_sweep_of_its_own),
         cmocka_unit_test(a_mistake_stands_where_its_value_does),
+        cmocka_unit_test(a_check_falls_short_in_the_runs_that_it_names),
         cmocka_unit_test(the_runs_make_one_table),
         cmocka_unit_test(results_give_way_only_when_asked),
         cmocka_unit_test(a_sweep_goes_on_where_it_was_left),
