@@ -97,7 +97,10 @@ static void write_wanted(FILE *out, const char *prefix, const struct parameter *
         snprintf(path, sizeof path, "%s%s", prefix, p->key);
         if (p->kind == PARAMETER_TABLE) {
             snprintf(path, sizeof path, "%s%s.", prefix, p->key);
+            long before = ftell(out);
             write_wanted(out, path, p->table);
+            if (ftell(out) == before) /* each by itself is optional: the first stands for all */
+                fprintf(out, " --set \"%s%s=...\"", path, p->table->key);
         } else
             fprintf(out, " --set \"%s=...%s%s\"", path, p->unit && p->unit[0] ? " " : "",
                     p->unit ? p->unit : "");

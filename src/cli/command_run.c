@@ -27,6 +27,19 @@ static void say(const struct listener *listener, char *text)
     free(text);
 }
 
+static void tell_sweep(const struct listener *listener, const struct verify_result *result,
+                       int runs, const char *folder)
+{
+    char *lacking = result->checks_short ? text_format(", %d of %d checks fall short",
+                                                       result->checks_short, result->checks)
+                                         : text_copy("");
+    if (lacking)
+        say(listener,
+            text_format("%d of %d runs passed%s; table in %s/sweep.csv, report: %s/report.html",
+                        result->passed, runs, lacking, folder, folder));
+    free(lacking);
+}
+
 static int run_sweep(const struct simulation_case *input, const struct cli_options *options,
                      const char *folder)
 {
@@ -42,9 +55,7 @@ static int run_sweep(const struct simulation_case *input, const struct cli_optio
     struct error *error =
         verify_case(options->names.text[0], input->name, folder, &verifying, &result);
     if (result.count && result.item[0].sweep_values)
-        say(&listener, text_format("%d of %d runs passed; table in %s/sweep.csv, report: "
-                                   "%s/report.html",
-                                   result.passed, input->sweep_runs, folder, folder));
+        tell_sweep(&listener, &result, input->sweep_runs, folder);
     int status = error ? report_error(error) : EXIT_OK;
     if (*verifying.running.stop) {
         say(&listener, text_copy("go on with --resume"));

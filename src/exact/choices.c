@@ -7,6 +7,7 @@
 #include "exact/impedance_match.h"
 #include "exact/sedov.h"
 #include "exact/temperature_jump.h"
+#include "exact/verney.h"
 
 #define EXACT_CHOICE(identifier, name, help)                                    \
     {name, help, exact_##identifier##_table, sizeof(struct exact_##identifier), \

@@ -1,46 +1,68 @@
-/* The elastic-plastic Riemann problem; see elastic_plastic_riemann.h. Let P = K (1 - V/V_0) (2.1),
- * dS/dt = 4/3 G du/dx (2.2), |S| <= 2Y/3 (2.3), p = P - S = -sigma, x = ln(V/V_start):
- *   elastic  p = K (1 - V/V_0) - 4/3 G x,  |x| <= Y/2G;    convex: compression jumps, release fans out
- *   plastic  p = K (1 - V/V_0) +- 2Y/3, + in compression;  straight: a jump of impedance sqrt(K/V_0)
- * The elastic wave is the faster one at any strength. Stress power goes into the energy. Source:
- * Parshikov (2013), section 2.1, for the problem; the solution is exact for these relations. */
+/* The elastic-plastic Riemann problem; see elastic_plastic_riemann.h. With x = ln(V/V_start),
+ *   elastic  S = S_start + 4/3 G x until |S| = 2Y/3,
+ *   plastic  S = -2Y/3 in compression, 2Y/3 in expansion,
+ * each side sends out an elastic wave and, if that does not suffice, a plastic one behind it. A plastic
+ * shock that would outrun its precursor takes the solid from the start to the end in one jump.
+ * Sources: Wang, Chen and Huang (2024) for any equation of state; Parshikov (2013), section 2.1, for
+ * barotropic solids. The solution is exact for these relations. */
 #include "exact/elastic_plastic_riemann.h"
 
+#include <string.h>
+
 #include "exact/root.h"
+#include "exact/solid_wave.h"
 #include "exact/waves.h"
+
+enum load { COMPRESSION, EXPANSION };
 
 /* A solid as its waves see it. */
 struct path {
-    double bulk;             /* K, Pa */
-    double shear;            /* 4/3 G, Pa */
-    double slope;            /* K/V_0: -dp/dV of the plastic branch, kg^2/(m^4 s^2) */
-    double limit;            /* strain at yield; zero: a liquid */
-    double flow;             /* 2Y/3, Pa; zero for a liquid */
-    double reference, start; /* V_0 and V at the start, m^3/kg */
-    double pressure;         /* p at the start */
+    struct eos eos;
+    bool free, fluid;
     double velocity;
+    struct solid_base start;     /* elastic; of a fluid, as plastic */
+    double limit[2];             /* strains at yield by enum load: <= 0, >= 0; zero: a fluid */
+    double flow[2];              /* the deviators there */
+    struct solid_place yield[2]; /* behind the elastic waves that end there */
 };
 
 struct solid_problem {
     struct waves waves; /* first: waves.h */
     struct path path[2];
+    struct solid_base base[2][WAVES_A_SIDE]; /* ahead of each wave */
 };
 
 static const struct parameter solid_table[] = {
+    {.key = "eos",
+     .kind = PARAMETER_ONE_OF,
+     .offset = offsetof(struct exact_solid, eos),
+     .standard = PARAMETER_OPTIONAL,
+     .help = "its equation of state; not given: barotropic, of the next two",
+     .kind_of_thing = "eos"},
     {"reference_density", PARAMETER_NUMBER, offsetof(struct exact_solid, reference_density),
-     "kg/m^3", PARAMETER_REQUIRED, .above = 0.0, .below = INFINITY,
-     .help = "density at zero pressure"},
+     "kg/m^3", PARAMETER_OPTIONAL, .above = 0.0, .below = INFINITY,
+     .help = "of a barotropic solid: density at zero pressure"},
     {"bulk_modulus", PARAMETER_NUMBER, offsetof(struct exact_solid, bulk_modulus), "Pa",
-     PARAMETER_REQUIRED, .above = 0.0, .below = INFINITY, .help = "K of p = K (1 - rho_0/rho)"},
+     PARAMETER_OPTIONAL, .above = 0.0, .below = INFINITY,
+     .help = "of a barotropic solid: K of p = K (1 - rho_0/rho)"},
     {"shear_modulus", PARAMETER_NUMBER, offsetof(struct exact_solid, shear_modulus), "Pa", "0 Pa",
      .above = 0.0, .below = INFINITY, .closed = true, .help = "shear modulus G"},
     {"yield", PARAMETER_NUMBER, offsetof(struct exact_solid, yield), "Pa", "0 Pa", .above = 0.0,
      .below = INFINITY, .closed = true, .help = "yield strength in simple tension"},
     {"density", PARAMETER_NUMBER, offsetof(struct exact_solid, density), "kg/m^3",
      PARAMETER_OPTIONAL, .above = 0.0, .below = INFINITY,
-     .help = "density at the start; the reference density if not given"},
+     .help = "density at the start; that of the equation of state if not given"},
     {"velocity", PARAMETER_NUMBER, offsetof(struct exact_solid, velocity), "m/s", "0 m/s",
      .help = "velocity at the start, positive to the right"},
+    {"energy", PARAMETER_NUMBER, offsetof(struct exact_solid, energy), "J/kg", "0 J/kg",
+     .help = "specific internal energy at the start"},
+    {"deviator", PARAMETER_NUMBER, offsetof(struct exact_solid, deviator), "Pa", "0 Pa",
+     .help = "deviator along x at the start, at most 2/3 of the yield strength"},
+    {.key = "free",
+     .kind = PARAMETER_FLAG,
+     .offset = offsetof(struct exact_solid, free),
+     .standard = "no",
+     .help = "nothing is on this side: the surface of the other one is free"},
     PARAMETER_END,
 };
 
@@ -55,134 +77,142 @@ const struct parameter exact_elastic_plastic_riemann_table[] = {
     PARAMETER_END,
 };
 
-static struct path path_of(const struct exact_solid *solid)
+static const char *const side_names[2] = {"left", "right"};
+
+static struct error *eos_of(const struct exact_solid *solid, const char *side, struct eos *eos)
 {
-    struct path path = {.bulk = solid->bulk_modulus, .velocity = solid->velocity};
-    bool liquid = !(solid->shear_modulus > 0.0 && solid->yield > 0.0);
-    double density = isnan(solid->density) ? solid->reference_density : solid->density;
-    path.shear = liquid ? 0.0 : 4.0 / 3.0 * solid->shear_modulus;
-    path.flow = liquid ? 0.0 : 2.0 / 3.0 * solid->yield;
-    path.limit = liquid ? 0.0 : 0.5 * solid->yield / solid->shear_modulus;
-    path.slope = solid->bulk_modulus * solid->reference_density;
-    path.reference = 1.0 / solid->reference_density;
-    path.start = 1.0 / density;
-    path.pressure = solid->bulk_modulus * (1.0 - solid->reference_density / density);
-    return path;
+    bool barotropic = !isnan(solid->reference_density) && !isnan(solid->bulk_modulus);
+    bool some = !isnan(solid->reference_density) || !isnan(solid->bulk_modulus);
+    if (solid->eos.value ? some : !barotropic)
+        return error_new(ERROR_INPUT,
+                         "%s: wants either eos, or reference_density and bulk_modulus of a "
+                         "barotropic solid",
+                         side);
+    if (solid->eos.value) {
+        eos->kind = (enum eos_kind)solid->eos.index;
+        memcpy(&eos->of, solid->eos.value, solid->eos.choice->size);
+    } else {
+        eos->kind = EOS_barotropic;
+        eos->of.barotropic.density = solid->reference_density;
+        eos->of.barotropic.bulk_modulus = solid->bulk_modulus;
+    }
+    return NULL;
 }
 
-/* How a wave changes things: the velocity (away from the contact positive) with its slope over p, and
- * the energy. */
-struct change {
-    double velocity, slope, energy;
-};
-
-/* A state on a path: strain x since the start while elastic, volume, p. */
-struct place {
-    double strain, volume, pressure;
-};
-
-static struct place elastic_place(const struct path *path, double strain)
+/* The strains and places at which the solid yields, given its state at the start. */
+static struct error *find_limits(struct path *path, double yield, double deviator, const char *side)
 {
-    struct place place = {strain, path->start * exp(strain), path->pressure};
-    place.pressure -= path->slope * path->start * expm1(strain) + path->shear * strain;
-    return place;
+    double flow = path->fluid ? 0.0 : 2.0 / 3.0 * yield;
+    if (fabs(deviator) > flow * (1.0 + 1e-12))
+        return error_new(ERROR_INPUT, "%s.deviator: %g Pa is beyond 2/3 of the yield strength",
+                         side, deviator);
+    for (int load = COMPRESSION; load <= EXPANSION; load++) {
+        double sign = load == COMPRESSION ? -1.0 : 1.0, room = flow - sign * deviator;
+        path->flow[load] = sign * flow;
+        /* At yield there is no elastic wave, not even one of rounding. */
+        path->limit[load] = room > 1e-12 * flow ? sign * room / path->start.shear : 0.0;
+        path->yield[load] = load == COMPRESSION ? solid_jump(&path->start, path->limit[load])
+                                                : solid_fan(&path->start, path->limit[load]);
+        if (!path->yield[load].valid)
+            return error_new(ERROR_INPUT,
+                             "%s: the equation of state has no sound speed between the start and "
+                             "yield",
+                             side);
+    }
+    return NULL;
 }
 
-/* Speed times density squared: -dp/dV of the elastic branch. */
-static double elastic_stiffness(const struct path *path, double volume)
+static struct error *path_of(const struct exact_solid *solid, const char *side, struct path *path)
 {
-    return path->slope + path->shear / volume;
+    static const double fresh[1] = {0.0};
+    *path = (struct path){.free = solid->free, .velocity = solid->velocity};
+    if (solid->free)
+        return NULL;
+    TRY(eos_of(solid, side, &path->eos));
+    double density = isnan(solid->density) ? eos_reference_density(&path->eos) : solid->density;
+    struct eos_value value = eos_evaluate(&path->eos, density, solid->energy, fresh);
+    path->fluid = !(solid->shear_modulus > 0.0 && solid->yield > 0.0);
+    path->start.eos = &path->eos;
+    path->start.volume = 1.0 / density;
+    path->start.energy = solid->energy;
+    path->start.normal = value.pressure - solid->deviator;
+    path->start.deviator = solid->deviator;
+    path->start.shear = path->fluid ? 0.0 : 4.0 / 3.0 * solid->shear_modulus;
+    return find_limits(path, solid->yield, solid->deviator, side);
 }
 
-/* Slope of the chord from the start: the squared impedance of an elastic jump. */
-static double chord_stiffness(const struct path *path, double strain)
-{
-    double stretch = strain == 0.0 ? 1.0 : strain / expm1(strain);
-    return path->slope + path->shear / path->start * stretch;
-}
-
-static struct change elastic_jump(const struct path *path, struct place to)
-{
-    double impedance = sqrt(chord_stiffness(path, to.strain));
-    double shrink = -path->start * expm1(to.strain);
-    double slope = 0.5 * (1.0 / impedance + impedance / elastic_stiffness(path, to.volume));
-    double energy = 0.5 * (path->pressure + to.pressure) * shrink;
-    return (struct change){impedance * shrink, slope, energy};
-}
-
-/* The integrals of sqrt(-dp/dV) and of p over V from the start to TO, in closed form; a = K/V_0,
- * b = 4/3 G. Differences are taken in forms that keep their digits for small strain. */
-static struct change elastic_fan(const struct path *path, struct place to)
-{
-    double a = path->slope, b = path->shear, from = path->start;
-    double grow = from * expm1(to.strain);
-    double rise = a * (to.volume + from) + b; /* of a V^2 + b V, divided by grow */
-    double root_to = sqrt(a * to.volume), root_from = sqrt(a * from);
-    double stiff_to = sqrt(a * to.volume + b), stiff_from = sqrt(a * from + b);
-    double part = a * grow * rise / (root_to * stiff_to + root_from * stiff_from);
-    double gain = a * grow * (1.0 / (root_to + root_from) + 1.0 / (stiff_to + stiff_from));
-    double velocity = -(part + b * log1p(gain / (root_from + stiff_from))) / sqrt(a);
-    double energy = -grow * (path->pressure - 0.5 * a * grow) + b * (to.volume * to.strain - grow);
-    return (struct change){velocity, 1.0 / sqrt(elastic_stiffness(path, to.volume)), energy};
-}
-
-static struct change elastic_change(const struct path *path, struct place to)
-{
-    return to.strain < 0.0 ? elastic_jump(path, to) : elastic_fan(path, to);
-}
-
-/* The wave pattern of one side: the end of the elastic wave and, behind it, of the plastic one. */
+/* The waves of one side: each from its base to its place. */
 struct response {
-    bool plastic;
-    double flow; /* P - p behind: -S while plastic */
-    struct place elastic, end;
-    struct change first, second;
+    int count;
+    bool reached; /* the solid bears the pressure */
+    struct solid_base base[WAVES_A_SIDE];
+    struct solid_place behind[WAVES_A_SIDE];
 };
 
-struct target {
-    const struct path *path;
-    double pressure;
-};
-
-static struct root_value elastic_excess(const void *context, double strain)
+static void add_wave(struct response *response, struct solid_base base, struct solid_place behind)
 {
-    const struct target *target = context;
-    struct place place = elastic_place(target->path, strain);
-    double slope = target->path->slope * place.volume + target->path->shear;
-    return (struct root_value){target->pressure - place.pressure, slope};
+    response->base[response->count] = base;
+    response->behind[response->count++] = behind;
 }
 
-/* The strain on the elastic branch at PRESSURE, in (-limit, limit). */
-static double elastic_strain(const struct path *path, double pressure)
+/* A plastic wave behind the elastic one that ends at yield. */
+static void flow_to(const struct path *path, double pressure, enum load load,
+                    struct response *response)
 {
-    struct target target = {path, pressure};
-    bool compressed = pressure > path->pressure;
-    return root_find(elastic_excess, &target, compressed ? -path->limit : 0.0,
-                     compressed ? 0.0 : path->limit, 0.0);
+    double far = load == COMPRESSION ? -INFINITY : INFINITY;
+    const struct solid_place *yield = &path->yield[load];
+    struct solid_base base = {.eos = &path->eos,
+                              .volume = yield->volume,
+                              .energy = yield->energy,
+                              .normal = yield->normal,
+                              .deviator = path->flow[load]};
+    struct solid_place end;
+    if (path->limit[load] != 0.0)
+        add_wave(response, path->start, *yield);
+    response->reached = solid_wave_to(&base, pressure, far, &end);
+    if (load == COMPRESSION && response->count > 0 && end.chord > yield->chord) {
+        response->count = 0;
+        base.volume = path->start.volume;
+        base.energy = path->start.energy;
+        base.normal = path->start.normal;
+        base.sudden = true;
+        response->reached = solid_wave_to(&base, pressure, far, &end);
+    }
+    add_wave(response, base, end);
 }
 
 static struct response respond(const struct path *path, double pressure)
 {
-    double sign = pressure > path->pressure ? 1.0 : -1.0;
-    struct response response = {.elastic = elastic_place(path, -sign * path->limit)};
-    response.plastic = sign * (pressure - response.elastic.pressure) > 0.0;
-    if (!response.plastic) {
-        response.elastic = elastic_place(path, elastic_strain(path, pressure));
-        response.elastic.pressure = pressure;
-        response.end = response.elastic;
-        response.flow = path->shear * response.end.strain;
-        response.first = elastic_change(path, response.elastic);
+    struct response response = {.reached = true};
+    if (path->free)
         return response;
+    enum load load = pressure > path->start.normal ? COMPRESSION : EXPANSION;
+    double beyond = pressure - path->yield[load].normal;
+    if (pressure == path->start.normal)
+        add_wave(&response, path->start, solid_jump(&path->start, 0.0));
+    else if (load == COMPRESSION ? beyond > 0.0 : beyond < 0.0)
+        flow_to(path, pressure, load, &response);
+    else {
+        struct solid_place end;
+        response.reached = solid_wave_to(&path->start, pressure, path->limit[load], &end);
+        add_wave(&response, path->start, end);
     }
-    double shrink = (pressure - response.elastic.pressure) / path->slope;
-    double impedance = sqrt(path->slope);
-    response.first = elastic_change(path, response.elastic);
-    response.flow = -sign * path->flow;
-    response.end = (struct place){0.0, response.elastic.volume - shrink, pressure};
-    response.second.velocity = impedance * shrink;
-    response.second.slope = 1.0 / impedance;
-    response.second.energy = 0.5 * (pressure + response.elastic.pressure) * shrink;
     return response;
+}
+
+/* The change of velocity away from the contact, and its slope over pressure. */
+static struct root_value push_of(const struct path *path, double pressure)
+{
+    struct response response = respond(path, pressure);
+    struct root_value push = {0.0, 0.0};
+    if (!response.reached)
+        return (struct root_value){pressure > path->start.normal ? INFINITY : -INFINITY, NAN};
+    for (int i = 0; i < response.count; i++)
+        push.value += response.behind[i].push;
+    const struct solid_place *end = &response.behind[response.count - 1];
+    double impedance = sqrt(end->chord);
+    push.slope = 0.5 * (1.0 / impedance + impedance / end->stiffness);
+    return push;
 }
 
 /* Velocity right of the contact less that left of it when both solids have PRESSURE. */
@@ -190,131 +220,172 @@ static struct root_value mismatch(const void *context, double pressure)
 {
     const struct path *left = (const struct path *)context + SIDE_LEFT;
     const struct path *right = (const struct path *)context + SIDE_RIGHT;
-    struct response back = respond(left, pressure), forth = respond(right, pressure);
-    double push_left = back.first.velocity + back.second.velocity;
-    double push_right = forth.first.velocity + forth.second.velocity;
-    return (struct root_value){right->velocity - left->velocity + (push_left + push_right),
-                               (back.plastic ? back.second : back.first).slope +
-                                   (forth.plastic ? forth.second : forth.first).slope};
+    struct root_value back = push_of(left, pressure), forth = push_of(right, pressure);
+    return (struct root_value){right->velocity - left->velocity + (back.value + forth.value),
+                               back.slope + forth.slope};
 }
 
+/* Where the solids meet: neither pulls more nor is pressed harder than it bears. */
 static struct error *star_pressure(const struct path path[2], double *pressure)
 {
+    enum { DOUBLINGS = 100 };
     const struct path *left = &path[SIDE_LEFT], *right = &path[SIDE_RIGHT];
-    /* The pressure at which a solid has no volume left. */
-    double high = minimum(left->bulk + left->flow, right->bulk + right->flow);
-    if (!(mismatch(path, high).value > 0.0))
-        return error_new(ERROR_INPUT,
-                         "the impact asks for more than the %g Pa at which the equation of state "
-                         "p = K (1 - rho_0/rho) has no volume left",
-                         high);
-    double low = minimum(left->pressure, right->pressure);
-    double step = maximum(left->bulk, right->bulk);
-    for (; mismatch(path, low).value > 0.0; step *= 2.0)
+    double low = minimum(left->start.normal, right->start.normal);
+    double high = maximum(left->start.normal, right->start.normal);
+    double start = 0.5 * (low + high), soft = 1.0;
+    for (int side = SIDE_LEFT; side <= SIDE_RIGHT; side++)
+        soft = maximum(soft, path[side].yield[EXPANSION].stiffness * path[side].start.volume);
+    double step = soft;
+    for (int i = 0; i < DOUBLINGS && mismatch(path, high).value < 0.0; i++, step *= 2.0)
+        high += step;
+    step = soft;
+    for (int i = 0; i < DOUBLINGS && mismatch(path, low).value > 0.0; i++, step *= 2.0)
         low -= step;
-    double start = minimum(0.5 * (left->pressure + right->pressure), high);
     *pressure = root_find(mismatch, path, low, high, start);
-    return NULL;
+    double left_over = mismatch(path, *pressure).value;
+    double speed = sqrt(soft * maximum(left->start.volume, right->start.volume));
+    if (fabs(left_over) <= 1e-9 * speed)
+        return NULL;
+    return error_new(ERROR_INPUT,
+                     "the bodies ask for more than the %g Pa that an equation of state can bear: "
+                     "it has no volume left, or comes apart",
+                     *pressure);
 }
 
-static struct exact_state state_at(struct place place, double deviator, double velocity,
-                                   double energy)
+static struct exact_state state_at(const struct solid_place *place, double velocity)
 {
-    struct exact_state state = {.density = 1.0 / place.volume, .velocity = velocity};
-    state.pressure = place.pressure + deviator;
-    state.energy = energy;
-    state.stress = -place.pressure;
-    state.deviator = deviator;
+    struct exact_state state = {.density = 1.0 / place->volume, .velocity = velocity};
+    state.pressure = place->normal + place->deviator;
+    state.energy = place->energy;
+    state.stress = -place->normal;
+    state.deviator = place->deviator;
     return state;
 }
 
-/* The one or two waves that take a side to its star state. */
-static int side_waves(const struct path *path, double direction, const struct response *response,
-                      double star_velocity, struct wave wave[WAVES_A_SIDE])
+static enum wave_kind kind_of(const struct path *path, const struct solid_base *base, bool fan)
 {
-    int count = 0;
-    bool elastic = path->limit > 0.0 || !response->plastic;
-    double velocity = path->velocity, strain = response->elastic.strain;
-    if (elastic) {
-        double ahead =
-            strain < 0.0 ? chord_stiffness(path, strain) : elastic_stiffness(path, path->start);
-        wave[0].kind = strain < 0.0 ? WAVE_ELASTIC : WAVE_ELASTIC_FAN;
-        wave[0].head = velocity + direction * path->start * sqrt(ahead);
-        velocity =
-            response->plastic ? velocity + direction * response->first.velocity : star_velocity;
-        wave[0].behind =
-            state_at(response->elastic, path->shear * strain, velocity, response->first.energy);
-        double volume = response->elastic.volume;
-        wave[0].tail = strain < 0.0
-                           ? wave[0].head
-                           : velocity + direction * volume * sqrt(elastic_stiffness(path, volume));
-        count++;
+    if (path->fluid)
+        return fan ? WAVE_FAN : WAVE_SHOCK;
+    if (base->shear > 0.0)
+        return fan ? WAVE_ELASTIC_FAN : WAVE_ELASTIC;
+    return fan ? WAVE_PLASTIC_FAN : WAVE_PLASTIC;
+}
+
+/* The waves that take a side to its star state, from the outermost. */
+static void set_waves(struct solid_problem *problem, enum exact_side side,
+                      const struct response *response, double pressure, double star_velocity)
+{
+    const struct path *path = &problem->path[side];
+    double direction = side_direction(side), velocity = path->velocity;
+    problem->waves.count[side] = response->count;
+    for (int i = 0; i < response->count; i++) {
+        struct solid_place behind = response->behind[i];
+        const struct solid_base *base = &response->base[i];
+        struct wave *wave = &problem->waves.wave[side][i];
+        bool last = i == response->count - 1;
+        bool fan = behind.strain > 0.0 && behind.chord == behind.stiffness;
+        double ahead = fan ? solid_fan(base, 0.0).stiffness : behind.chord;
+        problem->base[side][i] = *base;
+        wave->kind = kind_of(path, base, fan);
+        wave->head = velocity + direction * base->volume * sqrt(ahead);
+        velocity = last ? star_velocity : velocity + direction * behind.push;
+        wave->tail =
+            fan ? velocity + direction * behind.volume * sqrt(behind.stiffness) : wave->head;
+        behind.normal = last ? pressure : behind.normal;
+        wave->behind = state_at(&behind, velocity);
     }
-    if (response->plastic) {
-        double speed = response->elastic.volume * sqrt(path->slope);
-        wave[count].kind = WAVE_PLASTIC;
-        wave[count].head = wave[count].tail = velocity + direction * speed;
-        wave[count].behind = state_at(response->end, response->flow, star_velocity,
-                                      response->first.energy + response->second.energy);
-        count++;
-    }
-    return count;
 }
 
 struct fan_target {
-    const struct path *path;
-    double speed; /* away from the contact positive, relative to the solid ahead */
+    const struct solid_base *base;
+    double speed,
+        fall; /* away from the contact, relative to the solid ahead; its fall over strain */
 };
 
 /* The target's speed less that of the characteristic at STRAIN, which falls as the solid expands. */
 static struct root_value fan_excess(const void *context, double strain)
 {
     const struct fan_target *target = context;
-    const struct path *path = target->path;
-    struct place place = elastic_place(path, strain);
-    double sound = place.volume * sqrt(elastic_stiffness(path, place.volume));
-    double speed = elastic_fan(path, place).velocity + sound;
-    return (struct root_value){target->speed - speed,
-                               0.5 * path->shear * square(place.volume) / sound};
+    struct solid_place place = solid_fan(target->base, strain);
+    double speed = place.push + place.volume * sqrt(place.stiffness);
+    return (struct root_value){target->speed - speed, target->fall};
 }
 
 static struct exact_state solid_in_fan(const void *solved, enum exact_side side, double speed)
 {
     const struct solid_problem *problem = solved;
-    const struct path *path = &problem->path[side];
-    double direction = side_direction(side);
-    struct fan_target target = {path, direction * (speed - path->velocity)};
-    double end = -log(path->start * problem->waves.wave[side][0].behind.density);
-    double strain = root_find(fan_excess, &target, 0.0, end, 0.5 * end);
-    struct place place = elastic_place(path, strain);
-    struct change change = elastic_fan(path, place);
-    return state_at(place, path->shear * strain, path->velocity + direction * change.velocity,
-                    change.energy);
+    const struct waves *waves = &problem->waves;
+    double direction = side_direction(side), velocity = problem->path[side].velocity;
+    int i = 0;
+    while (i < waves->count[side] - 1 && direction * (speed - waves->wave[side][i].tail) <= 0.0)
+        velocity = waves->wave[side][i++].behind.velocity;
+    const struct wave *wave = &waves->wave[side][i];
+    const struct solid_base *base = &problem->base[side][i];
+    double end = -log(base->volume * wave->behind.density);
+    struct fan_target target = {base, direction * (speed - velocity),
+                                direction * (wave->head - wave->tail) / end};
+    double guess = direction * (wave->head - speed) / target.fall;
+    double strain = root_find(fan_excess, &target, 0.0, end, guess);
+    struct solid_place place = solid_fan(base, strain);
+    return state_at(&place, velocity + direction * place.push);
+}
+
+/* The normal pressure at the contact and the waves that lead to it. */
+static struct error *respond_both(const struct path path[2], double *pressure,
+                                  struct response response[2])
+{
+    bool free = path[SIDE_LEFT].free || path[SIDE_RIGHT].free;
+    if (path[SIDE_LEFT].free && path[SIDE_RIGHT].free)
+        return error_new(ERROR_INPUT, "left, right: at most one of them can be free");
+    *pressure = 0.0;
+    if (!free)
+        TRY(star_pressure(path, pressure));
+    for (int side = SIDE_LEFT; side <= SIDE_RIGHT; side++) {
+        response[side] = respond(&path[side], *pressure);
+        if (!response[side].reached)
+            return error_new(ERROR_INPUT,
+                             "%s: comes to no state without stress for its free surface",
+                             side_names[side]);
+    }
+    return NULL;
+}
+
+/* The velocity of the contact: that of both sides, but for rounding. */
+static double star_velocity_of(const struct path path[2], const struct response response[2])
+{
+    double push[2] = {0.0, 0.0};
+    for (int side = SIDE_LEFT; side <= SIDE_RIGHT; side++)
+        for (int i = 0; i < response[side].count; i++)
+            push[side] += response[side].behind[i].push;
+    double left = path[SIDE_LEFT].velocity - push[SIDE_LEFT];
+    double right = path[SIDE_RIGHT].velocity + push[SIDE_RIGHT];
+    if (path[SIDE_LEFT].free)
+        return right;
+    return path[SIDE_RIGHT].free ? left : 0.5 * (left + right);
 }
 
 static struct error *solid_solve(const void *parameters, void *solved)
 {
     const struct exact_elastic_plastic_riemann *input = parameters;
     struct solid_problem *problem = solved;
-    struct waves *waves = &problem->waves;
+    struct path *path = problem->path;
     struct response response[2];
     double pressure = 0.0;
     *problem = (struct solid_problem){.waves = {.at = input->at, .in_fan = solid_in_fan}};
+    for (int side = SIDE_LEFT; side <= SIDE_RIGHT; side++)
+        TRY(path_of(&input->solid[side], side_names[side], &path[side]));
+    TRY(respond_both(path, &pressure, response));
+    double velocity = star_velocity_of(path, response);
     for (int side = SIDE_LEFT; side <= SIDE_RIGHT; side++) {
-        const struct path *path = &problem->path[side];
-        problem->path[side] = path_of(&input->solid[side]);
-        waves->start[side] = state_at(elastic_place(path, 0.0), 0.0, path->velocity, 0.0);
+        const struct solid_base *base = &path[side].start;
+        struct solid_place start = {.volume = base->volume,
+                                    .energy = base->energy,
+                                    .normal = base->normal,
+                                    .deviator = base->deviator};
+        problem->waves.start[side] = path[side].free ? (struct exact_state){.velocity = velocity}
+                                                     : state_at(&start, path[side].velocity);
+        set_waves(problem, (enum exact_side)side, &response[side], pressure, velocity);
     }
-    TRY(star_pressure(problem->path, &pressure));
-    for (int side = SIDE_LEFT; side <= SIDE_RIGHT; side++)
-        response[side] = respond(&problem->path[side], pressure);
-    double back = response[SIDE_LEFT].first.velocity + response[SIDE_LEFT].second.velocity;
-    double forth = response[SIDE_RIGHT].first.velocity + response[SIDE_RIGHT].second.velocity;
-    double velocity = 0.5 * ((problem->path[SIDE_LEFT].velocity - back) +
-                             (problem->path[SIDE_RIGHT].velocity + forth));
-    for (int side = SIDE_LEFT; side <= SIDE_RIGHT; side++)
-        waves->count[side] = side_waves(&problem->path[side], side_direction(side), &response[side],
-                                        velocity, waves->wave[side]);
     return NULL;
 }
 
@@ -332,7 +403,7 @@ static int solid_numbers(const void *solved, double time, struct exact_number *n
     const struct waves *waves = &problem->waves;
     struct exact_state left = waves_star(solved, SIDE_LEFT), right = waves_star(solved, SIDE_RIGHT);
     struct number_list list = {numbers, 0};
-    number_add(&list, "star normal pressure", "Pa", -left.stress);
+    number_add(&list, "star normal pressure", "Pa", 0.0 - left.stress);
     number_add(&list, "star velocity", "m/s", left.velocity);
     number_add(&list, "left star density", "kg/m^3", left.density);
     number_add(&list, "right star density", "kg/m^3", right.density);

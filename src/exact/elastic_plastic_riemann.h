@@ -1,7 +1,7 @@
-/* The Riemann problem of two barotropic, hypoelastic, perfectly plastic solids in uniaxial strain: two
- * half-spaces free of shear stress meet at a plane and stick. The deviator follows the logarithmic strain
- * until yield. A solid with no shear modulus or no yield strength is a liquid with one wave. The energy
- * is the work of the stress since the start, where it is zero; nothing depends on it. */
+/* The Riemann problem of two hypoelastic, perfectly plastic solids of any equation of state in uniaxial
+ * strain: two half-spaces meet at a plane and stick, or one of them has a free surface there. The
+ * deviator follows the logarithmic strain until yield, which may be reached at the start. A solid with
+ * no shear modulus or no yield strength is a fluid with one wave. Heat is not conducted. */
 #ifndef BOLIDE_EXACT_ELASTIC_PLASTIC_RIEMANN_H
 #define BOLIDE_EXACT_ELASTIC_PLASTIC_RIEMANN_H
 
@@ -9,8 +9,12 @@
 #include "exact/exact.h"
 
 struct exact_solid {
-    double reference_density, bulk_modulus, shear_modulus, yield;
+    double reference_density, bulk_modulus; /* of a barotropic solid; NAN: eos is given */
+    double shear_modulus, yield;
     double density, velocity; /* at the start; density NAN: the reference density */
+    double energy, deviator;  /* at the start */
+    struct one_of eos;
+    bool free; /* nothing is there: the other side's surface is free */
 };
 
 struct exact_elastic_plastic_riemann {

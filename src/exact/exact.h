@@ -23,7 +23,7 @@ struct exact_number {
     double value;
 };
 
-enum { EXACT_NUMBERS = 32 };
+enum { EXACT_NUMBERS = 40 };
 
 struct exact_class {
     size_t size;  /* of the solved problem */

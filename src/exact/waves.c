@@ -21,12 +21,17 @@ static const struct wave_names names_of[WAVE_KINDS][2] = {
                            "right elastic head place", "right elastic tail place"}},
     [WAVE_PLASTIC] = {{"left plastic speed", NULL, "left plastic place", NULL},
                       {"right plastic speed", NULL, "right plastic place", NULL}},
+    [WAVE_PLASTIC_FAN] = {{"left plastic head speed", "left plastic tail speed",
+                           "left plastic head place", "left plastic tail place"},
+                          {"right plastic head speed", "right plastic tail speed",
+                           "right plastic head place", "right plastic tail place"}},
 };
 
 struct exact_state waves_star(const void *solved, enum exact_side side)
 {
     const struct waves *waves = solved;
-    return waves->wave[side][waves->count[side] - 1].behind;
+    int count = waves->count[side];
+    return count > 0 ? waves->wave[side][count - 1].behind : waves->start[side];
 }
 
 double waves_contact(const void *solved, double time)

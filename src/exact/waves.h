@@ -6,7 +6,15 @@
 
 #include "exact/exact.h"
 
-enum wave_kind { WAVE_SHOCK, WAVE_FAN, WAVE_ELASTIC, WAVE_ELASTIC_FAN, WAVE_PLASTIC, WAVE_KINDS };
+enum wave_kind {
+    WAVE_SHOCK,
+    WAVE_FAN,
+    WAVE_ELASTIC,
+    WAVE_ELASTIC_FAN,
+    WAVE_PLASTIC,
+    WAVE_PLASTIC_FAN,
+    WAVE_KINDS
+};
 
 /* Speeds are those in the frame of the case, positive to the right; a jump has head = tail. */
 struct wave {
@@ -17,7 +25,8 @@ struct wave {
 
 enum { WAVES_A_SIDE = 2 };
 
-/* Waves are listed from the outermost (fastest) to the one beside the contact; at least one a side. */
+/* Waves are listed from the outermost (fastest) to the one beside the contact; at least one a side, or
+ * none on a side where nothing is. */
 struct waves {
     double at; /* m, place of the contact at time zero */
     struct exact_state start[2];

@@ -111,6 +111,13 @@ expect 1 "check FAILED: energy" "$BOLIDE" run "$cases/riemann/gas/case.yaml" --o
     --set "checks.energy.at_least=1"
 expect 1 "checks failed" "$BOLIDE" verify "$cases/riemann/gas/case.yaml" \
     --set "checks.energy.at_least=1"
+expect 0 "check falls short: energy: " "$BOLIDE" run "$cases/riemann/gas/case.yaml" --overwrite \
+    --set "checks.energy.at_least=1" --set "checks.energy.falls_short=a test"
+grep -q '"a test"$' results/gas/checks.csv || { echo "FAILED: no reason in checks.csv"; status=1; }
+expect 0 "1 falls short" "$BOLIDE" verify "$cases/riemann/gas/case.yaml" \
+    --set "checks.energy.at_least=1" --set "checks.energy.falls_short=a test"
+expect 1 "passes now: take \`falls_short\` away" "$BOLIDE" verify "$cases/riemann/gas/case.yaml" \
+    --set "checks.energy.falls_short=a test"
 expect 2 "nanometer" "$BOLIDE" run "$cases/riemann/gas/case.yaml" --overwrite \
     --set "resolution=1 nanometer"
 [ -s results/gas/checks.csv ] || { echo "FAILED: bad input removed results"; status=1; }

@@ -13,7 +13,11 @@ static struct solution mirrored_solid(const struct exact_elastic_plastic_riemann
     return solve(&exact_elastic_plastic_riemann_class, &mirror, 0.0);
 }
 
-static const struct exact_solid aluminium = {2700.0, 73e9, 23e9, 0.3e9, NAN, 0.0};
+static const struct exact_solid aluminium = {.reference_density = 2700.0,
+                                             .bulk_modulus = 73e9,
+                                             .shear_modulus = 23e9,
+                                             .yield = 0.3e9,
+                                             .density = NAN};
 
 /* T1-A presses the left half; T1-D gives it a smaller reference density instead. */
 static struct exact_elastic_plastic_riemann elastic_plastic_case(bool pressed)
@@ -124,7 +128,7 @@ static void weak_impact_of_solids_is_elastic_only(void **state)
 static void liquids_have_one_wave_a_side(void **state)
 {
     (void)state;
-    struct exact_solid water = {1000.0, 2e9, 0.0, 0.0, NAN, 0.0};
+    struct exact_solid water = {.reference_density = 1000.0, .bulk_modulus = 2e9, .density = NAN};
     struct exact_elastic_plastic_riemann problem = {{water, water}, 0.0};
     problem.solid[SIDE_LEFT].velocity = 100.0;
     struct solution solution = solve(&exact_elastic_plastic_riemann_class, &problem, 0.0);

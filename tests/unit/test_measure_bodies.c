@@ -208,7 +208,7 @@ static void spread_is_the_standard_deviation(void **state)
 /* A slow loop: every particle takes the smallest mark of those that it hangs together with. */
 static int count_slowly(const struct particles *p, const double *diameter, double link)
 {
-    int *mark = calloc((size_t)p->count, sizeof *mark), pieces = 0;
+    int *mark = calloc((size_t)p->count + 1, sizeof *mark), pieces = 0;
     bool changed = true;
     for (int32_t i = 0; i < p->count; i++)
         mark[i] = i;
