@@ -30,9 +30,10 @@ static void say(const struct listener *listener, char *text)
 static void tell_sweep(const struct listener *listener, const struct verify_result *result,
                        int runs, const char *folder)
 {
-    char *lacking = result->checks_short ? text_format(", %d of %d checks fall short",
-                                                       result->checks_short, result->checks)
-                                         : text_copy("");
+    char *lacking = result->checks_short
+                        ? text_format(", %d of %d checks fall%s short", result->checks_short,
+                                      result->checks, result->checks_short == 1 ? "s" : "")
+                        : text_copy("");
     if (lacking)
         say(listener,
             text_format("%d of %d runs passed%s; table in %s/sweep.csv, report: %s/report.html",
