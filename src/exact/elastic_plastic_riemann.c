@@ -382,8 +382,9 @@ static struct error *solid_solve(const void *parameters, void *solved)
                                     .energy = base->energy,
                                     .normal = base->normal,
                                     .deviator = base->deviator};
-        problem->waves.start[side] = path[side].free ? (struct exact_state){.velocity = velocity}
-                                                     : state_at(&start, path[side].velocity);
+        const struct exact_state empty = {.velocity = velocity};
+        problem->waves.start[side] =
+            path[side].free ? empty : state_at(&start, path[side].velocity);
         set_waves(problem, (enum exact_side)side, &response[side], pressure, velocity);
     }
     return NULL;
