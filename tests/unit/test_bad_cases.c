@@ -10,24 +10,11 @@
 
 #include <cmocka.h>
 
-#include "base/memory.h"
+#include "messages.h"
 #include "run/catalogue.h"
 #include "run/run.h"
 
 static const char *const library_paths[] = {"library", BOLIDE_SOURCE_DIR "/materials"};
-
-/* All messages, a line each. */
-static char *messages(const struct error *error)
-{
-    char *text = text_copy("");
-    for (int i = 0; error && i < error_count(error); i++) {
-        char *longer = text_format("%s%s\n", text, error_message(error, i));
-        free(text);
-        text = longer;
-    }
-    assert_non_null(text);
-    return text;
-}
 
 static char *expected_messages(const char *case_name, size_t length)
 {

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "base/memory.h"
+#include "messages.h"
 #include "small_catalogue.h"
 
 static const char *const library_paths[] = {"library", BOLIDE_SOURCE_DIR "/materials"};
@@ -30,19 +30,6 @@ static void write_file(const char *path, const char *text, size_t length)
     assert_non_null(file);
     assert_int_equal(fwrite(text, 1, length, file), length);
     assert_int_equal(fclose(file), 0);
-}
-
-/* All messages, a line each. */
-static char *messages(const struct error *error)
-{
-    char *text = text_copy("");
-    for (int i = 0; error && i < error_count(error); i++) {
-        char *longer = text_format("%s%s\n", text, error_message(error, i));
-        free(text);
-        text = longer;
-    }
-    assert_non_null(text);
-    return text;
 }
 
 /* Reads TEXT as a case that must be right. */

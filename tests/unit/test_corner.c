@@ -1,14 +1,6 @@
 /* A corner of two mirror walls stands for the whole: particle by particle, a quarter between walls moves
  * as the same quarter of the whole body without them. So does one half of a body of revolution. */
-#include "dice.h"
-
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include "model/generate.h"
-#include "run/catalogue.h"
-#include "sph/sph_internal.h"
+#include "running.h"
 
 enum { STEPS = 60 };
 
@@ -61,49 +53,19 @@ static const char round_quarter[] =
     "walls:\n"
     "  below: {mirror: y, at: 0 mm, side: low}\n";
 
-struct running {
-    struct simulation_case *input;
-    struct ranks ranks;
-    struct simulation simulation;
-    const struct solver_class *solver;
-    struct sph sph;
-    struct limit limit;
-};
-
-static struct running *begin(const char *bodies)
+static struct running *begin_block(const char *bodies)
 {
-    static const struct case_options options = {0};
-    char path[] = "/tmp/bolide-test-XXXXXX";
-    int descriptor = mkstemp(path);
-    assert_true(descriptor >= 0);
-    FILE *file = fdopen(descriptor, "w");
-    assert_non_null(file);
-    assert_true(fprintf(file, "%s%s", block, bodies) > 0);
-    assert_int_equal(fclose(file), 0);
-    struct running *run = calloc(1, sizeof *run);
-    run->ranks = ranks_alone();
-    struct error *error = case_read(path, &options, &bolide_catalogue, &run->input);
-    unlink(path);
-    assert_success(error);
-    assert_success(simulation_create(run->input, &run->ranks, 1, &run->simulation));
-    run->solver = run->input->solver.choice->thing;
-    assert_int_equal(run->solver->size, sizeof run->sph);
-    assert_success(run->solver->create(&run->sph, &run->simulation, run->input->solver.value));
+    static const struct variant plain = {.threads = 1, .cell = 1.0};
+    char text[4096];
+    assert_true(snprintf(text, sizeof text, "%s%s", block, bodies) < (int)sizeof text);
+    struct running *run = begin(text, &plain);
     assert_success(generate_particles(&run->simulation));
     assert_success(run->solver->start(&run->sph, &run->simulation));
     return run;
 }
 
-static void end(struct running *run)
-{
-    run->solver->destroy(&run->sph);
-    simulation_destroy(&run->simulation);
-    case_free(run->input);
-    free(run);
-}
-
 /* One step of both, the smaller of what they allow; the limits themselves must agree. */
-static void step(struct running *whole, struct running *part)
+static void step_both(struct running *whole, struct running *part)
 {
     struct running *runs[] = {whole, part};
     for (int k = 0; k < 2; k++)
@@ -146,12 +108,12 @@ static uint64_t *partners(const struct particles *whole, const struct particles 
 
 static void assert_stands_for(const char *whole_text, const char *part_text, int share)
 {
-    struct running *whole = begin(whole_text), *part = begin(part_text);
+    struct running *whole = begin_block(whole_text), *part = begin_block(part_text);
     const struct particles *w = &whole->simulation.particles, *p = &part->simulation.particles;
     assert_int_equal(w->count, share * p->count);
     uint64_t *id = partners(w, p);
     for (int k = 0; k < STEPS; k++)
-        step(whole, part);
+        step_both(whole, part);
     double moved = 0.0;
     for (int32_t k = 0; k < p->count; k++) {
         int32_t i = with_id(p, id[2 * k]), j = with_id(w, id[2 * k + 1]);
@@ -189,5 +151,5 @@ int main(void)
         cmocka_unit_test(a_quarter_between_two_walls_moves_as_a_quarter_of_the_whole),
         cmocka_unit_test(a_round_body_on_a_wall_moves_as_half_of_the_whole),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
