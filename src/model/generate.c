@@ -50,17 +50,12 @@ struct lattice body_lattice(const struct simulation_case *input, int body)
     return lattice_make(&of->lattice, &of->shape, resolution, (int)input->dimension);
 }
 
-static double diameter_of(double volume, int64_t dimension)
-{
-    return dimension == 1 ? volume : dimension == 2 ? sqrt(volume) : cbrt(volume);
-}
-
 double largest_diameter(const struct simulation_case *input)
 {
     double largest = 0.0;
     for (int body = 0; body < input->bodies.count; body++) {
         const double volume = body_lattice(input, body).volume;
-        largest = maximum(largest, diameter_of(volume, input->dimension));
+        largest = maximum(largest, diameter_of_volume(volume, input->dimension));
     }
     return largest;
 }
@@ -428,8 +423,8 @@ struct error *generate_summary(const struct simulation_case *input, struct body_
     for (int body = 0; body < input->bodies.count; body++) {
         const struct finding *finding = &findings[body];
         summary[body] = finding->summary;
-        summary[body].diameter =
-            diameter_of(finding->volume / (double)finding->summary.particles, input->dimension);
+        summary[body].diameter = diameter_of_volume(
+            finding->volume / (double)finding->summary.particles, input->dimension);
     }
     free(findings);
     return error;

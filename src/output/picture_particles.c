@@ -54,9 +54,7 @@ static double particle_diameter(const struct particles *particles, bool rings, i
     double volume = particles->mass[i] / particles->density[i];
     if (rings) /* mass is that of a radian */
         volume /= fabs(particles->position[i][0]);
-    return particles->dimension == 3   ? cbrt(volume)
-           : particles->dimension == 2 ? sqrt(volume)
-                                       : volume;
+    return diameter_of_volume(volume, particles->dimension);
 }
 
 static double middle_of(struct range range) { return 0.5 * (range.low + range.high); }

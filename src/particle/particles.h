@@ -96,4 +96,10 @@ BOLIDE_INLINE uint64_t particle_id(int body, int64_t site)
     return (uint64_t)body << PARTICLE_SITE_BITS | (uint64_t)site;
 }
 
+/* D = V^(1/dimension): the edge of a cube, the side of a square, a length (1.70). */
+BOLIDE_INLINE double diameter_of_volume(double volume, int dimension)
+{
+    return dimension == 1 ? volume : dimension == 2 ? sqrt(volume) : cbrt(volume);
+}
+
 #endif

@@ -4,12 +4,6 @@
 
 #include "sph/sph_internal.h"
 
-/* D = V^(1/dimension). */
-BOLIDE_INLINE double diameter_of(double volume, int dimension)
-{
-    return dimension == 1 ? volume : dimension == 2 ? sqrt(volume) : cbrt(volume);
-}
-
 void sph_evaluate(const struct sph *sph, struct simulation *simulation)
 {
     struct particles *p = &simulation->particles;
@@ -22,7 +16,7 @@ void sph_evaluate(const struct sph *sph, struct simulation *simulation)
         p->pressure[i] = point.pressure;
         f.sound_long[i] = r.sound_long;
         f.sound_shear[i] = r.sound_shear;
-        f.diameter[i] = diameter_of(sph_volume(simulation, &f, i), simulation->dimension);
+        f.diameter[i] = diameter_of_volume(sph_volume(simulation, &f, i), simulation->dimension);
     }
 }
 
@@ -255,7 +249,7 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
         f->sound_long[i] = r.sound_long;
         f->sound_shear[i] = r.sound_shear;
         double depth = f->thickness ? f->thickness[i] : f->rates.hoop_pull ? fabs(x[0]) : 1.0;
-        f->diameter[i] = diameter_of(p->mass[i] / (point.density * depth), dimension);
+        f->diameter[i] = diameter_of_volume(p->mass[i] / (point.density * depth), dimension);
         bool possible = point.density > 0.0 && isfinite(point.density) &&
                         isfinite(point.pressure) && isfinite(point.energy) && isfinite(a2) &&
                         !(r.status & POINT_NO_SOUND);
@@ -316,10 +310,9 @@ static struct error *impossible(const struct simulation *simulation, const struc
         "(%.6g, %.6g, %.6g) m became impossible: density %.6g kg/m^3, energy %.6g J/kg, "
         "pressure %.6g Pa, velocity (%.6g, %.6g, %.6g) m/s",
         (long long)simulation->step + 1, simulation->time, (unsigned long long)p->id[i],
-        simulation->input->bodies.names[p->body[i]],
-        (unsigned long long)(p->id[i] & 0xffffffffffff), p->position[i][0], p->position[i][1],
-        p->position[i][2], p->density[i], p->energy[i], p->pressure[i], p->velocity[i][0],
-        p->velocity[i][1], p->velocity[i][2]);
+        simulation->input->bodies.names[p->body[i]], (unsigned long long)(p->id[i] & PARTICLE_SITE),
+        p->position[i][0], p->position[i][1], p->position[i][2], p->density[i], p->energy[i],
+        p->pressure[i], p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
 }
 
 /* Heat alone: density and deviator stay. */
@@ -327,6 +320,7 @@ static void update_heat(const struct sph *sph, struct simulation *simulation,
                         const struct sph_fields *f, double dt, struct failure *failure)
 {
     struct particles *p = &simulation->particles;
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++)
         p->energy[i] += dt * f->heat_rate[i];
     sph_evaluate(sph, simulation);
