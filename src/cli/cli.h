@@ -19,7 +19,7 @@ struct text_list {
 struct cli_options {
     const char *output;
     int64_t threads, points;
-    bool overwrite, resume, quick, thorough, all;
+    bool overwrite, resume, quick, thorough, all, convergence;
     const char *time, *template_name;
     struct text_list settings, names;
 };
@@ -55,6 +55,13 @@ int command_new(const struct cli_options *options);
 int command_schema(const struct cli_options *options);
 int command_materials(const struct cli_options *options);
 int command_help(const struct cli_options *options);
+
+/* convergence.c */
+
+/* Makes the convergence studies of the COUNT cases at PATHS, or with OF_ALL of those among them that ask for
+ * one; prints their tables, writes their pages, and gives the exit status. */
+int verify_convergence(const char *const *paths, int count, bool of_all,
+                       const struct cli_options *options);
 
 /* options.c */
 

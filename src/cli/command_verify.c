@@ -117,6 +117,12 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
     return status;
 }
 
+static int verify_listed(const char *const *paths, int count, const struct cli_options *options)
+{
+    return options->convergence ? verify_convergence(paths, count, options->all, options)
+                                : verify_paths(paths, count, options);
+}
+
 static int verify_all(const struct cli_options *options)
 {
     char *examples = share_folder("examples");
@@ -127,7 +133,7 @@ static int verify_all(const struct cli_options *options)
         status = report_error(error_new(ERROR_INPUT, "no examples found; set BOLIDE_SHARE to the "
                                                      "folder that holds examples/ and materials/"));
     else
-        status = verify_paths((const char *const *)found.gl_pathv, (int)found.gl_pathc, options);
+        status = verify_listed((const char *const *)found.gl_pathv, (int)found.gl_pathc, options);
     globfree(&found);
     free(pattern);
     free(examples);
@@ -140,5 +146,5 @@ int command_verify(const struct cli_options *options)
         return report_error(
             error_new(ERROR_INPUT, "verify wants cases, or --all; see `bolide help verify`"));
     return options->all ? verify_all(options)
-                        : verify_paths(options->names.text, options->names.count, options);
+                        : verify_listed(options->names.text, options->names.count, options);
 }

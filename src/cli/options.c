@@ -33,6 +33,10 @@ static const struct option option_table[] = {
     {"--long", NULL, "use the long form of cases that have one", OPTION_FLAG, AT(thorough),
      COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
     {"--all", NULL, "all cases that come with bolide", OPTION_FLAG, AT(all), COMMAND_VERIFY},
+    {"--convergence", NULL,
+     "study the errors of each case on several resolutions, into results/<its name>; with --all "
+     "those that have `convergence`",
+     OPTION_FLAG, AT(convergence), COMMAND_VERIFY},
     {"--time", "T", "the time of the solution, with its unit: 5us (CASE: its end)", OPTION_TEXT,
      AT(time), COMMAND_EXACT},
     {"--points", "N", "print the profile at the time in N points, as CSV", OPTION_COUNT, AT(points),

@@ -1,6 +1,7 @@
 /* The list of exact solutions; see choices.h. */
 #include "exact/choices.h"
 
+#include "exact/elastic_plastic_impact.h"
 #include "exact/elastic_plastic_riemann.h"
 #include "exact/gas_expansion.h"
 #include "exact/gas_riemann.h"

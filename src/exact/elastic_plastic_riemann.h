@@ -5,17 +5,7 @@
 #ifndef BOLIDE_EXACT_ELASTIC_PLASTIC_RIEMANN_H
 #define BOLIDE_EXACT_ELASTIC_PLASTIC_RIEMANN_H
 
-#include "base/parameter.h"
-#include "exact/exact.h"
-
-struct exact_solid {
-    double reference_density, bulk_modulus; /* of a barotropic solid; NAN: eos is given */
-    double shear_modulus, yield;
-    double density, velocity; /* at the start; density NAN: the reference density */
-    double energy, deviator;  /* at the start */
-    struct one_of eos;
-    bool free; /* nothing is there: the other side's surface is free */
-};
+#include "exact/solid_path.h"
 
 struct exact_elastic_plastic_riemann {
     struct exact_solid solid[2]; /* by enum exact_side */

@@ -98,7 +98,8 @@ static struct error *read_document(struct simulation_case *input,
                                    const struct case_options *options)
 {
     TRY(check_format(input->document));
-    struct error *error = case_take_sweep(input, options->sweep_run);
+    struct error *error = case_take_sweep(input, options->convergence ? 0 : options->sweep_run);
+    error = error_join(error, case_take_study(input, options));
     error = error_join(error, include_library(input->document, options));
     error = error_join(error,
                        document_read_partly(input->document, case_table, input->catalogue, input));
@@ -141,6 +142,15 @@ void case_free(struct simulation_case *input)
     free(input);
 }
 
+/* The table of what is written: without the study, whose values may be those of names that are gone. */
+static void written_table(struct parameter *table)
+{
+    for (const struct parameter *p = case_table; !PARAMETER_IS_END(p); p++)
+        if (p->offset != offsetof(struct simulation_case, convergence))
+            *table++ = *p;
+    *table = (struct parameter)PARAMETER_END;
+}
+
 /* The materials stand in full in what is written, so that the file needs no library. */
 struct error *case_write(const struct simulation_case *input, FILE *file)
 {
@@ -153,7 +163,9 @@ struct error *case_write(const struct simulation_case *input, FILE *file)
     for (int i = 0; i < input->materials.count; i++)
         materials[i].library = NULL;
     whole.materials.items = materials;
-    struct error *error = document_write(file, case_table, &whole);
+    struct parameter table[KEYS_MAX];
+    written_table(table);
+    struct error *error = document_write(file, table, &whole);
     free(materials);
     return error;
 }

@@ -28,6 +28,7 @@ struct body_input {
     double resolution;         /* NAN: the case's */
     struct name_list replaces; /* bodies whose particles give way inside this shape */
     bool driven;               /* keeps its velocity whatever pushes back */
+    bool frozen;               /* keeps all of its state, and moves with its velocity */
     double stop;               /* s, from then on it stands still; NAN: never */
     int material_index;        /* filled by case_read */
     bool varies;        /* filled by case_read: its state at the start is one of the position */
@@ -112,7 +113,22 @@ struct check_input {
     double falls_short_if; /* above 0: `falls_short` holds */
 };
 
-/* sweep: {U0: [500 m/s, 1 km/s]}: one value that a run of the sweep takes. */
+/* convergence: order: CHECK: {at_least: 0.8}: what order of accuracy is wanted. */
+struct order_input {
+    double at_least, at_most; /* NAN: not given */
+    char *source, *falls_short;
+};
+
+/* convergence: {vary: n, values: [250, 500, 1000]}: a study of the case on several resolutions. */
+struct convergence_input {
+    char *vary;                /* a name of let or a path */
+    struct name_list values;   /* count 0: the resolution times 4, 2 and 1 */
+    struct name_list of;       /* checks; count 0: all that have an exact value */
+    struct name_list estimate; /* checks without an exact value */
+    struct named_map order;    /* struct order_input, by check */
+};
+
+/* sweep: {U0: [500 m/s, 1 km/s]}: one value that a run of the sweep, or of a study, takes. */
 struct sweep_value {
     char *key, *text;         /* as they stand in the case */
     struct quantity quantity; /* what the text comes to; value NAN: it is no quantity */
@@ -138,8 +154,9 @@ struct simulation_case {
     struct named_map profiles; /* struct profile_input */
     struct one_of exact;       /* "exact": what checks measure against; not given: nothing */
     struct named_map checks;   /* struct check_input */
-    int sweep_runs;            /* filled by case_read: runs that a sweep asks for; 0: it has none */
-    int sweep_values;          /* of this run of it; 0: the case itself */
+    struct convergence_input convergence;
+    int sweep_runs;   /* filled by case_read: runs that a sweep asks for; 0: it has none */
+    int sweep_values; /* of this run of it; 0: the case itself */
     struct sweep_value *sweep;
     char *name; /* filled by case_read: the name of the case's folder or file */
     const struct catalogue *catalogue;
@@ -150,8 +167,9 @@ struct simulation_case {
 struct case_options {
     const char *const *settings; /* --set */
     int setting_count;
-    const char *form;                 /* "short" or "long": that form of it; NULL: neither */
-    int sweep_run;                    /* the run of the case's sweep, from 1; 0: the case itself */
+    const char *form; /* "short" or "long": that form of it; NULL: neither */
+    int sweep_run;    /* the run of the case's sweep, from 1; 0: the case itself */
+    bool convergence; /* the runs of its convergence study take the place of those of its sweep */
     const char *const *library_paths; /* folders with material files */
     int library_count;
 };
@@ -200,6 +218,10 @@ static inline struct probe_input *case_probe(const struct simulation_case *c, in
 static inline struct profile_input *case_profile(const struct simulation_case *c, int index)
 {
     return (struct profile_input *)c->profiles.items + index;
+}
+static inline struct order_input *case_order(const struct simulation_case *c, int index)
+{
+    return (struct order_input *)c->convergence.order.items + index;
 }
 static inline struct check_input *case_check(const struct simulation_case *c, int index)
 {

@@ -221,6 +221,9 @@ static void check_body(struct checking *checking, int index)
     else if (dimension_known(checking) && body->velocity.count != input->dimension)
         wrong(checking, "velocity", "%d component%s wanted, one a dimension; found %d",
               (int)input->dimension, input->dimension == 1 ? " is" : "s are", body->velocity.count);
+    if (body->frozen && (body->driven || !isnan(body->stop)))
+        wrong(checking, "frozen", "a frozen body keeps its velocity: leave `%s` out",
+              body->driven ? "driven" : "stop");
     check_replaces(checking, body, index);
 }
 
@@ -373,6 +376,27 @@ static void check_wall(struct checking *checking, int index)
     }
 }
 
+/* NAMES of checks under KEY. */
+static void check_check_names(struct checking *checking, const struct name_list *names,
+                              const char *key)
+{
+    for (int i = 0; i < names->count; i++)
+        find_name(checking, &checking->input->checks, "check", names->names[i], key);
+}
+
+static void check_order(struct checking *checking, int index)
+{
+    const struct simulation_case *input = checking->input;
+    const struct order_input *order = case_order(input, index);
+    find_name(checking, &input->checks, "check", checking->name, "");
+    if (isnan(order->at_least) && isnan(order->at_most) && !is_wrong(checking, ""))
+        wrong(checking, "", "a limit is missing: `at_least` or `at_most`");
+    if (order->at_least > order->at_most)
+        wrong(checking, "at_least", "this lies above `at_most`");
+    if (order->falls_short && !order->falls_short[0])
+        wrong(checking, "falls_short", "the reason is wanted");
+}
+
 static void check_map(struct checking *checking, const char *key, const struct named_map *map,
                       void (*check)(struct checking *, int))
 {
@@ -400,5 +424,9 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "probes", &input->probes, check_probe);
     check_map(&checking, "profiles", &input->profiles, check_profile);
     check_map(&checking, "checks", &input->checks, check_check);
+    checking.map = "convergence";
+    check_check_names(&checking, &input->convergence.of, "of");
+    check_check_names(&checking, &input->convergence.estimate, "estimate");
+    check_map(&checking, "convergence.order", &input->convergence.order, check_order);
     return checking.error;
 }

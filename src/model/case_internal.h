@@ -9,8 +9,9 @@ enum { CASE_FORMAT = 1 };
 
 /* An entry of `materials`, and a file of the library. */
 extern const struct parameter case_material_table[];
-extern const struct parameter case_probe_table[];   /* struct probe_input */
-extern const struct parameter case_profile_table[]; /* struct profile_input */
+extern const struct parameter case_probe_table[];       /* struct probe_input */
+extern const struct parameter case_profile_table[];     /* struct profile_input */
+extern const struct parameter case_convergence_table[]; /* struct convergence_input */
 
 /* Fills material->material, plain data, from what was read. */
 void case_fill_material(struct material_input *material);
@@ -18,6 +19,10 @@ void case_fill_material(struct material_input *material);
 /* Takes the sweep out of the document and tells its mistakes; puts the values of its run RUN, 1 to
  * sweep_runs, where they belong. 0: none of them. */
 struct error *case_take_sweep(struct simulation_case *input, int run);
+
+/* Looks at what `convergence` varies and tells its mistakes. With OPTIONS->convergence its runs are those of
+ * the sweep, and the value of the run that is asked for is put where it belongs. */
+struct error *case_take_study(struct simulation_case *input, const struct case_options *options);
 
 /* Fills the quantities of the values of a case that has been read. */
 void case_measure_sweep(struct simulation_case *input);

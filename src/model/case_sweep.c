@@ -1,4 +1,5 @@
-/* The sweep of a case: which runs it asks for, and the values that one of them takes. */
+/* The sweep of a case and its convergence study: which runs they ask for, and the values that one of them
+ * takes. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,16 +9,9 @@
 
 enum { SWEEP_RUNS_MAX = 10000 };
 
-static const char sweep_key[] = "sweep", let_key[] = "let";
+static const char sweep_key[] = "sweep", let_key[] = "let", study_key[] = "convergence";
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
-static struct error *mistake(const struct node *entry, struct place place, const char *text)
-{
-    char path[512];
-    snprintf(path, sizeof path, "%s.%s", sweep_key, entry->key);
-    return place_error(place, path, "%s", text);
-}
 
 static bool is_key_of_case(const char *key)
 {
@@ -27,15 +21,15 @@ static bool is_key_of_case(const char *key)
     return false;
 }
 
-/* The path that ENTRY is about: a name of `let` before anything else. */
-static struct error *find_target(const struct document *document, const struct node *entry,
-                                 char **path)
+/* The path that KEY is about: a name of `let` before anything else. A mistake is told of TOLD at PLACE. */
+static struct error *find_target(const struct document *document, const char *key,
+                                 struct place place, const char *told, char **path)
 {
     const struct node *let = node_entry(document->root, let_key);
-    bool named = let && node_entry(let, entry->key);
+    bool named = let && node_entry(let, key);
     *path = NULL;
-    if (named || strchr(entry->key, '.') || is_key_of_case(entry->key)) {
-        *path = named ? text_format("%s.%s", let_key, entry->key) : text_copy(entry->key);
+    if (named || strchr(key, '.') || is_key_of_case(key)) {
+        *path = named ? text_format("%s.%s", let_key, key) : text_copy(key);
         return *path ? NULL : out_of_memory();
     }
     const char *names[KEYS_MAX], *near;
@@ -44,22 +38,20 @@ static struct error *find_target(const struct document *document, const struct n
         names[count] = let->child[count]->key;
     for (const struct parameter *p = case_table; !PARAMETER_IS_END(p) && count < KEYS_MAX; p++)
         names[count++] = p->key;
-    near = nearest_name(entry->key, names, count);
-    char text[256];
-    snprintf(text, sizeof text, "\"%.60s\" is neither a name of let nor a path%s%s%s", entry->key,
-             near ? " (did you mean \"" : "", near ? near : "", near ? "\"?)" : "");
-    return mistake(entry, entry->key_place, text);
+    near = nearest_name(key, names, count);
+    return place_error(place, told, "\"%.60s\" is neither a name of let nor a path%s%s%s", key,
+                       near ? " (did you mean \"" : "", near ? near : "", near ? "\"?)" : "");
 }
 
-static struct error *check_values(const struct node *entry)
+static struct error *check_values(const struct node *list, const char *told)
 {
     struct error *error = NULL;
-    if (entry->kind != NODE_LIST || entry->count == 0)
-        return mistake(entry, node_place(entry), "a list of values is wanted");
-    for (int i = 0; i < entry->count; i++)
-        if (entry->child[i]->kind != NODE_SCALAR || node_is_empty(entry->child[i]))
-            error = error_join(error, mistake(entry, node_place(entry->child[i]),
-                                              "a single value is wanted, a number or a text"));
+    if (list->kind != NODE_LIST || list->count == 0)
+        return place_error(node_place(list), told, "a list of values is wanted");
+    for (int i = 0; i < list->count; i++)
+        if (list->child[i]->kind != NODE_SCALAR || node_is_empty(list->child[i]))
+            error = error_join(error, place_error(node_place(list->child[i]), told,
+                                                  "a single value is wanted, a number or a text"));
     return error;
 }
 
@@ -93,16 +85,22 @@ static struct error *take_value(struct simulation_case *input, const char *key, 
     return error;
 }
 
+static struct error *check_entry(const struct document *document, const struct node *entry)
+{
+    char *path, told[512];
+    snprintf(told, sizeof told, "%s.%s", sweep_key, entry->key);
+    struct error *error = find_target(document, entry->key, entry->key_place, told, &path);
+    free(path);
+    return error_join(error, check_values(entry, told));
+}
+
 static struct error *check_entries(struct simulation_case *input, const struct node *sweep)
 {
     struct error *error = NULL;
     double runs = 1.0;
     for (int i = 0; i < sweep->count; i++) {
-        char *path;
-        error = error_join(error, find_target(input->document, sweep->child[i], &path));
-        error = error_join(error, check_values(sweep->child[i]));
+        error = error_join(error, check_entry(input->document, sweep->child[i]));
         runs *= sweep->child[i]->count;
-        free(path);
     }
     if (!error && runs > SWEEP_RUNS_MAX)
         error =
@@ -120,7 +118,8 @@ static struct error *take_values(struct simulation_case *input, const struct nod
     for (int i = 0; i < sweep->count; i++) {
         const char *key = sweep->child[i]->key;
         char *path = NULL;
-        struct error *wrong = find_target(input->document, sweep->child[i], &path);
+        struct error *wrong =
+            find_target(input->document, key, sweep->child[i]->key_place, sweep_key, &path);
         if (!wrong)
             wrong = take_value(input, key, path, value_of(sweep, i, run));
         error = error_join(error, wrong);
@@ -146,6 +145,99 @@ struct error *case_take_sweep(struct simulation_case *input, int run)
         error = place_error(node_place(sweep), sweep_key, "a map of names and lists is wanted");
     }
     node_free(sweep);
+    return error;
+}
+
+/* What a study is about: a list of values of KEY, or (VALUES is NULL) the resolution. */
+struct varied {
+    const char *key;
+    struct place place;
+    const struct node *values;
+};
+
+/* How many times the resolution of the case stands in each run that nobody chose. */
+static const double standard_factors[] = {4.0, 2.0, 1.0};
+
+/* False where the study says nothing that can be understood; the reading tells that. */
+static bool find_varied(const struct document *document, struct varied *varied)
+{
+    const struct node *study = node_entry(document->root, study_key);
+    *varied = (struct varied){.key = "resolution"};
+    if (!study || node_is_empty(study))
+        return true;
+    const struct node *vary = node_entry(study, "vary");
+    if (study->kind != NODE_MAP || (vary && vary->kind != NODE_SCALAR))
+        return false;
+    varied->place = node_place(study);
+    varied->values = node_entry(study, "values");
+    if (vary && !node_is_empty(vary)) {
+        varied->key = vary->text;
+        varied->place = vary->place;
+    }
+    return true;
+}
+
+/* Tells what is wrong with it that the reading does not; *PATH is what it puts its values to. */
+static struct error *check_varied(const struct document *document, const struct varied *varied,
+                                  char **path)
+{
+    const struct node *values = varied->values;
+    struct error *error =
+        find_target(document, varied->key, varied->place, "convergence.vary", path);
+    if (values && (values->kind == NODE_SCALAR || (values->kind == NODE_LIST && values->count < 2)))
+        return error_join(error, place_error(node_place(values), "convergence.values",
+                                             "a list of two values at least is wanted"));
+    if (!error && !values && strcmp(varied->key, "resolution") != 0)
+        return place_error(varied->place, "convergence",
+                           "`values` is missing: what \"%s\" is in each run", varied->key);
+    return error;
+}
+
+/* FACTOR times the resolution, as a value of the case. Where it is no length, which the reading tells, it
+ * stays. */
+static struct error *take_multiple(struct simulation_case *input, double factor)
+{
+    static const char key[] = "resolution";
+    const struct node *node = node_entry(input->document->root, key);
+    struct quantity resolution;
+    struct unit metre;
+    if (!node || node->kind != NODE_SCALAR)
+        return NULL;
+    TRY(unit_parse("m", &metre));
+    struct error *error = document_evaluate(input->document, node->text, &resolution);
+    if (error || !dimension_equal(resolution.dimension, metre.dimension)) {
+        error_free(error);
+        return NULL;
+    }
+    struct node value = {.kind = NODE_SCALAR, .plain = true, .place = node->place};
+    value.text = factor == 1.0 ? text_copy(node->text)
+                               : text_format("%.15g mm", 1e3 * factor * resolution.value);
+    error = value.text ? take_value(input, key, key, &value) : out_of_memory();
+    free(value.text);
+    return error;
+}
+
+struct error *case_take_study(struct simulation_case *input, const struct case_options *options)
+{
+    struct varied varied;
+    char *path = NULL;
+    if (!find_varied(input->document, &varied))
+        return NULL;
+    struct error *error = check_varied(input->document, &varied, &path);
+    if (!error && options->convergence) {
+        int run = options->sweep_run;
+        input->sweep_runs = varied.values ? varied.values->count : (int)COUNT_OF(standard_factors);
+        if (run > 0 && run <= input->sweep_runs) {
+            input->sweep = memory_allocate(sizeof *input->sweep);
+            if (!input->sweep)
+                error = out_of_memory();
+            else if (varied.values)
+                error = take_value(input, varied.key, path, varied.values->child[run - 1]);
+            else
+                error = take_multiple(input, standard_factors[run - 1]);
+        }
+    }
+    free(path);
     return error;
 }
 

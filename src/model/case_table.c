@@ -145,6 +145,12 @@ static const struct parameter body_table[] = {
      .offset = offsetof(struct body_input, driven),
      .standard = "no",
      .help = "whether it keeps its velocity whatever pushes back, as a piston does"},
+    {.key = "frozen",
+     .kind = PARAMETER_FLAG,
+     .offset = offsetof(struct body_input, frozen),
+     .standard = "no",
+     .help = "whether it keeps its state at the start and moves with its velocity: an end that waves "
+             "run out of"},
     {.key = "stop",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct body_input, stop),
@@ -355,30 +361,6 @@ static const struct parameter check_table[] = {
     PARAMETER_END,
 };
 
-const struct parameter case_shaping_table[] = {
-    {.key = "include",
-     .kind = PARAMETER_NAMES,
-     .standard = PARAMETER_OPTIONAL,
-     .help = "files whose maps lie below this file's own keys; paths start at this file's folder"},
-    {.key = "let",
-     .kind = PARAMETER_MAP,
-     .standard = PARAMETER_OPTIONAL,
-     .help = "names for expressions, in order: {speed: 1 km/s, plate: 4 mm, way: 2*plate}"},
-    {.key = "short",
-     .kind = PARAMETER_TABLE,
-     .standard = PARAMETER_OPTIONAL,
-     .help = "keys of the case, merged over it by --short: {resolution: 1 mm, let: {plate: 2 mm}}"},
-    {.key = "long",
-     .kind = PARAMETER_TABLE,
-     .standard = PARAMETER_OPTIONAL,
-     .help = "keys of the case, merged over it by --long: a form for which there is time"},
-    {.key = "sweep",
-     .kind = PARAMETER_MAP,
-     .standard = PARAMETER_OPTIONAL,
-     .help = "names of let, or paths, each with the values to run with: {speed: [1 km/s, 2 km/s]}"},
-    PARAMETER_END,
-};
-
 const struct parameter case_table[] = {
     {.key = "format",
      .kind = PARAMETER_INTEGER,
@@ -488,5 +470,11 @@ const struct parameter case_table[] = {
      .table = check_table,
      .size = sizeof(struct check_input),
      .help = "what the result must be, by name"},
+    {.key = "convergence",
+     .kind = PARAMETER_TABLE,
+     .offset = offsetof(struct simulation_case, convergence),
+     .standard = PARAMETER_OPTIONAL,
+     .table = case_convergence_table,
+     .help = "the study that `bolide verify --convergence` makes of the case"},
     PARAMETER_END,
 };

@@ -22,8 +22,7 @@ static struct error *read_table(const char *folder, const char *name, struct csv
     return error;
 }
 
-/* Its policy forbids the page whatever it does not hold itself. */
-static void put_head(const struct page *page, const char *title)
+void page_head(const struct page *page, const char *title)
 {
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
           "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
@@ -74,7 +73,7 @@ static struct error *put_file(const struct page *page, const char *name, const c
     return error;
 }
 
-static void put_foot(const struct page *page)
+void page_foot(const struct page *page)
 {
     fprintf(page->file,
             "</main>\n<footer><p>Made by Bolide.</p></footer>\n<script>\n%s</script>\n</body>\n"
@@ -89,12 +88,12 @@ static struct error *put_page(const struct page *page)
         title = summary_value(&page->summary, "run", NULL, "name");
     if (!*title)
         title = "Results of a run";
-    put_head(page, title);
+    page_head(page, title);
     put_header(page, title);
     if (page->sweep.rows) {
         page_sweep(page);
         TRY(page_pictures(page));
-        put_foot(page);
+        page_foot(page);
         return NULL;
     }
     page_verdict(page);
@@ -107,7 +106,7 @@ static struct error *put_page(const struct page *page)
     TRY(put_file(page, "case.yaml", "The case as run, with all defaults (case.yaml)"));
     TRY(put_file(page, "run.log", "What the run said (run.log)"));
     fputs("</section>\n", page->file);
-    put_foot(page);
+    page_foot(page);
     return NULL;
 }
 

@@ -15,6 +15,12 @@ struct page {
     struct csv sweep; /* of a sweep: its table; SUMMARY is that of its first run */
 };
 
+/* page.c */
+
+/* What a page begins and ends with. Its policy forbids the page whatever it does not hold itself. */
+void page_head(const struct page *page, const char *title);
+void page_foot(const struct page *page);
+
 /* page_text.c */
 
 /* TEXT with everything escaped that HTML could take for its own, in an attribute too. What is not UTF-8
@@ -54,6 +60,16 @@ struct error *page_profiles(const struct page *page);
 
 /* page_pictures.c */
 struct error *page_pictures(const struct page *page);
+
+/* The end of an <img> whose alt text the caller has begun: its size, so that nothing jumps when it appears,
+ * and the SIZE bytes of a PNG. */
+void page_png(FILE *file, const char *bytes, size_t size);
+
+/* page_study.c */
+struct study;
+
+/* Writes FOLDER/convergence.html, with the picture convergence.png that lies there. */
+struct error *page_study(const char *folder, const struct study *study);
 
 /* page_plot.c: a line plot as inline SVG. */
 

@@ -115,9 +115,7 @@ static bool is_png(const char *bytes, size_t size)
     return bytes && size > 24 && !memcmp(bytes, "\x89PNG\r\n\x1a\n", 8);
 }
 
-/* <img>, with its size, so that nothing jumps when it appears; its alt text is written by the caller
- * before. */
-static void put_source(FILE *file, const char *bytes, size_t size)
+void page_png(FILE *file, const char *bytes, size_t size)
 {
     const unsigned char *data = (const unsigned char *)bytes;
     fprintf(file, "\" width=\"%u\" height=\"%u\" src=\"data:image/png;base64,",
@@ -153,7 +151,7 @@ static struct error *put_frame(const struct page *page, const struct pictures *p
         page_text(page->file, field ? field : "");
         fputs(", ", page->file);
         page_text(page->file, time);
-        put_source(page->file, bytes, size);
+        page_png(page->file, bytes, size);
         fputs("<figcaption>", page->file);
         page_text(page->file, time);
         fputs("</figcaption></figure>\n", page->file);
@@ -251,7 +249,7 @@ static struct error *put_single(const struct page *page, const struct pictures *
         fputs("<figure><img alt=\"", page->file);
         page_text(page->file, name);
         fputs(profile ? ": particles over the exact solution" : "", page->file);
-        put_source(page->file, bytes, size);
+        page_png(page->file, bytes, size);
         fputs("<figcaption>", page->file);
         page_text(page->file, name);
         fputs("</figcaption></figure>\n", page->file);

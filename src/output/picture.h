@@ -19,12 +19,16 @@ struct error *picture_particles(const char *path, const struct simulation *simul
 struct error *picture_field_check(const struct simulation *simulation, const struct views *views,
                                   const char *field);
 
+/* How the points of a series are joined: not at all (they are dots), by a line, by one with a dot at each
+ * point, or by a thin grey one to measure the others by. */
+enum line_style { LINE_NONE, LINE_PLAIN, LINE_MARKED, LINE_FAINT };
+
 /* One series of a line plot. */
 struct series {
     const char *label; /* for the legend; NULL: none */
     int64_t count;
     const double *x, *y; /* SI units; a point that is not finite interrupts a line */
-    bool line;           /* a line; else dots */
+    enum line_style line;
 };
 
 struct plot {

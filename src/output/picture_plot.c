@@ -32,7 +32,7 @@ static bool compares(const struct plot *plot)
 {
     bool lines = false, dots = false;
     for (int s = 0; s < plot->count; ++s) {
-        lines |= plot->series[s].line;
+        lines |= plot->series[s].line != LINE_NONE;
         dots |= !plot->series[s].line;
     }
     return lines && dots;
@@ -42,6 +42,8 @@ static bool compares(const struct plot *plot)
 static struct colour series_colour(const struct plot *plot, int index)
 {
     static const struct colour grey = {0.60, 0.60, 0.60};
+    if (plot->series[index].line == LINE_FAINT)
+        return grey;
     int first_line = 0;
     while (first_line < plot->count && !plot->series[first_line].line)
         ++first_line;
@@ -160,15 +162,19 @@ static struct error *draw_series(const struct canvas *canvas, const struct plot 
     cairo_clip(canvas->pen);
     struct error *error = NULL;
     for (int s = 0; s < plot->count && !error; ++s) {
+        const struct series *series = &plot->series[s];
         canvas_colour(canvas, series_colour(plot, s));
-        if (plot->series[s].line) {
-            /* Broad behind dots, so that it is seen where they lie on it. */
-            draw_line(canvas, x, y, &plot->series[s], compares(plot) ? 3.4 : 1.6);
+        /* Broad behind dots, so that it is seen where they lie on it. */
+        if (series->line)
+            draw_line(canvas, x, y, series,
+                      compares(plot)               ? 3.4
+                      : series->line == LINE_FAINT ? 0.8
+                                                   : 1.6);
+        if (series->line != LINE_NONE && series->line != LINE_MARKED)
             continue;
-        }
         uint8_t *taken = memory_allocate(pixels);
         if (taken)
-            draw_dots(canvas, x, y, &plot->series[s], taken);
+            draw_dots(canvas, x, y, series, taken);
         else
             error = error_new(ERROR_SYSTEM, "picture: out of memory");
         free(taken);

@@ -70,6 +70,18 @@ static void order_by_id(struct keyed *entry, int64_t count, const uint64_t *id)
     }
 }
 
+/* Bytes of a particle in the widest field. */
+static size_t widest_field(const struct particles *p)
+{
+    size_t widest = 0;
+    for (int k = 0; k < p->fields; k++) {
+        const struct field_declaration *field = &p->field[k].declaration;
+        size_t bytes = number_size(field->number) * (size_t)field->components;
+        widest = bytes > widest ? bytes : widest;
+    }
+    return widest;
+}
+
 static void move_fields(struct particles *p, const struct keyed *entry, void *moved)
 {
     for (int k = 0; k < p->fields; k++) {
@@ -90,7 +102,7 @@ static struct error *sort_with(struct particles *p, struct sorting *s)
     s->entry = memory_allocate(count * sizeof *s->entry);
     s->scratch = memory_allocate(count * sizeof *s->scratch);
     s->block = memory_allocate(count * sizeof *s->block);
-    s->moved = memory_allocate(count * 6 * sizeof(double));
+    s->moved = memory_allocate(count * widest_field(p));
     if (!s->entry || !s->scratch || !s->block || !s->moved)
         return error_new(ERROR_SYSTEM, "out of memory while sorting %d particles", p->count);
     /* First by material and cell, then, keeping that order, by block. */

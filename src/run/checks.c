@@ -61,11 +61,25 @@ static struct error *find_limits(struct prepared_check *prepared, struct dimensi
     return NULL;
 }
 
-static struct error *solve_exact(struct prepared_check *prepared)
+static const struct one_of *against_of(const struct measurement *m)
+{
+    return m->check->against.choice ? &m->check->against : &m->simulation->input->exact;
+}
+
+/* The solution of the problem that PREPARED is measured against, if a check before it has solved it. */
+static const void *solved_before(const struct checks *checks, const struct prepared_check *prepared)
+{
+    const void *problem = against_of(&prepared->measurement)->value;
+    for (const struct prepared_check *other = checks->item; other < prepared; other++)
+        if (other->solved && against_of(&other->measurement)->value == problem)
+            return other->solved;
+    return NULL;
+}
+
+static struct error *solve_exact(const struct checks *checks, struct prepared_check *prepared)
 {
     struct measurement *m = &prepared->measurement;
-    const struct simulation_case *input = m->simulation->input;
-    const struct one_of *against = m->check->against.choice ? &m->check->against : &input->exact;
+    const struct one_of *against = against_of(m);
     if (!class_of(m->check)->needs_exact)
         return NULL;
     if (!against->choice)
@@ -83,9 +97,12 @@ static struct error *solve_exact(struct prepared_check *prepared)
         return measure_error(m, "%s %s", against->choice->name,
                              m->exact->thermal ? "knows temperature and nothing else"
                                                : "has no temperature");
-    if (class_of(m->check)->needs_contact && !m->exact->contact)
-        return measure_error(m, "`%s` needs an exact solution with a contact; %s has none",
+    if (class_of(m->check)->needs_contact && !m->exact->star)
+        return measure_error(m, "`%s` needs an exact solution with a star state; %s has none",
                              m->check->measure.choice->name, against->choice->name);
+    m->solved = solved_before(checks, prepared);
+    if (m->solved)
+        return NULL;
     prepared->solved = memory_allocate(m->exact->size);
     if (!prepared->solved)
         return error_new(ERROR_SYSTEM, "out of memory for an exact solution");
@@ -99,7 +116,7 @@ static struct error *solve_exact(struct prepared_check *prepared)
     return NULL;
 }
 
-static struct error *prepare_check(struct prepared_check *prepared)
+static struct error *prepare_check(const struct checks *checks, struct prepared_check *prepared)
 {
     const struct measurement *m = &prepared->measurement;
     const struct measure_class *class = class_of(m->check);
@@ -125,7 +142,7 @@ static struct error *prepare_check(struct prepared_check *prepared)
     } else if (given(&m->check->scale))
         return measure_error(m, "`scale` has no meaning for `%s`", m->check->measure.choice->name);
     TRY(find_limits(prepared, unit.dimension));
-    return solve_exact(prepared);
+    return solve_exact(checks, prepared);
 }
 
 /* A ratio is one of two values of the same unit. */
@@ -164,7 +181,7 @@ struct error *checks_prepare(const struct simulation *simulation, const struct v
                                                     .check = case_check(input, i),
                                                     .name = input->checks.names[i],
                                                     .at_start = NAN};
-        error = error_join(error, prepare_check(&items[i]));
+        error = error_join(error, prepare_check(checks, &items[i]));
     }
     for (int i = 0; i < checks->count && !error; i++)
         error = check_ratio(checks, &items[i]);

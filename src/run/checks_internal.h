@@ -7,7 +7,7 @@
 struct prepared_check {
     struct measurement measurement; /* without the totals at the start */
     const char *unit, *raw_unit;    /* of the result, and of what it is before it is divided */
-    void *solved;                   /* owned */
+    void *solved;                   /* owned; NULL: that of an earlier check serves */
     double wanted, low, high;
 };
 

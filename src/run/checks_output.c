@@ -142,8 +142,8 @@ static struct error *draw(const struct measurement *m, const struct samples *sam
         drawing.curve[i] = exact_field(&state, parameters->field);
     }
     struct series series[] = {
-        {"exact", CURVE_POINTS, drawing.curve_x, drawing.curve, true},
-        {"particles", samples->count, drawing.x, drawing.value, false},
+        {"exact", CURVE_POINTS, drawing.curve_x, drawing.curve, LINE_PLAIN},
+        {"particles", samples->count, drawing.x, drawing.value, LINE_NONE},
     };
     struct plot plot = {.title = m->simulation->input->title,
                         .x_name = m->check->about.count ? "distance" : axes[m->check->axis],

@@ -48,6 +48,10 @@ struct measure_front {
     double slab;           /* m; particles are averaged over slabs of this thickness; 0: not */
     double frame;          /* m/s, of the frame in which the place is told */
 };
+struct measure_width {
+    char *field;
+    struct quantity ahead, behind; /* of the field */
+};
 struct measure_recorded {
     char *probe, *column;
     int take;             /* enum take of measure_recorded.c */
@@ -90,6 +94,13 @@ struct measure_asymmetry {
     struct vector_value center;
 };
 
+struct measure_radius {
+    double start;
+    int take;
+    double layer; /* NAN: the resolution of the case */
+    struct vector_value center;
+};
+
 struct measure_shear_layer {
     int value; /* what of the fit */
     double speed, plane;
@@ -102,19 +113,20 @@ struct measure_shear_layer {
 double conserved_change(const struct simulation *simulation, const struct totals *start,
                         enum conserved_total total);
 
-enum { MEASURES = 20 };
+enum { MEASURES = 22 };
 extern const struct choice measure_choices[MEASURES];
 
 extern const struct parameter measure_field_table[];
-extern const struct parameter measure_front_table[], measure_conserved_table[];
+extern const struct parameter measure_front_table[], measure_width_table[],
+    measure_conserved_table[];
 extern const struct parameter measure_total_table[], measure_extent_table[], measure_turn_table[],
-    measure_pieces_table[], measure_asymmetry_table[], measure_shear_layer_table[],
-    measure_recorded_table[];
+    measure_pieces_table[], measure_asymmetry_table[], measure_radius_table[],
+    measure_shear_layer_table[], measure_recorded_table[];
 extern const struct measure_class measure_total, measure_decay, measure_spread, measure_extent,
-    measure_turn, measure_pieces, measure_asymmetry, measure_shear_layer;
+    measure_turn, measure_pieces, measure_asymmetry, measure_radius, measure_shear_layer;
 extern const struct measure_class measure_mean, measure_minimum, measure_maximum, measure_l1,
     measure_rms, measure_max_error, measure_contact_max, measure_contact_rms, measure_front,
-    measure_conserved, measure_finite, measure_recorded;
+    measure_width, measure_conserved, measure_finite, measure_recorded;
 
 /* One particle as a measure sees it. */
 struct sample {

@@ -11,8 +11,7 @@
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
-/* "riemann/gas" of ".../riemann/gas/case.yaml"; the path itself where it has no such folders. */
-static char *short_name(const char *path)
+char *verify_name(const char *path)
 {
     const char *end = path + strlen(path);
     if (end - path > 10 && !strcmp(end - 10, "/case.yaml"))
@@ -58,13 +57,13 @@ static void tell_end(const struct verify_options *options, const struct verify_c
 }
 
 static void run_input(const struct simulation_case *input, const char *folder,
-                      const struct run_options *options, struct verify_case *verified)
+                      const struct run_options *options, bool judged, struct verify_case *verified)
 {
     struct run_options running = *options;
     running.output = folder;
     verified->error = run_case(input, &running, &verified->result);
-    verified->passed =
-        !verified->error && verified->result.finished && !verified->result.checks.failed;
+    verified->passed = !verified->error && verified->result.finished &&
+                       !(judged && verified->result.checks.failed);
     if (!verified->error && !verified->result.finished)
         verified->error = error_new(ERROR_SYSTEM, "stopped before its end");
 }
@@ -83,6 +82,7 @@ static struct error *run_of_sweep(struct simulation_case *input, const char *pat
         assert(verified);
         verified->sweep = input->sweep;
         verified->sweep_values = input->sweep_values;
+        verified->resolution = input->resolution;
         input->sweep = NULL;
         input->sweep_values = 0;
         struct run_options running = options->running;
@@ -93,7 +93,7 @@ static struct error *run_of_sweep(struct simulation_case *input, const char *pat
         const struct listener *listener = running.listener;
         if (listener && listener->line)
             listener->line(listener->context, verified->name);
-        run_input(input, own_folder, &running, verified);
+        run_input(input, own_folder, &running, !options->reading.convergence, verified);
         tell_end(options, verified);
     }
     free(own_folder);
@@ -155,7 +155,9 @@ static struct error *run_sweep(const char *path, const char *name, const char *f
         case_free(input);
         TRY(error);
     }
-    return folder ? sweep_write(folder, result->item + first, result->count - first) : NULL;
+    if (!folder || options->reading.convergence)
+        return NULL;
+    return sweep_write(folder, result->item + first, result->count - first);
 }
 
 static struct error *run_path(const char *path, const char *name, const char *folder,
@@ -167,7 +169,7 @@ static struct error *run_path(const char *path, const char *name, const char *fo
     struct verify_case *verified = runs ? NULL : add_case(result, path, text_copy(name));
     struct error *error = runs || verified ? NULL : out_of_memory();
     if (verified) {
-        run_input(input, folder, &options->running, verified);
+        run_input(input, folder, &options->running, true, verified);
         tell_end(options, verified);
     }
     case_free(input);
@@ -201,7 +203,7 @@ static struct error *sum_up(struct verify_result *result)
         result->checks_short += checks->falling_short;
         if (verified->error)
             error = error_join(error, named_error(verified));
-        else if (checks->failed)
+        else if (!verified->passed)
             error = error_join(error, error_new(ERROR_CHECK, "%s: %d of %d checks failed",
                                                 verified->name, checks->failed, checks->count));
     }
@@ -234,7 +236,7 @@ struct error *verify_cases(const char *const *paths, int count,
     *result = (struct verify_result){0};
     const char *output = options->running.output;
     for (int i = 0; i < count && !told_to_stop(options); i++) {
-        char *name = short_name(paths[i]);
+        char *name = verify_name(paths[i]);
         char *folder = name && output ? path_join(output, name) : NULL;
         struct error *error = name && (folder || !output)
                                   ? run_or_note(paths[i], name, folder, options, result)

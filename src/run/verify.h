@@ -12,8 +12,9 @@ struct verify_case {
     const char *path;
     struct error *error; /* NULL: it ran; owned */
     struct run_result result;
-    bool passed;
-    int sweep_values; /* 0: no run of a sweep */
+    bool passed;       /* a run of a convergence study: came to its end, whatever its checks say */
+    double resolution; /* m; of a run of a sweep or a study */
+    int sweep_values;  /* 0: no run of a sweep */
     struct sweep_value *sweep;
 };
 
@@ -44,5 +45,9 @@ struct error *verify_cases(const char *const *paths, int count,
 struct error *verify_case(const char *path, const char *name, const char *folder,
                           const struct verify_options *options, struct verify_result *result);
 void verify_result_free(struct verify_result *result);
+
+/* "riemann/gas" of ".../riemann/gas/case.yaml", the path itself where it has no such folders. NULL when
+ * memory is out; free it. */
+char *verify_name(const char *path);
 
 #endif

@@ -5,7 +5,8 @@
 
 /* Of the equation of motion per radian, m dU/dt = ... - A sigma_tt g e_r with the g of the pair sums: a uniform
  * pressure is then balanced as well as in the plane. The hoop stress does no work on E + U^2/2. */
-void sph_add_hoop(const struct simulation *simulation, const struct sph_fields *f)
+void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
+                  const struct sph_fields *f)
 {
     const struct particles *p = &simulation->particles;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
@@ -16,7 +17,8 @@ void sph_add_hoop(const struct simulation *simulation, const struct sph_fields *
         f->rates.acceleration[i][0] += pull;
         f->rates.power[i] -= p->velocity[i][0] * pull;
         /* the radius grows as the particle moves, which may be with its contacts' velocity */
-        double velocity = p->velocity[i][0] + (f->rates.drift ? f->rates.drift[i][0] : 0.0);
+        double velocity = p->velocity[i][0] + sph->half_step * f->rates.acceleration[i][0] +
+                          (sph->kind.drift ? f->rates.drift[i][0] : 0.0);
         f->rates.strain_rate[i][2] = f->rates.hoop_strain[i] * velocity / radius;
         f->rates.hoop_pull[i] = pull;
     }

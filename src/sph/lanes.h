@@ -62,6 +62,21 @@ INLINE double across_lanes(const double lane[LANES])
            ((lane[1] + lane[5]) + (lane[3] + lane[7]));
 }
 
+/* The sums over lanes of COUNT accumulators, a multiple of eight, each in the order of across_lanes. */
+INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
+{
+    for (int first = 0; first < count; first += LANES) {
+        const double *row[LANES];
+        double of[LANES][LANES] ALIGNED;
+        for (int k = 0; k < LANES; k++)
+            row[k] = lane[first + k];
+        transpose(row, 0, of);
+        for (int k = 0; k < LANES; k++)
+            total[first + k] = ((of[0][k] + of[4][k]) + (of[2][k] + of[6][k])) +
+                               ((of[1][k] + of[5][k]) + (of[3][k] + of[7][k]));
+    }
+}
+
 /* Records as a kernel walks them: STRIDE doubles each, a multiple of eight, position first, the diameter right
  * behind it. The record at `empty` adds nothing to a sum; it fills up the last lanes. */
 struct lane_records {

@@ -1,5 +1,7 @@
 /* What acts on particles from outside, as the ledger books it: walls, the axis of symmetry, and what holds bodies,
- * pistons that keep their velocity whatever pushes back and strikers that stop. */
+ * pistons that keep their velocity whatever pushes back, strikers that stop, and ends that keep all their state. */
+#include <string.h>
+
 #include "sph/sph_internal.h"
 
 static struct vec3 vector_of(const double v[3]) { return vec3_make(v[0], v[1], v[2]); }
@@ -45,9 +47,10 @@ static bool stands(const struct simulation *simulation, int body)
     return simulation->time >= case_body(simulation->input, body)->stop;
 }
 
-static bool is_held(const struct simulation *simulation, int body)
+bool sph_is_held(const struct simulation *simulation, int body)
 {
-    return stands(simulation, body) || case_body(simulation->input, body)->driven;
+    const struct body_input *input = case_body(simulation->input, body);
+    return stands(simulation, body) || input->driven || input->frozen;
 }
 
 static bool any_body(const struct simulation *simulation,
@@ -75,13 +78,47 @@ void sph_stop_bodies(struct simulation *simulation)
     }
 }
 
-void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, double dt)
+static bool is_frozen(const struct simulation *simulation, int body)
+{
+    return case_body(simulation->input, body)->frozen;
+}
+
+/* Particles of frozen bodies get no rates: they move as they are. */
+static void freeze_bodies(struct simulation *simulation, const struct sph_fields *f, double dt)
 {
     const struct particles *p = &simulation->particles;
-    if (!any_body(simulation, is_held))
+    const struct pair_rates *rates = &f->rates;
+    if (!any_body(simulation, is_frozen))
         return;
     for (int32_t i = 0; i < p->count; i++) {
-        if (!is_held(simulation, p->body[i]))
+        if (!is_frozen(simulation, p->body[i]))
+            continue;
+        struct vec3 impulse = vec3_scale(-dt * p->mass[i], vector_of(rates->acceleration[i]));
+        double heat = rates->power[i] + (f->heat_rate ? f->heat_rate[i] : 0.0);
+        double work = vec3_dot(impulse, vector_of(p->velocity[i]));
+        ledger_book(&simulation->ledger, LEDGER_PISTONS, 0.0, impulse, vector_of(p->position[i]),
+                    work - dt * p->mass[i] * heat);
+        memset(rates->acceleration[i], 0, sizeof *rates->acceleration);
+        memset(rates->strain_rate[i], 0, sizeof *rates->strain_rate);
+        memset(rates->spin[i], 0, sizeof *rates->spin);
+        rates->power[i] = 0.0;
+        if (rates->drift)
+            memset(rates->drift[i], 0, sizeof *rates->drift);
+        if (f->heat_rate)
+            f->heat_rate[i] = 0.0;
+        if (f->density_rate)
+            f->density_rate[i] = 0.0;
+    }
+}
+
+void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, double dt)
+{
+    freeze_bodies(simulation, f, dt);
+    const struct particles *p = &simulation->particles;
+    if (!any_body(simulation, sph_is_held))
+        return;
+    for (int32_t i = 0; i < p->count; i++) {
+        if (!sph_is_held(simulation, p->body[i]))
             continue;
         double *a = f->rates.acceleration[i];
         struct vec3 impulse = vec3_scale(-dt * p->mass[i], vector_of(a));

@@ -6,7 +6,7 @@
 #include "riemann/dukowicz.h"
 #include "riemann/exact_gas.h"
 #include "sph/kernel.h"
-#include "sph/lanes.h"
+#include "sph/record.h"
 
 enum { FIELDS = 24 };
 
@@ -27,49 +27,6 @@ struct sums {
 struct totals_of_row {
     double traction[3], gradient[9], power, weight, drift[3], hoop[3];
 };
-
-/* The laws between a body and the eight neighbours of LIST. */
-INLINE void stage_laws(const struct pair_loop *loop, int32_t i, const int32_t *list,
-                       struct lanes *lanes)
-{
-    const struct contact_groups *groups = loop->groups;
-    const struct neighbours *n = loop->neighbours;
-    const uint8_t *law =
-        groups->law + (size_t)groups->of_body[loop->body[i]] * (size_t)groups->groups;
-    for (int k = 0; k < LANES; k++) {
-        int32_t j = list[k];
-        if (j >= n->count && j < n->count + n->ghosts.count)
-            j = n->ghosts.source[j - n->count];
-        unsigned bits = j < n->count ? law[groups->of_body[loop->body[j]]] : 0;
-        lanes->slip[k] = bits & 1 ? 1.0 : 0.0;
-        lanes->open[k] = bits & 2 ? 1.0 : 0.0;
-    }
-}
-
-/* The stress that stands STEP doubles apart from S on, in the order of the record. */
-INLINE struct sym3 stress_from(int dimension, const double *s, int step)
-{
-    struct sym3 stress = {s[0], 0.0, 0.0, 0.0, 0.0, 0.0};
-    if (dimension == 2) {
-        stress.yy = s[step];
-        stress.xy = s[2 * step];
-    }
-    if (dimension == 3) {
-        stress.yy = s[step];
-        stress.zz = s[2 * step];
-        stress.xy = s[3 * step];
-        stress.yz = s[4 * step];
-        stress.zx = s[5 * step];
-    }
-    return stress;
-}
-
-INLINE struct vec3 traction_of(int dimension, struct sym3 s, struct vec3 e)
-{
-    if (dimension == 2)
-        return vec3_make(s.xx * e.x + s.xy * e.y, s.xy * e.x + s.yy * e.y, 0.0);
-    return sym3_dot(s, e);
-}
 
 /* The spin that stands STEP doubles apart from S on. */
 INLINE struct vec3 spin_from(int dimension, const double *s, int step)
@@ -245,7 +202,8 @@ INLINE void add_part(const struct pair_loop *loop, struct pair_kind kind, bool w
         for (int k = 0; k < walk.ready; k += LANES) {
             lanes_stage(records, walk.list + k, lanes.field);
             if (with_law)
-                stage_laws(loop, i, walk.list + k, &lanes);
+                stage_laws(loop->neighbours, loop->groups, loop->body, i, walk.list + k, lanes.slip,
+                           lanes.open);
             add_lanes(kind, with_law, loop->smoothing, own, &lanes, sums);
         }
 }

@@ -206,8 +206,11 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
         for (int axis = 0; axis < dimension; axis++) {
             double next = u[axis] + dt * a[axis];
             /* (1.86), or the kernel mean of contact velocities */
-            x[axis] += f->rates.drift ? dt * (u[axis] + f->rates.drift[i][axis])
-                                      : 0.5 * dt * (u[axis] + next);
+            x[axis] += f->rates.drift && !f->velocity_gradient
+                           ? dt * (u[axis] + f->rates.drift[i][axis])
+                           : 0.5 * dt * (u[axis] + next);
+            if (f->rates.drift && f->velocity_gradient)
+                x[axis] += dt * f->rates.drift[i][axis];
             u[axis] = next;
             a2 += square(a[axis]);
         }
@@ -215,14 +218,15 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
         motion.dt = dt;
         motion.density =
             p->density[i] * (2.0 - divergence * dt) / (2.0 + divergence * dt); /* (1.82) */
+        motion.strain_rate = (struct sym3){rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]};
+        motion.spin = vec3_make(f->rates.spin[i][0], f->rates.spin[i][1], f->rates.spin[i][2]);
+        if (f->velocity_gradient)
+            motion.density = p->density[i] / muscl_deform(dt, &motion.strain_rate, &motion.spin);
         /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2, without taking differences. */
         motion.energy =
             p->energy[i] + dt * f->rates.power[i] - (total ? 0.5 * square(dt) * a2 : 0.0);
         if (f->heat_rate)
             motion.energy += dt * f->heat_rate[i];
-        struct sym3 strain = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]};
-        motion.strain_rate = strain;
-        motion.spin = vec3_make(f->rates.spin[i][0], f->rates.spin[i][1], f->rates.spin[i][2]);
         struct point point = {.density = p->density[i],
                               .deviator = {s[0], s[1], s[2], s[3], s[4], s[5]},
                               .history = {p->plastic_strain[i]}};
@@ -300,10 +304,9 @@ static void update_block(const struct sph *sph, struct simulation *simulation,
     }
 }
 
-static struct error *impossible(const struct simulation *simulation, const struct failure *failure)
+struct error *sph_impossible(const struct simulation *simulation, int32_t i)
 {
     const struct particles *p = &simulation->particles;
-    int32_t i = failure->index;
     return error_new(
         ERROR_STATE,
         "step %lld, t = %.6g s: the state of particle %llu (body %s, site %llu) at "
@@ -332,13 +335,15 @@ static void update_heat(const struct sph *sph, struct simulation *simulation,
 struct error *sph_update(const struct sph *sph, struct simulation *simulation, double dt)
 {
     struct sph_fields f = sph_fields_of(sph, simulation);
+    if (!sph->kind.drift) /* known, but nobody moves by it */
+        f.rates.drift = NULL;
     if (f.rates.wall)
         sph_book_walls(simulation, &f, dt);
     sph_hold_bodies(simulation, &f, dt);
     struct failure failure = {false, 0, 0};
     if (sph_still(sph)) {
         update_heat(sph, simulation, &f, dt, &failure);
-        return failure.any ? impossible(simulation, &failure) : NULL;
+        return failure.any ? sph_impossible(simulation, failure.index) : NULL;
     }
 #pragma omp parallel num_threads(simulation->threads)
     {
@@ -352,5 +357,5 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation, d
     }
     if (sph_axisymmetric(simulation))
         sph_cross_axis(simulation);
-    return failure.any ? impossible(simulation, &failure) : NULL;
+    return failure.any ? sph_impossible(simulation, failure.index) : NULL;
 }

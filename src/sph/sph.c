@@ -23,7 +23,7 @@ static const struct field_declaration sph_field_table[] = {
     {"strain_rate", NULL, "symmetric velocity gradient", NUMBER_DOUBLE, 6, FIELD_DERIVED},
     {"spin", NULL, "half the curl of velocity", NUMBER_DOUBLE, 3, FIELD_DERIVED},
 };
-enum { SPIN_FIELD = COUNT_OF(sph_field_table) - 1 };
+enum { DIAMETER_FIELD = 0, SPIN_FIELD = COUNT_OF(sph_field_table) - 1 };
 static const struct field_declaration wall_field = {
     "wall_acceleration", NULL, "acceleration by walls", NUMBER_DOUBLE, 3, FIELD_DERIVED};
 static const struct field_declaration drift_field = {
@@ -33,6 +33,12 @@ static const struct field_declaration hoop_fields[] = {
     {"hoop_strain", NULL, "part of u/r that is strain rate", NUMBER_DOUBLE, 1, FIELD_DERIVED}};
 static const struct field_declaration thickness_field = {
     "thickness", "", "thickness relative to the start", NUMBER_DOUBLE, 1, FIELD_STATE};
+static const struct field_declaration correction_field = {
+    "correction", NULL, "inverse second moment of the kernel", NUMBER_DOUBLE, 0, FIELD_STATE};
+static const struct field_declaration velocity_gradient_field = {
+    "velocity_gradient", NULL, "gradient of velocity", NUMBER_DOUBLE, 0, FIELD_STATE};
+static const struct field_declaration stress_gradient_field = {
+    "stress_gradient", NULL, "gradient of stress", NUMBER_DOUBLE, 0, FIELD_STATE};
 static const struct field_declaration heat_field = {
     "heat_rate", NULL, "specific power of conduction", NUMBER_DOUBLE, 1, FIELD_DERIVED};
 static const struct field_declaration viscosity_field = {
@@ -66,6 +72,8 @@ static bool is_thin(const struct simulation *simulation)
     return simulation->geometry == GEOMETRY_PLANE_STRESS;
 }
 
+static bool has_drift(const struct sph *sph) { return sph->kind.drift || sph_second_order(sph); }
+
 struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *simulation)
 {
     const struct particles *p = &simulation->particles;
@@ -81,7 +89,12 @@ struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *
                   .strain_rate = particles_field(p, "strain_rate"),
                   .spin = particles_field(p, "spin"),
                   .wall = has_walls(simulation) ? particles_field(p, "wall_acceleration") : NULL,
-                  .drift = sph->kind.drift ? particles_field(p, "drift") : NULL}};
+                  .drift = has_drift(sph) ? particles_field(p, "drift") : NULL}};
+    if (sph_second_order(sph)) {
+        f.correction = particles_field(p, "correction");
+        f.velocity_gradient = particles_field(p, "velocity_gradient");
+        f.stress_gradient = particles_field(p, "stress_gradient");
+    }
     if (sph_axisymmetric(simulation)) {
         f.rates.hoop_pull = particles_field(p, "hoop_pull");
         f.rates.hoop_strain = particles_field(p, "hoop_strain");
@@ -94,7 +107,10 @@ static struct error *choose_turn(struct sph *sph, const struct simulation *simul
 {
     const char *wrong = NULL;
     sph->kind.turn = sph->parameters.rotation == SPH_ROTATION_CORRECTED;
-    if (sph->kind.turn && sph->kind.star != STAR_ACOUSTIC)
+    if (sph->kind.turn && sph_second_order(sph))
+        wrong = "muscl carries velocities to the contact by their gradient, spin included: leave "
+                "this out";
+    else if (sph->kind.turn && sph->kind.star != STAR_ACOUSTIC)
         wrong = "corrected goes with `method: contact` and `contact: acoustic`";
     else if (sph->kind.turn && !sph->kind.shear)
         wrong = simulation->dimension == 1 ? "nothing turns in one dimension"
@@ -109,9 +125,18 @@ static struct error *choose_kind(struct sph *sph, const struct simulation *simul
     static const enum pair_star stars[] = {[SPH_CONTACT_ACOUSTIC] = STAR_ACOUSTIC,
                                            [SPH_CONTACT_DUKOWICZ] = STAR_DUKOWICZ,
                                            [SPH_CONTACT_EXACT_GAS] = STAR_EXACT_GAS};
-    const struct sph_parameters *parameters = &sph->parameters;
+    struct sph_parameters *parameters = &sph->parameters;
     struct pair_kind *kind = &sph->kind;
+    if (sph_corrected(sph))
+        return hllc_choose(sph, simulation, has_laws(simulation));
     kind->dimension = simulation->dimension;
+    if (parameters->contact < 0)
+        parameters->contact = SPH_CONTACT_ACOUSTIC;
+    else if (sph_second_order(sph))
+        return input_error(simulation->input, "solver", "sph.contact",
+                           "muscl has a contact problem of its own: leave this out");
+    if (parameters->motion < 0)
+        parameters->motion = sph_second_order(sph) ? SPH_MOTION_CONTACT : SPH_MOTION_PARTICLE;
     kind->star = is_standard(sph) ? STAR_MEAN : stars[parameters->contact];
     kind->drift = parameters->motion == SPH_MOTION_CONTACT;
     kind->depth = sph_axisymmetric(simulation) || is_thin(simulation);
@@ -152,17 +177,30 @@ static struct error *check_walls(const struct simulation *simulation, double rea
 static struct error *sph_create(void *solver, struct simulation *simulation, const void *parameters)
 {
     struct sph *sph = solver;
-    sph->parameters = *(const struct sph_parameters *)parameters;
+    sph->parameters = sph_settled(parameters);
     sph->neighbours.skin = sph->parameters.skin;
     TRY(choose_kind(sph, simulation));
     sph->groups = (struct contact_groups){simulation->group_of_body, &simulation->law[0][0],
                                           has_laws(simulation) ? CONTACT_GROUPS : 1};
-    struct field_declaration fields[COUNT_OF(sph_field_table) + 7];
+    struct field_declaration fields[COUNT_OF(sph_field_table) + 9 + HLLC_FIELDS];
     int count = 0;
     for (size_t k = 0; k < COUNT_OF(sph_field_table); k++)
         fields[count++] = sph_field_table[k];
     if (sph->kind.turn) /* the spins of the step before enter the next */
         fields[SPIN_FIELD].kind = FIELD_STATE;
+    if (sph_second_order(sph)) {
+        const struct muscl_kind kind = muscl_kind_of(sph);
+        fields[count] = correction_field;
+        fields[count++].components = tensor_components(kind.dimension);
+        fields[count] = velocity_gradient_field;
+        fields[count++].components = kind.dimension * kind.dimension;
+        fields[count] = stress_gradient_field;
+        fields[count++].components = kind.dimension * muscl_stresses(kind);
+    }
+    if (sph_corrected(sph)) { /* supports are those of the start */
+        fields[DIAMETER_FIELD].kind = FIELD_STATE;
+        count += hllc_declare(sph, fields + count);
+    }
     if (has_walls(simulation))
         fields[count++] = wall_field;
     for (size_t k = 0; k < COUNT_OF(hoop_fields) && sph_axisymmetric(simulation); k++)
@@ -171,7 +209,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
         fields[count++] = thickness_field;
     if (is_standard(sph))
         fields[count++] = viscosity_field;
-    if (sph->kind.drift)
+    if (has_drift(sph))
         fields[count++] = drift_field;
     TRY(conduction_create(sph, simulation));
     if (conduction_on(sph))
@@ -185,10 +223,16 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
 
 static struct error *sph_start(void *solver, struct simulation *simulation)
 {
+    if (sph_corrected(solver)) {
+        hllc_start(solver, simulation);
+        return NULL;
+    }
     struct sph_fields fields = sph_fields_of(solver, simulation);
     for (int32_t i = 0; fields.thickness && i < simulation->particles.count; i++)
         if (fields.thickness[i] == 0.0) /* fresh */
             fields.thickness[i] = 1.0;
+    if (sph_second_order(solver))
+        muscl_start(solver, simulation);
     sph_evaluate(solver, simulation);
     return NULL;
 }
@@ -196,7 +240,9 @@ static struct error *sph_start(void *solver, struct simulation *simulation)
 static struct error *reserve_records(struct sph *sph, const struct simulation *simulation)
 {
     int64_t count = (int64_t)simulation->particles.count + sph->neighbours.ghosts.count + 1;
-    size_t stride = (size_t)record_stride(sph->kind);
+    size_t stride = (size_t)(sph_corrected(sph)      ? hllc_stride(sph->hllc)
+                             : sph_second_order(sph) ? muscl_stride(muscl_kind_of(sph))
+                                                     : record_stride(sph->kind));
     if (!memory_reserve((void **)&sph->record, &sph->record_capacity, count, 0,
                         stride * sizeof(double)))
         return error_new(ERROR_SYSTEM, "out of memory for the records of %lld particles",
@@ -204,7 +250,7 @@ static struct error *reserve_records(struct sph *sph, const struct simulation *s
     return NULL;
 }
 
-static struct error *refresh_rows(struct sph *sph, struct simulation *simulation)
+struct error *sph_refresh_rows(struct sph *sph, struct simulation *simulation)
 {
     struct particles *p = &simulation->particles;
     struct reach reach = {particles_field(p, "diameter"), sph->parameters.smoothing};
@@ -243,7 +289,50 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
     for (int32_t b = 0; b < p->blocks; b++)
         pair_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
     if (sph_axisymmetric(simulation))
-        sph_add_hoop(simulation, fields);
+        sph_add_hoop(sph, simulation, fields);
+}
+
+/* The same of second order, from records half of STEP ahead. */
+static void sum_pairs_ahead(struct sph *sph, struct simulation *simulation,
+                            const struct sph_fields *fields, double step)
+{
+    const struct particles *p = &simulation->particles;
+    sph->half_step = 0.5 * step;
+    double begin = clock_seconds();
+    muscl_pack(sph, simulation);
+    simulation_spend(simulation, "records", clock_seconds() - begin);
+    begin = clock_seconds();
+    struct muscl_loop loop = {.kind = muscl_kind_of(sph),
+                              .record = sph->record,
+                              .empty = p->count + sph->neighbours.ghosts.count,
+                              .smoothing = sph->parameters.smoothing,
+                              .neighbours = &sph->neighbours,
+                              .groups = &sph->groups,
+                              .body = p->body,
+                              .density = p->density,
+                              .velocity = (const double(*)[3])p->velocity,
+                              .rates = {fields->rates, fields->correction,
+                                        fields->velocity_gradient, fields->stress_gradient}};
+#pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
+    for (int32_t b = 0; b < p->blocks; b++)
+        muscl_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
+    if (sph_axisymmetric(simulation))
+        sph_add_hoop(sph, simulation, fields);
+    simulation_spend(simulation, "pairs", clock_seconds() - begin);
+}
+
+/* The step is chosen by the rates of the step before, as the records are. The first step has none: its first sums are
+ * there to give them. */
+static void prepare_second_order(struct sph *sph, struct simulation *simulation,
+                                 const struct sph_fields *fields, struct limit *limit)
+{
+    for (int round = simulation->step == 0 ? 0 : 1; round < 2; round++) {
+        double begin = clock_seconds();
+        muscl_expect(sph, simulation, fields);
+        sph_limit_step(sph, simulation, fields, limit);
+        simulation_spend(simulation, "points", clock_seconds() - begin);
+        sum_pairs_ahead(sph, simulation, fields, limit->dt);
+    }
 }
 
 /* Pair sums of the mechanics, and the step that they allow. */
@@ -273,10 +362,14 @@ static struct error *sph_prepare(void *solver, struct simulation *simulation, st
 {
     struct sph *sph = solver;
     sph_stop_bodies(simulation);
-    TRY(ranks_agree(simulation->ranks, refresh_rows(sph, simulation)));
+    TRY(ranks_agree(simulation->ranks, sph_refresh_rows(sph, simulation)));
     struct sph_fields fields = sph_fields_of(sph, simulation);
     *limit = (struct limit){(double)INFINITY, "nothing", 0};
-    if (!sph_still(sph))
+    if (sph_corrected(sph))
+        hllc_prepare(sph, simulation, limit);
+    else if (sph_second_order(sph) && !sph_still(sph))
+        prepare_second_order(sph, simulation, &fields, limit);
+    else if (!sph_still(sph))
         prepare_motion(sph, simulation, &fields, limit);
     if (conduction_on(sph)) {
         double begin = clock_seconds();
@@ -290,9 +383,11 @@ static struct error *sph_prepare(void *solver, struct simulation *simulation, st
 static struct error *sph_advance(void *solver, struct simulation *simulation, double dt)
 {
     struct sph *sph = solver;
+    sph->steps_since_build++;
+    if (sph_corrected(sph))
+        return hllc_advance(sph, simulation, dt);
     double begin = clock_seconds();
     struct error *error = sph_update(sph, simulation, dt);
-    sph->steps_since_build++;
     simulation_spend(simulation, "points", clock_seconds() - begin);
     return ranks_agree(simulation->ranks, error);
 }
@@ -321,7 +416,7 @@ static void sph_destroy(void *solver)
 
 static double sph_bytes(const void *parameters, int dimension)
 {
-    const struct sph_parameters *sph = parameters;
+    const struct sph_parameters settled = sph_settled(parameters), *sph = &settled;
     struct particles store;
     error_free(
         particles_create(dimension, 1.0, sph_field_table, COUNT_OF(sph_field_table), &store));
@@ -340,11 +435,13 @@ static double sph_bytes(const void *parameters, int dimension)
 static double sph_step(const void *parameters, int dimension, const struct material *material,
                        const struct point *point, double diameter)
 {
-    const struct sph_parameters *sph = parameters;
+    const struct sph_parameters settled = sph_settled(parameters), *sph = &settled;
     struct point at = *point;
     double heat = conduction_step(sph, dimension, &material->heat, point->density, diameter);
     if (sph->motion == SPH_MOTION_NONE)
         return heat;
+    if (sph->method == SPH_HLLC || sph->method == SPH_MONAGHAN)
+        diameter *= sph->smoothing;
     return minimum(heat, sph->courant * diameter / material_evaluate(material, &at).sound_long);
 }
 

@@ -3,6 +3,8 @@
 #define BOLIDE_SPH_INTERNAL_H
 
 #include "sph/conduction.h"
+#include "sph/hllc_kernel.h"
+#include "sph/muscl_kernel.h"
 #include "sph/pair_kernel.h"
 #include "sph/sph.h"
 
@@ -13,13 +15,18 @@ struct sph_fields {
     double *viscosity; /* artificial viscous pressure (2.5), standard method only */
     double *thickness; /* relative to the start, plane stress only */
     struct pair_rates rates;
-    double *heat_rate; /* dE/dt by conduction, W/kg; NULL without */
+    double *heat_rate;    /* dE/dt by conduction, W/kg; NULL without */
+    double *density_rate; /* of hllc and monaghan, NULL otherwise */
+    double *correction, *velocity_gradient,
+        *stress_gradient; /* second order only, as muscl_rates has them */
 };
 
 struct sph {
     struct sph_parameters parameters;
     struct pair_kind kind;
+    struct hllc_kind hllc;      /* of hllc and monaghan */
     double bend[MATERIALS_MAX]; /* of riemann/bend.h, by material */
+    double half_step;           /* by how much the records are ahead of level n, s */
     struct neighbours neighbours;
     struct contact_groups groups;
     struct reach reach;
@@ -56,6 +63,73 @@ BOLIDE_INLINE double sph_volume(const struct simulation *simulation, const struc
     return p->mass[i] / (p->density[i] * sph_depth(simulation, f, i));
 }
 
+BOLIDE_INLINE bool sph_second_order(const struct sph *sph)
+{
+    return sph->parameters.method == SPH_MUSCL;
+}
+
+/* Of muscl.c: what the pair loop is instantiated by; what a fresh particle starts from; records of owned particles,
+ * then of ghosts. */
+struct muscl_kind muscl_kind_of(const struct sph *sph);
+void muscl_start(const struct sph *sph, const struct simulation *simulation);
+void muscl_expect(const struct sph *sph, const struct simulation *simulation,
+                  const struct sph_fields *f);
+
+/* The sums measure the gradient A of velocity in places at level n, so that these deform by F = 1 + dt A in a step.
+ * Returns det F, and turns the parts of A into those of ln F / dt, to second order. */
+BOLIDE_INLINE double muscl_deform(double dt, struct sym3 *strain_rate, struct vec3 *spin)
+{
+    struct sym3 e = sym3_scale(dt, *strain_rate);
+    struct vec3 w = vec3_scale(dt, *spin);
+    double xy = e.xy - w.z, yx = e.xy + w.z, yz = e.yz - w.x, zy = e.yz + w.x, zx = e.zx - w.y,
+           xz = e.zx + w.y;
+    /* the rows of A squared */
+    double aa[3][3] = {{e.xx * e.xx + xy * yx + xz * zx, e.xx * xy + xy * e.yy + xz * zy,
+                        e.xx * xz + xy * yz + xz * e.zz},
+                       {yx * e.xx + e.yy * yx + yz * zx, yx * xy + e.yy * e.yy + yz * zy,
+                        yx * xz + e.yy * yz + yz * e.zz},
+                       {zx * e.xx + zy * yx + e.zz * zx, zx * xy + zy * e.yy + e.zz * zy,
+                        zx * xz + zy * yz + e.zz * e.zz}};
+    double half = 0.5 / dt, quarter = 0.25 / dt;
+    strain_rate->xx -= half * aa[0][0];
+    strain_rate->yy -= half * aa[1][1];
+    strain_rate->zz -= half * aa[2][2];
+    strain_rate->xy -= quarter * (aa[0][1] + aa[1][0]);
+    strain_rate->yz -= quarter * (aa[1][2] + aa[2][1]);
+    strain_rate->zx -= quarter * (aa[2][0] + aa[0][2]);
+    spin->x -= quarter * (aa[2][1] - aa[1][2]);
+    spin->y -= quarter * (aa[0][2] - aa[2][0]);
+    spin->z -= quarter * (aa[1][0] - aa[0][1]);
+    double x = 1.0 + e.xx, y = 1.0 + e.yy, z = 1.0 + e.zz;
+    return x * (y * z - yz * zy) - xy * (yx * z - yz * zx) + xz * (yx * zy - y * zx);
+}
+
+void muscl_pack(struct sph *sph, const struct simulation *simulation);
+
+/* SPH with corrected kernel gradients and Heun's step. */
+BOLIDE_INLINE bool sph_corrected(const struct sph *sph)
+{
+    return sph->parameters.method == SPH_HLLC || sph->parameters.method == SPH_MONAGHAN;
+}
+
+/* Of hllc.c and heun.c: what the case must not ask for (LAWS: contact laws) and which kernels it needs; its fields,
+ * HLLC_FIELDS at most; what follows from the state at the start; rates and the longest step; both stages. */
+enum { HLLC_FIELDS = 6 };
+struct error *hllc_choose(struct sph *sph, const struct simulation *simulation, bool laws);
+int hllc_declare(const struct sph *sph, struct field_declaration *fields);
+void hllc_start(const struct sph *sph, struct simulation *simulation);
+void hllc_prepare(struct sph *sph, struct simulation *simulation, struct limit *limit);
+struct error *hllc_advance(struct sph *sph, struct simulation *simulation, double dt);
+
+/* Neighbour rows and records for the particles as they stand; sorts when the rows no longer hold. */
+struct error *sph_refresh_rows(struct sph *sph, struct simulation *simulation);
+
+/* The error that names particle INDEX, whose new state is impossible. */
+struct error *sph_impossible(const struct simulation *simulation, int32_t index);
+
+/* What the case leaves to the method. */
+struct sph_parameters sph_settled(const struct sph_parameters *parameters);
+
 /* Diameter, pressure and sound speeds of all particles as they stand. */
 void sph_evaluate(const struct sph *sph, struct simulation *simulation);
 
@@ -71,7 +145,8 @@ void sph_limit_step(const struct sph *sph, const struct simulation *simulation,
                     const struct sph_fields *f, struct limit *limit);
 
 /* Axisymmetry: adds to the pair sums what the hoop stress does, and leaves its acceleration in hoop_pull. */
-void sph_add_hoop(const struct simulation *simulation, const struct sph_fields *f);
+void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
+                  const struct sph_fields *f);
 
 /* A particle that a step has taken through the axis comes out on the other side as its own image. */
 void sph_cross_axis(struct simulation *simulation);
@@ -84,6 +159,9 @@ struct response sph_thin_step(const struct material *material, double divergence
 
 /* Books what images and hoop stress push in a step of DT. */
 void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, double dt);
+
+/* Whether BODY keeps its velocity whatever pushes. */
+bool sph_is_held(const struct simulation *simulation, int body);
 
 /* Brings bodies to rest whose time has come (`stop`). */
 void sph_stop_bodies(struct simulation *simulation);

@@ -2,12 +2,17 @@
 
 #include "sph/sph_internal.h"
 
-static const char *const method_names[] = {"contact", "standard", NULL};
+static const char *const method_names[] = {"contact", "standard", "muscl",
+                                           "hllc",    "monaghan", NULL};
 static const char *const contact_names[] = {"acoustic", "dukowicz", "exact-gas", NULL};
 static const char *const energy_names[] = {"total", "internal", NULL};
 static const char *const motion_names[] = {"particle", "contact", "none", NULL};
 static const char *const rotation_names[] = {"faithful", "corrected", NULL};
 static const char *const conduction_names[] = {"none", "contact", "harmonic", NULL};
+static const char *const continuity_names[] = {"volume", "mass", NULL};
+static const char *const correction_names[] = {"own", "symmetric", NULL};
+static const char *const reconstruction_names[] = {"none", "velocity", "all", NULL};
+static const char *const pair_stress_names[] = {"squares", "product", NULL};
 
 const struct parameter sph_table[] = {
     {.key = "method",
@@ -15,29 +20,36 @@ const struct parameter sph_table[] = {
      .offset = offsetof(struct sph_parameters, method),
      .standard = "contact",
      .names = method_names,
-     .help = "contact: Riemann problems between particles; standard: with artificial viscosity"},
+     .help =
+         "muscl: Riemann problems between particles, second order; contact: the same, first order; "
+         "standard: with artificial viscosity; hllc: elastic-plastic Riemann problems and "
+         "corrected "
+         "gradients; monaghan: corrected gradients with artificial viscosity"},
     {.key = "contact",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct sph_parameters, contact),
-     .standard = "acoustic",
+     .standard = PARAMETER_OPTIONAL,
      .names = contact_names,
      .help =
          "contact problem along a pair: acoustic; dukowicz: two shocks; exact-gas: ideal gases"},
     {.key = "smoothing",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct sph_parameters, smoothing),
-     .standard = "1",
+     .standard = PARAMETER_OPTIONAL,
      .above = 0.5,
      .below = 3.0,
      .closed = true,
-     .help = "alpha of h = alpha (D_i + D_j)/2; the support of a pair is 2h"},
+     .help = "alpha of h = alpha (D_i + D_j)/2; the support of a pair is 2h; when not given 1.2 "
+             "for hllc and monaghan, else 1"},
     {.key = "courant",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct sph_parameters, courant),
-     .standard = "0.4",
+     .standard = PARAMETER_OPTIONAL,
      .above = 0.0,
      .below = 1.0,
-     .help = "K of dt = min K D/sqrt(C^2 + (4 D div U)^2); stable up to 0.8 for smoothing 1"},
+     .help =
+         "K of dt = min K D/sqrt(C^2 + (4 D div U)^2), 0.4 when not given, stable up to 0.8 for "
+         "smoothing 1; of dt = min K h/C, 0.3, for hllc and monaghan"},
     {.key = "energy",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct sph_parameters, energy),
@@ -47,7 +59,7 @@ const struct parameter sph_table[] = {
     {.key = "motion",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct sph_parameters, motion),
-     .standard = "particle",
+     .standard = PARAMETER_OPTIONAL,
      .names = motion_names,
      .help =
          "what moves a particle: its own velocity, the kernel mean of its contact velocities, or "
@@ -75,6 +87,56 @@ const struct parameter sph_table[] = {
      .below = 1e3,
      .closed = true,
      .help = "coefficient of D rho C k in the artificial viscosity of the standard method"},
+    {.key = "continuity",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct sph_parameters, continuity),
+     .standard = "volume",
+     .names = continuity_names,
+     .help =
+         "density of hllc and monaghan; volume: by rho_i V_j, exact for linear velocities; mass: "
+         "by m_j, as printed"},
+    {.key = "correction",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct sph_parameters, correction),
+     .standard = "own",
+     .names = correction_names,
+     .help = "matrix of the gradients in the forces of hllc and monaghan; own: L_i; symmetric: "
+             "(L_i + L_j)/2, which conserves"},
+    {.key = "approach_switch",
+     .kind = PARAMETER_FLAG,
+     .offset = offsetof(struct sph_parameters, approach_switch),
+     .standard = "yes",
+     .help = "whether hllc leaves pairs that part to means"},
+    {.key = "reconstruction",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct sph_parameters, reconstruction),
+     .standard = "none",
+     .names = reconstruction_names,
+     .help = "what hllc carries to the middle of a pair by limited gradients, within a material: "
+             "nothing, velocity, or all (one dimension)"},
+    {.key = "pair_stress",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct sph_parameters, pair_stress),
+     .standard = "squares",
+     .names = pair_stress_names,
+     .help = "stress of a pair of monaghan; squares: s_i/rho_i^2 + s_j/rho_j^2; product: (s_i + "
+             "s_j)/(rho_i rho_j)"},
+    {.key = "viscosity_alpha",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct sph_parameters, viscosity_alpha),
+     .standard = "1",
+     .above = 0.0,
+     .below = 1e3,
+     .closed = true,
+     .help = "linear coefficient of Monaghan's viscosity, method monaghan"},
+    {.key = "viscosity_beta",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct sph_parameters, viscosity_beta),
+     .standard = "1",
+     .above = 0.0,
+     .below = 1e3,
+     .closed = true,
+     .help = "quadratic coefficient of Monaghan's viscosity, method monaghan"},
     {.key = "conduction",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct sph_parameters, conduction),
@@ -107,3 +169,14 @@ const struct parameter sph_table[] = {
      .closed = true,
      .help = "build neighbour rows at least every so many steps; 0: when they no longer hold"},
     PARAMETER_END};
+
+struct sph_parameters sph_settled(const struct sph_parameters *parameters)
+{
+    struct sph_parameters settled = *parameters;
+    bool corrected = settled.method == SPH_HLLC || settled.method == SPH_MONAGHAN;
+    if (isnan(settled.smoothing))
+        settled.smoothing = corrected ? 1.2 : 1.0;
+    if (isnan(settled.courant))
+        settled.courant = corrected ? 0.3 : 0.4;
+    return settled;
+}

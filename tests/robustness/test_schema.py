@@ -35,6 +35,8 @@ VARIANTS = [
     (True, "run:", "short: {let: {U0: 1 m/s}, sweep: {U0: [2 m/s]}, bodies: {plate: {velocity: [0]}}}\nrun:"),
     (True, "run:", "long: {resolution: 0.1 mm, run: {until: 2 us}}\nrun:"),
     (True, "run:", "walls:\noutput:\nrun:"),
+    (True, "run:", "convergence: {vary: U0, values: [1 m/s, 2], order: {all: {at_least: 0.5}}}\nrun:"),
+    (True, "run:", "convergence:\nrun:"),
     (True, "copper: {eos", "copper: {library: aluminium, eos"),
     (True, "density: 8930 kg/m^3, ", "density: 8930 kg/m^3*(1 - 4/73), "),
     (True, "mean: pressure", "mean: {field: pressure}"),
@@ -64,6 +66,8 @@ VARIANTS = [
     (False, "run:", "sweep: {U0: 500 m/s}\nrun:"),
     (False, "run:", "sweep: {U0: []}\nrun:"),
     (False, "run:", "short: {resolutoin: 1 mm}\nrun:"),
+    (False, "run:", "convergence: {values: {coarse: 1 mm}}\nrun:"),
+    (False, "run:", "convergence: {order: {all: 1}}\nrun:"),
     (False, "run:", "short: {short: {}}\nrun:"),
     (False, "format: 1", "include: {a: b}"),
 ]

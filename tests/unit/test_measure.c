@@ -185,6 +185,22 @@ static void front_lies_between_the_particles_that_straddle_the_value(void **stat
     assert_true(isnan(value_of(b, "front", &front)));
 }
 
+static void width_counts_the_particles_between_a_tenth_and_nine_tenths(void **state)
+{
+    struct bench *b = *state;
+    struct measure_width width = {
+        .field = (char[]){"pressure"}, .ahead = {1.0, pascal}, .behind = {11.0, pascal}};
+    const double front[] = {11.0, 10.5, 9.9, 6.0, 2.1, 1.9, 1.0};
+    limit_dimension(b, one);
+    for (int i = 0; i < ALL; i++)
+        b->simulation.particles.pressure[i] = i < 10 ? 11.0 : i < 17 ? front[i - 10] : 1.0;
+    assert_float_equal(value_of(b, "width", &width), 3.0, 0.0);
+    b->check.between = (struct vector_value){2, {0.0, 13.0 / ALL}};
+    assert_float_equal(value_of(b, "width", &width), 1.0, 0.0);
+    b->simulation.particles.pressure[3] = NAN;
+    assert_true(isnan(value_of(b, "width", &width)));
+}
+
 static void slabs_average_a_ragged_front(void **state)
 {
     struct bench *b = *state;
@@ -378,6 +394,7 @@ int main(void)
         TEST(mean_counts_every_particle_of_the_window_once),
         TEST(extremes_are_found_and_nonsense_is_not_hidden),
         TEST(front_lies_between_the_particles_that_straddle_the_value),
+        TEST(width_counts_the_particles_between_a_tenth_and_nine_tenths),
         TEST(slabs_average_a_ragged_front),
         TEST(a_front_is_told_in_the_frame_of_the_matter_ahead),
         TEST(about_a_point_places_are_distances),

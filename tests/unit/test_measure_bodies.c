@@ -193,6 +193,53 @@ static void extent_is_measured_between_centers_of_particles(void **state)
     stage_close(&s);
 }
 
+static void radius_follows_a_surface_that_no_particle_stands_on(void **state)
+{
+    (void)state;
+    struct stage s;
+    stage_begin(&s,
+                "  inner: {radius: {start: 3 mm, center: [0 mm, 40 mm]}, of: ring, at_most: 1 m}\n"
+                "  outer: {radius: {start: 5 mm, center: [0 mm, 40 mm]}, of: ring, at_most: 1 m}\n"
+                "  round: {radius: {start: 5 mm, take: spread, center: [0 mm, 40 mm]}, "
+                "of: ring, at_most: 1 m}\n"
+                "  none: {radius: {start: 5 mm, layer: 1 um}, of: ring, at_most: 1 m}\n");
+    assert_float_equal(stage_value(&s, 0), 3e-3, 1e-16);
+    assert_float_equal(stage_value(&s, 1), 5e-3, 1e-16);
+    assert_true(stage_value(&s, 2) < 1e-16);
+    assert_true(isnan(stage_value(&s, 3)));
+    /* A flow of constant area: r^2 - R^2 is the same everywhere. */
+    struct particles *p = &s.simulation.particles;
+    for (int32_t i = 0; i < p->count; i++) {
+        const struct vec3 x = start_of(&s, i);
+        const double then = hypot(x.x, x.y - 40e-3);
+        const double scale = sqrt(1.0 - 5e-6 / square(then));
+        move_to(&s, i, scale * x.x, 40e-3 + scale * (x.y - 40e-3));
+    }
+    assert_float_equal(stage_value(&s, 0), 2e-3, 1e-15);
+    assert_float_equal(stage_value(&s, 1), sqrt(20e-6), 1e-15);
+    assert_true(stage_value(&s, 2) < 1e-15);
+    /* Every other particle a little farther out. */
+    for (int32_t i = 0; i < p->count; i++) {
+        const struct vec3 x = start_of(&s, i);
+        const double then = hypot(x.x, x.y - 40e-3);
+        const double surface = p->id[i] % 2 ? 6e-3 : 5.8e-3;
+        const double scale = sqrt(1.0 + (square(surface) - 25e-6) / square(then));
+        move_to(&s, i, scale * x.x, 40e-3 + scale * (x.y - 40e-3));
+    }
+    assert_float_equal(stage_value(&s, 1), 5.9e-3, 1e-15);
+    assert_float_equal(stage_value(&s, 2), 0.1e-3, 1e-15);
+    /* About an axis the matter lies on spheres. */
+    s.simulation.geometry = GEOMETRY_AXISYMMETRIC;
+    for (int32_t i = 0; i < p->count; i++) {
+        const struct vec3 x = start_of(&s, i);
+        const double then = hypot(x.x, x.y - 40e-3);
+        const double scale = cbrt(1.0 + (1000e-9 - 125e-9) / (then * square(then)));
+        move_to(&s, i, scale * x.x, 40e-3 + scale * (x.y - 40e-3));
+    }
+    assert_float_equal(stage_value(&s, 1), 10e-3, 1e-15);
+    stage_close(&s);
+}
+
 static void spread_is_the_standard_deviation(void **state)
 {
     (void)state;
@@ -421,6 +468,8 @@ static void what_makes_no_sense_of_a_body_is_told_before_the_run(void **state)
     static const char *const cases[][2] = {
         {"  it: {turn: x, at_most: 1}\n", "a plane turns about z alone"},
         {"  it: {extent: z, at_most: 1 m}\n", "the case has 2 dimensions"},
+        {"  it: {radius: {start: 1 m, center: [0 m]}, at_most: 1 m}\n",
+         "`center`: 2 components are wanted, one a dimension; found 1"},
         {"  it: {extent: x, between: [0 m, 1 m], at_most: 1 m}\n", "`between` has no meaning"},
         {"  it: {extent: x, at_most: 1 s}\n", "`at_most` is in s"},
         {"  it: {total: mass, relative: start, at_most: 1 kg/m}\n", "`at_most` is in"},
@@ -446,6 +495,7 @@ int main(void)
         cmocka_unit_test(a_total_is_that_of_a_body),
         cmocka_unit_test(turn_is_the_angle_of_a_rigid_rotation),
         cmocka_unit_test(extent_is_measured_between_centers_of_particles),
+        cmocka_unit_test(radius_follows_a_surface_that_no_particle_stands_on),
         cmocka_unit_test(spread_is_the_standard_deviation),
         cmocka_unit_test(pieces_are_what_hangs_together),
         cmocka_unit_test(asymmetry_compares_with_the_particle_that_stood_at_the_image),

@@ -333,8 +333,8 @@ static void plots_have_their_series_in_colour(void **state)
         x[i] = i / 49.0;
         y[i] = 1e9 * square(x[i]);
     }
-    const struct series series[] = {{"exact", 2, exact_x, exact_y, true},
-                                    {"particles", 50, x, y, false}};
+    const struct series series[] = {{"exact", 2, exact_x, exact_y, LINE_PLAIN},
+                                    {"particles", 50, x, y, LINE_NONE}};
     plot_of(series, 2, false);
     cairo_surface_t *surface = read_picture();
     assert_int_equal(cairo_image_surface_get_width(surface), 1600);
@@ -349,10 +349,11 @@ static void plots_take_any_numbers(void **state)
     (void)state;
     const double x[] = {0.0, 1e-9, NAN, 1.0, 5.0, INFINITY}, one[] = {2.0};
     const double y[] = {-1.0, 0.0, 3.0, 1e-30, 1e30, NAN};
-    for (int line = 0; line < 2; ++line) {
+    for (enum line_style line = LINE_NONE; line <= LINE_FAINT; ++line) {
         for (int logarithmic = 0; logarithmic < 2; ++logarithmic) {
-            const struct series series[] = {
-                {NULL, 6, x, y, line}, {"one", 1, one, one, line}, {"none", 0, NULL, NULL, true}};
+            const struct series series[] = {{NULL, 6, x, y, line},
+                                            {"one", 1, one, one, line},
+                                            {"none", 0, NULL, NULL, LINE_PLAIN}};
             plot_of(series, 3, logarithmic);
             cairo_surface_destroy(read_picture());
             plot_of(series + 1, 1, logarithmic);

@@ -1,0 +1,124 @@
+/* Heun's second-order step of SPH with corrected gradients: to n + 1 with the rates of level n, then from level n with
+ * the mean of these and the rates found there; each stage is a step of the material, return to yield included. */
+#include <string.h>
+
+#include "base/clock.h"
+#include "sph/hllc_internal.h"
+
+void hllc_prepare(struct sph *sph, struct simulation *simulation, struct limit *limit)
+{
+    struct hllc_fields f = hllc_fields_of(sph, simulation);
+    hllc_find_rates(sph, simulation, &f);
+    hllc_limit_step(sph, simulation, &f, limit);
+}
+
+static struct hllc_derivative derivative_of(const struct hllc_fields *f, int32_t i)
+{
+    const struct pair_rates *rates = &f->sph.rates;
+    struct hllc_derivative d = {.density = f->sph.density_rate[i], .power = rates->power[i]};
+    memcpy(d.acceleration, rates->acceleration[i], sizeof d.acceleration);
+    memcpy(d.strain_rate, rates->strain_rate[i], sizeof d.strain_rate);
+    memcpy(d.spin, rates->spin[i], sizeof d.spin);
+    return d;
+}
+
+static struct hllc_derivative mean_of(struct hllc_derivative a, struct hllc_derivative b)
+{
+    a.density = 0.5 * (a.density + b.density);
+    a.power = 0.5 * (a.power + b.power);
+    for (int k = 0; k < 3; k++) {
+        a.acceleration[k] = 0.5 * (a.acceleration[k] + b.acceleration[k]);
+        a.spin[k] = 0.5 * (a.spin[k] + b.spin[k]);
+    }
+    for (int k = 0; k < 6; k++)
+        a.strain_rate[k] = 0.5 * (a.strain_rate[k] + b.strain_rate[k]);
+    return a;
+}
+
+static void keep_level(const struct particles *p, struct hllc_level *level, int32_t i)
+{
+    level->density = p->density[i];
+    level->energy = p->energy[i];
+    level->plastic_strain = p->plastic_strain[i];
+    memcpy(level->position, p->position[i], sizeof level->position);
+    memcpy(level->velocity, p->velocity[i], sizeof level->velocity);
+    memcpy(level->deviator, p->deviator[i], sizeof level->deviator);
+}
+
+/* Particle I from level n by RATE, moved with VELOCITY; false when its new state is impossible. */
+static bool step_from_level(const struct simulation *simulation, const struct hllc_fields *f,
+                            const struct hllc_derivative *rate, const double *velocity, double dt,
+                            int32_t i)
+{
+    const struct particles *p = &simulation->particles;
+    const struct hllc_level *n = &f->level[i];
+    for (int axis = 0; axis < simulation->dimension; axis++) {
+        p->position[i][axis] = n->position[axis] + dt * velocity[axis];
+        p->velocity[i][axis] = n->velocity[axis] + dt * rate->acceleration[axis];
+    }
+    struct motion motion = {.dt = dt,
+                            .density = n->density + dt * rate->density,
+                            .energy = n->energy + dt * rate->power,
+                            .spin = {rate->spin[0], rate->spin[1], rate->spin[2]}};
+    memcpy(&motion.strain_rate, rate->strain_rate, sizeof motion.strain_rate);
+    struct point point = {.density = n->density, .history = {n->plastic_strain}};
+    memcpy(&point.deviator, n->deviator, sizeof point.deviator);
+    struct response r = material_step(&simulation->material[p->material[i]], &point, &motion);
+    p->density[i] = point.density;
+    p->energy[i] = point.energy;
+    p->pressure[i] = point.pressure;
+    p->plastic_strain[i] = point.history[0];
+    memcpy(p->deviator[i], &point.deviator, sizeof point.deviator);
+    f->sph.sound_long[i] = r.sound_long;
+    f->sph.sound_shear[i] = r.sound_shear;
+    f->dp_drho[i] = r.dp_drho;
+    f->dp_de[i] = r.dp_de;
+    double speed = fabs(p->velocity[i][0]) + fabs(p->velocity[i][1]) + fabs(p->velocity[i][2]);
+    return point.density > 0.0 && isfinite(point.density) && isfinite(point.pressure) &&
+           isfinite(point.energy) && isfinite(speed) && !(r.status & POINT_NO_SOUND);
+}
+
+/* One stage of a step of DT: what pushes from outside acts for half of it with the rates of each. */
+static struct error *take_stage(struct simulation *simulation, const struct hllc_fields *f,
+                                bool second, double dt)
+{
+    const struct particles *p = &simulation->particles;
+    double begin = clock_seconds();
+    int32_t failed = -1;
+    if (f->sph.rates.wall)
+        sph_book_walls(simulation, &f->sph, 0.5 * dt);
+    sph_hold_bodies(simulation, &f->sph, 0.5 * dt);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < p->count; i++) {
+        struct hllc_level *level = &f->level[i];
+        struct hllc_derivative rate = derivative_of(f, i);
+        double velocity[3];
+        if (!second) {
+            keep_level(p, level, i);
+            level->rate = rate;
+        }
+        rate = mean_of(level->rate, rate);
+        for (int axis = 0; axis < 3; axis++)
+            velocity[axis] = 0.5 * (level->velocity[axis] + p->velocity[i][axis]);
+        if (!step_from_level(simulation, f, &rate, velocity, dt, i)) {
+#pragma omp critical(bolide_hllc_failure)
+            if (failed < 0 || p->id[i] < p->id[failed])
+                failed = i;
+        }
+    }
+    simulation_spend(simulation, "points", clock_seconds() - begin);
+    return failed < 0 ? NULL : sph_impossible(simulation, failed);
+}
+
+struct error *hllc_advance(struct sph *sph, struct simulation *simulation, double dt)
+{
+    struct hllc_fields f = hllc_fields_of(sph, simulation);
+    TRY(ranks_agree(simulation->ranks, take_stage(simulation, &f, false, dt)));
+    TRY(ranks_agree(simulation->ranks, sph_refresh_rows(sph, simulation)));
+    f = hllc_fields_of(sph, simulation);
+    hllc_find_rates(sph, simulation, &f);
+    TRY(ranks_agree(simulation->ranks, take_stage(simulation, &f, true, dt)));
+    if (sph_axisymmetric(simulation))
+        sph_cross_axis(simulation);
+    return NULL;
+}

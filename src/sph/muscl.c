@@ -1,0 +1,213 @@
+/* The second-order contact method between the pair loops: records with states half a step ahead, their images, and what
+ * the first step starts from. */
+#include <string.h>
+
+#include "sph/sph_internal.h"
+
+struct muscl_kind muscl_kind_of(const struct sph *sph)
+{
+    struct muscl_kind kind = {sph->kind.dimension, sph->kind.shear, sph->kind.depth};
+    return kind;
+}
+
+void muscl_start(const struct sph *sph, const struct simulation *simulation)
+{
+    const struct sph_fields f = sph_fields_of(sph, simulation);
+    int dimension = simulation->dimension, tensors = tensor_components(dimension);
+    for (int32_t i = 0; i < simulation->particles.count; i++) {
+        double *l = f.correction + (size_t)i * (size_t)tensors;
+        for (int a = 0; a < dimension && l[0] == 0.0; a++) /* fresh */
+            l[dimension - 1 - a] = 1.0;
+    }
+}
+
+/* The rates at level n that follow from the gradients alone, which were found a step before: they bring the records half
+ * a step ahead. */
+void muscl_expect(const struct sph *sph, const struct simulation *simulation,
+                  const struct sph_fields *f)
+{
+    const struct particles *p = &simulation->particles;
+    const struct muscl_kind kind = muscl_kind_of(sph);
+    const int dimension = kind.dimension, stresses = muscl_stresses(kind);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < p->count; i++) {
+        const double *g = f->velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
+        const double *h = f->stress_gradient + (size_t)i * (size_t)(dimension * stresses);
+        double u[3][3] = {{0.0}}, force[3] = {0.0, 0.0, 0.0};
+        for (int a = 0; a < dimension; a++)
+            for (int b = 0; b < dimension; b++)
+                u[a][b] = g[a * dimension + b];
+        /* where xy, yz, zx stand in a record */
+        const int xy = dimension == 2 ? 2 : 3, yz = 4, zx = 5;
+        if (stresses == 1) {
+            for (int a = 0; a < dimension; a++)
+                force[a] = h[a];
+        } else if (dimension == 2) {
+            force[0] = h[0] + h[stresses + xy];
+            force[1] = h[xy] + h[stresses + 1];
+        } else {
+            force[0] = h[0] + h[stresses + xy] + h[2 * stresses + zx];
+            force[1] = h[xy] + h[stresses + 1] + h[2 * stresses + yz];
+            force[2] = h[zx] + h[stresses + yz] + h[2 * stresses + 2];
+        }
+        if (sph_axisymmetric(simulation)) {
+            double radius = p->position[i][0];
+            force[0] += (p->deviator[i][0] - p->deviator[i][2]) / radius;
+            if (kind.shear)
+                force[1] += p->deviator[i][3] / radius;
+            u[2][2] = p->velocity[i][0] / radius;
+        }
+        bool held = sph_is_held(simulation, p->body[i]);
+        for (int a = 0; a < 3; a++)
+            f->rates.acceleration[i][a] = held ? 0.0 : force[a] / p->density[i];
+        const double strain[6] = {u[0][0],
+                                  u[1][1],
+                                  u[2][2],
+                                  0.5 * (u[0][1] + u[1][0]),
+                                  0.5 * (u[1][2] + u[2][1]),
+                                  0.5 * (u[2][0] + u[0][2])};
+        const double spin[3] = {0.5 * (u[2][1] - u[1][2]), 0.5 * (u[0][2] - u[2][0]),
+                                0.5 * (u[1][0] - u[0][1])};
+        memcpy(f->rates.strain_rate[i], strain, sizeof strain);
+        memcpy(f->rates.spin[i], spin, sizeof spin);
+    }
+}
+
+/* By how much velocity and stress of particle I change in half a step. The pressure follows the adiabat's slope, the
+ * deviator its law, plasticity included. */
+BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
+                                       const struct sph_fields *f, double ahead, int32_t i,
+                                       double velocity[3])
+{
+    const struct particles *p = &simulation->particles;
+    const struct strength *strength = &simulation->material[p->material[i]].strength;
+    const double *rate = f->rates.strain_rate[i], *spin = f->rates.spin[i], *s = p->deviator[i];
+    for (int axis = 0; axis < 3; axis++)
+        velocity[axis] = ahead * f->rates.acceleration[i][axis];
+    struct sym3 strain = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]};
+    struct sym3 start = {s[0], s[1], s[2], s[3], s[4], s[5]}, stress = start;
+    double shear_square = square(f->sound_shear[i]), sound_square = square(f->sound_long[i]);
+    if (f->thickness) /* no stress rate across the plate */
+        strain.zz = -(strain.xx + strain.yy) * (1.0 - 2.0 * shear_square / sound_square);
+    if (strength->kind != STRENGTH_NONE) {
+        double history[POINT_HISTORY] = {p->plastic_strain[i]};
+        strength_step(strength, ahead, strain, vec3_make(spin[0], spin[1], spin[2]), &stress,
+                      history);
+    }
+    double bulk = p->density[i] * (sound_square - 4.0 / 3.0 * shear_square);
+    double pressure = ahead * bulk * sym3_trace(strain);
+    stress = sym3_add(stress, sym3_scale(-1.0, start));
+    stress.xx += pressure;
+    stress.yy += pressure;
+    stress.zz += pressure;
+    return stress;
+}
+
+static void pack_owned(const struct sph *sph, const struct simulation *simulation,
+                       const struct sph_fields *f, struct muscl_kind kind, int32_t i,
+                       double *record)
+{
+    const struct particles *p = &simulation->particles;
+    int dimension = kind.dimension, stresses = muscl_stresses(kind), k = 0;
+    double velocity[3];
+    const struct sym3 change = half_step_of(simulation, f, sph->half_step, i, velocity);
+    const double *s = p->deviator[i], pressure = p->pressure[i];
+    for (int axis = 0; axis < dimension; axis++)
+        record[k++] = p->position[i][axis];
+    record[k++] = f->diameter[i];
+    record[k++] = sph_volume(simulation, f, i);
+    for (int axis = 0; axis < dimension; axis++)
+        record[k++] = p->velocity[i][axis] + velocity[axis];
+    const double at[6] = {s[0] - pressure, s[1] - pressure, s[2] - pressure, s[3], s[4], s[5]};
+    const double by[6] = {change.xx, change.yy, change.zz, change.xy, change.yz, change.zx};
+    for (int a = 0; a < stresses; a++) {
+        int from = dimension == 2 && a == 2 ? 3 : a;
+        record[k++] = at[from] + by[from];
+    }
+    record[k++] = p->density[i] * f->sound_long[i];
+    if (kind.shear && dimension > 1)
+        record[k++] = p->density[i] * f->sound_shear[i];
+    record[k++] = p->density[i] * sph->bend[p->material[i]];
+    record[k++] = p->material[i];
+    if (kind.depth)
+        record[k++] = sph_depth(simulation, f, i);
+    size_t tensors = (size_t)tensor_components(dimension);
+    memcpy(record + k, f->correction + (size_t)i * tensors, tensors * sizeof *record);
+    k += (int)tensors;
+    size_t gradients = (size_t)(dimension * dimension);
+    memcpy(record + k, f->velocity_gradient + (size_t)i * gradients, gradients * sizeof *record);
+    k += (int)gradients;
+    size_t slopes = (size_t)(dimension * stresses);
+    memcpy(record + k, f->stress_gradient + (size_t)i * slopes, slopes * sizeof *record);
+    k += (int)slopes;
+    for (int axis = 0; axis < dimension; axis++)
+        record[k++] = p->velocity[i][axis] + 2.0 * velocity[axis];
+    for (int a = 0; a < stresses; a++) {
+        int from = dimension == 2 && a == 2 ? 3 : a;
+        record[k++] = at[from] + 2.0 * by[from];
+    }
+}
+
+/* The signs by which a mirror turns the components of a symmetric tensor, in the order of a record. */
+static void tensor_signs(int dimension, const double sign[3], double *of)
+{
+    for (int a = 0; a < dimension; a++)
+        *of++ = 1.0;
+    for (int a = 0; a < (dimension == 2 ? 1 : dimension == 3 ? 3 : 0); a++)
+        *of++ = sign[a] * sign[(a + 1) % 3];
+}
+
+/* Turns the record of a particle into that of its image. */
+static void reflect(const struct simulation *simulation, struct muscl_kind kind, image_code image,
+                    double *record)
+{
+    int dimension = kind.dimension, stresses = muscl_stresses(kind);
+    struct vec3 signs = image_sign(image);
+    const double sign[3] = {signs.x, signs.y, signs.z};
+    double x[3] = {0.0, 0.0, 0.0}, tensor[6];
+    memcpy(x, record, (size_t)dimension * sizeof *x);
+    struct vec3 place = image_position(&simulation->mirrors, image, vec3_make(x[0], x[1], x[2]));
+    const double at[3] = {place.x, place.y, place.z};
+    tensor_signs(dimension, sign, tensor);
+    double *velocity = record + record_velocity(dimension);
+    double *stress = record + record_stress(dimension);
+    double *correction = record + muscl_correction(kind);
+    double *gradient = record + muscl_velocity_gradient(kind);
+    double *slope = record + muscl_stress_gradient(kind);
+    double *next_velocity = record + muscl_next(kind), *next_stress = next_velocity + dimension;
+    for (int a = 0; a < dimension; a++) {
+        record[a] = at[a];
+        velocity[a] *= sign[a];
+        next_velocity[a] *= sign[a];
+        for (int b = 0; b < dimension; b++)
+            gradient[dimension * a + b] *= sign[a] * sign[b];
+        for (int b = 0; b < stresses; b++)
+            slope[a * stresses + b] *= sign[a] * tensor[b];
+    }
+    for (int b = 0; b < stresses; b++)
+        stress[b] *= tensor[b], next_stress[b] *= tensor[b];
+    for (int b = 0; b < tensor_components(dimension); b++)
+        correction[b] *= tensor[b];
+    if (sph_axisymmetric(simulation) && image % 3 == 1)
+        record[muscl_depth(kind)] *= -1.0;
+}
+
+void muscl_pack(struct sph *sph, const struct simulation *simulation)
+{
+    const struct particles *p = &simulation->particles;
+    const struct ghosts *ghosts = &sph->neighbours.ghosts;
+    const struct sph_fields f = sph_fields_of(sph, simulation);
+    const struct muscl_kind kind = muscl_kind_of(sph);
+    size_t stride = (size_t)muscl_stride(kind);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < p->count; i++)
+        pack_owned(sph, simulation, &f, kind, i, sph->record + (size_t)i * stride);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t g = 0; g < ghosts->count; g++) {
+        double *record = sph->record + (size_t)(p->count + g) * stride;
+        memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
+        reflect(simulation, kind, ghosts->image[g], record);
+    }
+    double *empty = sph->record + (size_t)(p->count + ghosts->count) * stride;
+    memset(empty, 0, stride * sizeof *empty);
+}

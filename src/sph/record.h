@@ -1,0 +1,53 @@
+/* How kernels read stress from their records, and sums over a row's lanes that they share: a stress is sigma_xx alone
+ * for fluids and in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz, zx) in 3-D. For the files that are compiled once an
+ * instruction set. */
+#ifndef BOLIDE_SPH_RECORD_H
+#define BOLIDE_SPH_RECORD_H
+
+#include "base/vector.h"
+#include "sph/lanes.h"
+
+/* The stress that stands STEP doubles apart from S on, in the order of the record. */
+INLINE struct sym3 stress_from(int dimension, const double *s, int step)
+{
+    struct sym3 stress = {s[0], 0.0, 0.0, 0.0, 0.0, 0.0};
+    if (dimension == 2) {
+        stress.yy = s[step];
+        stress.xy = s[2 * step];
+    }
+    if (dimension == 3) {
+        stress.yy = s[step];
+        stress.zz = s[2 * step];
+        stress.xy = s[3 * step];
+        stress.yz = s[4 * step];
+        stress.zx = s[5 * step];
+    }
+    return stress;
+}
+
+INLINE struct vec3 traction_of(int dimension, struct sym3 s, struct vec3 e)
+{
+    if (dimension == 1)
+        return vec3_make(s.xx * e.x, 0.0, 0.0);
+    if (dimension == 2)
+        return vec3_make(s.xx * e.x + s.xy * e.y, s.xy * e.x + s.yy * e.y, 0.0);
+    return sym3_dot(s, e);
+}
+
+/* The contact laws between the body of particle I and the eight neighbours of LIST: which cut shear, which tension. */
+INLINE void stage_laws(const struct neighbours *n, const struct contact_groups *groups,
+                       const uint16_t *body, int32_t i, const int32_t *list, double *slip,
+                       double *open)
+{
+    const uint8_t *law = groups->law + (size_t)groups->of_body[body[i]] * (size_t)groups->groups;
+    for (int k = 0; k < LANES; k++) {
+        int32_t j = list[k];
+        if (j >= n->count && j < n->count + n->ghosts.count)
+            j = n->ghosts.source[j - n->count];
+        unsigned bits = j < n->count ? law[groups->of_body[body[j]]] : 0;
+        slip[k] = bits & 1 ? 1.0 : 0.0;
+        open[k] = bits & 2 ? 1.0 : 0.0;
+    }
+}
+
+#endif
