@@ -31,7 +31,7 @@ struct front {
 enum { FRONTS_MOST = 8192, ALIVE_MOST = 1024, LEAVING_MOST = 256, EVENTS_MOST = 100000 };
 
 struct impact {
-    double until, at;
+    double until;
     int fronts, alive_count, families;
     struct front front[FRONTS_MOST]; /* of one birth: from left to right */
     int alive[ALIVE_MOST];
@@ -45,7 +45,7 @@ struct impact {
  * a shock that comes up to it, ever faster and weaker; fronts within NEAR of the bodies' thickness meet.
  * Where waves meet too often to be followed like that, all is taken coarser. */
 static const double piece_strain = 1.0 / 2048.0, weak = 3e-6, near = 1e-4;
-enum { COARSEST = 32 };
+enum { COARSEST = 512 };
 
 const struct parameter exact_elastic_plastic_impact_table[] = {
     {"left", PARAMETER_TABLE, offsetof(struct exact_elastic_plastic_impact, solid[SIDE_LEFT]),
@@ -214,9 +214,7 @@ static struct error *resolve(struct impact *impact, const struct exact_solid sol
     const struct front *first = &impact->front[impact->alive[meeting->first]];
     const struct front *last = &impact->front[impact->alive[meeting->last]];
     const struct exact_state *outer[2] = {&first->left, &last->right};
-    const bool free[2] = {first->kind == FRONT_FREE && meeting->first == 0 &&
-                              first->left.density == 0.0,
-                          last->kind == FRONT_FREE && last->right.density == 0.0};
+    const bool free[2] = {first->left.density == 0.0, last->right.density == 0.0};
     const enum exact_side from[2] = {side_of(impact, meeting->first, SIDE_LEFT),
                                      side_of(impact, meeting->last, SIDE_RIGHT)};
     struct solid_path path[2];
@@ -243,8 +241,8 @@ static struct error *resolve(struct impact *impact, const struct exact_solid sol
         for (int i = 0; i < leaving[side].count; i++)
             leaving[side].front[i].family = family;
     }
-    for (int i = 0; i < leaving[SIDE_LEFT].count; i++)
-        fresh[count++] = leaving[SIDE_LEFT].front[i];
+    for (; count < leaving[SIDE_LEFT].count; count++)
+        fresh[count] = leaving[SIDE_LEFT].front[count];
     const struct front middle = middle_of(impact, meeting, &found, star);
     if (middle.kind != FRONT_SLIP || !is_weak(&middle.left, &middle.right, impact->coarse))
         fresh[count++] = middle;
@@ -264,32 +262,31 @@ static double meeting_time(const struct impact *impact, int index)
     return born + maximum(place_of(b, born) - place_of(a, born), 0.0) / closing;
 }
 
+/* Whether alive front INDEX would join MEETING, in which fronts are as fast as SPEED, within a touch. */
+static bool joins(const struct impact *impact, const struct encounter *meeting, int index,
+                  const double speed[2])
+{
+    if (index < 0 || index >= impact->alive_count)
+        return false;
+    const struct front *front = &impact->front[impact->alive[index]];
+    bool comes = index < meeting->first ? front->speed > speed[0] : front->speed < speed[1];
+    return comes && fabs(place_of(front, meeting->time) - meeting->x) < impact->touch;
+}
+
 /* Widens MEETING by the fronts that would join it within the distance of a touch. */
 static void widen(const struct impact *impact, struct encounter *meeting)
 {
-    double fastest = impact->front[impact->alive[meeting->first]].speed;
-    double slowest = impact->front[impact->alive[meeting->last]].speed;
     for (bool grown = true; grown;) {
-        grown = false;
-        const struct front *left =
-            meeting->first > 0 ? &impact->front[impact->alive[meeting->first - 1]] : NULL;
-        const struct front *right = meeting->last + 1 < impact->alive_count
-                                        ? &impact->front[impact->alive[meeting->last + 1]]
-                                        : NULL;
-        if (left && left->speed > slowest &&
-            meeting->x - place_of(left, meeting->time) < impact->touch) {
-            meeting->first--;
-            fastest = maximum(fastest, left->speed);
-            slowest = minimum(slowest, left->speed);
-            grown = true;
+        double speed[2] = {INFINITY, -INFINITY}; /* the slowest and the fastest */
+        for (int i = meeting->first; i <= meeting->last; i++) {
+            speed[0] = minimum(speed[0], impact->front[impact->alive[i]].speed);
+            speed[1] = maximum(speed[1], impact->front[impact->alive[i]].speed);
         }
-        if (right && right->speed < fastest &&
-            place_of(right, meeting->time) - meeting->x < impact->touch) {
-            meeting->last++;
-            fastest = maximum(fastest, right->speed);
-            slowest = minimum(slowest, right->speed);
-            grown = true;
-        }
+        bool left = joins(impact, meeting, meeting->first - 1, speed);
+        bool right = joins(impact, meeting, meeting->last + 1, speed);
+        meeting->first -= left;
+        meeting->last += right;
+        grown = left || right;
     }
 }
 
@@ -319,8 +316,7 @@ static void begin(struct impact *impact, double place, enum front_kind kind,
 
 static struct error *start(struct impact *impact, const struct exact_elastic_plastic_impact *input)
 {
-    struct exact_state state[2] = {{0}};
-    const struct exact_state nothing = {0};
+    struct exact_state state[2] = {{0}}, nothing = {0};
     for (int side = SIDE_LEFT; side <= SIDE_RIGHT; side++) {
         struct solid_path path;
         double depth = side_direction(side) * (input->rear[side] - input->at);
@@ -335,7 +331,6 @@ static struct error *start(struct impact *impact, const struct exact_elastic_pla
         if (!isnan(depth))
             impact->touch = near * maximum(depth, impact->touch);
     }
-    impact->at = input->at;
     impact->until = input->until;
     if (!isnan(input->rear[SIDE_LEFT]))
         begin(impact, input->rear[SIDE_LEFT], FRONT_FREE, nothing, state[SIDE_LEFT]);
@@ -408,12 +403,8 @@ static struct exact_state mix(const struct front *a, const struct front *b, doub
 {
     const double wa = 0.5 * (1.0 - share), wb = 0.5 * share;
 #define MIX(of) (wa * (a->left.of + a->right.of) + wb * (b->left.of + b->right.of))
-    return (struct exact_state){.density = MIX(density),
-                                .velocity = MIX(velocity),
-                                .pressure = MIX(pressure),
-                                .energy = MIX(energy),
-                                .stress = MIX(stress),
-                                .deviator = MIX(deviator)};
+    return (struct exact_state){
+        MIX(density), MIX(velocity), MIX(pressure), MIX(energy), MIX(stress), MIX(deviator), NAN};
 #undef MIX
 }
 
@@ -437,15 +428,14 @@ static struct exact_state impact_sample(const void *solved, enum exact_side side
         return at.interface->left;
     if (side == SIDE_RIGHT && x < contact)
         return at.interface->right;
-    if (!at.left || at.left->right.density == 0.0)
-        return at.left ? at.left->left
-                       : (at.right->left.density > 0.0 ? at.right->left : at.right->right);
-    if (!at.right)
+    if (!at.left) /* outside of a free surface, the state at it */
+        return at.right->left.density > 0.0 ? at.right->left : at.right->right;
+    if (at.left->right.density == 0.0)
+        return at.left->left;
+    if (!at.right || !same_fan(at.left, at.right))
         return at.left->right;
-    if (!same_fan(at.left, at.right))
-        return at.left->right;
-    double low = place_of(at.left, time), high = place_of(at.right, time);
-    return mix(at.left, at.right, (x - low) / (high - low));
+    double low = place_of(at.left, time);
+    return mix(at.left, at.right, (x - low) / (place_of(at.right, time) - low));
 }
 
 static double impact_contact(const void *solved, double time)
@@ -480,6 +470,7 @@ static int impact_numbers(const void *solved, double time, struct exact_number *
     number_add(&list, "contact velocity", "m/s", contact->speed);
     number_add(&list, "contact normal pressure", "Pa", 0.0 - contact->left.stress);
     number_add(&list, "contact place", "m", place_of(contact, time));
+    number_add(&list, "strain of a piece of a fan", "", impact->coarse * piece_strain);
     for (int i = 0; i < impact->fronts; i++) {
         const struct front *front = &impact->front[i];
         if (!lives(front, time) || front->kind != FRONT_FREE)

@@ -149,8 +149,9 @@ static const struct parameter body_table[] = {
      .kind = PARAMETER_FLAG,
      .offset = offsetof(struct body_input, frozen),
      .standard = "no",
-     .help = "whether it keeps its state at the start and moves with its velocity: an end that waves "
-             "run out of"},
+     .help =
+         "whether it keeps its state at the start and moves with its velocity: an end that waves "
+         "run out of"},
     {.key = "stop",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct body_input, stop),

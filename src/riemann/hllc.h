@@ -37,75 +37,67 @@ BOLIDE_INLINE struct contact hllc_contact(struct elastic_wave left, struct elast
     return contact;
 }
 
-/* The square of the sound speed without shear, under STRESS. */
-BOLIDE_INLINE double hllc_bulk(struct elastic_side side, double volume, double stress)
+/* The square of the impedance rho c by the bulk speed, under STRESS. */
+BOLIDE_INLINE double hllc_bulk(struct elastic_side side, double stress)
 {
-    return side.dp_drho - stress * side.dp_de * square(volume);
+    return square(side.density) * side.dp_drho - stress * side.dp_de;
 }
 
 BOLIDE_INLINE struct elastic_wave hllc_elastic(struct elastic_side side)
 {
-    double volume = 1.0 / side.density;
-    double square_of_speed =
-        hllc_bulk(side, volume, side.stress) + 4.0 / 3.0 * side.shear_modulus * volume;
-    struct elastic_wave wave = {side.density * sqrt(maximum(square_of_speed, 0.0)), side.velocity,
-                                side.stress};
+    double bulk = hllc_bulk(side, side.stress);
+    double shear = 4.0 / 3.0 * side.shear_modulus * side.density;
+    struct elastic_wave wave = {sqrt(maximum(bulk + shear, 0.0)), side.velocity, side.stress};
     return wave;
 }
 
-/* How far an elastic contact takes a side: Z times the volume behind its wave, which way, the deviator at yield there,
- * and the logarithm of the volume at yield over that of the side (11). */
+/* How far an elastic contact takes a side: by how much the volume behind its wave changes, times Z over the volume, and
+ * which way; what the deviator has left until yield there. */
 struct elastic_reach {
-    double volume, towards, limit, strain;
+    double change, towards, left;
 };
 
 /* WAY is -1 for the left side, 1 for the right. */
-BOLIDE_INLINE struct elastic_reach hllc_reach(struct elastic_side side, struct elastic_wave elastic,
-                                              struct contact contact, double way)
+BOLIDE_INLINE struct elastic_reach hllc_reach(struct elastic_side side, struct contact contact,
+                                              double way)
 {
-    double spread = way * (side.velocity - contact.velocity);
     struct elastic_reach reach;
-    reach.volume = elastic.impedance / side.density + spread;
-    reach.towards = spread < 0.0 ? -1.0 : 1.0;
-    reach.limit = reach.towards * (2.0 / 3.0 * side.yield);
-    reach.strain =
-        side.shear_modulus > 0.0 ? 0.75 / side.shear_modulus * (reach.limit - side.deviator) : 0.0;
+    reach.change = side.density * (way * (side.velocity - contact.velocity));
+    reach.towards = reach.change < 0.0 ? -1.0 : 1.0;
+    reach.left = reach.towards * (2.0 / 3.0 * side.yield) - side.deviator;
     return reach;
 }
 
-/* By how much, times Z, the elastic contact goes beyond yield (9), (10) where the volume at yield is RATIO times that
- * of the side; not positive where it does not, where it would leave no volume, and for a fluid. */
-BOLIDE_INLINE double hllc_beyond(struct elastic_side side, struct elastic_wave elastic,
-                                 struct elastic_reach reach, double ratio)
-{
-    double beyond = reach.towards * (reach.volume - elastic.impedance * ratio / side.density);
-    beyond = reach.volume > 0.0 ? beyond : 0.0;
-    return side.yield * side.shear_modulus > 0.0 ? beyond : 0.0;
-}
-
-/* What runs into the contact behind the elastic wave: the plastic wave on a side that yields, else the elastic one. */
+/* What runs into the contact behind the elastic wave: the plastic wave on a side that yields, the elastic one on the
+ * others, on a fluid, and where the elastic contact would leave no volume. */
 BOLIDE_INLINE struct elastic_wave hllc_second(struct elastic_side side, struct elastic_wave elastic,
                                               struct contact contact, double way)
 {
-    struct elastic_reach reach = hllc_reach(side, elastic, contact, way);
-    double ratio = exponential(reach.strain), volume = 1.0 / side.density;
-    double beyond = hllc_beyond(side, elastic, reach, ratio);
-    double push = elastic.impedance * (volume - volume * ratio); /* (12) */
-    double bulk = hllc_bulk(side, volume, side.stress + (reach.limit - side.deviator));
+    struct elastic_reach reach = hllc_reach(side, contact, way);
+    double per_stress = side.shear_modulus > 0.0 ? 0.75 / side.shear_modulus : 0.0;
+    double at_limit = elastic.impedance * exponential(per_stress * reach.left); /* (11) */
+    double behind = elastic.impedance + reach.change;
+    /* (9), (10); nested minima, since branches here would keep a loop from becoming vectors */
+    double beyond = minimum(minimum(side.yield * side.shear_modulus, behind),
+                            reach.towards * (behind - at_limit));
+    double push = (elastic.impedance - at_limit) * (1.0 / side.density); /* (12) */
+    double bulk = hllc_bulk(side, side.stress + reach.left);
     struct elastic_wave second;
-    second.impedance = beyond > 0.0 ? side.density * sqrt(maximum(bulk, 0.0)) : elastic.impedance;
+    second.impedance = beyond > 0.0 ? sqrt(maximum(bulk, 0.0)) : elastic.impedance;
     second.velocity = side.velocity + (beyond > 0.0 ? way * push : 0.0);
     second.stress = side.stress - (beyond > 0.0 ? elastic.impedance * push : 0.0);
     return second;
 }
 
-/* Positive unless the side is certain to stay elastic: e^x lies beyond 1 + x + x^2/2, as seen from one. */
+/* Positive unless the side is certain to stay elastic: |e^x - 1| >= |x| - x^2/2 where x goes towards yield; times
+ * mu^2. */
 BOLIDE_INLINE double hllc_doubt(struct elastic_side side, struct elastic_wave elastic,
                                 struct contact contact, double way)
 {
-    struct elastic_reach reach = hllc_reach(side, elastic, contact, way);
-    double ratio = 1.0 + reach.strain * (1.0 + 0.5 * reach.strain);
-    return hllc_beyond(side, elastic, reach, ratio);
+    struct elastic_reach reach = hllc_reach(side, contact, way);
+    double mu = side.shear_modulus, left = 0.75 * reach.left;
+    return reach.towards * (square(mu) * reach.change - elastic.impedance * mu * left) +
+           0.5 * elastic.impedance * square(left);
 }
 
 BOLIDE_INLINE struct contact riemann_hllc(struct elastic_side left, struct elastic_side right)
@@ -115,13 +107,20 @@ BOLIDE_INLINE struct contact riemann_hllc(struct elastic_side left, struct elast
     return hllc_contact(hllc_second(left, l, elastic, -1.0), hllc_second(right, r, elastic, 1.0));
 }
 
-/* The same where neither side yields; *DOUBT is positive where one may. */
-BOLIDE_INLINE struct contact riemann_hllc_elastic(struct elastic_side left,
-                                                  struct elastic_side right, double *doubt)
+/* What of it is certain without plastic waves: the elastic contact, and whether a side may yield: doubt > 0. */
+struct elastic_contact {
+    struct contact contact;
+    double doubt;
+};
+
+BOLIDE_INLINE struct elastic_contact riemann_hllc_elastic(struct elastic_side left,
+                                                          struct elastic_side right)
 {
     struct elastic_wave l = hllc_elastic(left), r = hllc_elastic(right);
-    struct contact elastic = hllc_contact(l, r);
-    *doubt = maximum(hllc_doubt(left, l, elastic, -1.0), hllc_doubt(right, r, elastic, 1.0));
+    struct elastic_contact elastic;
+    elastic.contact = hllc_contact(l, r);
+    elastic.doubt = maximum(hllc_doubt(left, l, elastic.contact, -1.0),
+                            hllc_doubt(right, r, elastic.contact, 1.0));
     return elastic;
 }
 

@@ -32,8 +32,8 @@ INLINE void add_lanes(int dimension, bool depth, enum heat_form form, double smo
 INLINE void row_rate(const struct heat_loop *loop, int dimension, bool depth, enum heat_form form,
                      int32_t i)
 {
-    const struct lane_records records = {loop->record, HEAT_STRIDE, dimension, loop->empty,
-                                         loop->smoothing};
+    const struct lane_records records = {loop->record, HEAT_STRIDE,     dimension,
+                                         loop->empty,  loop->smoothing, NULL};
     const double *own = loop->record + (size_t)i * HEAT_STRIDE;
     const uint32_t *entry = neighbours_row(loop->neighbours, i);
     const int count = (int)loop->neighbours->row[i].count;

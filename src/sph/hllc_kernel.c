@@ -128,8 +128,12 @@ INLINE struct vec3 gradient_row(struct sym3 correction, const struct gradient_su
 
 INLINE void row_gradients(const struct hllc_loop *loop, int dimension, int32_t i)
 {
-    const struct lane_records records = {loop->record, HLLC_GRADIENT_STRIDE, dimension, loop->empty,
-                                         loop->smoothing};
+    const struct lane_records records = {.record = loop->record,
+                                         .stride = HLLC_GRADIENT_STRIDE,
+                                         .dimension = dimension,
+                                         .empty = loop->empty,
+                                         .smoothing = loop->smoothing,
+                                         NULL};
     const double *own = loop->record + (size_t)i * HLLC_GRADIENT_STRIDE;
     const struct hllc_rates *rates = &loop->rates;
     double field[HLLC_GRADIENT_STRIDE][LANES] ALIGNED;
@@ -205,93 +209,73 @@ struct star {
     double left, right, along, all, jump;
 };
 
-/* Eight contact problems: the pairs, their sides, and u* - u_i and s* along them. */
-struct contacts {
-    double e[3][LANES] ALIGNED, weight[LANES] ALIGNED, side[2][8][LANES] ALIGNED;
-    double velocity[LANES] ALIGNED, stress[LANES] ALIGNED, doubt[LANES] ALIGNED;
-};
-
-INLINE void store_side(double (*lanes)[LANES], int k, struct elastic_side side)
-{
-    lanes[0][k] = side.density;
-    lanes[1][k] = side.velocity;
-    lanes[2][k] = side.stress;
-    lanes[3][k] = side.deviator;
-    lanes[4][k] = side.dp_drho;
-    lanes[5][k] = side.dp_de;
-    lanes[6][k] = side.shear_modulus;
-    lanes[7][k] = side.yield;
-}
-
-INLINE struct elastic_side load_side(const double (*lanes)[LANES], int k)
-{
-    struct elastic_side side = {lanes[0][k], lanes[1][k], lanes[2][k], lanes[3][k],
-                                lanes[4][k], lanes[5][k], lanes[6][k], lanes[7][k]};
-    return side;
-}
-
-/* The elastic contact problems of the components along the pairs (20). */
-INLINE void find_elastic(struct hllc_kind kind, struct hllc_options options, double smoothing,
-                         const double *own, const double (*field)[LANES], struct contacts *contacts)
+/* The contact problem of the components along a pair (20), by elastic waves alone unless WITH_YIELD. */
+INLINE struct elastic_contact contact_of(struct hllc_kind kind, struct hllc_options options,
+                                         const double *own, const double (*field)[LANES], int k,
+                                         struct pair pair, bool with_yield)
 {
     const int dimension = kind.dimension, density = hllc_density(dimension),
               s = hllc_stress(dimension), response = hllc_response(dimension);
-#pragma omp simd simdlen(8)
-    for (int k = 0; k < LANES; k++) {
-        struct pair pair = pair_of(dimension, smoothing, own, field, k);
-        struct vec3 e = pair.e;
-        double stress_i =
-            vec3_dot(traction_of(dimension, stress_from(dimension, own + s, 1), e), e);
-        double stress_j =
-            vec3_dot(traction_of(dimension, stress_from(dimension, &field[s][k], LANES), e), e);
-        double apart = vec3_dot(pair.u, e);
-        struct elastic_side left = {own[density],      0.0,
-                                    stress_i,          stress_i + own[response],
-                                    own[response + 1], own[response + 2],
-                                    own[response + 3], own[response + 4]};
-        struct elastic_side right = {field[density][k],
-                                     apart,
-                                     stress_j,
-                                     stress_j + field[response][k],
-                                     field[response + 1][k],
-                                     field[response + 2][k],
-                                     field[response + 3][k],
-                                     field[response + 4][k]};
-        if (kind.reconstructed)
-            reconstruct(kind, options.scalars_share, own, field, k, pair, &left, &right);
-        double doubt;
-        struct contact contact = riemann_hllc_elastic(left, right, &doubt);
-        contacts->e[0][k] = e.x;
-        contacts->e[1][k] = e.y;
-        contacts->e[2][k] = e.z;
-        contacts->weight[k] = pair.weight;
-        contacts->velocity[k] = contact.velocity;
-        contacts->stress[k] = contact.stress;
-        contacts->doubt[k] = apart < options.parting ? doubt : 0.0;
-        store_side(contacts->side[0], k, left);
-        store_side(contacts->side[1], k, right);
-    }
+    struct vec3 e = pair.e;
+    double stress_i = vec3_dot(traction_of(dimension, stress_from(dimension, own + s, 1), e), e);
+    double stress_j =
+        vec3_dot(traction_of(dimension, stress_from(dimension, &field[s][k], LANES), e), e);
+    struct elastic_side left = {own[density],      0.0,
+                                stress_i,          stress_i + own[response],
+                                own[response + 1], own[response + 2],
+                                own[response + 3], own[response + 4]};
+    struct elastic_side right = {field[density][k],
+                                 vec3_dot(pair.u, e),
+                                 stress_j,
+                                 stress_j + field[response][k],
+                                 field[response + 1][k],
+                                 field[response + 2][k],
+                                 field[response + 3][k],
+                                 field[response + 4][k]};
+    if (kind.reconstructed)
+        reconstruct(kind, options.scalars_share, own, field, k, pair, &left, &right);
+    struct elastic_contact contact = {{0.0, 0.0}, 0.0};
+    if (with_yield)
+        contact.contact = riemann_hllc(left, right);
+    else
+        contact = riemann_hllc_elastic(left, right);
+    return contact;
 }
 
-/* The contact problems of eight pairs; plastic waves only where there may be one, since they cost as much as the rest. */
+/* Eight contact problems: the pairs, and u* - u_i and s* along them. */
+struct contacts {
+    double e[3][LANES] ALIGNED, weight[LANES] ALIGNED;
+    double velocity[LANES] ALIGNED, stress[LANES] ALIGNED;
+};
+
+/* Returns the largest doubt of those that approach each other. */
+INLINE double solve_contacts(struct hllc_kind kind, struct hllc_options options, double smoothing,
+                             const double *own, const double (*field)[LANES], bool with_yield,
+                             struct contacts *contacts)
+{
+    double doubt = 0.0;
+#pragma omp simd simdlen(8) reduction(max : doubt)
+    for (int k = 0; k < LANES; k++) {
+        struct pair pair = pair_of(kind.dimension, smoothing, own, field, k);
+        struct elastic_contact contact = contact_of(kind, options, own, field, k, pair, with_yield);
+        contacts->e[0][k] = pair.e.x;
+        contacts->e[1][k] = pair.e.y;
+        contacts->e[2][k] = pair.e.z;
+        contacts->weight[k] = pair.weight;
+        contacts->velocity[k] = contact.contact.velocity;
+        contacts->stress[k] = contact.contact.stress;
+        doubt = maximum(doubt, vec3_dot(pair.u, pair.e) < options.parting ? contact.doubt : 0.0);
+    }
+    return doubt;
+}
+
+/* Plastic waves cost as much as all the rest: they are looked for where there may be one. */
 INLINE void find_contacts(struct hllc_kind kind, struct hllc_options options, double smoothing,
                           const double *own, const double (*field)[LANES],
                           struct contacts *contacts)
 {
-    find_elastic(kind, options, smoothing, own, field, contacts);
-    bool any = false;
-    for (int k = 0; k < LANES; k++)
-        any |= contacts->doubt[k] > 0.0;
-    if (!any)
-        return;
-#pragma omp simd simdlen(8)
-    for (int k = 0; k < LANES; k++) {
-        struct contact contact =
-            riemann_hllc(load_side((const double(*)[LANES])contacts->side[0], k),
-                         load_side((const double(*)[LANES])contacts->side[1], k));
-        contacts->velocity[k] = contact.velocity;
-        contacts->stress[k] = contact.stress;
-    }
+    if (solve_contacts(kind, options, smoothing, own, field, false, contacts) > 0.0)
+        solve_contacts(kind, options, smoothing, own, field, true, contacts);
 }
 
 /* (21), where the pair shrinks. */
@@ -378,8 +362,12 @@ INLINE void add_forces(struct hllc_kind kind, struct hllc_options options, doubl
 INLINE struct forces part_forces(const struct hllc_loop *loop, struct hllc_kind kind, int32_t i,
                                  const uint32_t *entry, int count)
 {
-    const struct lane_records records = {loop->record, hllc_stride(kind), kind.dimension,
-                                         loop->empty, loop->smoothing};
+    const struct lane_records records = {.record = loop->record,
+                                         .stride = hllc_stride(kind),
+                                         .dimension = kind.dimension,
+                                         .empty = loop->empty,
+                                         .smoothing = loop->smoothing,
+                                         NULL};
     const double *own = loop->record + (size_t)i * (size_t)records.stride;
     double field[FIELDS][LANES] ALIGNED;
     struct force_sums sums = {0};

@@ -10,7 +10,7 @@
 
 #include "particle/neighbours.h"
 
-enum { LANES = 8, LANES_CHUNK = 512 };
+enum { LANES = 8, LANES_CHUNK = 512, PLACE_STRIDE = 4 };
 
 #define ALIGNED __attribute__((aligned(64)))
 /* A kernel is instantiated by inlining all of it with its kind as a constant. Sanitized builds call instead: they
@@ -78,12 +78,14 @@ INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
 }
 
 /* Records as a kernel walks them: STRIDE doubles each, a multiple of eight, position first, the diameter right
- * behind it. The record at `empty` adds nothing to a sum; it fills up the last lanes. */
+ * behind it. The record at `empty` adds nothing to a sum; it fills up the last lanes. Where records are long, `place` has
+ * position and diameter once more, closer together: most of a row is looked at and left. */
 struct lane_records {
     const double *record;
     int stride, dimension;
     int32_t empty;
-    double smoothing; /* support = smoothing (D_i + D_j) */
+    double smoothing;    /* support = smoothing (D_i + D_j) */
+    const double *place; /* PLACE_STRIDE doubles each, or NULL */
 };
 
 /* Turns the records of the eight neighbours of LIST into lanes, stride fields. */
@@ -103,7 +105,8 @@ INLINE int lanes_compress(struct lane_records records, const double *own, const 
     int kept = 0;
     for (int q = 0; q < count; q++) {
         int32_t j = (int32_t)(entry[q] & ENTRY_INDEX);
-        const double *other = records.record + (size_t)j * (size_t)records.stride;
+        const double *other = records.place ? records.place + (size_t)j * PLACE_STRIDE
+                                            : records.record + (size_t)j * (size_t)records.stride;
         double sum = square(other[0] - own[0]);
         if (records.dimension > 1)
             sum += square(other[1] - own[1]);

@@ -2,6 +2,7 @@
  * the first step starts from. */
 #include <string.h>
 
+#include "sph/lanes.h"
 #include "sph/sph_internal.h"
 
 struct muscl_kind muscl_kind_of(const struct sph *sph)
@@ -103,9 +104,9 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
     return stress;
 }
 
-static void pack_owned(const struct sph *sph, const struct simulation *simulation,
-                       const struct sph_fields *f, struct muscl_kind kind, int32_t i,
-                       double *record)
+BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *simulation,
+                              const struct sph_fields *f, struct muscl_kind kind, int32_t i,
+                              double *record)
 {
     const struct particles *p = &simulation->particles;
     int dimension = kind.dimension, stresses = muscl_stresses(kind), k = 0;
@@ -192,22 +193,61 @@ static void reflect(const struct simulation *simulation, struct muscl_kind kind,
         record[muscl_depth(kind)] *= -1.0;
 }
 
+/* Position and diameter of record I, where rows look. */
+BOLIDE_INLINE void place_record(const struct sph *sph, int dimension, int32_t i, size_t stride)
+{
+    memcpy(sph->place + (size_t)i * PLACE_STRIDE, sph->record + (size_t)i * stride,
+           (size_t)(dimension + 1) * sizeof(double));
+}
+
+/* All owned particles. KIND is a constant where this is inlined. */
+BOLIDE_INLINE void pack_all(const struct sph *sph, const struct simulation *simulation,
+                            const struct sph_fields *f, struct muscl_kind kind)
+{
+    size_t stride = (size_t)muscl_stride(kind);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < simulation->particles.count; i++) {
+        pack_owned(sph, simulation, f, kind, i, sph->record + (size_t)i * stride);
+        place_record(sph, kind.dimension, i, stride);
+    }
+}
+
+#define PACK_KIND(name, ...)                                                     \
+    static void name(const struct sph *sph, const struct simulation *simulation, \
+                     const struct sph_fields *f)                                 \
+    {                                                                            \
+        const struct muscl_kind kind = {__VA_ARGS__};                            \
+        pack_all(sph, simulation, f, kind);                                      \
+    }
+PACK_KIND(pack_line, 1, false, false)
+PACK_KIND(pack_plane_fluid, 2, false, false)
+PACK_KIND(pack_plane_solid, 2, true, false)
+PACK_KIND(pack_deep_fluid, 2, false, true)
+PACK_KIND(pack_deep_solid, 2, true, true)
+PACK_KIND(pack_space_fluid, 3, false, false)
+PACK_KIND(pack_space_solid, 3, true, false)
+
 void muscl_pack(struct sph *sph, const struct simulation *simulation)
 {
-    const struct particles *p = &simulation->particles;
+    typedef void pack(const struct sph *, const struct simulation *, const struct sph_fields *);
+    enum { DEEP = 3 }; /* behind the dimensions */
+    static pack *const table[4][2] = {{pack_line, pack_line},
+                                      {pack_plane_fluid, pack_plane_solid},
+                                      {pack_space_fluid, pack_space_solid},
+                                      {pack_deep_fluid, pack_deep_solid}};
     const struct ghosts *ghosts = &sph->neighbours.ghosts;
+    const int32_t count = simulation->particles.count;
     const struct sph_fields f = sph_fields_of(sph, simulation);
     const struct muscl_kind kind = muscl_kind_of(sph);
     size_t stride = (size_t)muscl_stride(kind);
-#pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < p->count; i++)
-        pack_owned(sph, simulation, &f, kind, i, sph->record + (size_t)i * stride);
+    table[kind.depth ? DEEP : kind.dimension - 1][kind.shear](sph, simulation, &f);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t g = 0; g < ghosts->count; g++) {
-        double *record = sph->record + (size_t)(p->count + g) * stride;
+        double *record = sph->record + (size_t)(count + g) * stride;
         memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
         reflect(simulation, kind, ghosts->image[g], record);
+        place_record(sph, kind.dimension, count + g, stride);
     }
-    double *empty = sph->record + (size_t)(p->count + ghosts->count) * stride;
+    double *empty = sph->record + (size_t)(count + ghosts->count) * stride;
     memset(empty, 0, stride * sizeof *empty);
 }

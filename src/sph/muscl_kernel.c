@@ -4,61 +4,43 @@
 #include "sph/muscl_kernel.h"
 #include "riemann/shock.h"
 #include "sph/kernel.h"
-#include "sph/record.h"
+#include "sph/muscl_sums.h"
 
-enum { FIELDS = 64, SUMS = 56 };
+enum { FIELDS = 64 };
 
 struct lanes {
     double field[FIELDS][LANES] ALIGNED;
     double slip[LANES] ALIGNED, open[LANES] ALIGNED;
 };
 
-/* Where the sums over a row stand, with w = V W' and f = 2 D_i/(D_i + D_j) twice the share of the pair that i has. */
-struct layout {
-    int traction, power; /* w |a| t*, w |a| t*.(U* - U) */
-    int gradient;        /* w (U* - U)^a e^b */
-    int weight, drift;   /* w, w (U* - U) */
-    int offset, moment;  /* -f w x, -f w x^a e^b */
-    int velocity_gradient,
-        stress_gradient; /* -f w du^a e^b, -f w dstress e^b by b, of the values after the step */
-    int hoop;            /* of axisymmetry: w |a| (depth - d) n_x, w |a| x n_x */
-    int count;           /* a multiple of eight */
-};
-
-INLINE struct layout layout_of(struct muscl_kind kind)
-{
-    const int dimension = kind.dimension, tensor = tensor_components(dimension);
-    struct layout at;
-    at.traction = 0;
-    at.power = dimension;
-    at.gradient = at.power + 1;
-    at.weight = at.gradient + dimension * dimension;
-    at.drift = at.weight + 1;
-    at.offset = at.drift + dimension;
-    at.moment = at.offset + dimension;
-    at.velocity_gradient = at.moment + tensor;
-    at.stress_gradient = at.velocity_gradient + dimension * dimension;
-    at.hoop = at.stress_gradient + dimension * muscl_stresses(kind);
-    at.count = (at.hoop + (kind.depth ? 2 : 0) + 7) / 8 * 8;
-    return at;
-}
-
 /* The shares of the change D between two particles that limited slopes carry from each to the middle: b/(D + b) with b
  * = 2 C - D, the change that lies on the other side when the slope changes by C over the pair; nothing where b turns
- * against D, or where SAME is zero. SQUARE_CHANGE is D^2; OWN and OTHER are D C. */
+ * against D, or where SAME is zero. A change is D^2 and the two D C. */
 struct shares {
     double own, other;
 };
 
-INLINE struct shares limited_shares(double same, double square_change, double own, double other)
+struct change {
+    double square, own, other;
+};
+
+/* Those of two quantities, with one division. */
+INLINE void limited_shares(double same, struct change first, struct change second,
+                           struct shares *of_first, struct shares *of_second)
 {
-    const double tiny = 1e-140;
-    double a = same * maximum(2.0 * own - square_change, 0.0);
-    double b = same * maximum(2.0 * other - square_change, 0.0);
-    double whole_a = square_change + a + tiny, whole_b = square_change + b + tiny;
-    double inverse = 1.0 / (whole_a * whole_b);
-    struct shares shares = {a * whole_b * inverse, b * whole_a * inverse};
-    return shares;
+    const double tiny = 1e-70;
+    double a = same * maximum(2.0 * first.own - first.square, 0.0);
+    double b = same * maximum(2.0 * first.other - first.square, 0.0);
+    double c = same * maximum(2.0 * second.own - second.square, 0.0);
+    double d = same * maximum(2.0 * second.other - second.square, 0.0);
+    double whole_a = first.square + a + tiny, whole_b = first.square + b + tiny;
+    double whole_c = second.square + c + tiny, whole_d = second.square + d + tiny;
+    double ab = whole_a * whole_b, cd = whole_c * whole_d, inverse = 1.0 / (ab * cd);
+    double inverse_ab = inverse * cd, inverse_cd = inverse * ab;
+    of_first->own = a * whole_b * inverse_ab;
+    of_first->other = b * whole_a * inverse_ab;
+    of_second->own = c * whole_d * inverse_cd;
+    of_second->other = d * whole_c * inverse_cd;
 }
 
 /* (x.grad) v from the rows of grad v that stand STEP doubles apart. */
@@ -73,19 +55,31 @@ INLINE struct vec3 change_of_vector(int dimension, const double *g, int step, st
                      g[6 * step] * x.x + g[7 * step] * x.y + g[8 * step] * x.z);
 }
 
-/* |div v|/(|div v| + |curl v|) of the gradient G. */
-INLINE double share_of_compression(int dimension, const double *g, int step)
+/* |div v| and |curl v| of the gradient G. */
+INLINE void parts_of_gradient(int dimension, const double *g, int step, double *divergence,
+                              double *curl)
 {
-    double divergence, curl;
     if (dimension == 2) {
-        divergence = fabs(g[0] + g[3 * step]);
-        curl = fabs(g[2 * step] - g[step]);
+        *divergence = fabs(g[0] + g[3 * step]);
+        *curl = fabs(g[2 * step] - g[step]);
     } else {
-        divergence = fabs(g[0] + g[4 * step] + g[8 * step]);
-        curl = sqrt(square(g[7 * step] - g[5 * step]) + square(g[2 * step] - g[6 * step]) +
-                    square(g[3 * step] - g[step]));
+        *divergence = fabs(g[0] + g[4 * step] + g[8 * step]);
+        *curl = sqrt(square(g[7 * step] - g[5 * step]) + square(g[2 * step] - g[6 * step]) +
+                     square(g[3 * step] - g[step]));
     }
-    return (divergence + 1e-100) / (divergence + curl + 1e-100);
+}
+
+/* The larger |div v|/(|div v| + |curl v|) of the two sides of a pair: near one in a shock, near zero where streams slide
+ * (Balsara, J. Comput. Phys. 121 (1995) 357). */
+INLINE double larger_share_of_compression(int dimension, const double *own, const double *other)
+{
+    double di, ci, dj, cj;
+    parts_of_gradient(dimension, own, 1, &di, &ci);
+    parts_of_gradient(dimension, other, LANES, &dj, &cj);
+    const double tiny = 1e-100; /* a choice, and a quotient, that both sides agree on */
+    bool first = (di + tiny) * cj > (dj + tiny) * ci;
+    double divergence = first ? di : dj, curl = first ? ci : cj;
+    return (divergence + tiny) / (divergence + curl + tiny);
 }
 
 /* (x.grad) stress, likewise. */
@@ -121,12 +115,6 @@ INLINE void add_product(int dimension, double (*sums)[LANES], int at, int k, str
         add_vector(dimension, sums, at + 2 * dimension, k, vec3_scale(v.z, e));
 }
 
-/* The vector that stands STEP doubles apart from V on. */
-INLINE struct vec3 vector_from(int dimension, const double *v, int step)
-{
-    return vec3_make(v[0], dimension > 1 ? v[step] : 0.0, dimension > 2 ? v[2 * step] : 0.0);
-}
-
 /* One own particle against eight neighbours. */
 INLINE void add_lanes(struct muscl_kind kind, bool with_law, double smoothing, const double *own,
                       const struct lanes *lanes, double (*sums)[LANES])
@@ -146,20 +134,24 @@ INLINE void add_lanes(struct muscl_kind kind, bool with_law, double smoothing, c
                                        vector_from(dimension, own, 1));
         const struct vec3 du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
                                         vector_from(dimension, own + u, 1));
-        double r = sqrt(maximum(vec3_dot(x, x), 1e-200));
-        struct vec3 e = vec3_scale(1.0 / r, x);
-        double inverse_h = 2.0 / (smoothing * (own[d] + lanes->field[d][k]));
+        struct sym3 both = sym3_add(stress_from(dimension, own + l, 1),
+                                    stress_from(dimension, &lanes->field[l][k], LANES));
+        struct vec3 lx = vec3_scale(0.5, traction_of(dimension, both, x));
+        double r = sqrt(maximum(vec3_dot(x, x), 1e-80));
+        double ar = dimension == 1 ? fabs(lx.x) : sqrt(maximum(vec3_dot(lx, lx), 1e-80));
+        double two_h = smoothing * (own[d] + lanes->field[d][k]);
+        double inverse = 1.0 / (r * ar * two_h); /* one division serves three */
+        struct vec3 e = vec3_scale(inverse * ar * two_h, x);
+        struct vec3 n = dimension == 1 ? e : vec3_scale(inverse * r * two_h, lx);
+        double area = ar * (inverse * ar * two_h), inverse_h = 2.0 * (inverse * r * ar);
         double weight = lanes->field[v][k] * kernel_slope(r, inverse_h, dimension);
         double near_i = smoothing * own[d] * inverse_h, near_j = 2.0 - near_i;
 
-        struct sym3 both = sym3_add(stress_from(dimension, own + l, 1),
-                                    stress_from(dimension, &lanes->field[l][k], LANES));
-        struct vec3 a = vec3_scale(0.5, traction_of(dimension, both, e));
-        double area = dimension == 1 ? a.x * e.x : sqrt(maximum(vec3_dot(a, a), 1e-200));
-        struct vec3 n = dimension == 1 ? e : vec3_scale(1.0 / area, a);
-
         /* normal components, and by how much slopes change them over the pair */
-        double same = with_law || own[matter] != lanes->field[matter][k] ? 0.0 : 1.0;
+        double along_u = vec3_dot(du, n), speed = fabs(along_u);
+        bool smooth = !with_law && own[matter] == lanes->field[matter][k] &&
+                      speed * own[q] < own[z] && speed * lanes->field[q][k] < lanes->field[z][k];
+        double same = smooth ? 1.0 : 0.0;
         struct vec3 ui = change_of_vector(dimension, own + g, 1, x);
         struct vec3 uj = change_of_vector(dimension, &lanes->field[g][k], LANES, x);
         struct sym3 hi = change_of_stress(kind, own + h, 1, x);
@@ -176,10 +168,12 @@ INLINE void add_lanes(struct muscl_kind kind, bool with_law, double smoothing, c
             si_n = vec3_dot(dti, n);
             sj_n = vec3_dot(dtj, n);
         }
-        double along_u = vec3_dot(du, n), along_s = along_j - along_i;
-        struct shares of_u = limited_shares(same, square(along_u), along_u * vec3_dot(ui, n),
-                                            along_u * vec3_dot(uj, n));
-        struct shares of_s = limited_shares(same, square(along_s), along_s * si_n, along_s * sj_n);
+        double along_s = along_j - along_i;
+        const struct change change_u = {square(along_u), along_u * vec3_dot(ui, n),
+                                        along_u * vec3_dot(uj, n)};
+        const struct change change_s = {square(along_s), along_s * si_n, along_s * sj_n};
+        struct shares of_u, of_s;
+        limited_shares(same, change_u, change_s, &of_u, &of_s);
         double rise_u = near_i * of_u.own * along_u;
         double jump_u = along_u - rise_u - near_j * of_u.other * along_u;
         double left_s = along_i + near_i * of_s.own * along_s;
@@ -190,8 +184,7 @@ INLINE void add_lanes(struct muscl_kind kind, bool with_law, double smoothing, c
         double brake = 1.0;
         if (dimension > 1) {
             bool fluids = !shear || own[z + 1] + lanes->field[z + 1][k] == 0.0;
-            double most = maximum(share_of_compression(dimension, own + g, 1),
-                                  share_of_compression(dimension, &lanes->field[g][k], LANES));
+            double most = larger_share_of_compression(dimension, own + g, &lanes->field[g][k]);
             brake = fluids ? most : 1.0;
         }
         double stress = contact_stress(along, left_s, right_s, brake * jump_u);
@@ -205,18 +198,22 @@ INLINE void add_lanes(struct muscl_kind kind, bool with_law, double smoothing, c
         struct vec3 t = vec3_scale(stress, n), w = vec3_scale(jump, n);
         if (dimension > 1) {
             struct vec3 across_u = vec3_sub(du, vec3_scale(along_u, n));
-            struct shares of_v = limited_shares(same, vec3_dot(across_u, across_u),
-                                                vec3_dot(across_u, ui), vec3_dot(across_u, uj));
+            struct vec3 ai = {0.0, 0.0, 0.0}, da = ai;
+            if (shear) {
+                ai = vec3_sub(ti, vec3_scale(along_i, n));
+                da = vec3_sub(vec3_sub(tj, vec3_scale(along_j, n)), ai);
+            }
+            const struct change change_v = {vec3_dot(across_u, across_u), vec3_dot(across_u, ui),
+                                            vec3_dot(across_u, uj)};
+            const struct change change_a = {vec3_dot(da, da), vec3_dot(da, dti), vec3_dot(da, dtj)};
+            struct shares of_v, of_a;
+            limited_shares(same, change_v, change_a, &of_v, &of_a);
             of_v.own *= near_i;
             of_v.other *= near_j;
             double open_u = 1.0 - of_v.own - of_v.other;
             if (shear) {
                 struct contact_weights across =
                     riemann_acoustic_weights(own[z + 1], lanes->field[z + 1][k]);
-                struct vec3 ai = vec3_sub(ti, vec3_scale(along_i, n));
-                struct vec3 da = vec3_sub(vec3_sub(tj, vec3_scale(along_j, n)), ai);
-                struct shares of_a =
-                    limited_shares(same, vec3_dot(da, da), vec3_dot(da, dti), vec3_dot(da, dtj));
                 of_a.own *= near_i;
                 of_a.other *= near_j;
                 /* of the jump DA, what reaches the contact: that from the right by the left's share, and back */
@@ -250,6 +247,7 @@ INLINE void add_lanes(struct muscl_kind kind, bool with_law, double smoothing, c
         }
         sums[at.power][k] += force_weight * vec3_dot(t, w);
         sums[at.weight][k] += weight;
+        sums[at.impedance][k] += weight * lanes->field[z][k];
         add_vector(dimension, sums, at.traction, k, vec3_scale(force_weight, t));
         w = vec3_scale(weight, w);
         add_vector(dimension, sums, at.drift, k, w);
@@ -289,7 +287,7 @@ INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool
                      int32_t i, const uint32_t *entry, int count, double (*sums)[LANES])
 {
     const struct lane_records records = {loop->record, muscl_stride(kind), kind.dimension,
-                                         loop->empty, loop->smoothing};
+                                         loop->empty,  loop->smoothing,    loop->place};
     const double *own = loop->record + (size_t)i * (size_t)records.stride;
     struct lane_walk walk;
     struct lanes lanes;
@@ -302,135 +300,6 @@ INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool
                            lanes.open);
             add_lanes(kind, with_law, loop->smoothing, own, &lanes, sums);
         }
-}
-
-/* The inverse of the second moment M, 1 on a complete lattice. Where neighbours lie to one side or in a plane M is
- * nearly singular, and its inverse gives way to the unit tensor as its norm grows from 8 to 16; a corner of a cubic
- * lattice has 5. */
-INLINE struct sym3 correction_of(int dimension, struct sym3 m)
-{
-    const struct sym3 one = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
-    if (dimension < 3)
-        m.zz = 1.0;
-    if (dimension < 2)
-        m.yy = 1.0;
-    struct sym3 l = {m.yy * m.zz - square(m.yz), m.xx * m.zz - square(m.zx),
-                     m.xx * m.yy - square(m.xy), m.yz * m.zx - m.xy * m.zz,
-                     m.xy * m.zx - m.yz * m.xx,  m.xy * m.yz - m.zx * m.yy};
-    double det = m.xx * l.xx + m.xy * l.xy + m.zx * l.zx;
-    double norm = sqrt(sym3_square(l)) / maximum(det, 1e-100);
-    double share = minimum(1.0, maximum(0.0, 2.0 - 0.125 * norm));
-    double scale = share > 0.0 ? share / det : 0.0;
-    return sym3_add(sym3_scale(scale, l), sym3_scale(1.0 - share, one));
-}
-
-/* Rows V of a tensor, times L. */
-INLINE struct vec3 corrected(int dimension, struct sym3 l, const double *v)
-{
-    return sym3_dot(l, vector_from(dimension, v, 1));
-}
-
-/* The moment M, in the order of a record. */
-INLINE void write_tensor(int dimension, struct sym3 m, double *to)
-{
-    to[0] = m.xx;
-    if (dimension == 2) {
-        to[1] = m.yy;
-        to[2] = m.xy;
-    }
-    if (dimension == 3) {
-        to[1] = m.yy;
-        to[2] = m.zz;
-        to[3] = m.xy;
-        to[4] = m.yz;
-        to[5] = m.zx;
-    }
-}
-
-/* L for forces. Where neighbours lie to one side the moment is completed by what is missing on the other side, a free
- * surface that no stress acts on: with the first moment o, M + o o |o|^2/(o.M.o), which doubles it at the end of a line. */
-INLINE struct sym3 correction_of_forces(int dimension, struct sym3 m, struct vec3 o)
-{
-    double across = vec3_dot(o, sym3_dot(m, o));
-    double scale = across > 0.0 ? vec3_dot(o, o) / across : 0.0;
-    struct sym3 missing = {o.x * o.x, o.y * o.y, o.z * o.z, o.x * o.y, o.y * o.z, o.z * o.x};
-    return correction_of(dimension, sym3_add(m, sym3_scale(scale, missing)));
-}
-
-INLINE void write_gradients(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                            const double *all)
-{
-    const int dimension = kind.dimension, stresses = muscl_stresses(kind);
-    const struct layout at = layout_of(kind);
-    const struct pair_rates *rates = &loop->rates.sums;
-    const struct sym3 m = stress_from(dimension, all + at.moment, 1);
-    const struct vec3 offset = vector_from(dimension, all + at.offset, 1), none = {0.0, 0.0, 0.0};
-    const struct sym3 l = correction_of(dimension, m);
-    struct vec3 x = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient)), y = none,
-                z = none;
-    if (dimension > 1)
-        y = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient + dimension));
-    if (dimension > 2)
-        z = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient + 2 * dimension));
-    const double strain[6] = {
-        x.x, y.y, z.z, 0.5 * (x.y + y.x), 0.5 * (y.z + z.y), 0.5 * (z.x + x.z)};
-    memcpy(rates->strain_rate[i], strain, sizeof strain);
-    rates->spin[i][0] = 0.5 * (z.y - y.z);
-    rates->spin[i][1] = 0.5 * (x.z - z.x);
-    rates->spin[i][2] = 0.5 * (y.x - x.y);
-    /* The mean of contact velocities, less what a linear field gives where neighbours lie to one side. */
-    const double weight = all[at.weight], inverse = weight < 0.0 ? 1.0 / weight : 0.0;
-    const struct vec3 linear =
-        vec3_make(vec3_dot(x, offset), vec3_dot(y, offset), vec3_dot(z, offset));
-    const struct vec3 drift = vec3_scale(
-        inverse, vec3_add(vector_from(dimension, all + at.drift, 1), vec3_scale(0.5, linear)));
-    const double drifts[3] = {drift.x, drift.y, drift.z};
-    memcpy(rates->drift[i], drifts, sizeof drifts);
-    write_tensor(dimension, correction_of_forces(dimension, m, offset),
-                 loop->rates.correction + (size_t)i * (size_t)tensor_components(dimension));
-    double *g = loop->rates.velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
-    for (int b = 0; b < dimension; b++) {
-        struct vec3 slope = corrected(dimension, l, all + at.velocity_gradient + b * dimension);
-        g[b * dimension] = slope.x;
-        if (dimension > 1)
-            g[b * dimension + 1] = slope.y;
-        if (dimension > 2)
-            g[b * dimension + 2] = slope.z;
-    }
-    double *h = loop->rates.stress_gradient + (size_t)i * (size_t)(dimension * stresses);
-    for (int b = 0; b < stresses; b++) {
-        const double *from = all + at.stress_gradient + b;
-        struct vec3 slope = sym3_dot(l, vector_from(dimension, from, stresses));
-        h[b] = slope.x;
-        if (dimension > 1)
-            h[stresses + b] = slope.y;
-        if (dimension > 2)
-            h[2 * stresses + b] = slope.z;
-    }
-}
-
-/* FACTOR turns sums of forces into those of a unit of mass; IMAGES are the tractions of images. */
-INLINE void write_rates(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                        double factor, const double *all, const double *images)
-{
-    const struct pair_rates *rates = &loop->rates.sums;
-    const struct layout at = layout_of(kind);
-    const double *half =
-        loop->record + (size_t)i * (size_t)muscl_stride(kind) + record_velocity(kind.dimension);
-    double power = factor * all[at.power];
-    for (int a = 0; a < 3; a++) {
-        rates->acceleration[i][a] = a < kind.dimension ? factor * all[at.traction + a] : 0.0;
-        if (rates->wall)
-            rates->wall[i][a] = a < kind.dimension ? factor * images[a] : 0.0;
-        if (a < kind.dimension) /* the sums saw the velocity half a step ahead */
-            power += rates->acceleration[i][a] * (half[a] - loop->velocity[i][a]);
-    }
-    rates->power[i] = power;
-    if (rates->hoop_pull) {
-        rates->hoop_pull[i] = 1.0 + all[at.hoop + 1] - 2.0 * all[at.hoop];
-        rates->hoop_strain[i] = 1.0;
-    }
-    write_gradients(loop, kind, i, all);
 }
 
 /* Adds the entries from BEGIN on of the row's parts FIRST and FIRST + 1 (the same under a contact law); returns where

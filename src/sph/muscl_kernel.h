@@ -70,6 +70,7 @@ struct muscl_loop {
     struct muscl_kind kind;
     const double *record; /* owned, ghosts, and one of zeros behind them */
     int32_t empty;        /* index of the record of zeros */
+    const double *place;  /* of the same particles, as lanes.h has it */
     double smoothing;
     const struct neighbours *neighbours;
     const struct contact_groups *groups;

@@ -193,7 +193,7 @@ INLINE void add_part(const struct pair_loop *loop, struct pair_kind kind, bool w
                      const uint32_t *entry, int count, struct sums *sums)
 {
     const struct lane_records records = {loop->record, record_stride(kind), kind.dimension,
-                                         loop->empty, loop->smoothing};
+                                         loop->empty,  loop->smoothing,     NULL};
     const double *own = loop->record + (size_t)i * (size_t)records.stride;
     struct lane_walk walk;
     struct lanes lanes;

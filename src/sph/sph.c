@@ -11,6 +11,7 @@
 #include "model/generate.h"
 #include "riemann/bend.h"
 #include "sph/heat_kernel.h"
+#include "sph/lanes.h"
 #include "sph/sph_internal.h"
 
 /* A field without unit is not shown: it belongs to the middle of a step. */
@@ -135,8 +136,14 @@ static struct error *choose_kind(struct sph *sph, const struct simulation *simul
     else if (sph_second_order(sph))
         return input_error(simulation->input, "solver", "sph.contact",
                            "muscl has a contact problem of its own: leave this out");
+    /* On a line density and spacing must not drift apart; in more dimensions a mean of contacts would smear jets. */
     if (parameters->motion < 0)
-        parameters->motion = sph_second_order(sph) ? SPH_MOTION_CONTACT : SPH_MOTION_PARTICLE;
+        parameters->motion = sph_second_order(sph) && simulation->dimension == 1
+                                 ? SPH_MOTION_CONTACT
+                                 : SPH_MOTION_PARTICLE;
+    if (sph_second_order(sph) && parameters->courant > 0.5)
+        return input_error(simulation->input, "solver", "sph.courant",
+                           "muscl is stable up to 0.5, and this is %g", parameters->courant);
     kind->star = is_standard(sph) ? STAR_MEAN : stars[parameters->contact];
     kind->drift = parameters->motion == SPH_MOTION_CONTACT;
     kind->depth = sph_axisymmetric(simulation) || is_thin(simulation);
@@ -244,7 +251,9 @@ static struct error *reserve_records(struct sph *sph, const struct simulation *s
                              : sph_second_order(sph) ? muscl_stride(muscl_kind_of(sph))
                                                      : record_stride(sph->kind));
     if (!memory_reserve((void **)&sph->record, &sph->record_capacity, count, 0,
-                        stride * sizeof(double)))
+                        stride * sizeof(double)) ||
+        (sph_second_order(sph) && !memory_reserve((void **)&sph->place, &sph->place_capacity, count,
+                                                  0, PLACE_STRIDE * sizeof(double))))
         return error_new(ERROR_SYSTEM, "out of memory for the records of %lld particles",
                          (long long)count);
     return NULL;
@@ -305,6 +314,7 @@ static void sum_pairs_ahead(struct sph *sph, struct simulation *simulation,
     struct muscl_loop loop = {.kind = muscl_kind_of(sph),
                               .record = sph->record,
                               .empty = p->count + sph->neighbours.ghosts.count,
+                              .place = sph->place,
                               .smoothing = sph->parameters.smoothing,
                               .neighbours = &sph->neighbours,
                               .groups = &sph->groups,
@@ -412,6 +422,7 @@ static void sph_destroy(void *solver)
     neighbours_free(&sph->neighbours);
     conduction_destroy(sph);
     free(sph->record);
+    free(sph->place);
 }
 
 static double sph_bytes(const void *parameters, int dimension)

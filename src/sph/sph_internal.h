@@ -31,8 +31,8 @@ struct sph {
     struct contact_groups groups;
     struct reach reach;
     int64_t steps_since_build;
-    double *record;
-    int64_t record_capacity; /* in records */
+    double *record, *place;
+    int64_t record_capacity, place_capacity; /* in records */
     struct conduction conduction;
 };
 

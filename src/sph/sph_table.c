@@ -49,7 +49,7 @@ const struct parameter sph_table[] = {
      .below = 1.0,
      .help =
          "K of dt = min K D/sqrt(C^2 + (4 D div U)^2), 0.4 when not given, stable up to 0.8 for "
-         "smoothing 1; of dt = min K h/C, 0.3, for hllc and monaghan"},
+         "smoothing 1, at most 0.5 for muscl; of dt = min K h/C, 0.3, for hllc and monaghan"},
     {.key = "energy",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct sph_parameters, energy),
@@ -63,7 +63,8 @@ const struct parameter sph_table[] = {
      .names = motion_names,
      .help =
          "what moves a particle: its own velocity, the kernel mean of its contact velocities, or "
-         "nothing: heat flows and that is all"},
+         "nothing: heat flows and that is all; when not given particle, for muscl in one dimension "
+         "contact"},
     {.key = "rotation",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct sph_parameters, rotation),

@@ -161,6 +161,27 @@ static void without_yield_it_is_the_acoustic_contact(void **state)
     }
 }
 
+/* What is certain without plastic waves is right; where it is not, there is doubt. */
+static void a_contact_without_doubt_is_the_elastic_one(void **state)
+{
+    (void)state;
+    struct dice dice = {6};
+    int certain = 0;
+    for (int k = 0; k < 10000; k++) {
+        struct elastic_side left = random_side(&dice), right = random_side(&dice);
+        left.velocity *= dice_between(&dice, 0.0, 0.1);
+        right.velocity = left.velocity + dice_between(&dice, -20.0, 20.0);
+        right.stress = left.stress + dice_between(&dice, -1e8, 1e8);
+        struct elastic_contact elastic = riemann_hllc_elastic(left, right);
+        struct contact contact = riemann_hllc(left, right);
+        bool same = contact.velocity == elastic.contact.velocity &&
+                    contact.stress == elastic.contact.stress;
+        assert_true(same || elastic.doubt > 0.0);
+        certain += elastic.doubt <= 0.0;
+    }
+    assert_in_range(certain, 2000, 9000);
+}
+
 /* Nothing is left of a side that meets faster than sound: no logarithm of it is asked for. */
 static void a_side_without_volume_stays_elastic(void **state)
 {
@@ -192,6 +213,7 @@ int main(void)
         cmocka_unit_test(the_mirrored_contact_is_the_mirror_image_to_the_bit),
         cmocka_unit_test(a_moving_observer_sees_the_same_contact),
         cmocka_unit_test(without_yield_it_is_the_acoustic_contact),
+        cmocka_unit_test(a_contact_without_doubt_is_the_elastic_one),
         cmocka_unit_test(a_side_without_volume_stays_elastic),
         cmocka_unit_test(the_exponential_is_that_of_the_library),
     };

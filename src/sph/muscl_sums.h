@@ -1,0 +1,182 @@
+/* The sums over a row of the second-order pair loop, and what a particle makes of them: corrections, gradients, rates.
+ * For the files that are compiled once an instruction set. */
+#ifndef BOLIDE_SPH_MUSCL_SUMS_H
+#define BOLIDE_SPH_MUSCL_SUMS_H
+
+#include "sph/muscl_kernel.h"
+#include "sph/record.h"
+
+enum { SUMS = 56 };
+
+/* Where the sums over a row stand, with w = V W' and f = 2 D_i/(D_i + D_j) twice the share of the pair that i has. */
+struct layout {
+    int traction, power; /* w |a| t*, w |a| t*.(U* - U) */
+    int gradient;        /* w (U* - U)^a e^b */
+    int weight, drift;   /* w, w (U* - U) */
+    int impedance;       /* w Z_j */
+    int offset, moment;  /* -f w x, -f w x^a e^b */
+    int velocity_gradient,
+        stress_gradient; /* -f w du^a e^b, -f w dstress e^b by b, of the values after the step */
+    int hoop;            /* of axisymmetry: w |a| (depth - d) n_x, w |a| x n_x */
+    int count;           /* a multiple of eight */
+};
+
+INLINE struct layout layout_of(struct muscl_kind kind)
+{
+    const int dimension = kind.dimension, tensor = tensor_components(dimension);
+    struct layout at;
+    at.traction = 0;
+    at.power = dimension;
+    at.gradient = at.power + 1;
+    at.weight = at.gradient + dimension * dimension;
+    at.drift = at.weight + 1;
+    at.impedance = at.drift + dimension;
+    at.offset = at.impedance + 1;
+    at.moment = at.offset + dimension;
+    at.velocity_gradient = at.moment + tensor;
+    at.stress_gradient = at.velocity_gradient + dimension * dimension;
+    at.hoop = at.stress_gradient + dimension * muscl_stresses(kind);
+    at.count = (at.hoop + (kind.depth ? 2 : 0) + 7) / 8 * 8;
+    return at;
+}
+
+/* The vector that stands STEP doubles apart from V on. */
+INLINE struct vec3 vector_from(int dimension, const double *v, int step)
+{
+    return vec3_make(v[0], dimension > 1 ? v[step] : 0.0, dimension > 2 ? v[2 * step] : 0.0);
+}
+
+/* The inverse of the second moment M, 1 on a complete lattice. Where neighbours lie to one side or in a plane M is
+ * nearly singular, and its inverse gives way to the unit tensor as its norm grows from 16 to 32; the corner of a cubic
+ * lattice has 5, of a distorted one up to 16. */
+INLINE struct sym3 correction_of(int dimension, struct sym3 m)
+{
+    const struct sym3 one = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+    if (dimension < 3)
+        m.zz = 1.0;
+    if (dimension < 2)
+        m.yy = 1.0;
+    struct sym3 l = {m.yy * m.zz - square(m.yz), m.xx * m.zz - square(m.zx),
+                     m.xx * m.yy - square(m.xy), m.yz * m.zx - m.xy * m.zz,
+                     m.xy * m.zx - m.yz * m.xx,  m.xy * m.yz - m.zx * m.yy};
+    double det = m.xx * l.xx + m.xy * l.xy + m.zx * l.zx;
+    double norm = sqrt(sym3_square(l)) / maximum(det, 1e-100);
+    double share = det > 0.0 ? minimum(1.0, maximum(0.0, 2.0 - 0.0625 * norm)) : 0.0;
+    double scale = share > 0.0 ? share / det : 0.0;
+    return sym3_add(sym3_scale(scale, l), sym3_scale(1.0 - share, one));
+}
+
+/* Rows V of a tensor, times L. */
+INLINE struct vec3 corrected(int dimension, struct sym3 l, const double *v)
+{
+    return sym3_dot(l, vector_from(dimension, v, 1));
+}
+
+/* The moment M, in the order of a record. */
+INLINE void write_tensor(int dimension, struct sym3 m, double *to)
+{
+    to[0] = m.xx;
+    if (dimension == 2) {
+        to[1] = m.yy;
+        to[2] = m.xy;
+    }
+    if (dimension == 3) {
+        to[1] = m.yy;
+        to[2] = m.zz;
+        to[3] = m.xy;
+        to[4] = m.yz;
+        to[5] = m.zx;
+    }
+}
+
+/* L for forces. Where neighbours lie to one side the moment is completed by what is missing on the other side, a free
+ * surface that no stress acts on: with the first moment o, M + o o |o|^2/(o.M.o), which doubles it at the end of a line. */
+INLINE struct sym3 correction_of_forces(int dimension, struct sym3 m, struct vec3 o)
+{
+    double across = vec3_dot(o, sym3_dot(m, o));
+    double scale = across > 0.0 ? vec3_dot(o, o) / across : 0.0;
+    struct sym3 missing = {o.x * o.x, o.y * o.y, o.z * o.z, o.x * o.y, o.y * o.z, o.z * o.x};
+    return correction_of(dimension, sym3_add(m, sym3_scale(scale, missing)));
+}
+
+INLINE void write_gradients(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                            const double *all)
+{
+    const int dimension = kind.dimension, stresses = muscl_stresses(kind);
+    const struct layout at = layout_of(kind);
+    const struct pair_rates *rates = &loop->rates.sums;
+    const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
+    const struct sym3 m = stress_from(dimension, all + at.moment, 1);
+    const struct vec3 offset = vector_from(dimension, all + at.offset, 1), none = {0.0, 0.0, 0.0};
+    const struct sym3 l = correction_of(dimension, m);
+    struct vec3 x = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient)), y = none,
+                z = none;
+    if (dimension > 1)
+        y = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient + dimension));
+    if (dimension > 2)
+        z = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient + 2 * dimension));
+    const double strain[6] = {
+        x.x, y.y, z.z, 0.5 * (x.y + y.x), 0.5 * (y.z + z.y), 0.5 * (z.x + x.z)};
+    memcpy(rates->strain_rate[i], strain, sizeof strain);
+    rates->spin[i][0] = 0.5 * (z.y - y.z);
+    rates->spin[i][1] = 0.5 * (x.z - z.x);
+    rates->spin[i][2] = 0.5 * (y.x - x.y);
+    /* The mean of contact velocities, less what a linear field gives where neighbours lie to one side. */
+    const double weight = all[at.weight], inverse = weight < 0.0 ? 1.0 / weight : 0.0;
+    const struct vec3 linear =
+        vec3_make(vec3_dot(x, offset), vec3_dot(y, offset), vec3_dot(z, offset));
+    const struct vec3 drift = vec3_scale(
+        inverse, vec3_add(vector_from(dimension, all + at.drift, 1), vec3_scale(0.5, linear)));
+    const double drifts[3] = {drift.x, drift.y, drift.z};
+    memcpy(rates->drift[i], drifts, sizeof drifts);
+    write_tensor(dimension, correction_of_forces(dimension, m, offset),
+                 loop->rates.correction + (size_t)i * (size_t)tensor_components(dimension));
+    double *g = loop->rates.velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
+    for (int b = 0; b < dimension; b++) {
+        struct vec3 slope = corrected(dimension, l, all + at.velocity_gradient + b * dimension);
+        g[b * dimension] = slope.x;
+        if (dimension > 1)
+            g[b * dimension + 1] = slope.y;
+        if (dimension > 2)
+            g[b * dimension + 2] = slope.z;
+    }
+    double *h = loop->rates.stress_gradient + (size_t)i * (size_t)(dimension * stresses);
+    /* Beside matter of far higher impedance the stress is that matter's, and so is the slope. */
+    const double ours = 2.0 * own[muscl_impedance(kind)] * weight, mean = all[at.impedance];
+    const double yields = ours > mean ? ours / mean : 1.0;
+    for (int b = 0; b < stresses; b++) {
+        const double *from = all + at.stress_gradient + b;
+        struct vec3 slope = vec3_scale(yields, sym3_dot(l, vector_from(dimension, from, stresses)));
+        h[b] = slope.x;
+        if (dimension > 1)
+            h[stresses + b] = slope.y;
+        if (dimension > 2)
+            h[2 * stresses + b] = slope.z;
+    }
+}
+
+/* FACTOR turns sums of forces into those of a unit of mass; IMAGES are the tractions of images. */
+INLINE void write_rates(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                        double factor, const double *all, const double *images)
+{
+    const struct pair_rates *rates = &loop->rates.sums;
+    const struct layout at = layout_of(kind);
+    const double *half =
+        loop->record + (size_t)i * (size_t)muscl_stride(kind) + record_velocity(kind.dimension);
+    double power = factor * all[at.power];
+    for (int a = 0; a < 3; a++) {
+        rates->acceleration[i][a] = a < kind.dimension ? factor * all[at.traction + a] : 0.0;
+        if (rates->wall)
+            rates->wall[i][a] = a < kind.dimension ? factor * images[a] : 0.0;
+        if (a < kind.dimension) /* the sums saw the velocity half a step ahead */
+            power += rates->acceleration[i][a] * (half[a] - loop->velocity[i][a]);
+    }
+    rates->power[i] = power;
+    if (rates->hoop_pull) {
+        rates->hoop_pull[i] = 1.0 + all[at.hoop + 1] - 2.0 * all[at.hoop];
+        rates->hoop_strain[i] = 1.0;
+    }
+    write_gradients(loop, kind, i, all);
+}
+
+#endif

@@ -1,0 +1,486 @@
+/* The second-order contact method: what its gradients must give exactly, what its sums must keep, and that nothing but the
+ * state decides its bits. */
+#include "running.h"
+
+#define METAL                                                                                \
+    "  metal:\n"                                                                             \
+    "    eos: {mie-grueneisen: {density: 2700 kg/m^3, sound: 5350 m/s, slope: 1.35, gamma: " \
+    "2.17, bulk_modulus: 73 GPa}}\n"                                                         \
+    "    strength: {perfect-plastic: {shear_modulus: 23 GPa, yield: 100 GPa}}\n"
+#define LIQUID "  liquid: {eos: {barotropic: {density: 1500 kg/m^3, bulk_modulus: 20 GPa}}}\n"
+#define HEAD(dimension)                                       \
+    "format: 1\ndimension: " dimension "\nresolution: 1 mm\n" \
+    "solver: {sph: {method: muscl, smoothing: 1.2}}\n"        \
+    "run: {until: 1 s}\n"
+#define BODY(dimension, matter, of, box) \
+    HEAD(dimension) "materials:\n" matter "bodies:\n  body: {material: " of ", box: " box "}\n"
+#define LINE "{from: [-8 mm], to: [8 mm]}"
+#define PLANE "{from: [-6 mm, -5 mm], to: [6 mm, 5 mm]}"
+#define SPACE "{from: [-4 mm, -3 mm, -3 mm], to: [4 mm, 3 mm, 3 mm]}"
+
+/* Free bodies; what a record keeps of stress differs between them. */
+static const struct {
+    const char *name, *text;
+    int dimension, stresses;
+    double shift; /* off the sites, m; corners in space stand less */
+} bodies[] = {{"solid line", BODY("1", METAL, "metal", LINE), 1, 1, 2e-4},
+              {"liquid line", BODY("1", LIQUID, "liquid", LINE), 1, 1, 2e-4},
+              {"solid plane", BODY("2", METAL, "metal", PLANE), 2, 3, 2e-4},
+              {"liquid plane", BODY("2", LIQUID, "liquid", PLANE), 2, 1, 2e-4},
+              {"solid space", BODY("3", METAL, "metal", SPACE), 3, 6, 5e-5},
+              {"liquid space", BODY("3", LIQUID, "liquid", SPACE), 3, 1, 5e-5}};
+
+/* One particle thick: its neighbours know nothing of the direction across it. */
+static const char layer[] =
+    BODY("3", METAL, "metal", "{from: [-4 mm, -4 mm, 0 mm], to: [4 mm, 4 mm, 1 mm]}");
+
+static const struct variant plain = {"plain", 1, 1.0, NULL, false};
+
+/* Moves particles off their sites by up to SHIFT metres, and takes up to a tenth from their mass or adds it. */
+static void distort(struct running *run, double shift, struct dice *dice)
+{
+    struct particles *p = &run->simulation.particles;
+    for (int32_t i = 0; i < p->count; i++) {
+        p->mass[i] *= dice_between(dice, 0.9, 1.1);
+        for (int axis = 0; axis < p->dimension; axis++)
+            p->position[i][axis] += dice_between(dice, -shift, shift);
+    }
+    sph_evaluate(&run->sph, &run->simulation);
+}
+
+static void prepare(struct running *run)
+{
+    assert_success(run->solver->prepare(&run->sph, &run->simulation, &run->limit));
+}
+
+/* U = A x in the dimensions of the run. */
+static void set_velocity(struct running *run, const double a[3][3])
+{
+    struct particles *p = &run->simulation.particles;
+    for (int32_t i = 0; i < p->count; i++)
+        for (int row = 0; row < p->dimension; row++) {
+            p->velocity[i][row] = 0.0;
+            for (int column = 0; column < p->dimension; column++)
+                p->velocity[i][row] += a[row][column] * p->position[i][column];
+        }
+}
+
+/* A random gradient of velocity; TURNING: with a spin. */
+static void random_gradient(struct dice *dice, bool turning, double a[3][3])
+{
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++)
+            a[row][column] =
+                !turning && column < row ? a[column][row] : dice_between(dice, -1e4, 1e4);
+}
+
+/* All that the second pass says of velocity, A. */
+static void assert_velocity_gradient(const struct running *run, const double a[3][3])
+{
+    const struct particles *p = &run->simulation.particles;
+    const double(*rate)[6] = particles_field(p, "strain_rate");
+    const double(*spin)[3] = particles_field(p, "spin");
+    const double *gradient = particles_field(p, "velocity_gradient"), tolerance = 1e-10 * 1e4;
+    const int dimension = p->dimension;
+    for (int32_t i = 0; i < p->count; i++)
+        for (int row = 0; row < dimension; row++)
+            for (int column = 0; column < dimension; column++) {
+                int other = 3 - row - column, slot = row == column ? row : (other + 1) % 3 + 3;
+                double sign = (row + 1) % 3 == column ? -1.0 : 1.0; /* U^x_y = e_xy - spin_z */
+                double sum = rate[i][slot] + (row == column ? 0.0 : sign * spin[i][other]);
+                assert_near(sum, a[row][column], tolerance);
+                assert_near(gradient[(i * dimension + row) * dimension + column], a[row][column],
+                            tolerance);
+            }
+}
+
+/* What the next step starts its records from: rates that follow from the gradients. */
+static const double *expect(struct running *run)
+{
+    const struct sph_fields fields = sph_fields_of(&run->sph, &run->simulation);
+    muscl_expect(&run->sph, &run->simulation, &fields);
+    return fields.rates.acceleration[0];
+}
+
+static void linear_velocities_have_their_gradient_inside_and_at_free_surfaces(void **state)
+{
+    (void)state;
+    struct dice dice = {1};
+    for (size_t k = 0; k < COUNT_OF(bodies); k++) {
+        struct running *run = begin_fresh(bodies[k].text, &plain);
+        double a[3][3];
+        distort(run, bodies[k].shift, &dice);
+        random_gradient(&dice, true, a);
+        set_velocity(run, a);
+        prepare(run);
+        assert_velocity_gradient(run, a);
+        expect(run);
+        assert_velocity_gradient(run, a);
+        end(run);
+    }
+}
+
+/* A random deviator and pressure and their slopes along the axes, in the order of the store. */
+struct linear_stress {
+    double at[6], slope[3][6];
+};
+
+static struct linear_stress random_stress(struct dice *dice)
+{
+    struct linear_stress stress;
+    for (int row = -1; row < 3; row++) {
+        double *of = row < 0 ? stress.at : stress.slope[row], size = row < 0 ? 1e8 : 1e10;
+        for (int c = 0; c < 6; c++)
+            of[c] = dice_between(dice, -size, size);
+    }
+    return stress;
+}
+
+/* The solid's deviator takes the stress less its mean. */
+static void set_stress(struct running *run, const struct linear_stress *stress, bool solid)
+{
+    struct particles *p = &run->simulation.particles;
+    for (int32_t i = 0; i < p->count; i++) {
+        double s[6];
+        for (int c = 0; c < 6; c++) {
+            s[c] = stress->at[c];
+            for (int axis = 0; axis < p->dimension; axis++)
+                s[c] += stress->slope[axis][c] * p->position[i][axis];
+        }
+        double mean = solid ? (s[0] + s[1] + s[2]) / 3.0 : s[0];
+        p->pressure[i] = -mean;
+        for (int c = 0; c < 6; c++)
+            p->deviator[i][c] = solid ? s[c] - (c < 3 ? mean : 0.0) : 0.0;
+    }
+}
+
+/* What the record says of the end of the step: without spin all stress changes alike. */
+static void linear_stresses_have_their_gradient_inside_and_at_free_surfaces(void **state)
+{
+    (void)state;
+    static const int slot[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    struct dice dice = {2};
+    for (size_t k = 0; k < COUNT_OF(bodies); k++) {
+        struct running *run = begin_fresh(bodies[k].text, &plain);
+        const struct particles *p = &run->simulation.particles;
+        const int stresses = bodies[k].stresses;
+        const struct linear_stress stress = random_stress(&dice);
+        double a[3][3];
+        distort(run, bodies[k].shift, &dice);
+        random_gradient(&dice, false, a);
+        set_velocity(run, a);
+        set_stress(run, &stress, strstr(bodies[k].name, "solid") != NULL);
+        prepare(run);
+        assert_velocity_gradient(run, a);
+        const double *slope = particles_field(p, "stress_gradient"), *acceleration = expect(run);
+        for (int32_t i = 0; i < p->count; i++)
+            for (int axis = 0; axis < p->dimension; axis++) {
+                double force = 0.0;
+                for (int c = 0; c < stresses; c++)
+                    assert_near(slope[(i * p->dimension + axis) * stresses + c],
+                                stress.slope[axis][p->dimension == 2 && c == 2 ? 3 : c],
+                                1e-10 * 1e10);
+                for (int along = 0; along < p->dimension; along++)
+                    if (stresses > 1 || along == axis)
+                        force += stress.slope[along][stresses > 1 ? slot[axis][along] : 0];
+                assert_close(acceleration[3 * i + axis], force / p->density[i], 1e-9);
+            }
+        end(run);
+    }
+}
+
+/* With h = D the moment of an end is half, and the empty other half completes it. */
+static void a_line_of_like_particles_has_a_correction_of_one_up_to_its_ends(void **state)
+{
+    (void)state;
+    const struct variant narrow = {"", 1, 1.0, "solver.sph.smoothing=1", false};
+    struct running *run = begin_fresh(bodies[0].text, &narrow);
+    prepare(run);
+    const double *correction = particles_field(&run->simulation.particles, "correction");
+    for (int32_t i = 0; i < run->simulation.particles.count; i++)
+        assert_near(correction[i], 1.0, 1e-13);
+    end(run);
+}
+
+static void a_single_layer_in_space_is_not_corrected(void **state)
+{
+    (void)state;
+    static const double one[6] = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+    struct running *run = begin_fresh(layer, &plain);
+    const struct particles *p = &run->simulation.particles;
+    struct dice dice = {11};
+    for (int32_t i = 0; i < p->count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            p->velocity[i][axis] = dice_between(&dice, -100.0, 100.0);
+    prepare(run);
+    const double(*correction)[6] = particles_field(p, "correction");
+    const double(*acceleration)[3] = particles_field(p, "acceleration");
+    for (int32_t i = 0; i < p->count; i++) {
+        assert_memory_equal(correction[i], one, sizeof one);
+        assert_true(isfinite(acceleration[i][0]) && acceleration[i][2] != 0.0);
+    }
+    end(run);
+}
+
+static void a_free_body_that_turns_as_a_whole_is_not_braked(void **state)
+{
+    (void)state;
+    const double omega = 3e4, sound = 5350.0;
+    const double turn[3][3] = {
+        {0.0, -omega, 0.5 * omega}, {omega, 0.0, -omega}, {-0.5 * omega, omega, 0.0}};
+    struct dice dice = {3};
+    for (size_t k = 0; k < COUNT_OF(bodies); k++) {
+        if (bodies[k].dimension == 1)
+            continue;
+        struct running *run = begin_fresh(bodies[k].text, &plain);
+        const struct particles *p = &run->simulation.particles;
+        distort(run, bodies[k].shift, &dice);
+        for (int32_t i = 0; i < p->count; i++)
+            p->pressure[i] = 0.0; /* to the last digit */
+        set_velocity(run, turn);
+        prepare(run);
+        const double(*acceleration)[3] = particles_field(p, "acceleration");
+        const double *power = particles_field(p, "power");
+        /* couples between particles, not corrected, bring accelerations of C_t omega */
+        for (int32_t i = 0; i < p->count; i++) {
+            for (int axis = 0; axis < 3; axis++)
+                assert_near(acceleration[i][axis], 0.0, 1e-11 * sound * omega);
+            assert_near(power[i], 0.0, 1e-11 * sound * omega * 0.01 * omega);
+        }
+        end(run);
+    }
+}
+
+/* Two bodies that slip on each other and part without tension; beside them one that adheres. */
+#define CLOUD(dimension, first, second, third)       \
+    HEAD(dimension)                                  \
+    "materials:\n" METAL LIQUID "bodies:\n"          \
+    "  first: {material: metal, box: " first "}\n"   \
+    "  second: {material: metal, box: " second "}\n" \
+    "  third: {material: liquid, box: " third "}\n"  \
+    "contacts:\n  faces: {between: [first, second], shear: slip, tension: none}\n"
+static const char *const clouds[] = {
+    CLOUD("1", "{from: [0 mm], to: [40 mm]}", "{from: [40 mm], to: [80 mm]}",
+          "{from: [80 mm], to: [99 mm]}"),
+    CLOUD("2", "{from: [0 mm, 0 mm], to: [12 mm, 6 mm]}",
+          "{from: [0 mm, 6 mm], to: [12 mm, 11 mm]}", "{from: [0 mm, 11 mm], to: [12 mm, 15 mm]}"),
+    CLOUD("3", "{from: [0 mm, 0 mm, 0 mm], to: [6 mm, 6 mm, 3 mm]}",
+          "{from: [0 mm, 0 mm, 3 mm], to: [6 mm, 6 mm, 6 mm]}",
+          "{from: [6 mm, 0 mm, 0 mm], to: [9 mm, 6 mm, 6 mm]}")};
+
+static void randomise(struct running *run, struct dice *dice)
+{
+    struct particles *p = &run->simulation.particles;
+    for (int32_t i = 0; i < p->count; i++)
+        p->density[i] *= dice_between(dice, 0.95, 1.05);
+    distort(run, 0.6e-3, dice);
+    for (int32_t i = 0; i < p->count; i++) {
+        bool solid = p->material[i] == p->material[0];
+        for (int axis = 0; axis < p->dimension; axis++)
+            p->velocity[i][axis] = dice_between(dice, -500.0, 500.0);
+        double s[6];
+        for (int c = 0; c < 6; c++)
+            s[c] = solid ? dice_between(dice, -1e9, 1e9) : 0.0;
+        s[2] = -s[0] - s[1];
+        memcpy(p->deviator[i], s, sizeof s);
+    }
+}
+
+static void a_random_cloud_keeps_momentum_and_energy(void **state)
+{
+    (void)state;
+    struct dice dice = {4};
+    for (size_t k = 0; k < COUNT_OF(clouds); k++) {
+        struct running *run = begin_fresh(clouds[k], &plain);
+        const struct particles *p = &run->simulation.particles;
+        randomise(run, &dice);
+        prepare(run);
+        const double(*acceleration)[3] = particles_field(p, "acceleration");
+        const double *power = particles_field(p, "power");
+        double force[3] = {0.0}, size = 0.0, work = 0.0, work_size = 0.0;
+        for (int32_t i = 0; i < p->count; i++) {
+            work += p->mass[i] * power[i];
+            work_size += fabs(p->mass[i] * power[i]);
+            for (int axis = 0; axis < 3; axis++) {
+                double f = p->mass[i] * acceleration[i][axis];
+                force[axis] += f;
+                size += fabs(f);
+                work += f * p->velocity[i][axis];
+                work_size += fabs(f * p->velocity[i][axis]);
+            }
+        }
+        assert_true(size > 0.0 && work_size > 0.0);
+        for (int axis = 0; axis < 3; axis++)
+            assert_near(force[axis], 0.0, 1e-13 * size);
+        assert_near(work, 0.0, 1e-13 * work_size);
+        end(run);
+    }
+}
+
+/* A block with a liquid core: the whole, and the part that stands between walls. */
+#define BLOCK(geometry, from, walls)                                                  \
+    HEAD("2")                                                                         \
+    geometry "materials:\n" METAL LIQUID "bodies:\n"                                  \
+             "  block: {material: metal, box: {from: " from ", to: [11 mm, 8 mm]}}\n" \
+             "  core: {material: liquid, replaces: block, intersection:\n"            \
+             "    [{ball: {center: [0 mm, 0 mm], radius: 4 mm}},\n"                   \
+             "     {box: {from: " from ", to: [11 mm, 8 mm]}}]}\n" walls
+#define LEFT "  left: {mirror: x, at: 0 mm, side: low}\n"
+#define BELOW "  below: {mirror: y, at: 0 mm, side: low}\n"
+static const char plane_whole[] = BLOCK("", "[-11 mm, -8 mm]", "");
+static const char plane_quarter[] = BLOCK("", "[0 mm, 0 mm]", "walls:\n" LEFT BELOW);
+static const char round_whole[] = BLOCK("geometry: axisymmetric\n", "[0 mm, -8 mm]", "");
+static const char round_half[] =
+    BLOCK("geometry: axisymmetric\n", "[0 mm, 0 mm]", "walls:\n" BELOW);
+
+/* A state in motion that both mirrors leave as it is. */
+static void set_symmetric_state(struct running *run)
+{
+    struct particles *p = &run->simulation.particles;
+    for (int32_t i = 0; i < p->count; i++) {
+        const double x = p->position[i][0] / 1e-2, y = p->position[i][1] / 1e-2;
+        bool solid = run->simulation.material[p->material[i]].strength.kind != STRENGTH_NONE;
+        p->position[i][0] *= 1.0 + 0.05 * y * y;
+        p->position[i][1] *= 1.0 - 0.04 * x * x;
+        p->velocity[i][0] = 200.0 * x * (1.0 - 0.5 * y * y) * cos(3.0 * x);
+        p->velocity[i][1] = -150.0 * y * (1.0 + x * x);
+        p->density[i] *= 1.0 + 0.03 * cos(2.0 * x) * cos(4.0 * y);
+        const double s[6] = {3e8 * cos(x), 2e8 * y * y, 0.0, 4e8 * x * y, 0.0, 0.0};
+        for (int c = 0; c < 6; c++)
+            p->deviator[i][c] = !solid ? 0.0 : c == 2 ? -s[0] - s[1] : s[c];
+    }
+    sph_evaluate(&run->sph, &run->simulation);
+}
+
+/* NAME has alike components in both, wherever PART has a particle. */
+static void assert_same_field(const struct running *whole, const struct running *part,
+                              const char *name, int components)
+{
+    const struct particles *w = &whole->simulation.particles, *p = &part->simulation.particles;
+    const double *of_whole = particles_field(w, name), *of_part = particles_field(p, name);
+    double size = 0.0;
+    for (int32_t k = 0; k < p->count * components; k++)
+        size = maximum(size, fabs(of_part[k]));
+    assert_true(size > 0.0);
+    for (int32_t i = 0; i < p->count; i++) {
+        int32_t j = 0;
+        while (j < w->count && hypot(w->position[j][0] - p->position[i][0],
+                                     w->position[j][1] - p->position[i][1]) > 1e-9)
+            j++;
+        assert_true(j < w->count);
+        for (int c = 0; c < components; c++)
+            assert_near(of_whole[j * components + c], of_part[i * components + c], 1e-10 * size);
+    }
+}
+
+static void assert_stands_for(const char *whole_text, const char *part_text, int share)
+{
+    struct running *whole = begin_fresh(whole_text, &plain), *part = begin_fresh(part_text, &plain);
+    assert_int_equal(whole->simulation.particles.count, share * part->simulation.particles.count);
+    set_symmetric_state(whole);
+    set_symmetric_state(part);
+    for (int k = 0; k < 3; k++) {
+        prepare(whole);
+        prepare(part);
+        assert_close(whole->limit.dt, part->limit.dt, 1e-10);
+        assert_same_field(whole, part, "acceleration", 3);
+        assert_same_field(whole, part, "power", 1);
+        assert_same_field(whole, part, "strain_rate", 6);
+        assert_same_field(whole, part, "spin", 3);
+        assert_same_field(whole, part, "drift", 3);
+        assert_same_field(whole, part, "correction", 3);
+        assert_same_field(whole, part, "velocity_gradient", 4);
+        assert_same_field(whole, part, "stress_gradient", 6);
+        const double dt = minimum(whole->limit.dt, part->limit.dt);
+        assert_success(whole->solver->advance(&whole->sph, &whole->simulation, dt));
+        assert_success(part->solver->advance(&part->sph, &part->simulation, dt));
+        whole->simulation.step++;
+        part->simulation.step++;
+    }
+    end(whole);
+    end(part);
+}
+
+static void a_quarter_between_two_walls_has_the_rates_of_the_whole(void **state)
+{
+    (void)state;
+    assert_stands_for(plane_whole, plane_quarter, 4);
+}
+
+static void a_round_body_on_a_wall_has_the_rates_of_the_whole(void **state)
+{
+    (void)state;
+    assert_stands_for(round_whole, round_half, 2);
+}
+
+/* Blocks strike in a corner, with faces that slip; a grain of other matter adheres. */
+static const char plane_strike[] =
+    HEAD("2") "materials:\n" METAL LIQUID "bodies:\n"
+              "  striker: {material: metal, box: {from: [-10 mm, 2 mm], to: [0 mm, 14 mm]}, "
+              "velocity: [900 m/s, -300 m/s]}\n"
+              "  target: {material: metal, box: {from: [0 mm, 0 mm], to: [14 mm, 18 mm]}}\n"
+              "  grain: {material: liquid, ball: {center: [6 mm, 8 mm], radius: 3 mm}, replaces: "
+              "target}\n"
+              "contacts:\n  faces: {between: [striker, target], shear: slip, tension: none}\n"
+              "walls:\n"
+              "  floor: {mirror: y, at: -0.2 mm, side: low}\n"
+              "  back: {mirror: x, at: 14.2 mm, side: high}\n";
+static const char space_strike[] = HEAD(
+    "3") "materials:\n" METAL LIQUID "bodies:\n"
+         "  drop: {material: liquid, box: {from: [-5 mm, 0 mm, 0 mm], to: [0 mm, 6 mm, 6 mm]}, "
+         "velocity: [1200 m/s, 100 m/s, 50 m/s]}\n"
+         "  plate: {material: metal, box: {from: [0 mm, 0 mm, 0 mm], to: [4 mm, 7 mm, 7 mm]}}\n"
+         "walls:\n"
+         "  below: {mirror: y, at: -0.2 mm, side: low}\n"
+         "  behind: {mirror: z, at: 0 mm, side: low}\n";
+
+static uint64_t hash_of(const char *text, const struct variant *variant)
+{
+    enum { STEPS = 20 };
+    struct running *run = begin_fresh(text, variant->resumed ? &plain : variant);
+    step(run, STEPS / 2);
+    if (variant->resumed)
+        run = resume(run, text, variant);
+    step(run, STEPS - STEPS / 2);
+    uint64_t hash = particles_hash(&run->simulation.particles);
+    end(run);
+    return hash;
+}
+
+static void threads_rows_and_a_resume_do_not_change_a_bit(void **state)
+{
+    (void)state;
+    static const struct variant variants[] = {
+        {"2 threads", 2, 1.0, NULL, false},
+        {"small cells and a thin skin", 1, 0.37, "solver.sph.skin=0.02", false},
+        {"rows of every step", 1, 1.0, "solver.sph.rebuild=1", false},
+        {"resumed", 1, 1.0, NULL, true},
+        {"resumed with 2 threads, large cells", 2, 1.7, NULL, true}};
+    const char *const texts[] = {plane_strike, space_strike};
+    for (size_t t = 0; t < COUNT_OF(texts); t++) {
+        const uint64_t wanted = hash_of(texts[t], &plain);
+        for (size_t k = 0; k < COUNT_OF(variants); k++) {
+            uint64_t hash = hash_of(texts[t], &variants[k]);
+            if (hash != wanted)
+                print_error("%s: %016llx, not %016llx\n", variants[k].name,
+                            (unsigned long long)hash, (unsigned long long)wanted);
+            assert_true(hash == wanted);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(linear_velocities_have_their_gradient_inside_and_at_free_surfaces),
+        cmocka_unit_test(linear_stresses_have_their_gradient_inside_and_at_free_surfaces),
+        cmocka_unit_test(a_line_of_like_particles_has_a_correction_of_one_up_to_its_ends),
+        cmocka_unit_test(a_single_layer_in_space_is_not_corrected),
+        cmocka_unit_test(a_free_body_that_turns_as_a_whole_is_not_braked),
+        cmocka_unit_test(a_random_cloud_keeps_momentum_and_energy),
+        cmocka_unit_test(a_quarter_between_two_walls_has_the_rates_of_the_whole),
+        cmocka_unit_test(a_round_body_on_a_wall_has_the_rates_of_the_whole),
+        cmocka_unit_test(threads_rows_and_a_resume_do_not_change_a_bit),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
