@@ -68,8 +68,8 @@ BOLIDE_INLINE bool sph_second_order(const struct sph *sph)
     return sph->parameters.method == SPH_MUSCL;
 }
 
-/* Of muscl.c: what the pair loop is instantiated by; what a fresh particle starts from; records of owned particles,
- * then of ghosts. */
+/* Of muscl.c: what the pair loop is instantiated by; what a fresh particle starts from; the rates of level n that follow
+ * from the slopes found a step before; records of owned particles, then of ghosts. */
 struct muscl_kind muscl_kind_of(const struct sph *sph);
 void muscl_start(const struct sph *sph, const struct simulation *simulation);
 void muscl_expect(const struct sph *sph, const struct simulation *simulation,
