@@ -187,41 +187,22 @@ static void pack_for_forces(const struct sph *sph, const struct simulation *simu
         memset(next, 0, 3 * sizeof *next);
 }
 
-/* A tensor behind walls: shear components with one normal index change sign. */
-static void reflect_tensor(int dimension, struct vec3 sign, double *tensor)
-{
-    if (dimension == 2)
-        tensor[2] *= sign.x * sign.y;
-    if (dimension == 3) {
-        tensor[3] *= sign.x * sign.y;
-        tensor[4] *= sign.y * sign.z;
-        tensor[5] *= sign.z * sign.x;
-    }
-}
-
 /* Turns the record of a particle into that of its image; FORCES: that of the second pass. */
 static void reflect(const struct sph *sph, const struct simulation *simulation, image_code image,
                     bool forces, double *record)
 {
     int dimension = simulation->dimension;
     struct vec3 sign = image_sign(image);
-    double x[3] = {0.0, 0.0, 0.0}, signs[3] = {sign.x, sign.y, sign.z};
-    memcpy(x, record, (size_t)dimension * sizeof *x);
-    struct vec3 place = image_position(&simulation->mirrors, image, vec3_make(x[0], x[1], x[2]));
-    double at[3] = {place.x, place.y, place.z};
-    for (int axis = 0; axis < dimension; axis++) {
-        record[axis] = at[axis];
-        record[dimension + 2 + axis] *= signs[axis];
-    }
+    sph_reflect_motion(simulation, image, record);
     if (!forces)
         return;
-    reflect_tensor(dimension, sign, record + hllc_stress(dimension));
-    reflect_tensor(dimension, sign, record + hllc_correction(dimension));
+    sph_reflect_tensor(dimension, sign, record + hllc_stress(dimension));
+    sph_reflect_tensor(dimension, sign, record + hllc_correction(dimension));
     if (sph->hllc.depth && image % 3 == 1)
         record[hllc_depth(sph->hllc)] *= -1.0;
     if (!sph->hllc.reconstructed)
         return;
-    reflect_tensor(dimension, sign, record + hllc_strain(sph->hllc));
+    sph_reflect_tensor(dimension, sign, record + hllc_strain(sph->hllc));
     for (int s = 0; dimension == 1 && s < 3; s++)
         record[hllc_slopes(sph->hllc) + s] *= sign.x;
 }

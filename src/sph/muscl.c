@@ -149,46 +149,32 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     }
 }
 
-/* The signs by which a mirror turns the components of a symmetric tensor, in the order of a record. */
-static void tensor_signs(int dimension, const double sign[3], double *of)
-{
-    for (int a = 0; a < dimension; a++)
-        *of++ = 1.0;
-    for (int a = 0; a < (dimension == 2 ? 1 : dimension == 3 ? 3 : 0); a++)
-        *of++ = sign[a] * sign[(a + 1) % 3];
-}
-
 /* Turns the record of a particle into that of its image. */
 static void reflect(const struct simulation *simulation, struct muscl_kind kind, image_code image,
                     double *record)
 {
     int dimension = kind.dimension, stresses = muscl_stresses(kind);
-    struct vec3 signs = image_sign(image);
-    const double sign[3] = {signs.x, signs.y, signs.z};
-    double x[3] = {0.0, 0.0, 0.0}, tensor[6];
-    memcpy(x, record, (size_t)dimension * sizeof *x);
-    struct vec3 place = image_position(&simulation->mirrors, image, vec3_make(x[0], x[1], x[2]));
-    const double at[3] = {place.x, place.y, place.z};
-    tensor_signs(dimension, sign, tensor);
-    double *velocity = record + record_velocity(dimension);
-    double *stress = record + record_stress(dimension);
-    double *correction = record + muscl_correction(kind);
+    const struct vec3 sign = image_sign(image);
+    const double signs[3] = {sign.x, sign.y, sign.z};
+    const bool tensor = stresses > 1; /* a fluid's stress is one number */
     double *gradient = record + muscl_velocity_gradient(kind);
     double *slope = record + muscl_stress_gradient(kind);
     double *next_velocity = record + muscl_next(kind), *next_stress = next_velocity + dimension;
-    for (int a = 0; a < dimension; a++) {
-        record[a] = at[a];
-        velocity[a] *= sign[a];
-        next_velocity[a] *= sign[a];
-        for (int b = 0; b < dimension; b++)
-            gradient[dimension * a + b] *= sign[a] * sign[b];
-        for (int b = 0; b < stresses; b++)
-            slope[a * stresses + b] *= sign[a] * tensor[b];
+    sph_reflect_motion(simulation, image, record);
+    sph_reflect_tensor(dimension, sign, record + muscl_correction(kind));
+    if (tensor) {
+        sph_reflect_tensor(dimension, sign, record + record_stress(dimension));
+        sph_reflect_tensor(dimension, sign, next_stress);
     }
-    for (int b = 0; b < stresses; b++)
-        stress[b] *= tensor[b], next_stress[b] *= tensor[b];
-    for (int b = 0; b < tensor_components(dimension); b++)
-        correction[b] *= tensor[b];
+    for (int a = 0; a < dimension; a++) {
+        next_velocity[a] *= signs[a];
+        for (int b = 0; b < dimension; b++)
+            gradient[dimension * a + b] *= signs[a] * signs[b];
+        if (tensor)
+            sph_reflect_tensor(dimension, sign, slope + a * stresses);
+        for (int b = 0; b < stresses; b++)
+            slope[a * stresses + b] *= signs[a];
+    }
     if (sph_axisymmetric(simulation) && image % 3 == 1)
         record[muscl_depth(kind)] *= -1.0;
 }

@@ -64,12 +64,8 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     }
 }
 
-/* Turns the record of a particle into that of its image: place mirrored, normal velocity and the shear
- * stresses with one normal index negated, spin as a pseudovector; behind the axis a radius is negative. */
-static void reflect(const struct simulation *simulation, struct pair_kind kind, image_code image,
-                    double *record)
+void sph_reflect_motion(const struct simulation *simulation, image_code image, double *record)
 {
-    const bool shear = kind.shear;
     int dimension = simulation->dimension;
     struct vec3 sign = image_sign(image);
     double x[3] = {0.0, 0.0, 0.0}, signs[3] = {sign.x, sign.y, sign.z};
@@ -82,14 +78,18 @@ static void reflect(const struct simulation *simulation, struct pair_kind kind, 
         record[axis] = at[axis];
         velocity[axis] *= signs[axis];
     }
-    double *stress = record + record_stress(dimension);
-    if (shear && dimension == 2)
-        stress[2] *= sign.x * sign.y;
-    if (shear && dimension == 3) {
-        stress[3] *= sign.x * sign.y;
-        stress[4] *= sign.y * sign.z;
-        stress[5] *= sign.z * sign.x;
-    }
+}
+
+/* Turns the record of a particle into that of its image: place mirrored, normal velocity and the shear
+ * stresses with one normal index negated, spin as a pseudovector; behind the axis a radius is negative. */
+static void reflect(const struct simulation *simulation, struct pair_kind kind, image_code image,
+                    double *record)
+{
+    int dimension = simulation->dimension;
+    struct vec3 sign = image_sign(image);
+    sph_reflect_motion(simulation, image, record);
+    if (kind.shear)
+        sph_reflect_tensor(dimension, sign, record + record_stress(dimension));
     if (sph_axisymmetric(simulation) && image % 3 == 1)
         record[record_depth(kind)] *= -1.0;
     double *spin = record + record_spin(kind);

@@ -74,6 +74,7 @@ struct muscl_kind muscl_kind_of(const struct sph *sph);
 void muscl_start(const struct sph *sph, const struct simulation *simulation);
 void muscl_expect(const struct sph *sph, const struct simulation *simulation,
                   const struct sph_fields *f);
+void muscl_pack(struct sph *sph, const struct simulation *simulation);
 
 /* The sums measure the gradient A of velocity in places at level n, so that these deform by F = 1 + dt A in a step.
  * Returns det F, and turns the parts of A into those of ln F / dt, to second order. */
@@ -103,8 +104,6 @@ BOLIDE_INLINE double muscl_deform(double dt, struct sym3 *strain_rate, struct ve
     double x = 1.0 + e.xx, y = 1.0 + e.yy, z = 1.0 + e.zz;
     return x * (y * z - yz * zy) - xy * (yx * z - yz * zx) + xz * (yx * zy - y * zx);
 }
-
-void muscl_pack(struct sph *sph, const struct simulation *simulation);
 
 /* SPH with corrected kernel gradients and Heun's step. */
 BOLIDE_INLINE bool sph_corrected(const struct sph *sph)
@@ -156,6 +155,21 @@ void sph_cross_axis(struct simulation *simulation);
  * says POINT_NO_SOUND when there is no such rate. */
 struct response sph_thin_step(const struct material *material, double divergence,
                               struct point *point, struct motion *motion, double *thickness);
+
+/* Turns place and velocity of a record, which stand alike in those of all kernels, into those of its image. */
+void sph_reflect_motion(const struct simulation *simulation, image_code image, double *record);
+
+/* The same of a symmetric tensor in the order of a record: components with one normal index change sign. */
+BOLIDE_INLINE void sph_reflect_tensor(int dimension, struct vec3 sign, double *tensor)
+{
+    if (dimension == 2)
+        tensor[2] *= sign.x * sign.y;
+    if (dimension == 3) {
+        tensor[3] *= sign.x * sign.y;
+        tensor[4] *= sign.y * sign.z;
+        tensor[5] *= sign.z * sign.x;
+    }
+}
 
 /* Books what images and hoop stress push in a step of DT. */
 void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, double dt);
