@@ -29,28 +29,15 @@ void muscl_expect(const struct sph *sph, const struct simulation *simulation,
 {
     const struct particles *p = &simulation->particles;
     const struct muscl_kind kind = muscl_kind_of(sph);
-    const int dimension = kind.dimension, stresses = muscl_stresses(kind);
+    const int dimension = kind.dimension;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
         const double *g = f->velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
-        const double *h = f->stress_gradient + (size_t)i * (size_t)(dimension * stresses);
-        double u[3][3] = {{0.0}}, force[3] = {0.0, 0.0, 0.0};
+        double u[3][3] = {{0.0}}, force[3];
+        memcpy(force, f->force[i], sizeof force);
         for (int a = 0; a < dimension; a++)
             for (int b = 0; b < dimension; b++)
                 u[a][b] = g[a * dimension + b];
-        /* where xy, yz, zx stand in a record */
-        const int xy = dimension == 2 ? 2 : 3, yz = 4, zx = 5;
-        if (stresses == 1) {
-            for (int a = 0; a < dimension; a++)
-                force[a] = h[a];
-        } else if (dimension == 2) {
-            force[0] = h[0] + h[stresses + xy];
-            force[1] = h[xy] + h[stresses + 1];
-        } else {
-            force[0] = h[0] + h[stresses + xy] + h[2 * stresses + zx];
-            force[1] = h[xy] + h[stresses + 1] + h[2 * stresses + yz];
-            force[2] = h[zx] + h[stresses + yz] + h[2 * stresses + 2];
-        }
         if (sph_axisymmetric(simulation)) {
             double radius = p->position[i][0];
             force[0] += (p->deviator[i][0] - p->deviator[i][2]) / radius;

@@ -3,6 +3,7 @@
 #ifndef BOLIDE_SPH_MUSCL_SUMS_H
 #define BOLIDE_SPH_MUSCL_SUMS_H
 
+#include "sph/kernel.h"
 #include "sph/muscl_kernel.h"
 #include "sph/record.h"
 
@@ -12,7 +13,9 @@ enum { SUMS = 56 };
 struct layout {
     int traction, power; /* w |a| t*, w |a| t*.(U* - U) */
     int gradient;        /* w (U* - U)^a e^b */
-    int weight, drift;   /* w, w (U* - U) */
+    int weight;          /* w */
+    int drift;           /* on a line: w (U* - U) */
+    int packing;         /* elsewhere: V W */
     int impedance;       /* w Z_j */
     int offset, moment;  /* -f w x, -f w x^a e^b */
     int velocity_gradient,
@@ -29,8 +32,8 @@ INLINE struct layout layout_of(struct muscl_kind kind)
     at.power = dimension;
     at.gradient = at.power + 1;
     at.weight = at.gradient + dimension * dimension;
-    at.drift = at.weight + 1;
-    at.impedance = at.drift + dimension;
+    at.drift = at.packing = at.weight + 1;
+    at.impedance = at.weight + 2;
     at.offset = at.impedance + 1;
     at.moment = at.offset + dimension;
     at.velocity_gradient = at.moment + tensor;
@@ -99,37 +102,96 @@ INLINE struct sym3 correction_of_forces(int dimension, struct sym3 m, struct vec
     return correction_of(dimension, sym3_add(m, sym3_scale(scale, missing)));
 }
 
-INLINE void write_gradients(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                            const double *all)
+/* The rate of density, per axis, at which a particle gives way where volumes overlap: where
+ * matter has met across a gap the velocity gradient counts too little of the closing. */
+INLINE double squeeze_of(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                         double neighbours)
 {
-    const int dimension = kind.dimension, stresses = muscl_stresses(kind);
+    const double slack = 0.005, rate = 0.5;
+    const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
+    const double diameter = own[record_diameter(kind.dimension)];
+    const double packing =
+        neighbours + own[record_volume(kind.dimension)] *
+                         kernel_norm(1.0 / (loop->smoothing * diameter), kind.dimension);
+    double *start = &loop->rates.packing[i];
+    if (*start == 0.0)
+        *start = maximum(1.0, packing);
+    const double over = maximum(packing - *start - slack, 0.0);
+    const double speed = own[muscl_impedance(kind)] / loop->density[i];
+    return rate / 3.0 * over * speed / diameter;
+}
+
+/* Strain rate, spin and, on a line, drift. O is the first moment. */
+INLINE void write_strain(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                         const double *all, struct sym3 l, struct vec3 o)
+{
+    const int dimension = kind.dimension;
     const struct layout at = layout_of(kind);
     const struct pair_rates *rates = &loop->rates.sums;
-    const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
-    const struct sym3 m = stress_from(dimension, all + at.moment, 1);
-    const struct vec3 offset = vector_from(dimension, all + at.offset, 1), none = {0.0, 0.0, 0.0};
-    const struct sym3 l = correction_of(dimension, m);
+    const struct vec3 none = {0.0, 0.0, 0.0};
     struct vec3 x = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient)), y = none,
                 z = none;
     if (dimension > 1)
         y = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient + dimension));
     if (dimension > 2)
         z = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient + 2 * dimension));
-    const double strain[6] = {
-        x.x, y.y, z.z, 0.5 * (x.y + y.x), 0.5 * (y.z + z.y), 0.5 * (z.x + x.z)};
+    const double squeeze = dimension == 1 ? 0.0 : squeeze_of(loop, kind, i, all[at.packing]);
+    const double strain[6] = {x.x - squeeze,     y.y - squeeze,     z.z - squeeze,
+                              0.5 * (x.y + y.x), 0.5 * (y.z + z.y), 0.5 * (z.x + x.z)};
     memcpy(rates->strain_rate[i], strain, sizeof strain);
     rates->spin[i][0] = 0.5 * (z.y - y.z);
     rates->spin[i][1] = 0.5 * (x.z - z.x);
     rates->spin[i][2] = 0.5 * (y.x - x.y);
+    if (dimension > 1 || !rates->drift)
+        return;
     /* The mean of contact velocities, less what a linear field gives where neighbours lie to one side. */
-    const double weight = all[at.weight], inverse = weight < 0.0 ? 1.0 / weight : 0.0;
-    const struct vec3 linear =
-        vec3_make(vec3_dot(x, offset), vec3_dot(y, offset), vec3_dot(z, offset));
-    const struct vec3 drift = vec3_scale(
-        inverse, vec3_add(vector_from(dimension, all + at.drift, 1), vec3_scale(0.5, linear)));
-    const double drifts[3] = {drift.x, drift.y, drift.z};
-    memcpy(rates->drift[i], drifts, sizeof drifts);
-    write_tensor(dimension, correction_of_forces(dimension, m, offset),
+    const double weight = all[at.weight];
+    const double drift[3] = {weight < 0.0 ? (all[at.drift] + 0.5 * x.x * o.x) / weight : 0.0, 0.0,
+                             0.0};
+    memcpy(rates->drift[i], drift, sizeof drift);
+}
+
+/* The force on a unit of volume that the values after the step will make, from their slopes SUMS (by direction, not
+ * corrected) and, at a free surface, from the stress that ends there: with O the first moment and r the mean distance
+ * of neighbours, sigma.o 2 |o|^3/(r o.M.o), which for one neighbour is the whole sigma/D. Without it a free surface
+ * would know nothing of what pulls it half a step ahead, and thin plates would ring louder and louder. */
+INLINE struct vec3 expected_force(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                                  const double *all, struct sym3 m, struct vec3 o, struct sym3 l,
+                                  double share)
+{
+    const int dimension = kind.dimension, stresses = muscl_stresses(kind);
+    const struct layout at = layout_of(kind);
+    const double *stress =
+        loop->record + (size_t)i * (size_t)muscl_stride(kind) + muscl_next(kind) + dimension;
+    struct vec3 slope[6];
+    for (int b = 0; b < stresses; b++)
+        slope[b] = vec3_scale(
+            share, sym3_dot(l, vector_from(dimension, all + at.stress_gradient + b, stresses)));
+    const double across = vec3_dot(o, sym3_dot(m, o)), square = vec3_dot(o, o);
+    const double trace = m.xx + (dimension > 1 ? m.yy : 0.0) + (dimension > 2 ? m.zz : 0.0);
+    const double ends = across > 0.0 && trace > 0.0
+                            ? -2.0 * all[at.weight] * square * sqrt(square) / (across * trace)
+                            : 0.0;
+    if (stresses == 1)
+        return vec3_add(slope[0], vec3_scale(ends * stress[0], o));
+    struct vec3 force =
+        vec3_scale(ends, traction_of(dimension, stress_from(dimension, stress, 1), o));
+    if (dimension == 2)
+        return vec3_add(force, vec3_make(slope[0].x + slope[2].y, slope[2].x + slope[1].y, 0.0));
+    return vec3_add(force, vec3_make(slope[0].x + slope[3].y + slope[5].z,
+                                     slope[3].x + slope[1].y + slope[4].z,
+                                     slope[5].x + slope[4].y + slope[2].z));
+}
+
+/* What the next step starts from. */
+INLINE void write_gradients(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                            const double *all, struct sym3 m, struct sym3 l, struct vec3 o)
+{
+    const int dimension = kind.dimension, stresses = muscl_stresses(kind);
+    const struct layout at = layout_of(kind);
+    const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
+    const struct sym3 of_forces = correction_of_forces(dimension, m, o);
+    write_tensor(dimension, of_forces,
                  loop->rates.correction + (size_t)i * (size_t)tensor_components(dimension));
     double *g = loop->rates.velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
     for (int b = 0; b < dimension; b++) {
@@ -142,17 +204,20 @@ INLINE void write_gradients(const struct muscl_loop *loop, struct muscl_kind kin
     }
     double *h = loop->rates.stress_gradient + (size_t)i * (size_t)(dimension * stresses);
     /* Beside matter of far higher impedance the stress is that matter's, and so is the slope. */
-    const double ours = 2.0 * own[muscl_impedance(kind)] * weight, mean = all[at.impedance];
-    const double yields = ours > mean ? ours / mean : 1.0;
+    const double ours = 2.0 * own[muscl_impedance(kind)] * all[at.weight], mean = all[at.impedance];
+    const double share = ours > mean ? ours / mean : 1.0;
     for (int b = 0; b < stresses; b++) {
         const double *from = all + at.stress_gradient + b;
-        struct vec3 slope = vec3_scale(yields, sym3_dot(l, vector_from(dimension, from, stresses)));
+        struct vec3 slope = vec3_scale(share, sym3_dot(l, vector_from(dimension, from, stresses)));
         h[b] = slope.x;
         if (dimension > 1)
             h[stresses + b] = slope.y;
         if (dimension > 2)
             h[2 * stresses + b] = slope.z;
     }
+    const struct vec3 force = expected_force(loop, kind, i, all, m, o, of_forces, share);
+    const double forces[3] = {force.x, force.y, force.z};
+    memcpy(loop->rates.force[i], forces, sizeof forces);
 }
 
 /* FACTOR turns sums of forces into those of a unit of mass; IMAGES are the tractions of images. */
@@ -176,7 +241,11 @@ INLINE void write_rates(const struct muscl_loop *loop, struct muscl_kind kind, i
         rates->hoop_pull[i] = 1.0 + all[at.hoop + 1] - 2.0 * all[at.hoop];
         rates->hoop_strain[i] = 1.0;
     }
-    write_gradients(loop, kind, i, all);
+    const struct sym3 m = stress_from(kind.dimension, all + at.moment, 1);
+    const struct vec3 offset = vector_from(kind.dimension, all + at.offset, 1);
+    const struct sym3 l = correction_of(kind.dimension, m);
+    write_strain(loop, kind, i, all, l, offset);
+    write_gradients(loop, kind, i, all, m, l, offset);
 }
 
 #endif

@@ -335,8 +335,6 @@ static void update_heat(const struct sph *sph, struct simulation *simulation,
 struct error *sph_update(const struct sph *sph, struct simulation *simulation, double dt)
 {
     struct sph_fields f = sph_fields_of(sph, simulation);
-    if (!sph->kind.drift) /* known, but nobody moves by it */
-        f.rates.drift = NULL;
     if (f.rates.wall)
         sph_book_walls(simulation, &f, dt);
     sph_hold_bodies(simulation, &f, dt);

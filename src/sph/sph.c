@@ -40,6 +40,10 @@ static const struct field_declaration velocity_gradient_field = {
     "velocity_gradient", NULL, "gradient of velocity", NUMBER_DOUBLE, 0, FIELD_STATE};
 static const struct field_declaration stress_gradient_field = {
     "stress_gradient", NULL, "gradient of stress", NUMBER_DOUBLE, 0, FIELD_STATE};
+static const struct field_declaration force_field = {
+    "expected_force", "N/m^3", "force of the next step", NUMBER_DOUBLE, 3, FIELD_STATE};
+static const struct field_declaration packing_field = {
+    "packing", NULL, "sum of volumes under the kernel at the start", NUMBER_DOUBLE, 1, FIELD_STATE};
 static const struct field_declaration heat_field = {
     "heat_rate", NULL, "specific power of conduction", NUMBER_DOUBLE, 1, FIELD_DERIVED};
 static const struct field_declaration viscosity_field = {
@@ -73,8 +77,6 @@ static bool is_thin(const struct simulation *simulation)
     return simulation->geometry == GEOMETRY_PLANE_STRESS;
 }
 
-static bool has_drift(const struct sph *sph) { return sph->kind.drift || sph_second_order(sph); }
-
 struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *simulation)
 {
     const struct particles *p = &simulation->particles;
@@ -90,11 +92,13 @@ struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *
                   .strain_rate = particles_field(p, "strain_rate"),
                   .spin = particles_field(p, "spin"),
                   .wall = has_walls(simulation) ? particles_field(p, "wall_acceleration") : NULL,
-                  .drift = has_drift(sph) ? particles_field(p, "drift") : NULL}};
+                  .drift = sph->kind.drift ? particles_field(p, "drift") : NULL}};
     if (sph_second_order(sph)) {
         f.correction = particles_field(p, "correction");
         f.velocity_gradient = particles_field(p, "velocity_gradient");
         f.stress_gradient = particles_field(p, "stress_gradient");
+        f.force = particles_field(p, "expected_force");
+        f.packing = simulation->dimension > 1 ? particles_field(p, "packing") : NULL;
     }
     if (sph_axisymmetric(simulation)) {
         f.rates.hoop_pull = particles_field(p, "hoop_pull");
@@ -141,9 +145,13 @@ static struct error *choose_kind(struct sph *sph, const struct simulation *simul
         parameters->motion = sph_second_order(sph) && simulation->dimension == 1
                                  ? SPH_MOTION_CONTACT
                                  : SPH_MOTION_PARTICLE;
-    if (sph_second_order(sph) && parameters->courant > 0.5)
+    if (sph_second_order(sph) && parameters->courant > 0.45)
         return input_error(simulation->input, "solver", "sph.courant",
-                           "muscl is stable up to 0.5, and this is %g", parameters->courant);
+                           "muscl is stable up to 0.45, and this is %g", parameters->courant);
+    if (sph_second_order(sph) && parameters->motion == SPH_MOTION_CONTACT &&
+        simulation->dimension > 1)
+        return input_error(simulation->input, "solver", "sph.motion",
+                           "muscl moves particles by contacts on a line only: leave this out");
     kind->star = is_standard(sph) ? STAR_MEAN : stars[parameters->contact];
     kind->drift = parameters->motion == SPH_MOTION_CONTACT;
     kind->depth = sph_axisymmetric(simulation) || is_thin(simulation);
@@ -189,7 +197,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     TRY(choose_kind(sph, simulation));
     sph->groups = (struct contact_groups){simulation->group_of_body, &simulation->law[0][0],
                                           has_laws(simulation) ? CONTACT_GROUPS : 1};
-    struct field_declaration fields[COUNT_OF(sph_field_table) + 9 + HLLC_FIELDS];
+    struct field_declaration fields[COUNT_OF(sph_field_table) + 11 + HLLC_FIELDS];
     int count = 0;
     for (size_t k = 0; k < COUNT_OF(sph_field_table); k++)
         fields[count++] = sph_field_table[k];
@@ -203,6 +211,9 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
         fields[count++].components = kind.dimension * kind.dimension;
         fields[count] = stress_gradient_field;
         fields[count++].components = kind.dimension * muscl_stresses(kind);
+        fields[count++] = force_field;
+        if (kind.dimension > 1)
+            fields[count++] = packing_field;
     }
     if (sph_corrected(sph)) { /* supports are those of the start */
         fields[DIAMETER_FIELD].kind = FIELD_STATE;
@@ -216,7 +227,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
         fields[count++] = thickness_field;
     if (is_standard(sph))
         fields[count++] = viscosity_field;
-    if (has_drift(sph))
+    if (sph->kind.drift)
         fields[count++] = drift_field;
     TRY(conduction_create(sph, simulation));
     if (conduction_on(sph))
@@ -322,7 +333,8 @@ static void sum_pairs_ahead(struct sph *sph, struct simulation *simulation,
                               .density = p->density,
                               .velocity = (const double(*)[3])p->velocity,
                               .rates = {fields->rates, fields->correction,
-                                        fields->velocity_gradient, fields->stress_gradient}};
+                                        fields->velocity_gradient, fields->stress_gradient,
+                                        fields->force, fields->packing}};
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
     for (int32_t b = 0; b < p->blocks; b++)
         muscl_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);

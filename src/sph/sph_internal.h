@@ -18,7 +18,8 @@ struct sph_fields {
     double *heat_rate;    /* dE/dt by conduction, W/kg; NULL without */
     double *density_rate; /* of hllc and monaghan, NULL otherwise */
     double *correction, *velocity_gradient,
-        *stress_gradient; /* second order only, as muscl_rates has them */
+        *stress_gradient, *packing; /* second order only, as muscl_rates has them */
+    double (*force)[3];
 };
 
 struct sph {

@@ -387,7 +387,7 @@ static void assert_stands_for(const char *whole_text, const char *part_text, int
         assert_same_field(whole, part, "power", 1);
         assert_same_field(whole, part, "strain_rate", 6);
         assert_same_field(whole, part, "spin", 3);
-        assert_same_field(whole, part, "drift", 3);
+        assert_same_field(whole, part, "expected_force", 3);
         assert_same_field(whole, part, "correction", 3);
         assert_same_field(whole, part, "velocity_gradient", 4);
         assert_same_field(whole, part, "stress_gradient", 6);

@@ -72,18 +72,18 @@ static double *rates_by(muscl_loop_isa *set, struct running *run, size_t *bytes)
     const struct particles *p = &run->simulation.particles;
     const struct sph_fields f = sph_fields_of(&run->sph, &run->simulation);
     const struct muscl_kind kind = muscl_kind_of(&run->sph);
-    const struct muscl_loop loop = {
-        .kind = kind,
-        .record = run->sph.record,
-        .empty = p->count + run->sph.neighbours.ghosts.count,
-        .place = run->sph.place,
-        .smoothing = run->sph.parameters.smoothing,
-        .neighbours = &run->sph.neighbours,
-        .groups = &run->sph.groups,
-        .body = p->body,
-        .density = p->density,
-        .velocity = (const double(*)[3])p->velocity,
-        .rates = {f.rates, f.correction, f.velocity_gradient, f.stress_gradient}};
+    const struct muscl_loop loop = {.kind = kind,
+                                    .record = run->sph.record,
+                                    .empty = p->count + run->sph.neighbours.ghosts.count,
+                                    .place = run->sph.place,
+                                    .smoothing = run->sph.parameters.smoothing,
+                                    .neighbours = &run->sph.neighbours,
+                                    .groups = &run->sph.groups,
+                                    .body = p->body,
+                                    .density = p->density,
+                                    .velocity = (const double(*)[3])p->velocity,
+                                    .rates = {f.rates, f.correction, f.velocity_gradient,
+                                              f.stress_gradient, f.force, f.packing}};
     set(&loop, 0, p->count);
     const int dimension = kind.dimension;
     const struct {
@@ -94,7 +94,8 @@ static double *rates_by(muscl_loop_isa *set, struct running *run, size_t *bytes)
                 {f.rates.strain_rate, 6},
                 {f.rates.spin, 3},
                 {f.rates.wall, 3},
-                {f.rates.drift, 3},
+                {f.rates.drift, f.rates.drift ? 3 : 0},
+                {f.force, 3},
                 {f.correction, tensor_components(dimension)},
                 {f.velocity_gradient, dimension * dimension},
                 {f.stress_gradient, dimension * muscl_stresses(kind)},
