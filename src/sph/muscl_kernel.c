@@ -252,9 +252,6 @@ INLINE void add_lanes(struct muscl_kind kind, bool with_law, double smoothing, c
         w = vec3_scale(weight, w);
         if (dimension == 1)
             sums[at.drift][k] += w.x;
-        else
-            sums[at.packing][k] += lanes->field[v][k] * kernel_shape(r * inverse_h) *
-                                   kernel_norm(inverse_h, dimension);
         add_product(dimension, sums, at.gradient, k, w, e);
 
         struct vec3 c = vec3_scale(-weight * near_i, e), m = vec3_scale(r, c);

@@ -65,7 +65,7 @@ struct muscl_rates {
     /* For the next step, of what its values will be: dU^a/dx^b by rows, 1/s; of the record's stresses by direction, Pa/m */
     double *velocity_gradient, *stress_gradient;
     double (*force)[3]; /* likewise, on a unit of volume, N/m^3 */
-    double *packing;    /* sum of V W at the start, one at least; not on a line */
+    double *packing;    /* tr M/dimension at the start, one at least; not on a line */
 };
 
 struct muscl_loop {

@@ -3,7 +3,6 @@
 #ifndef BOLIDE_SPH_MUSCL_SUMS_H
 #define BOLIDE_SPH_MUSCL_SUMS_H
 
-#include "sph/kernel.h"
 #include "sph/muscl_kernel.h"
 #include "sph/record.h"
 
@@ -15,7 +14,6 @@ struct layout {
     int gradient;        /* w (U* - U)^a e^b */
     int weight;          /* w */
     int drift;           /* on a line: w (U* - U) */
-    int packing;         /* elsewhere: V W */
     int impedance;       /* w Z_j */
     int offset, moment;  /* -f w x, -f w x^a e^b */
     int velocity_gradient,
@@ -32,8 +30,8 @@ INLINE struct layout layout_of(struct muscl_kind kind)
     at.power = dimension;
     at.gradient = at.power + 1;
     at.weight = at.gradient + dimension * dimension;
-    at.drift = at.packing = at.weight + 1;
-    at.impedance = at.weight + 2;
+    at.drift = at.weight + 1;
+    at.impedance = at.drift + (dimension == 1 ? 1 : 0);
     at.offset = at.impedance + 1;
     at.moment = at.offset + dimension;
     at.velocity_gradient = at.moment + tensor;
@@ -102,28 +100,27 @@ INLINE struct sym3 correction_of_forces(int dimension, struct sym3 m, struct vec
     return correction_of(dimension, sym3_add(m, sym3_scale(scale, missing)));
 }
 
-/* The rate of density, per axis, at which a particle gives way where volumes overlap: where
- * matter has met across a gap the velocity gradient counts too little of the closing. */
+/* The rate, per axis, at which a particle is compressed where the volumes about it fill more than the space there is:
+ * by the excess of tr M/dimension over the start's, with the speed of sound over the diameter. Where matter has met across a gap
+ * the velocity gradient counts too little of the closing, and bodies would run into each other. The trace is 1 on the
+ * average of any arrangement that fills space. */
 INLINE double squeeze_of(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                         double neighbours)
+                         struct sym3 m)
 {
-    const double slack = 0.005, rate = 0.5;
+    const double slack = 0.005; /* elastic waves change the trace by less */
     const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
-    const double diameter = own[record_diameter(kind.dimension)];
-    const double packing =
-        neighbours + own[record_volume(kind.dimension)] *
-                         kernel_norm(1.0 / (loop->smoothing * diameter), kind.dimension);
+    const double filled = kind.dimension == 2 ? 0.5 * (m.xx + m.yy) : (m.xx + m.yy + m.zz) / 3.0;
     double *start = &loop->rates.packing[i];
     if (*start == 0.0)
-        *start = maximum(1.0, packing);
-    const double over = maximum(packing - *start - slack, 0.0);
+        *start = maximum(1.0, filled);
+    const double excess = maximum(filled - *start - slack, 0.0);
     const double speed = own[muscl_impedance(kind)] / loop->density[i];
-    return rate / 3.0 * over * speed / diameter;
+    return excess * speed / (3.0 * own[record_diameter(kind.dimension)]);
 }
 
 /* Strain rate, spin and, on a line, drift. O is the first moment. */
 INLINE void write_strain(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                         const double *all, struct sym3 l, struct vec3 o)
+                         const double *all, struct sym3 m, struct sym3 l, struct vec3 o)
 {
     const int dimension = kind.dimension;
     const struct layout at = layout_of(kind);
@@ -135,7 +132,7 @@ INLINE void write_strain(const struct muscl_loop *loop, struct muscl_kind kind, 
         y = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient + dimension));
     if (dimension > 2)
         z = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient + 2 * dimension));
-    const double squeeze = dimension == 1 ? 0.0 : squeeze_of(loop, kind, i, all[at.packing]);
+    const double squeeze = dimension == 1 ? 0.0 : squeeze_of(loop, kind, i, m);
     const double strain[6] = {x.x - squeeze,     y.y - squeeze,     z.z - squeeze,
                               0.5 * (x.y + y.x), 0.5 * (y.z + z.y), 0.5 * (z.x + x.z)};
     memcpy(rates->strain_rate[i], strain, sizeof strain);
@@ -244,7 +241,7 @@ INLINE void write_rates(const struct muscl_loop *loop, struct muscl_kind kind, i
     const struct sym3 m = stress_from(kind.dimension, all + at.moment, 1);
     const struct vec3 offset = vector_from(kind.dimension, all + at.offset, 1);
     const struct sym3 l = correction_of(kind.dimension, m);
-    write_strain(loop, kind, i, all, l, offset);
+    write_strain(loop, kind, i, all, m, l, offset);
     write_gradients(loop, kind, i, all, m, l, offset);
 }
 
