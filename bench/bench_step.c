@@ -78,7 +78,7 @@ static void bench(const char *path, const char *setting, int steps, int threads)
                  (size_t)sph->record_capacity * sizeof(double) * (size_t)record_stride(sph->kind)) /
             simulation->particles.count;
     const char *name = strrchr(path, '/');
-    printf("%-18s %9d %7d %10.3f %10.1f %8.2f %8.0f %7.1f ", name ? name + 1 : path,
+    printf("%-25s %9d %7d %10.3f %10.1f %8.2f %8.0f %7.1f ", name ? name + 1 : path,
            simulation->particles.count, threads, 1e-6 * updates / seconds,
            pairs / simulation->particles.count, 1e9 * seconds / (pairs * steps), bytes,
            (double)steps / (double)(sph->neighbours.builds - builds));
@@ -96,7 +96,7 @@ static void bench(const char *path, const char *setting, int steps, int threads)
 
 int main(int argc, char **argv)
 {
-    printf("%-18s %9s %7s %10s %10s %8s %8s %7s  phases\n", "case", "particles", "threads",
+    printf("%-25s %9s %7s %10s %10s %8s %8s %7s  phases\n", "case", "particles", "threads",
            "M upd/s", "neighbours", "ns/pair", "B/part", "steps/b");
     if (argc > 1) {
         bench(argv[1], argc > 2 ? argv[2] : NULL, argc > 3 ? atoi(argv[3]) : 50,
@@ -107,9 +107,13 @@ int main(int argc, char **argv)
         const char *path;
         int steps;
     } cases[] = {{BOLIDE_SOURCE_DIR "/bench/cases/line-solid.yaml", 200},
+                 {BOLIDE_SOURCE_DIR "/bench/cases/line-solid-second-order.yaml", 200},
                  {BOLIDE_SOURCE_DIR "/bench/cases/plane-solid.yaml", 100},
+                 {BOLIDE_SOURCE_DIR "/bench/cases/plane-solid-second-order.yaml", 100},
                  {BOLIDE_SOURCE_DIR "/bench/cases/space-fluid.yaml", 50},
-                 {BOLIDE_SOURCE_DIR "/bench/cases/space-solid.yaml", 50}};
+                 {BOLIDE_SOURCE_DIR "/bench/cases/space-fluid-second-order.yaml", 50},
+                 {BOLIDE_SOURCE_DIR "/bench/cases/space-solid.yaml", 50},
+                 {BOLIDE_SOURCE_DIR "/bench/cases/space-solid-second-order.yaml", 50}};
     for (size_t k = 0; k < COUNT_OF(cases); k++)
         for (int threads = 1; threads <= 2; threads++)
             bench(cases[k].path, NULL, cases[k].steps, threads);

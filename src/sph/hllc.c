@@ -17,7 +17,7 @@ static const char *wrong_parameter(const struct sph_parameters *parameters, int 
     if (parameters->motion >= 0 && parameters->motion != SPH_MOTION_PARTICLE)
         return "with hllc and monaghan a particle moves by its own velocity: `particle`";
     *key = "sph.rotation";
-    if (parameters->rotation != SPH_ROTATION_FAITHFUL)
+    if (parameters->rotation == SPH_ROTATION_CORRECTED)
         return "corrected goes with `method: contact` and `contact: acoustic`";
     *key = "sph.conduction";
     if (parameters->conduction != SPH_CONDUCTION_NONE)

@@ -5,6 +5,33 @@
 #include "sph/lanes.h"
 #include "sph/sph_internal.h"
 
+/* The second order is the default: who asks for what goes with the first may not have named a method. */
+static const char *wrong_parameter(const struct sph_parameters *parameters, int dimension,
+                                   const char **key)
+{
+    *key = "sph.contact";
+    if (parameters->contact >= 0)
+        return "muscl has a contact problem of its own: leave this out, or add `method: contact`";
+    *key = "sph.rotation";
+    if (parameters->rotation >= 0)
+        return "muscl carries velocities to the contact by their gradient, spin included: leave "
+               "this out, or add `method: contact`";
+    *key = "sph.motion";
+    if (parameters->motion == SPH_MOTION_CONTACT && dimension > 1)
+        return "muscl moves particles by contacts on a line only: leave this out, or add `method: "
+               "contact`";
+    *key = "sph.courant";
+    if (parameters->courant > 0.45)
+        return "muscl is stable up to 0.45: give less, or add `method: contact`";
+    return NULL;
+}
+
+struct error *muscl_check(const struct sph *sph, const struct simulation *simulation)
+{
+    const char *key, *wrong = wrong_parameter(&sph->parameters, simulation->dimension, &key);
+    return wrong ? input_error(simulation->input, "solver", key, "%s", wrong) : NULL;
+}
+
 struct muscl_kind muscl_kind_of(const struct sph *sph)
 {
     struct muscl_kind kind = {sph->kind.dimension, sph->kind.shear, sph->kind.depth};
@@ -23,7 +50,7 @@ void muscl_start(const struct sph *sph, const struct simulation *simulation)
 }
 
 /* The rates at level n that follow from the gradients alone, which were found a step before: they bring the records half
- * a step ahead. */
+ * a step ahead, except those of frozen bodies. */
 void muscl_expect(const struct sph *sph, const struct simulation *simulation,
                   const struct sph_fields *f)
 {
@@ -32,6 +59,12 @@ void muscl_expect(const struct sph *sph, const struct simulation *simulation,
     const int dimension = kind.dimension;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
+        if (sph_is_frozen(simulation, p->body[i])) {
+            memset(f->rates.acceleration[i], 0, sizeof *f->rates.acceleration);
+            memset(f->rates.strain_rate[i], 0, sizeof *f->rates.strain_rate);
+            memset(f->rates.spin[i], 0, sizeof *f->rates.spin);
+            continue;
+        }
         const double *g = f->velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
         double u[3][3] = {{0.0}}, force[3];
         memcpy(force, f->force[i], sizeof force);

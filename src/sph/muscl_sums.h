@@ -148,10 +148,11 @@ INLINE void write_strain(const struct muscl_loop *loop, struct muscl_kind kind, 
     memcpy(rates->drift[i], drift, sizeof drift);
 }
 
-/* The force on a unit of volume that the values after the step will make, from their slopes SUMS (by direction, not
- * corrected) and, at a free surface, from the stress that ends there: with O the first moment and r the mean distance
- * of neighbours, sigma.o 2 |o|^3/(r o.M.o), which for one neighbour is the whole sigma/D. Without it a free surface
- * would know nothing of what pulls it half a step ahead, and thin plates would ring louder and louder. */
+/* The force on a unit of volume that the values after the step will make: from their slopes, and from the stress that
+ * ends at a free surface. There, with the first moment O and the mean distance r of neighbours, sigma.O 2/r is what
+ * neighbours on one side only add up to. Inside O is small and says nothing of a surface: it counts by |O|^3/(O.M.O),
+ * one at a flat surface and beyond. Without this a free surface would feel what pulls it half a step late, and thin
+ * plates would ring louder and louder. */
 INLINE struct vec3 expected_force(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
                                   const double *all, struct sym3 m, struct vec3 o, struct sym3 l,
                                   double share)
@@ -166,9 +167,9 @@ INLINE struct vec3 expected_force(const struct muscl_loop *loop, struct muscl_ki
             share, sym3_dot(l, vector_from(dimension, all + at.stress_gradient + b, stresses)));
     const double across = vec3_dot(o, sym3_dot(m, o)), square = vec3_dot(o, o);
     const double trace = m.xx + (dimension > 1 ? m.yy : 0.0) + (dimension > 2 ? m.zz : 0.0);
-    const double ends = across > 0.0 && trace > 0.0
-                            ? -2.0 * all[at.weight] * square * sqrt(square) / (across * trace)
-                            : 0.0;
+    const bool any = across > 0.0 && trace > 0.0;
+    const double surface = any ? minimum(1.0, square * sqrt(square) / across) : 0.0;
+    const double ends = any ? -2.0 * all[at.weight] / trace * surface : 0.0;
     if (stresses == 1)
         return vec3_add(slope[0], vec3_scale(ends * stress[0], o));
     struct vec3 force =

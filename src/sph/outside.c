@@ -78,7 +78,7 @@ void sph_stop_bodies(struct simulation *simulation)
     }
 }
 
-static bool is_frozen(const struct simulation *simulation, int body)
+bool sph_is_frozen(const struct simulation *simulation, int body)
 {
     return case_body(simulation->input, body)->frozen;
 }
@@ -88,10 +88,10 @@ static void freeze_bodies(struct simulation *simulation, const struct sph_fields
 {
     const struct particles *p = &simulation->particles;
     const struct pair_rates *rates = &f->rates;
-    if (!any_body(simulation, is_frozen))
+    if (!any_body(simulation, sph_is_frozen))
         return;
     for (int32_t i = 0; i < p->count; i++) {
-        if (!is_frozen(simulation, p->body[i]))
+        if (!sph_is_frozen(simulation, p->body[i]))
             continue;
         struct vec3 impulse = vec3_scale(-dt * p->mass[i], vector_of(rates->acceleration[i]));
         double heat = rates->power[i] + (f->heat_rate ? f->heat_rate[i] : 0.0);

@@ -43,7 +43,7 @@ static const struct field_declaration stress_gradient_field = {
 static const struct field_declaration force_field = {
     "expected_force", "N/m^3", "force of the next step", NUMBER_DOUBLE, 3, FIELD_STATE};
 static const struct field_declaration packing_field = {
-    "packing", NULL, "sum of volumes under the kernel at the start", NUMBER_DOUBLE, 1, FIELD_STATE};
+    "packing", NULL, "how far volumes filled space at the start", NUMBER_DOUBLE, 1, FIELD_STATE};
 static const struct field_declaration heat_field = {
     "heat_rate", NULL, "specific power of conduction", NUMBER_DOUBLE, 1, FIELD_DERIVED};
 static const struct field_declaration viscosity_field = {
@@ -112,10 +112,7 @@ static struct error *choose_turn(struct sph *sph, const struct simulation *simul
 {
     const char *wrong = NULL;
     sph->kind.turn = sph->parameters.rotation == SPH_ROTATION_CORRECTED;
-    if (sph->kind.turn && sph_second_order(sph))
-        wrong = "muscl carries velocities to the contact by their gradient, spin included: leave "
-                "this out";
-    else if (sph->kind.turn && sph->kind.star != STAR_ACOUSTIC)
+    if (sph->kind.turn && sph->kind.star != STAR_ACOUSTIC)
         wrong = "corrected goes with `method: contact` and `contact: acoustic`";
     else if (sph->kind.turn && !sph->kind.shear)
         wrong = simulation->dimension == 1 ? "nothing turns in one dimension"
@@ -135,23 +132,14 @@ static struct error *choose_kind(struct sph *sph, const struct simulation *simul
     if (sph_corrected(sph))
         return hllc_choose(sph, simulation, has_laws(simulation));
     kind->dimension = simulation->dimension;
+    if (sph_second_order(sph))
+        TRY(muscl_check(sph, simulation));
     if (parameters->contact < 0)
         parameters->contact = SPH_CONTACT_ACOUSTIC;
-    else if (sph_second_order(sph))
-        return input_error(simulation->input, "solver", "sph.contact",
-                           "muscl has a contact problem of its own: leave this out");
     /* On a line density and spacing must not drift apart; in more dimensions a mean of contacts would smear jets. */
     if (parameters->motion < 0)
-        parameters->motion = sph_second_order(sph) && simulation->dimension == 1
-                                 ? SPH_MOTION_CONTACT
-                                 : SPH_MOTION_PARTICLE;
-    if (sph_second_order(sph) && parameters->courant > 0.45)
-        return input_error(simulation->input, "solver", "sph.courant",
-                           "muscl is stable up to 0.45, and this is %g", parameters->courant);
-    if (sph_second_order(sph) && parameters->motion == SPH_MOTION_CONTACT &&
-        simulation->dimension > 1)
-        return input_error(simulation->input, "solver", "sph.motion",
-                           "muscl moves particles by contacts on a line only: leave this out");
+        parameters->motion = sph_second_order(sph) && kind->dimension == 1 ? SPH_MOTION_CONTACT
+                                                                           : SPH_MOTION_PARTICLE;
     kind->star = is_standard(sph) ? STAR_MEAN : stars[parameters->contact];
     kind->drift = parameters->motion == SPH_MOTION_CONTACT;
     kind->depth = sph_axisymmetric(simulation) || is_thin(simulation);
@@ -451,7 +439,14 @@ static double sph_bytes(const void *parameters, int dimension)
                         : dimension == 2 ? 3.14159 * square(reach)
                                          : 4.18879 * reach * square(reach);
     double heat = sph->conduction == SPH_CONDUCTION_NONE ? 0.0 : (1 + HEAT_STRIDE) * sizeof(double);
-    return fields + heat + 16 * sizeof(double) + 4 * sizeof(double) + sizeof(struct row) +
+    double record = 16 * sizeof(double);
+    if (sph->method == SPH_MUSCL) {
+        const struct muscl_kind kind = {dimension, dimension > 1, false}; /* as of a solid */
+        int slopes = tensor_components(dimension) + dimension * (dimension + muscl_stresses(kind));
+        fields += (slopes + 4) * sizeof(double);
+        record = (muscl_stride(kind) + PLACE_STRIDE) * sizeof(double);
+    }
+    return fields + heat + record + 4 * sizeof(double) + sizeof(struct row) +
            1.25 * neighbours * sizeof(uint32_t);
 }
 

@@ -17,8 +17,8 @@ struct sph_fields {
     struct pair_rates rates;
     double *heat_rate;    /* dE/dt by conduction, W/kg; NULL without */
     double *density_rate; /* of hllc and monaghan, NULL otherwise */
-    double *correction, *velocity_gradient,
-        *stress_gradient, *packing; /* second order only, as muscl_rates has them */
+    /* second order only, as muscl_rates has them */
+    double *correction, *velocity_gradient, *stress_gradient, *packing;
     double (*force)[3];
 };
 
@@ -69,8 +69,9 @@ BOLIDE_INLINE bool sph_second_order(const struct sph *sph)
     return sph->parameters.method == SPH_MUSCL;
 }
 
-/* Of muscl.c: what the pair loop is instantiated by; what a fresh particle starts from; the rates of level n that follow
- * from the slopes found a step before; records of owned particles, then of ghosts. */
+/* Of muscl.c: what the case must not ask for; what the pair loop is instantiated by; what a fresh particle starts from;
+ * the rates of level n that follow from the slopes found a step before; records of owned particles, then of ghosts. */
+struct error *muscl_check(const struct sph *sph, const struct simulation *simulation);
 struct muscl_kind muscl_kind_of(const struct sph *sph);
 void muscl_start(const struct sph *sph, const struct simulation *simulation);
 void muscl_expect(const struct sph *sph, const struct simulation *simulation,
@@ -177,6 +178,9 @@ void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, d
 
 /* Whether BODY keeps its velocity whatever pushes. */
 bool sph_is_held(const struct simulation *simulation, int body);
+
+/* Whether BODY keeps all of its state. */
+bool sph_is_frozen(const struct simulation *simulation, int body);
 
 /* Brings bodies to rest whose time has come (`stop`). */
 void sph_stop_bodies(struct simulation *simulation);

@@ -18,20 +18,20 @@ const struct parameter sph_table[] = {
     {.key = "method",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct sph_parameters, method),
-     .standard = "contact",
+     .standard = "muscl",
      .names = method_names,
      .help =
          "muscl: Riemann problems between particles, second order; contact: the same, first order; "
          "standard: with artificial viscosity; hllc: elastic-plastic Riemann problems and "
-         "corrected "
-         "gradients; monaghan: corrected gradients with artificial viscosity"},
+         "corrected gradients; monaghan: corrected gradients with artificial viscosity"},
     {.key = "contact",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct sph_parameters, contact),
      .standard = PARAMETER_OPTIONAL,
      .names = contact_names,
-     .help =
-         "contact problem along a pair: acoustic; dukowicz: two shocks; exact-gas: ideal gases"},
+     .help = "contact problem along a pair of `method: contact`: acoustic, when not given; "
+             "dukowicz: two "
+             "shocks; exact-gas: ideal gases"},
     {.key = "smoothing",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct sph_parameters, smoothing),
@@ -48,8 +48,9 @@ const struct parameter sph_table[] = {
      .above = 0.0,
      .below = 1.0,
      .help =
-         "K of dt = min K D/sqrt(C^2 + (4 D div U)^2), 0.4 when not given, stable up to 0.8 for "
-         "smoothing 1, at most 0.5 for muscl; of dt = min K h/C, 0.3, for hllc and monaghan"},
+         "K of dt = min K D/sqrt(C^2 + (4 D div U)^2), 0.4 when not given, at most 0.45 for muscl, "
+         "for contact stable up to 0.8 with smoothing 1; of dt = min K h/C, 0.3, for hllc and "
+         "monaghan"},
     {.key = "energy",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct sph_parameters, energy),
@@ -68,10 +69,12 @@ const struct parameter sph_table[] = {
     {.key = "rotation",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct sph_parameters, rotation),
-     .standard = "faithful",
+     .standard = PARAMETER_OPTIONAL,
      .names = rotation_names,
-     .help = "velocities that meet at a contact: the particles' own, which brakes rotation as the "
-             "source does, or corrected by their spin to the contact point"},
+     .help =
+         "velocities that meet at a contact of `method: contact`: the particles' own, which "
+         "brakes rotation as the source does, when not given; or corrected by their spin to the "
+         "contact point"},
     {.key = "viscosity_quadratic",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct sph_parameters, viscosity_quadratic),

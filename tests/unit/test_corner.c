@@ -9,7 +9,7 @@ static const char block[] =
     "format: 1\n"
     "dimension: 2\n"
     "resolution: 1 mm\n"
-    "solver: {sph: {smoothing: 1.2}}\n"
+    "solver: {sph: {method: contact, smoothing: 1.2}}\n"
     "materials:\n"
     "  metal:\n"
     "    eos: {mie-grueneisen: {density: 2700 kg/m^3, sound: 5350 m/s, slope: 1.35, gamma: 2.17, "

@@ -5,7 +5,7 @@ static const char push[] =
     "format: 1\n"
     "dimension: 2\n"
     "resolution: 1 mm\n"
-    "solver: {sph: {smoothing: 1.2}}\n"
+    "solver: {sph: {method: contact, smoothing: 1.2}}\n"
     "materials:\n"
     "  metal:\n"
     "    eos: {mie-grueneisen: {density: 2700 kg/m^3, sound: 5350 m/s, slope: 1.35, gamma: 2.17, "
@@ -23,6 +23,8 @@ static const char push[] =
 static const struct variant plain = {"plain", 1, 1.0, NULL, false};
 static const struct variant by_contact = {"moved by contacts", 1, 1.0, "solver.sph.motion=contact",
                                           false};
+static const struct variant of_second_order = {"second order", 1, 1.0, "solver.sph.method=muscl",
+                                               false};
 
 static void assert_velocity(const struct running *run, int body, double x, double y)
 {
@@ -47,8 +49,8 @@ static void assert_closed(const struct running *run, const struct totals *start)
 static void a_piston_keeps_its_velocity_until_it_stops(void **state)
 {
     (void)state;
-    const struct variant *const variants[] = {&plain, &by_contact};
-    for (int k = 0; k < 2; k++) {
+    const struct variant *const variants[] = {&plain, &by_contact, &of_second_order};
+    for (size_t k = 0; k < COUNT_OF(variants); k++) {
         struct running *run = begin_fresh(push, variants[k]);
         struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
         while (run->simulation.time < 1.5e-6) {

@@ -1,5 +1,6 @@
-/* The second-order pair loop gives the same bits on every instruction set that this processor has. */
-#include "running.h"
+/* Nothing but the state decides the bits of the second-order method: not the instruction set, the threads, the rows, nor a
+ * resume. */
+#include "second_order.h"
 
 typedef void muscl_loop_isa(const struct muscl_loop *, int32_t, int32_t);
 muscl_loop_isa muscl_loop_run_v2;
@@ -53,7 +54,6 @@ static int instruction_sets(muscl_loop_isa *set[3])
 /* Particles off their sites in random motion, a few steps on: records of gradients that are not zero. */
 static struct running *begin_random(const char *text, struct dice *dice)
 {
-    static const struct variant plain = {"plain", 1, 1.0, NULL, false};
     struct running *run = begin_fresh(text, &plain);
     struct particles *p = &run->simulation.particles;
     for (int32_t i = 0; i < p->count; i++)
@@ -62,7 +62,7 @@ static struct running *begin_random(const char *text, struct dice *dice)
             p->velocity[i][axis] = dice_between(dice, -300.0, 300.0);
         }
     step(run, 2);
-    assert_success(run->solver->prepare(&run->sph, &run->simulation, &run->limit));
+    prepare(run);
     return run;
 }
 
@@ -72,18 +72,7 @@ static double *rates_by(muscl_loop_isa *set, struct running *run, size_t *bytes)
     const struct particles *p = &run->simulation.particles;
     const struct sph_fields f = sph_fields_of(&run->sph, &run->simulation);
     const struct muscl_kind kind = muscl_kind_of(&run->sph);
-    const struct muscl_loop loop = {.kind = kind,
-                                    .record = run->sph.record,
-                                    .empty = p->count + run->sph.neighbours.ghosts.count,
-                                    .place = run->sph.place,
-                                    .smoothing = run->sph.parameters.smoothing,
-                                    .neighbours = &run->sph.neighbours,
-                                    .groups = &run->sph.groups,
-                                    .body = p->body,
-                                    .density = p->density,
-                                    .velocity = (const double(*)[3])p->velocity,
-                                    .rates = {f.rates, f.correction, f.velocity_gradient,
-                                              f.stress_gradient, f.force, f.packing}};
+    const struct muscl_loop loop = loop_of(run);
     set(&loop, 0, p->count);
     const int dimension = kind.dimension;
     const struct {
@@ -132,8 +121,103 @@ static void all_instruction_sets_give_the_same_bits(void **state)
     }
 }
 
+/* Blocks strike in a corner, with faces that slip; a grain of other matter adheres. */
+static const char plane_strike[] =
+    HEAD("2") "materials:\n" METAL LIQUID "bodies:\n"
+              "  striker: {material: metal, box: {from: [-10 mm, 2 mm], to: [0 mm, 14 mm]}, "
+              "velocity: [900 m/s, -300 m/s]}\n"
+              "  target: {material: metal, box: {from: [0 mm, 0 mm], to: [14 mm, 18 mm]}}\n"
+              "  grain: {material: liquid, ball: {center: [6 mm, 8 mm], radius: 3 mm}, replaces: "
+              "target}\n"
+              "contacts:\n  faces: {between: [striker, target], shear: slip, tension: none}\n"
+              "walls:\n"
+              "  floor: {mirror: y, at: -0.2 mm, side: low}\n"
+              "  back: {mirror: x, at: 14.2 mm, side: high}\n";
+static const char space_strike[] = HEAD(
+    "3") "materials:\n" METAL LIQUID "bodies:\n"
+         "  drop: {material: liquid, box: {from: [-5 mm, 0 mm, 0 mm], to: [0 mm, 6 mm, 6 mm]}, "
+         "velocity: [1200 m/s, 100 m/s, 50 m/s]}\n"
+         "  plate: {material: metal, box: {from: [0 mm, 0 mm, 0 mm], to: [4 mm, 7 mm, 7 mm]}}\n"
+         "walls:\n"
+         "  below: {mirror: y, at: -0.2 mm, side: low}\n"
+         "  behind: {mirror: z, at: 0 mm, side: low}\n";
+
+/* Blocks close on a gap, and are packed densely there: no velocity gradient knows it. */
+#define GAP(dimension, left, right)                                            \
+    HEAD(dimension)                                                            \
+    "materials:\n" METAL "bodies:\n"                                           \
+    "  left: {material: metal, box: " left ", velocity: [2000 m/s, 10 m/s]}\n" \
+    "  right: {material: metal, box: " right ", velocity: [-2000 m/s, 0 m/s]}\n"
+static const char plane_gap[] = GAP("2", "{from: [0 mm, 0 mm], to: [8 mm, 12 mm]}",
+                                    "{from: [8.1 mm, 0 mm], to: [16.1 mm, 12 mm]}");
+
+static uint64_t hash_of(const char *text, const struct variant *variant)
+{
+    enum { STEPS = 20 };
+    struct running *run = begin_fresh(text, variant->resumed ? &plain : variant);
+    step(run, STEPS / 2);
+    if (variant->resumed)
+        run = resume(run, text, variant);
+    step(run, STEPS - STEPS / 2);
+    uint64_t hash = particles_hash(&run->simulation.particles);
+    end(run);
+    return hash;
+}
+
+static void threads_rows_and_a_resume_do_not_change_a_bit(void **state)
+{
+    (void)state;
+    static const struct variant variants[] = {
+        {"2 threads", 2, 1.0, NULL, false},
+        {"small cells and a thin skin", 1, 0.37, "solver.sph.skin=0.02", false},
+        {"rows of every step", 1, 1.0, "solver.sph.rebuild=1", false},
+        {"resumed", 1, 1.0, NULL, true},
+        {"resumed with 2 threads, large cells", 2, 1.7, NULL, true}};
+    const char *const texts[] = {plane_strike, space_strike, plane_gap};
+    for (size_t t = 0; t < COUNT_OF(texts); t++) {
+        const uint64_t wanted = hash_of(texts[t], &plain);
+        for (size_t k = 0; k < COUNT_OF(variants); k++) {
+            uint64_t hash = hash_of(texts[t], &variants[k]);
+            if (hash != wanted)
+                print_error("%s: %016llx, not %016llx\n", variants[k].name,
+                            (unsigned long long)hash, (unsigned long long)wanted);
+            assert_true(hash == wanted);
+        }
+    }
+}
+
+/* What the next step starts from is saved: a run that forgets one of both goes on otherwise. */
+static void expected_forces_and_packing_belong_to_the_state(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"expected_force", "packing"};
+    const uint64_t wanted = hash_of(plane_gap, &plain);
+    for (size_t k = 0; k < COUNT_OF(names); k++) {
+        struct running *run = begin_fresh(plane_gap, &plain);
+        struct particles *p = &run->simulation.particles;
+        step(run, 10);
+        const uint64_t before = particles_hash(p);
+        double *value = particles_field(p, names[k]);
+        const double kept = value[0];
+        value[0] = nextafter(kept, 1e9);
+        assert_true(particles_hash(p) != before);
+        value[0] = kept;
+        run = resume(run, plane_gap, &plain);
+        p = &run->simulation.particles;
+        assert_true(((double *)particles_field(p, names[k]))[0] == kept);
+        memset(particles_field(p, names[k]), 0, (size_t)p->count * sizeof kept);
+        step(run, 10);
+        assert_true(particles_hash(p) != wanted);
+        end(run);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(all_instruction_sets_give_the_same_bits)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_instruction_sets_give_the_same_bits),
+        cmocka_unit_test(threads_rows_and_a_resume_do_not_change_a_bit),
+        cmocka_unit_test(expected_forces_and_packing_belong_to_the_state),
+    };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -5,7 +5,7 @@
     "format: 1\n"                                                                \
     "dimension: " dimension "\n"                                                 \
     "resolution: 1 mm\n"                                                         \
-    "solver: {sph: {rotation: corrected}}\n"                                     \
+    "solver: {sph: {method: contact, rotation: corrected}}\n"                    \
     "materials:\n"                                                               \
     "  metal:\n"                                                                 \
     "    eos: {barotropic: {density: 2700 kg/m^3, bulk_modulus: 73 GPa}}\n"      \
