@@ -27,10 +27,10 @@ BOLIDE_INLINE double kernel_norm(double inverse_h, int dimension)
 {
     const double pi = 3.14159265358979323846;
     if (dimension == 1)
-        return inverse_h / 1.5;
+        return inverse_h * (1.0 / 1.5);
     if (dimension == 2)
-        return square(inverse_h) / (0.7 * pi);
-    return inverse_h * square(inverse_h) / pi;
+        return square(inverse_h) * (1.0 / (0.7 * pi));
+    return inverse_h * square(inverse_h) * (1.0 / pi);
 }
 
 /* W(r), 1/m^dimension. */

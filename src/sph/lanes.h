@@ -8,6 +8,10 @@
 
 #include <string.h>
 
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
 #include "particle/neighbours.h"
 
 enum { LANES = 8, LANES_CHUNK = 512, PLACE_STRIDE = 4 };
@@ -24,27 +28,33 @@ enum { LANES = 8, LANES_CHUNK = 512, PLACE_STRIDE = 4 };
 #if defined(__AVX512F__)
 typedef double vector8 __attribute__((vector_size(64)));
 
+/* Turns eight rows of four into four columns. Halves of registers are put together while they are loaded, which leaves
+ * less to the one port that shuffles. */
+INLINE void transpose_four(const double *const row[LANES], int offset, vector8 column[4])
+{
+    vector8 pair[4], half[4];
+    for (int k = 0; k < 4; k++) {
+        const double *first = row[k] + offset, *second = row[k + 4] + offset;
+        pair[k] = _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(first)),
+                                     _mm256_loadu_pd(second), 1);
+    }
+    for (int k = 0; k < 4; k += 2) {
+        half[k] = __builtin_shufflevector(pair[k], pair[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+        half[k + 1] = __builtin_shufflevector(pair[k], pair[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int k = 0; k < 2; k++) {
+        column[k] = __builtin_shufflevector(half[k], half[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+        column[k + 2] = __builtin_shufflevector(half[k], half[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+}
+
 /* Turns eight rows of eight into eight columns. */
 INLINE void transpose(const double *const row[LANES], int offset, double (*column)[LANES])
 {
-    vector8 a[8], b[8];
-    for (int k = 0; k < 8; k++)
-        memcpy(&a[k], row[k] + offset, sizeof a[k]);
-    for (int k = 0; k < 8; k += 2) {
-        b[k] = __builtin_shufflevector(a[k], a[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
-        b[k + 1] = __builtin_shufflevector(a[k], a[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
-    }
-    for (int k = 0; k < 8; k += 4)
-        for (int m = 0; m < 2; m++) {
-            a[k + m] = __builtin_shufflevector(b[k + m], b[k + m + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-            a[k + m + 2] =
-                __builtin_shufflevector(b[k + m], b[k + m + 2], 2, 3, 10, 11, 6, 7, 14, 15);
-        }
-    for (int k = 0; k < 4; k++) {
-        vector8 first = __builtin_shufflevector(a[k], a[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-        vector8 second = __builtin_shufflevector(a[k], a[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
-        memcpy(column[k], &first, sizeof first);
-        memcpy(column[k + 4], &second, sizeof second);
+    vector8 half[4];
+    for (int part = 0; part < 8; part += 4) {
+        transpose_four(row, offset + part, half);
+        memcpy(column + part, half, sizeof half);
     }
 }
 #else
@@ -63,19 +73,32 @@ INLINE double across_lanes(const double lane[LANES])
 }
 
 /* The sums over lanes of COUNT accumulators, a multiple of eight, each in the order of across_lanes. */
+#if defined(__AVX512F__)
 INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
 {
     for (int first = 0; first < count; first += LANES) {
-        const double *row[LANES];
-        double of[LANES][LANES] ALIGNED;
-        for (int k = 0; k < LANES; k++)
-            row[k] = lane[first + k];
-        transpose(row, 0, of);
-        for (int k = 0; k < LANES; k++)
-            total[first + k] = ((of[0][k] + of[4][k]) + (of[2][k] + of[6][k])) +
-                               ((of[1][k] + of[5][k]) + (of[3][k] + of[7][k]));
+        vector8 a[8], half[4], quarter[2];
+        memcpy(a, lane + first, sizeof a);
+        for (int k = 0; k < 4; k++) /* of two accumulators each */
+            half[k] = __builtin_shufflevector(a[k], a[k + 4], 0, 1, 2, 3, 8, 9, 10, 11) +
+                      __builtin_shufflevector(a[k], a[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+        for (int k = 0; k < 2; k++) /* of four */
+            quarter[k] = __builtin_shufflevector(half[k], half[k + 2], 0, 1, 8, 9, 4, 5, 12, 13) +
+                         __builtin_shufflevector(half[k], half[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        /* quarter[m] has those of m, m + 2, m + 4, m + 6, two lanes each */
+        const vector8 all =
+            __builtin_shufflevector(quarter[0], quarter[1], 0, 8, 2, 10, 4, 12, 6, 14) +
+            __builtin_shufflevector(quarter[0], quarter[1], 1, 9, 3, 11, 5, 13, 7, 15);
+        memcpy(total + first, &all, sizeof all);
     }
 }
+#else
+INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
+{
+    for (int k = 0; k < count; k++)
+        total[k] = across_lanes(lane[k]);
+}
+#endif
 
 /* Records as a kernel walks them: STRIDE doubles each, a multiple of eight, position first, the diameter right
  * behind it. The record at `empty` adds nothing to a sum; it fills up the last lanes. Where records are long, `place` has
@@ -102,11 +125,12 @@ INLINE void lanes_stage(struct lane_records records, const int32_t *list, double
 INLINE int lanes_compress(struct lane_records records, const double *own, const uint32_t *entry,
                           int count, int32_t *list)
 {
+    const double *place = records.place ? records.place : records.record;
+    const size_t stride = records.place ? PLACE_STRIDE : (size_t)records.stride;
     int kept = 0;
     for (int q = 0; q < count; q++) {
         int32_t j = (int32_t)(entry[q] & ENTRY_INDEX);
-        const double *other = records.place ? records.place + (size_t)j * PLACE_STRIDE
-                                            : records.record + (size_t)j * (size_t)records.stride;
+        const double *other = place + (size_t)j * stride;
         double sum = square(other[0] - own[0]);
         if (records.dimension > 1)
             sum += square(other[1] - own[1]);
@@ -117,6 +141,50 @@ INLINE int lanes_compress(struct lane_records records, const double *own, const 
             sum < square(records.smoothing * (own[records.dimension] + other[records.dimension]));
     }
     return kept;
+}
+
+#if defined(__AVX512F__)
+/* The same, eight at once; rows of a line are too short for it. */
+INLINE int lanes_compress_wide(struct lane_records records, const double *own,
+                               const uint32_t *entry, int count, int32_t *list)
+{
+    const double *place = records.place ? records.place : records.record;
+    const size_t stride = records.place ? PLACE_STRIDE : (size_t)records.stride;
+    int kept = 0;
+    for (int q = 0; q < count; q += LANES) {
+        const __mmask8 all = (__mmask8)(count - q < LANES ? (1 << (count - q)) - 1 : 0xff);
+        const __m256i index = _mm256_and_si256(_mm256_maskz_loadu_epi32(all, entry + q),
+                                               _mm256_set1_epi32(ENTRY_INDEX));
+        int32_t at[LANES];
+        const double *row[LANES];
+        vector8 column[4];
+        memcpy(at, &index, sizeof at);
+        for (int k = 0; k < LANES; k++)
+            row[k] = place + (size_t)at[k] * stride;
+        transpose_four(row, 0, column);
+        vector8 apart = column[0] - own[0], sum = apart * apart;
+        for (int axis = 1; axis < records.dimension; axis++) {
+            apart = column[axis] - own[axis];
+            sum += apart * apart;
+        }
+        const vector8 support =
+            records.smoothing * (own[records.dimension] + column[records.dimension]);
+        const __mmask8 near = _mm512_mask_cmp_pd_mask(all, sum, support * support, _CMP_LT_OQ);
+        _mm256_storeu_si256((__m256i *)(list + kept), _mm256_maskz_compress_epi32(near, index));
+        kept += __builtin_popcount(near);
+    }
+    return kept;
+}
+#endif
+
+/* Where the part PART of a row ends that begins at BEGIN; most rows have but one. */
+INLINE int lanes_part(const uint32_t *entry, int begin, int count, unsigned part)
+{
+    if (begin < count && entry[count - 1] >> ENTRY_PART_SHIFT == part)
+        return count;
+    while (begin < count && entry[begin] >> ENTRY_PART_SHIFT == part)
+        begin++;
+    return begin;
 }
 
 /* The neighbours in support of one part of a row, chunk by chunk, in groups of eight that begin in lane zero:
@@ -135,12 +203,20 @@ INLINE bool lanes_walk(struct lane_walk *walk, struct lane_records records, cons
         return false;
     memmove(walk->list, walk->list + walk->ready, (size_t)walk->waiting * sizeof *walk->list);
     int left = count - walk->looked_at, length = left < LANES_CHUNK ? left : LANES_CHUNK;
-    walk->waiting +=
-        lanes_compress(records, own, entry + walk->looked_at, length, walk->list + walk->waiting);
+    const uint32_t *part = entry + walk->looked_at;
+    int32_t *end = walk->list + walk->waiting;
+#if defined(__AVX512F__)
+    if (records.dimension > 1)
+        walk->waiting += lanes_compress_wide(records, own, part, length, end);
+    else
+#endif
+        walk->waiting += lanes_compress(records, own, part, length, end);
     walk->looked_at += length;
-    if (walk->looked_at == count)
-        while (walk->waiting % LANES)
-            walk->list[walk->waiting++] = records.empty;
+    if (walk->looked_at == count) { /* filled up without a branch that the length decides */
+        for (int k = 0; k < LANES; k++)
+            walk->list[walk->waiting + k] = records.empty;
+        walk->waiting = (walk->waiting + LANES - 1) / LANES * LANES;
+    }
     walk->ready = walk->waiting / LANES * LANES;
     walk->waiting -= walk->ready;
     return true;

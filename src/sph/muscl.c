@@ -124,6 +124,26 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
     return stress;
 }
 
+/* Z_across. The share of compression is |div v|/(|div v| + |curl v|): near one in a shock, near zero where streams slide
+ * (Balsara, J. Comput. Phys. 121 (1995) 357). */
+BOLIDE_INLINE double across_impedance(const struct sph_fields *f, struct muscl_kind kind,
+                                      double density, int32_t i)
+{
+    if (kind.shear && f->sound_shear[i] > 0.0)
+        return density * f->sound_shear[i];
+    const double tiny = 1e-100;
+    const double *g = f->velocity_gradient + (size_t)i * (size_t)(kind.dimension * kind.dimension);
+    double divergence, curl;
+    if (kind.dimension == 2) {
+        divergence = fabs(g[0] + g[3]);
+        curl = fabs(g[2] - g[1]);
+    } else {
+        divergence = fabs(g[0] + g[4] + g[8]);
+        curl = sqrt(square(g[7] - g[5]) + square(g[2] - g[6]) + square(g[3] - g[1]));
+    }
+    return -(divergence + tiny) / (divergence + curl + tiny);
+}
+
 BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *simulation,
                               const struct sph_fields *f, struct muscl_kind kind, int32_t i,
                               double *record)
@@ -146,8 +166,8 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
         record[k++] = at[from] + by[from];
     }
     record[k++] = p->density[i] * f->sound_long[i];
-    if (kind.shear && dimension > 1)
-        record[k++] = p->density[i] * f->sound_shear[i];
+    if (dimension > 1)
+        record[k++] = across_impedance(f, kind, p->density[i], i);
     record[k++] = p->density[i] * sph->bend[p->material[i]];
     record[k++] = p->material[i];
     if (kind.depth)

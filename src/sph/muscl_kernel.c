@@ -6,7 +6,10 @@
 #include "sph/kernel.h"
 #include "sph/muscl_sums.h"
 
-enum { FIELDS = 64 };
+enum {
+    FIELDS = 64,
+    GROUPS = 4 /* of eight neighbours: most rows in space fit */
+};
 
 struct lanes {
     double field[FIELDS][LANES] ALIGNED;
@@ -15,7 +18,7 @@ struct lanes {
 
 /* The shares of the change D between two particles that limited slopes carry from each to the middle: b/(D + b) with b
  * = 2 C - D, the change that lies on the other side when the slope changes by C over the pair; nothing where b turns
- * against D, or where SAME is zero. A change is D^2 and the two D C. */
+ * against D. A change is D^2 and twice the two D C. */
 struct shares {
     double own, other;
 };
@@ -24,17 +27,31 @@ struct change {
     double square, own, other;
 };
 
+/* Eight pairs between the parts of the kernel. Each part runs over all groups before the next begins: what one group
+ * waits for, another fills. */
+struct pairs {
+    double x[3][LANES] ALIGNED, e[3][LANES] ALIGNED, n[3][LANES] ALIGNED;
+    double weight[LANES] ALIGNED, area[LANES] ALIGNED; /* V W', |a| */
+    double near[LANES] ALIGNED;                        /* 2 D_i/(D_i + D_j) */
+    /* along n and across: changes over the pair, own stress, and shares of the slopes, times near */
+    double along_u[LANES] ALIGNED, along_i[LANES] ALIGNED, along_j[LANES] ALIGNED;
+    double across_u[3][LANES] ALIGNED, across_s[3][LANES] ALIGNED, traction[3][LANES] ALIGNED;
+    double share[8][LANES] ALIGNED;
+};
+
 /* Those of two quantities, with one division. */
-INLINE void limited_shares(double same, struct change first, struct change second,
-                           struct shares *of_first, struct shares *of_second)
+INLINE void limited_shares(struct change first, struct change second, struct shares *of_first,
+                           struct shares *of_second)
 {
     const double tiny = 1e-70;
-    double a = same * maximum(2.0 * first.own - first.square, 0.0);
-    double b = same * maximum(2.0 * first.other - first.square, 0.0);
-    double c = same * maximum(2.0 * second.own - second.square, 0.0);
-    double d = same * maximum(2.0 * second.other - second.square, 0.0);
-    double whole_a = first.square + a + tiny, whole_b = first.square + b + tiny;
-    double whole_c = second.square + c + tiny, whole_d = second.square + d + tiny;
+    double a = maximum(first.own - first.square, 0.0);
+    double b = maximum(first.other - first.square, 0.0);
+    double c = maximum(second.own - second.square, 0.0);
+    double d = maximum(second.other - second.square, 0.0);
+    first.square += tiny;
+    second.square += tiny;
+    double whole_a = first.square + a, whole_b = first.square + b;
+    double whole_c = second.square + c, whole_d = second.square + d;
     double ab = whole_a * whole_b, cd = whole_c * whole_d, inverse = 1.0 / (ab * cd);
     double inverse_ab = inverse * cd, inverse_cd = inverse * ab;
     of_first->own = a * whole_b * inverse_ab;
@@ -53,33 +70,6 @@ INLINE struct vec3 change_of_vector(int dimension, const double *g, int step, st
     return vec3_make(g[0] * x.x + g[step] * x.y + g[2 * step] * x.z,
                      g[3 * step] * x.x + g[4 * step] * x.y + g[5 * step] * x.z,
                      g[6 * step] * x.x + g[7 * step] * x.y + g[8 * step] * x.z);
-}
-
-/* |div v| and |curl v| of the gradient G. */
-INLINE void parts_of_gradient(int dimension, const double *g, int step, double *divergence,
-                              double *curl)
-{
-    if (dimension == 2) {
-        *divergence = fabs(g[0] + g[3 * step]);
-        *curl = fabs(g[2 * step] - g[step]);
-    } else {
-        *divergence = fabs(g[0] + g[4 * step] + g[8 * step]);
-        *curl = sqrt(square(g[7 * step] - g[5 * step]) + square(g[2 * step] - g[6 * step]) +
-                     square(g[3 * step] - g[step]));
-    }
-}
-
-/* The larger |div v|/(|div v| + |curl v|) of the two sides of a pair: near one in a shock, near zero where streams slide
- * (Balsara, J. Comput. Phys. 121 (1995) 357). */
-INLINE double larger_share_of_compression(int dimension, const double *own, const double *other)
-{
-    double di, ci, dj, cj;
-    parts_of_gradient(dimension, own, 1, &di, &ci);
-    parts_of_gradient(dimension, other, LANES, &dj, &cj);
-    const double tiny = 1e-100; /* a choice, and a quotient, that both sides agree on */
-    bool first = (di + tiny) * cj > (dj + tiny) * ci;
-    double divergence = first ? di : dj, curl = first ? ci : cj;
-    return (divergence + tiny) / (divergence + curl + tiny);
 }
 
 /* (x.grad) stress, likewise. */
@@ -115,146 +105,64 @@ INLINE void add_product(int dimension, double (*sums)[LANES], int at, int k, str
         add_vector(dimension, sums, at + 2 * dimension, k, vec3_scale(v.z, e));
 }
 
-/* One own particle against eight neighbours. */
-INLINE void add_lanes(struct muscl_kind kind, bool with_law, double smoothing, const double *own,
-                      const struct lanes *lanes, double (*sums)[LANES])
+INLINE void put_vector(int dimension, double (*to)[LANES], int k, struct vec3 v)
+{
+    to[0][k] = v.x;
+    if (dimension > 1)
+        to[1][k] = v.y;
+    if (dimension > 2)
+        to[2][k] = v.z;
+}
+
+/* One own particle against eight neighbours: where they are, and how much they count. */
+INLINE void find_places(struct muscl_kind kind, double smoothing, const double *own,
+                        const struct lanes *lanes, struct pairs *pairs, double (*sums)[LANES])
 {
     const int dimension = kind.dimension;
-    const bool shear = kind.shear && dimension > 1;
     const int d = record_diameter(dimension), v = record_volume(dimension);
-    const int u = record_velocity(dimension), s = record_stress(dimension);
-    const int z = muscl_impedance(kind), q = muscl_bend(kind), matter = muscl_material(kind);
-    const int l = muscl_correction(kind), g = muscl_velocity_gradient(kind);
-    const int h = muscl_stress_gradient(kind), stresses = muscl_stresses(kind);
-    const int next_u = muscl_next(kind), next_s = next_u + dimension;
+    const int l = muscl_correction(kind), z = muscl_impedance(kind);
     const struct layout at = layout_of(kind);
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const struct vec3 x = vec3_sub(vector_from(dimension, &lanes->field[0][k], LANES),
                                        vector_from(dimension, own, 1));
-        const struct vec3 du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
-                                        vector_from(dimension, own + u, 1));
         struct sym3 both = sym3_add(stress_from(dimension, own + l, 1),
                                     stress_from(dimension, &lanes->field[l][k], LANES));
-        struct vec3 lx = vec3_scale(0.5, traction_of(dimension, both, x));
+        struct vec3 lx = traction_of(dimension, both, x);
         double r = sqrt(maximum(vec3_dot(x, x), 1e-80));
         double ar = dimension == 1 ? fabs(lx.x) : sqrt(maximum(vec3_dot(lx, lx), 1e-80));
         double two_h = smoothing * (own[d] + lanes->field[d][k]);
         double inverse = 1.0 / (r * ar * two_h); /* one division serves three */
-        struct vec3 e = vec3_scale(inverse * ar * two_h, x);
-        struct vec3 n = dimension == 1 ? e : vec3_scale(inverse * r * two_h, lx);
-        double area = ar * (inverse * ar * two_h), inverse_h = 2.0 * (inverse * r * ar);
+        double inverse_r = inverse * (ar * two_h), inverse_h = 2.0 * (inverse * (r * ar));
+        struct vec3 e = vec3_scale(inverse_r, x);
+        put_vector(dimension, pairs->x, k, x);
+        put_vector(dimension, pairs->e, k, e);
+        put_vector(dimension, pairs->n, k,
+                   dimension == 1 ? e : vec3_scale(inverse * (r * two_h), lx));
         double weight = lanes->field[v][k] * kernel_slope(r, inverse_h, dimension);
-        double near_i = smoothing * own[d] * inverse_h, near_j = 2.0 - near_i;
-
-        /* normal components, and by how much slopes change them over the pair */
-        double along_u = vec3_dot(du, n), speed = fabs(along_u);
-        bool smooth = !with_law && own[matter] == lanes->field[matter][k] &&
-                      speed * own[q] < own[z] && speed * lanes->field[q][k] < lanes->field[z][k];
-        double same = smooth ? 1.0 : 0.0;
-        struct vec3 ui = change_of_vector(dimension, own + g, 1, x);
-        struct vec3 uj = change_of_vector(dimension, &lanes->field[g][k], LANES, x);
-        struct sym3 hi = change_of_stress(kind, own + h, 1, x);
-        struct sym3 hj = change_of_stress(kind, &lanes->field[h][k], LANES, x);
-        struct vec3 ti = {0.0, 0.0, 0.0}, tj = ti, dti = ti, dtj = ti;
-        double along_i = own[s], along_j = lanes->field[s][k], si_n = hi.xx, sj_n = hj.xx;
-        if (shear) {
-            ti = traction_of(dimension, stress_from(dimension, own + s, 1), n);
-            tj = traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), n);
-            dti = traction_of(dimension, hi, n);
-            dtj = traction_of(dimension, hj, n);
-            along_i = vec3_dot(ti, n);
-            along_j = vec3_dot(tj, n);
-            si_n = vec3_dot(dti, n);
-            sj_n = vec3_dot(dtj, n);
-        }
-        double along_s = along_j - along_i;
-        const struct change change_u = {square(along_u), along_u * vec3_dot(ui, n),
-                                        along_u * vec3_dot(uj, n)};
-        const struct change change_s = {square(along_s), along_s * si_n, along_s * sj_n};
-        struct shares of_u, of_s;
-        limited_shares(same, change_u, change_s, &of_u, &of_s);
-        double rise_u = near_i * of_u.own * along_u;
-        double jump_u = along_u - rise_u - near_j * of_u.other * along_u;
-        double left_s = along_i + near_i * of_s.own * along_s;
-        double right_s = along_j - near_j * of_s.other * along_s, jump_s = right_s - left_s;
-        struct contact_weights along = riemann_shock_weights(own[z], lanes->field[z][k], own[q],
-                                                             lanes->field[q][k], jump_u, jump_s);
-        /* fluids that shear past each other are not braked as if they met */
-        double brake = 1.0;
-        if (dimension > 1) {
-            bool fluids = !shear || own[z + 1] + lanes->field[z + 1][k] == 0.0;
-            double most = larger_share_of_compression(dimension, own + g, &lanes->field[g][k]);
-            brake = fluids ? most : 1.0;
-        }
-        double stress = contact_stress(along, left_s, right_s, brake * jump_u);
-        double jump = rise_u + contact_velocity_jump(along, jump_u, jump_s);
-        double opened = 0.0;
-        if (with_law) {
-            opened = stress > 0.0 ? lanes->open[k] : 0.0;
-            jump = opened > 0.0 ? -along_i / own[z] : jump;
-            stress = opened > 0.0 ? 0.0 : stress;
-        }
-        struct vec3 t = vec3_scale(stress, n), w = vec3_scale(jump, n);
-        if (dimension > 1) {
-            struct vec3 across_u = vec3_sub(du, vec3_scale(along_u, n));
-            struct vec3 ai = {0.0, 0.0, 0.0}, da = ai;
-            if (shear) {
-                ai = vec3_sub(ti, vec3_scale(along_i, n));
-                da = vec3_sub(vec3_sub(tj, vec3_scale(along_j, n)), ai);
-            }
-            const struct change change_v = {vec3_dot(across_u, across_u), vec3_dot(across_u, ui),
-                                            vec3_dot(across_u, uj)};
-            const struct change change_a = {vec3_dot(da, da), vec3_dot(da, dti), vec3_dot(da, dtj)};
-            struct shares of_v, of_a;
-            limited_shares(same, change_v, change_a, &of_v, &of_a);
-            of_v.own *= near_i;
-            of_v.other *= near_j;
-            double open_u = 1.0 - of_v.own - of_v.other;
-            if (shear) {
-                struct contact_weights across =
-                    riemann_acoustic_weights(own[z + 1], lanes->field[z + 1][k]);
-                of_a.own *= near_i;
-                of_a.other *= near_j;
-                /* of the jump DA, what reaches the contact: that from the right by the left's share, and back */
-                double share = across.left * (1.0 - of_a.other) + across.right * of_a.own;
-                struct vec3 ta = vec3_add(vec3_add(ai, vec3_scale(share, da)),
-                                          vec3_scale(across.impedance * open_u, across_u));
-                struct vec3 wa =
-                    vec3_add(vec3_scale(of_v.own + across.right * open_u, across_u),
-                             vec3_scale(across.compliance * (1.0 - of_a.own - of_a.other), da));
-                if (with_law) {
-                    bool free = opened > 0.0 || lanes->slip[k] > 0.0;
-                    double still = own[z + 1] > 0.0 ? -1.0 / own[z + 1] : 0.0;
-                    ta = vec3_scale(free ? 0.0 : 1.0, ta);
-                    wa.x = free ? still * ai.x : wa.x;
-                    wa.y = free ? still * ai.y : wa.y;
-                    wa.z = free ? still * ai.z : wa.z;
-                }
-                t = vec3_add(t, ta);
-                w = vec3_add(w, wa);
-            } else {
-                w = vec3_add(w, vec3_scale(of_v.own + 0.5 * open_u, across_u));
-            }
-        }
-        double force_weight = weight * area;
-        if (kind.depth) {
-            const int depth = muscl_depth(kind);
-            double pair_depth = 0.5 * fabs(own[depth] + lanes->field[depth][k]);
-            sums[at.hoop][k] += force_weight * (pair_depth - own[depth]) * n.x;
-            sums[at.hoop + 1][k] += force_weight * x.x * n.x;
-            force_weight *= pair_depth;
-        }
-        sums[at.power][k] += force_weight * vec3_dot(t, w);
+        pairs->weight[k] = weight;
+        pairs->area[k] = 0.5 * (ar * inverse_r);
+        pairs->near[k] = smoothing * own[d] * inverse_h;
         sums[at.weight][k] += weight;
         sums[at.impedance][k] += weight * lanes->field[z][k];
-        add_vector(dimension, sums, at.traction, k, vec3_scale(force_weight, t));
-        w = vec3_scale(weight, w);
-        if (dimension == 1)
-            sums[at.drift][k] += w.x;
-        add_product(dimension, sums, at.gradient, k, w, e);
+    }
+}
 
-        struct vec3 c = vec3_scale(-weight * near_i, e), m = vec3_scale(r, c);
+/* Adds to the sums what the next step's slopes follow from. */
+INLINE void add_slopes(struct muscl_kind kind, const double *own, const struct lanes *lanes,
+                       const struct pairs *pairs, double (*sums)[LANES])
+{
+    const int dimension = kind.dimension, stresses = muscl_stresses(kind);
+    const int next_u = muscl_next(kind), next_s = next_u + dimension;
+    const struct layout at = layout_of(kind);
+#pragma omp simd simdlen(8)
+    for (int k = 0; k < LANES; k++) {
+        const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
+        const struct vec3 c = vec3_scale(-pairs->weight[k] * pairs->near[k],
+                                         vector_from(dimension, &pairs->e[0][k], LANES));
+        const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
+        const double r = vec3_dot(x, e);
+        struct vec3 m = vec3_scale(r, c);
         add_vector(dimension, sums, at.offset, k, m);
         sums[at.moment][k] += m.x * e.x;
         if (dimension == 2) {
@@ -283,6 +191,164 @@ INLINE void add_lanes(struct muscl_kind kind, bool with_law, double smoothing, c
     }
 }
 
+/* What lies between the two of a pair, along n and across, and which shares of it their slopes carry. */
+INLINE void find_changes(struct muscl_kind kind, bool with_law, const double *own,
+                         const struct lanes *lanes, struct pairs *pairs)
+{
+    const int dimension = kind.dimension;
+    const bool shear = kind.shear && dimension > 1;
+    const int u = record_velocity(dimension), s = record_stress(dimension);
+    const int z = muscl_impedance(kind), q = muscl_bend(kind), matter = muscl_material(kind);
+    const int g = muscl_velocity_gradient(kind), h = muscl_stress_gradient(kind);
+#pragma omp simd simdlen(8)
+    for (int k = 0; k < LANES; k++) {
+        const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
+        const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
+        const struct vec3 du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
+                                        vector_from(dimension, own + u, 1));
+        const double along_u = vec3_dot(du, n), speed = fabs(along_u);
+        const bool smooth = !with_law && own[matter] == lanes->field[matter][k] &&
+                            speed * own[q] < own[z] &&
+                            speed * lanes->field[q][k] < lanes->field[z][k];
+        const double near = pairs->near[k], near_i = smooth ? near : 0.0,
+                     near_j = smooth ? 2.0 - near : 0.0;
+        const struct vec3 ui = change_of_vector(dimension, own + g, 1, x);
+        const struct vec3 uj = change_of_vector(dimension, &lanes->field[g][k], LANES, x);
+        const struct sym3 hi = change_of_stress(kind, own + h, 1, x);
+        const struct sym3 hj = change_of_stress(kind, &lanes->field[h][k], LANES, x);
+        struct vec3 ti = {0.0, 0.0, 0.0}, tj = ti, dti = ti, dtj = ti;
+        double along_i = own[s], along_j = lanes->field[s][k], si_n = hi.xx, sj_n = hj.xx;
+        if (shear) {
+            ti = traction_of(dimension, stress_from(dimension, own + s, 1), n);
+            tj = traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), n);
+            dti = traction_of(dimension, hi, n);
+            dtj = traction_of(dimension, hj, n);
+            along_i = vec3_dot(ti, n);
+            along_j = vec3_dot(tj, n);
+            si_n = vec3_dot(dti, n);
+            sj_n = vec3_dot(dtj, n);
+        }
+        const double along_s = along_j - along_i;
+        const double twice_u = 2.0 * along_u, twice_s = 2.0 * along_s;
+        const struct change change_u = {square(along_u), twice_u * vec3_dot(ui, n),
+                                        twice_u * vec3_dot(uj, n)};
+        const struct change change_s = {square(along_s), twice_s * si_n, twice_s * sj_n};
+        struct shares of_u, of_s, of_v = {0.0, 0.0}, of_a = of_v;
+        limited_shares(change_u, change_s, &of_u, &of_s);
+        pairs->along_u[k] = along_u;
+        pairs->along_i[k] = along_i;
+        pairs->along_j[k] = along_j;
+        pairs->share[0][k] = near_i * of_u.own;
+        pairs->share[1][k] = near_j * of_u.other;
+        pairs->share[2][k] = near_i * of_s.own;
+        pairs->share[3][k] = near_j * of_s.other;
+        if (dimension > 1) {
+            const struct vec3 across_u = vec3_sub(du, vec3_scale(along_u, n));
+            const struct vec3 across_s =
+                shear ? vec3_sub(vec3_sub(tj, ti), vec3_scale(along_s, n)) : ti;
+            const struct vec3 twice_v = vec3_scale(2.0, across_u),
+                              twice_a = vec3_scale(2.0, across_s);
+            const struct change change_v = {vec3_dot(across_u, across_u), vec3_dot(twice_v, ui),
+                                            vec3_dot(twice_v, uj)};
+            const struct change change_a = {vec3_dot(across_s, across_s), vec3_dot(twice_a, dti),
+                                            vec3_dot(twice_a, dtj)};
+            limited_shares(change_v, change_a, &of_v, &of_a);
+            put_vector(dimension, pairs->across_u, k, across_u);
+            put_vector(dimension, pairs->across_s, k, across_s);
+            put_vector(dimension, pairs->traction, k, ti);
+            pairs->share[4][k] = near_i * of_v.own;
+            pairs->share[5][k] = near_j * of_v.other;
+            pairs->share[6][k] = near_i * of_a.own;
+            pairs->share[7][k] = near_j * of_a.other;
+        }
+    }
+}
+
+/* Solves the contact problems and adds up what they give. */
+INLINE void add_contacts(struct muscl_kind kind, bool with_law, const double *own,
+                         const struct lanes *lanes, const struct pairs *pairs,
+                         double (*sums)[LANES])
+{
+    const int dimension = kind.dimension;
+    const bool shear = kind.shear && dimension > 1;
+    const int z = muscl_impedance(kind), q = muscl_bend(kind);
+    const struct layout at = layout_of(kind);
+#pragma omp simd simdlen(8)
+    for (int k = 0; k < LANES; k++) {
+        const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
+        const double along_u = pairs->along_u[k], along_i = pairs->along_i[k];
+        const double along_j = pairs->along_j[k], along_s = along_j - along_i;
+        const double rise_u = pairs->share[0][k] * along_u;
+        const double jump_u = along_u - rise_u - pairs->share[1][k] * along_u;
+        const double left_s = along_i + pairs->share[2][k] * along_s;
+        const double right_s = along_j - pairs->share[3][k] * along_s, jump_s = right_s - left_s;
+        struct contact_weights along = riemann_shock_weights(own[z], lanes->field[z][k], own[q],
+                                                             lanes->field[q][k], jump_u, jump_s);
+        /* fluids that shear past each other are not braked as if they met */
+        double brake = 1.0;
+        if (dimension > 1) {
+            const double own_share = -own[z + 1], other_share = -lanes->field[z + 1][k];
+            brake = minimum(own_share, other_share) > 0.0 ? maximum(own_share, other_share) : 1.0;
+        }
+        double stress = contact_stress(along, left_s, right_s, brake * jump_u);
+        double jump = rise_u + contact_velocity_jump(along, jump_u, jump_s);
+        double opened = 0.0;
+        if (with_law) {
+            opened = stress > 0.0 ? lanes->open[k] : 0.0;
+            jump = opened > 0.0 ? -along_i / own[z] : jump;
+            stress = opened > 0.0 ? 0.0 : stress;
+        }
+        struct vec3 t = vec3_scale(stress, n), w = vec3_scale(jump, n);
+        if (dimension > 1) {
+            const struct vec3 across_u = vector_from(dimension, &pairs->across_u[0][k], LANES);
+            const double left_v = pairs->share[4][k], open_v = 1.0 - left_v - pairs->share[5][k];
+            if (shear) {
+                const struct vec3 da = vector_from(dimension, &pairs->across_s[0][k], LANES);
+                const struct vec3 ti = vector_from(dimension, &pairs->traction[0][k], LANES);
+                const double left_a = pairs->share[6][k], right_a = pairs->share[7][k];
+                struct contact_weights across = riemann_acoustic_weights(
+                    maximum(own[z + 1], 0.0), maximum(lanes->field[z + 1][k], 0.0));
+                /* of the jump DA, what reaches the contact: that from the right by the left's share, and back */
+                double share = across.left * (1.0 - right_a) + across.right * left_a;
+                struct vec3 ai = vec3_sub(ti, vec3_scale(along_i, n));
+                struct vec3 ta = vec3_add(vec3_add(ai, vec3_scale(share, da)),
+                                          vec3_scale(across.impedance * open_v, across_u));
+                struct vec3 wa =
+                    vec3_add(vec3_scale(left_v + across.right * open_v, across_u),
+                             vec3_scale(across.compliance * (1.0 - left_a - right_a), da));
+                if (with_law) {
+                    bool free = opened > 0.0 || lanes->slip[k] > 0.0;
+                    double still = own[z + 1] > 0.0 ? -1.0 / own[z + 1] : 0.0;
+                    ta = vec3_scale(free ? 0.0 : 1.0, ta);
+                    wa.x = free ? still * ai.x : wa.x;
+                    wa.y = free ? still * ai.y : wa.y;
+                    wa.z = free ? still * ai.z : wa.z;
+                }
+                t = vec3_add(t, ta);
+                w = vec3_add(w, wa);
+            } else {
+                w = vec3_add(w, vec3_scale(left_v + 0.5 * open_v, across_u));
+            }
+        }
+        const double weight = pairs->weight[k];
+        double force_weight = weight * pairs->area[k];
+        if (kind.depth) {
+            const int depth = muscl_depth(kind);
+            double pair_depth = 0.5 * fabs(own[depth] + lanes->field[depth][k]);
+            sums[at.hoop][k] += force_weight * (pair_depth - own[depth]) * n.x;
+            sums[at.hoop + 1][k] += force_weight * pairs->x[0][k] * n.x;
+            force_weight *= pair_depth;
+        }
+        t = vec3_scale(force_weight, t);
+        sums[at.power][k] += vec3_dot(t, w);
+        add_vector(dimension, sums, at.traction, k, t);
+        if (dimension == 1)
+            sums[at.drift][k] += weight * w.x;
+        add_product(dimension, sums, at.gradient, k, w,
+                    vec3_scale(weight, vector_from(dimension, &pairs->e[0][k], LANES)));
+    }
+}
+
 /* Adds the entries of one part of a row. */
 INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool with_law,
                      int32_t i, const uint32_t *entry, int count, double (*sums)[LANES])
@@ -291,15 +357,27 @@ INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool
                                          loop->empty,  loop->smoothing,    loop->place};
     const double *own = loop->record + (size_t)i * (size_t)records.stride;
     struct lane_walk walk;
-    struct lanes lanes;
+    struct lanes lanes[GROUPS];
+    struct pairs pairs[GROUPS];
     walk.looked_at = walk.ready = walk.waiting = 0;
     while (lanes_walk(&walk, records, own, entry, count))
-        for (int k = 0; k < walk.ready; k += LANES) {
-            lanes_stage(records, walk.list + k, lanes.field);
-            if (with_law)
-                stage_laws(loop->neighbours, loop->groups, loop->body, i, walk.list + k, lanes.slip,
-                           lanes.open);
-            add_lanes(kind, with_law, loop->smoothing, own, &lanes, sums);
+        for (int first = 0; first < walk.ready; first += GROUPS * LANES) {
+            int left = (walk.ready - first) / LANES, groups = left < GROUPS ? left : GROUPS;
+            for (int m = 0; m < groups; m++) {
+                const int32_t *list = walk.list + first + m * LANES;
+                lanes_stage(records, list, lanes[m].field);
+                if (with_law)
+                    stage_laws(loop->neighbours, loop->groups, loop->body, i, list, lanes[m].slip,
+                               lanes[m].open);
+            }
+            for (int m = 0; m < groups; m++)
+                find_places(kind, loop->smoothing, own, &lanes[m], &pairs[m], sums);
+            for (int m = 0; m < groups; m++)
+                find_changes(kind, with_law, own, &lanes[m], &pairs[m]);
+            for (int m = 0; m < groups; m++)
+                add_contacts(kind, with_law, own, &lanes[m], &pairs[m], sums);
+            for (int m = 0; m < groups; m++)
+                add_slopes(kind, own, &lanes[m], &pairs[m], sums);
         }
 }
 
@@ -308,12 +386,9 @@ INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool
 INLINE int add_parts(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
                      const uint32_t *entry, int begin, unsigned first, double (*sums)[LANES])
 {
-    int count = (int)loop->neighbours->row[i].count, middle = begin;
-    while (middle < count && entry[middle] >> ENTRY_PART_SHIFT == first)
-        middle++;
-    int end = middle;
-    while (end < count && entry[end] >> ENTRY_PART_SHIFT == (first | PART_LAW))
-        end++;
+    int count = (int)loop->neighbours->row[i].count;
+    int middle = lanes_part(entry, begin, count, first);
+    int end = lanes_part(entry, middle, count, first | PART_LAW);
     if (middle > begin)
         add_part(loop, kind, false, i, entry + begin, middle - begin, sums);
     if (end > middle)
@@ -328,7 +403,9 @@ INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, int
     const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
     double factor =
         -2.0 / (kind.depth ? loop->density[i] * own[muscl_depth(kind)] : loop->density[i]);
-    double sums[SUMS][LANES] ALIGNED, all[SUMS], images[SUMS] = {0.0};
+    static const double none[SUMS];
+    double sums[SUMS][LANES] ALIGNED, all[SUMS], images[SUMS];
+    const double *of_images = none;
     memset(sums, 0, (size_t)at.count * sizeof *sums);
     int done = add_parts(loop, kind, i, entry, 0, 0, sums);
     lanes_totals(sums, at.count, all);
@@ -338,8 +415,9 @@ INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, int
         lanes_totals(sums, at.count, images);
         for (int a = 0; a < at.count; a++)
             all[a] += images[a];
+        of_images = images;
     }
-    write_rates(loop, kind, i, factor, all, images);
+    write_rates(loop, kind, i, factor, all, of_images);
 }
 
 /* Each body of the rows' loop is an instance; its name says of which kind. */

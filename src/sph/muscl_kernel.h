@@ -4,10 +4,11 @@
  * slopes before they meet. A pair has an area vector a = (L_i + L_j)/2 e, with the inverse L of the kernel's second
  * moment, which makes sums exact for linear fields; contacts are solved along n = a/|a|. And impedances are those of
  * shocks. A neighbour is seen through its record:
- *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear] bend material [depth]
+ *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] bend material [depth]
  *   L (as a stress)  du/dx (by rows)  dstress/dx [dstress/dy [dstress/dz]]  u' [v' [w']]  stress'
  * with stress as in record.h, velocity and stress half a step ahead, u' and stress' a whole step, and `bend` rho times
- * the slope of the shock curve (riemann/bend.h). */
+ * the slope of the shock curve (riemann/bend.h). Z_across is the shear impedance; of matter that has none, minus the
+ * share of compression in its velocity gradient. */
 #ifndef BOLIDE_SPH_MUSCL_KERNEL_H
 #define BOLIDE_SPH_MUSCL_KERNEL_H
 
@@ -32,7 +33,7 @@ BOLIDE_INLINE int muscl_impedance(struct muscl_kind kind)
 }
 BOLIDE_INLINE int muscl_bend(struct muscl_kind kind)
 {
-    return muscl_impedance(kind) + 1 + (kind.shear && kind.dimension > 1);
+    return muscl_impedance(kind) + 1 + (kind.dimension > 1);
 }
 BOLIDE_INLINE int muscl_material(struct muscl_kind kind) { return muscl_bend(kind) + 1; }
 BOLIDE_INLINE int muscl_depth(struct muscl_kind kind) { return muscl_bend(kind) + 2; }
@@ -65,7 +66,8 @@ struct muscl_rates {
     /* For the next step, of what its values will be: dU^a/dx^b by rows, 1/s; of the record's stresses by direction, Pa/m */
     double *velocity_gradient, *stress_gradient;
     double (*force)[3]; /* likewise, on a unit of volume, N/m^3 */
-    double *packing;    /* tr M/dimension at the start, one at least; not on a line */
+    /* Not on a line: what volumes fill of the space there is at the start, one at least, and what they do beyond. */
+    double (*packing)[2];
 };
 
 struct muscl_loop {

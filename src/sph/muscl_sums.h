@@ -100,22 +100,18 @@ INLINE struct sym3 correction_of_forces(int dimension, struct sym3 m, struct vec
     return correction_of(dimension, sym3_add(m, sym3_scale(scale, missing)));
 }
 
-/* The rate, per axis, at which a particle is compressed where the volumes about it fill more than the space there is:
- * by the excess of tr M/dimension over the start's, with the speed of sound over the diameter. Where matter has met across a gap
- * the velocity gradient counts too little of the closing, and bodies would run into each other. The trace is 1 on the
- * average of any arrangement that fills space. */
-INLINE double squeeze_of(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                         struct sym3 m)
+/* What the volumes about a particle fill beyond the space there is: the excess of tr M/dimension over the start's. Where matter
+ * has met across a gap the velocity gradient counts too little of the closing, and bodies would run into each other. The trace is
+ * 1 on the average of any arrangement that fills space; elastic waves change it by less than the slack. */
+INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                          struct sym3 m)
 {
-    const double slack = 0.005; /* elastic waves change the trace by less */
-    const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
+    const double slack = 0.005;
     const double filled = kind.dimension == 2 ? 0.5 * (m.xx + m.yy) : (m.xx + m.yy + m.zz) / 3.0;
-    double *start = &loop->rates.packing[i];
-    if (*start == 0.0)
-        *start = maximum(1.0, filled);
-    const double excess = maximum(filled - *start - slack, 0.0);
-    const double speed = own[muscl_impedance(kind)] / loop->density[i];
-    return excess * speed / (3.0 * own[record_diameter(kind.dimension)]);
+    double *packing = loop->rates.packing[i];
+    if (packing[0] == 0.0)
+        packing[0] = maximum(1.0, filled);
+    packing[1] = maximum(filled - packing[0] - slack, 0.0);
 }
 
 /* Strain rate, spin and, on a line, drift. O is the first moment. */
@@ -132,9 +128,10 @@ INLINE void write_strain(const struct muscl_loop *loop, struct muscl_kind kind, 
         y = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient + dimension));
     if (dimension > 2)
         z = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient + 2 * dimension));
-    const double squeeze = dimension == 1 ? 0.0 : squeeze_of(loop, kind, i, m);
-    const double strain[6] = {x.x - squeeze,     y.y - squeeze,     z.z - squeeze,
-                              0.5 * (x.y + y.x), 0.5 * (y.z + z.y), 0.5 * (z.x + x.z)};
+    if (dimension > 1)
+        write_packing(loop, kind, i, m);
+    const double strain[6] = {
+        x.x, y.y, z.z, 0.5 * (x.y + y.x), 0.5 * (y.z + z.y), 0.5 * (z.x + x.z)};
     memcpy(rates->strain_rate[i], strain, sizeof strain);
     rates->spin[i][0] = 0.5 * (z.y - y.z);
     rates->spin[i][1] = 0.5 * (x.z - z.x);

@@ -108,6 +108,8 @@ static void freeze_bodies(struct simulation *simulation, const struct sph_fields
             f->heat_rate[i] = 0.0;
         if (f->density_rate)
             f->density_rate[i] = 0.0;
+        if (f->packing)
+            f->packing[i][1] = 0.0;
     }
 }
 

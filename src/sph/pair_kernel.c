@@ -21,12 +21,14 @@ struct sums {
     double traction[3][LANES] ALIGNED, gradient[9][LANES] ALIGNED, power[LANES] ALIGNED;
     double weight[LANES] ALIGNED, drift[3][LANES] ALIGNED; /* V W', V W' (U* - U) */
     double hoop[3][LANES] ALIGNED; /* A (w - d) W' e_x, A x W' e_x, A x W' |e_x| */
+    double unused[4][LANES] ALIGNED;
 };
 
 /* In the same order; what the kind has not stays zero. */
 struct totals_of_row {
-    double traction[3], gradient[9], power, weight, drift[3], hoop[3];
+    double traction[3], gradient[9], power, weight, drift[3], hoop[3], unused[4];
 };
+enum { TOTALS = sizeof(struct totals_of_row) / sizeof(double) };
 
 /* The spin that stands STEP doubles apart from S on. */
 INLINE struct vec3 spin_from(int dimension, const double *s, int step)
@@ -174,17 +176,19 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
 
 INLINE struct totals_of_row totals_of_sums(struct pair_kind kind, const struct sums *sums)
 {
+    double lane[TOTALS][LANES] ALIGNED, total[TOTALS];
     struct totals_of_row totals = {0};
-    for (int a = 0; a < 3; a++)
-        totals.traction[a] = across_lanes(sums->traction[a]);
-    for (int a = 0; a < 9; a++)
-        totals.gradient[a] = across_lanes(sums->gradient[a]);
-    totals.power = across_lanes(sums->power);
-    totals.weight = kind.drift ? across_lanes(sums->weight) : 0.0;
-    for (int a = 0; a < 3; a++)
-        totals.drift[a] = kind.drift ? across_lanes(sums->drift[a]) : 0.0;
-    for (int a = 0; a < 3; a++)
-        totals.hoop[a] = kind.depth ? across_lanes(sums->hoop[a]) : 0.0;
+    if (kind.dimension == 1) { /* few */
+        totals.traction[0] = across_lanes(sums->traction[0]);
+        totals.gradient[0] = across_lanes(sums->gradient[0]);
+        totals.power = across_lanes(sums->power);
+        totals.weight = kind.drift ? across_lanes(sums->weight) : 0.0;
+        totals.drift[0] = kind.drift ? across_lanes(sums->drift[0]) : 0.0;
+        return totals;
+    }
+    memcpy(lane, sums, sizeof lane);
+    lanes_totals(lane, TOTALS, total);
+    memcpy(&totals, total, sizeof totals);
     return totals;
 }
 
@@ -247,17 +251,17 @@ INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32
         -2.0 / (kind.depth ? loop->density[i] * own[record_depth(kind)] : loop->density[i]);
     int count = (int)loop->neighbours->row[i].count, done = 0;
     struct sums sums = {0};
-    struct totals_of_row all = {0}, images = {0};
+    static const struct totals_of_row none;
+    struct totals_of_row all, images;
     if (count == 0 || entry[count - 1] >> ENTRY_PART_SHIFT == 0) {
         add_part(loop, kind, false, i, entry, count, &sums);
         all = totals_of_sums(kind, &sums);
-        write_rates(&loop->rates, i, factor, &all, &images);
+        write_rates(&loop->rates, i, factor, &all, &none);
         return;
     }
     for (unsigned part = 0; part < 4; part++) {
         int begin = done;
-        while (done < count && entry[done] >> ENTRY_PART_SHIFT == part)
-            done++;
+        done = lanes_part(entry, begin, count, part);
         if (part == PART_IMAGE) {
             all = totals_of_sums(kind, &sums);
             memset(&sums, 0, sizeof sums);

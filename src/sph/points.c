@@ -194,6 +194,19 @@ static void note_failure(struct failure *failure, uint64_t id, int32_t index)
         *failure = (struct failure){true, id, index};
 }
 
+/* How fast a particle is compressed, 1/s, where the volumes about it fill more than the space there is: by the excess,
+ * 0.1 at most, with the speed of sound over the diameter. Its heat must pay for that, since no work goes with it: less than the energy of cold
+ * compression leaves none, twice as much is enough. */
+BOLIDE_INLINE double packing_rate(const struct material *material, const struct particles *p,
+                                  const struct sph_fields *f, int32_t i)
+{
+    const double bulk = square(f->sound_long[i]) - 4.0 / 3.0 * square(f->sound_shear[i]);
+    const double cold =
+        0.5 * bulk * square(maximum(0.0, 1.0 - material_density(material) / p->density[i]));
+    const double room = cold > 0.0 ? minimum(1.0, maximum(0.0, (p->energy[i] - cold) / cold)) : 1.0;
+    return room * minimum(f->packing[i][1], 0.1) * f->sound_long[i] / f->diameter[i];
+}
+
 /* A run of particles of one material. MATERIAL's kinds are constants where this is inlined. */
 BOLIDE_INLINE void update_run(const struct material *material, struct particles *p,
                               const struct sph_fields *f, int dimension, bool total, double dt,
@@ -222,6 +235,8 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
         motion.spin = vec3_make(f->rates.spin[i][0], f->rates.spin[i][1], f->rates.spin[i][2]);
         if (f->velocity_gradient)
             motion.density = p->density[i] / muscl_deform(dt, &motion.strain_rate, &motion.spin);
+        if (f->packing)
+            motion.density *= 1.0 + dt * packing_rate(material, p, f, i);
         /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2, without taking differences. */
         motion.energy =
             p->energy[i] + dt * f->rates.power[i] - (total ? 0.5 * square(dt) * a2 : 0.0);

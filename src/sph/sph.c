@@ -43,7 +43,8 @@ static const struct field_declaration stress_gradient_field = {
 static const struct field_declaration force_field = {
     "expected_force", "N/m^3", "force of the next step", NUMBER_DOUBLE, 3, FIELD_STATE};
 static const struct field_declaration packing_field = {
-    "packing", NULL, "how far volumes filled space at the start", NUMBER_DOUBLE, 1, FIELD_STATE};
+    "packing",     NULL, "how far volumes filled space at the start, and do beyond that",
+    NUMBER_DOUBLE, 2,    FIELD_STATE};
 static const struct field_declaration heat_field = {
     "heat_rate", NULL, "specific power of conduction", NUMBER_DOUBLE, 1, FIELD_DERIVED};
 static const struct field_declaration viscosity_field = {

@@ -18,7 +18,8 @@ struct sph_fields {
     double *heat_rate;    /* dE/dt by conduction, W/kg; NULL without */
     double *density_rate; /* of hllc and monaghan, NULL otherwise */
     /* second order only, as muscl_rates has them */
-    double *correction, *velocity_gradient, *stress_gradient, *packing;
+    double *correction, *velocity_gradient, *stress_gradient;
+    double (*packing)[2];
     double (*force)[3];
 };
 
