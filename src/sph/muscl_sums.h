@@ -116,7 +116,7 @@ INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kind kind,
 
 /* Strain rate, spin and, on a line, drift. O is the first moment. */
 INLINE void write_strain(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                         const double *all, struct sym3 m, struct sym3 l, struct vec3 o)
+                         const double *all, struct sym3 l, struct vec3 o)
 {
     const int dimension = kind.dimension;
     const struct layout at = layout_of(kind);
@@ -128,8 +128,6 @@ INLINE void write_strain(const struct muscl_loop *loop, struct muscl_kind kind, 
         y = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient + dimension));
     if (dimension > 2)
         z = vec3_scale(-2.0, corrected(dimension, l, all + at.gradient + 2 * dimension));
-    if (dimension > 1)
-        write_packing(loop, kind, i, m);
     const double strain[6] = {
         x.x, y.y, z.z, 0.5 * (x.y + y.x), 0.5 * (y.z + z.y), 0.5 * (z.x + x.z)};
     memcpy(rates->strain_rate[i], strain, sizeof strain);
@@ -239,7 +237,9 @@ INLINE void write_rates(const struct muscl_loop *loop, struct muscl_kind kind, i
     const struct sym3 m = stress_from(kind.dimension, all + at.moment, 1);
     const struct vec3 offset = vector_from(kind.dimension, all + at.offset, 1);
     const struct sym3 l = correction_of(kind.dimension, m);
-    write_strain(loop, kind, i, all, m, l, offset);
+    if (kind.dimension > 1)
+        write_packing(loop, kind, i, m);
+    write_strain(loop, kind, i, all, l, offset);
     write_gradients(loop, kind, i, all, m, l, offset);
 }
 

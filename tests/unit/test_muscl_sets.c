@@ -191,6 +191,7 @@ static void expected_forces_and_packing_belong_to_the_state(void **state)
 {
     (void)state;
     static const char *const names[] = {"expected_force", "packing"};
+    static const size_t components[] = {3, 2};
     const uint64_t wanted = hash_of(plane_gap, &plain);
     for (size_t k = 0; k < COUNT_OF(names); k++) {
         struct running *run = begin_fresh(plane_gap, &plain);
@@ -205,7 +206,7 @@ static void expected_forces_and_packing_belong_to_the_state(void **state)
         run = resume(run, plane_gap, &plain);
         p = &run->simulation.particles;
         assert_true(((double *)particles_field(p, names[k]))[0] == kept);
-        memset(particles_field(p, names[k]), 0, (size_t)p->count * sizeof kept);
+        memset(particles_field(p, names[k]), 0, (size_t)p->count * components[k] * sizeof kept);
         step(run, 10);
         assert_true(particles_hash(p) != wanted);
         end(run);
