@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "model/generate.h"
 #include "run/catalogue.h"
+#include "sph/lanes.h"
 #include "sph/sph_internal.h"
 
 static void stop_on(struct error *error)
@@ -22,17 +23,19 @@ static void stop_on(struct error *error)
 /* Neighbours within support, summed over all particles. */
 static int64_t count_pairs(const struct sph *sph, const struct simulation *simulation)
 {
-    int stride = record_stride(sph->kind);
+    const bool second = sph_second_order(sph);
+    const double *place = second ? sph->place : sph->record;
+    const size_t stride = second ? PLACE_STRIDE : (size_t)record_stride(sph->kind);
+    const int d = record_diameter(simulation->dimension);
     int64_t pairs = 0;
     for (int32_t i = 0; i < simulation->particles.count; i++) {
         const uint32_t *entry = neighbours_row(&sph->neighbours, i);
-        const double *own = sph->record + (size_t)i * (size_t)stride;
+        const double *own = place + (size_t)i * stride;
         for (uint32_t k = 0; k < sph->neighbours.row[i].count; k++) {
-            const double *other = sph->record + (size_t)(entry[k] & ENTRY_INDEX) * (size_t)stride;
+            const double *other = place + (size_t)(entry[k] & ENTRY_INDEX) * stride;
             double sum = 0.0;
             for (int axis = 0; axis < simulation->dimension; axis++)
                 sum += square(other[axis] - own[axis]);
-            int d = record_diameter(simulation->dimension);
             pairs += sum < square(sph->parameters.smoothing * (own[d] + other[d]));
         }
     }
@@ -72,11 +75,13 @@ static void bench(const char *path, const char *setting, int steps, int threads)
     double seconds = clock_seconds() - begin;
     double updates = (double)simulation->particles.count * steps;
     double pairs = (double)count_pairs(sph, simulation);
-    double bytes =
-        (double)particles_bytes(&simulation->particles) +
-        (double)(neighbours_bytes(&sph->neighbours) +
-                 (size_t)sph->record_capacity * sizeof(double) * (size_t)record_stride(sph->kind)) /
-            simulation->particles.count;
+    double bytes = (double)particles_bytes(&simulation->particles) +
+                   (double)(neighbours_bytes(&sph->neighbours) +
+                            (size_t)sph->record_capacity * sizeof(double) *
+                                (size_t)(sph_second_order(sph)
+                                             ? muscl_stride(muscl_kind_of(sph)) + PLACE_STRIDE
+                                             : record_stride(sph->kind))) /
+                       simulation->particles.count;
     const char *name = strrchr(path, '/');
     printf("%-25s %9d %7d %10.3f %10.1f %8.2f %8.0f %7.1f ", name ? name + 1 : path,
            simulation->particles.count, threads, 1e-6 * updates / seconds,

@@ -48,23 +48,21 @@ INLINE void transpose_four(const double *const row[LANES], int offset, vector8 c
     }
 }
 
-/* Turns eight rows of eight into eight columns. */
-INLINE void transpose(const double *const row[LANES], int offset, double (*column)[LANES])
-{
-    vector8 half[4];
-    for (int part = 0; part < 8; part += 4) {
-        transpose_four(row, offset + part, half);
-        memcpy(column + part, half, sizeof half);
-    }
-}
-#else
-INLINE void transpose(const double *const row[LANES], int offset, double (*column)[LANES])
-{
-    for (int k = 0; k < LANES; k++)
-        for (int f = 0; f < 8; f++)
-            column[f][k] = row[k][offset + f];
-}
 #endif
+
+/* Turns four columns of eight rows, from OFFSET on, into lanes. */
+INLINE void transpose(const double *const row[LANES], int offset, double (*column)[LANES])
+{
+#if defined(__AVX512F__)
+    vector8 four[4];
+    transpose_four(row, offset, four);
+    memcpy(column, four, sizeof four);
+#else
+    for (int k = 0; k < LANES; k++)
+        for (int f = 0; f < 4; f++)
+            column[f][k] = row[k][offset + f];
+#endif
+}
 
 INLINE double across_lanes(const double lane[LANES])
 {
@@ -111,13 +109,19 @@ struct lane_records {
     const double *place; /* PLACE_STRIDE doubles each, or NULL */
 };
 
+/* Finds the records of the eight neighbours of LIST. */
+INLINE void lanes_rows(struct lane_records records, const int32_t *list, const double *row[LANES])
+{
+    for (int k = 0; k < LANES; k++) /* NOLINTNEXTLINE(clang-analyzer-core.*): it is filled up */
+        row[k] = records.record + (size_t)list[k] * (size_t)records.stride;
+}
+
 /* Turns the records of the eight neighbours of LIST into lanes, stride fields. */
 INLINE void lanes_stage(struct lane_records records, const int32_t *list, double (*field)[LANES])
 {
     const double *row[LANES];
-    for (int k = 0; k < LANES; k++) /* NOLINTNEXTLINE(clang-analyzer-core.*): it is filled up */
-        row[k] = records.record + (size_t)list[k] * (size_t)records.stride;
-    for (int offset = 0; offset < records.stride; offset += 8)
+    lanes_rows(records, list, row);
+    for (int offset = 0; offset < records.stride; offset += 4)
         transpose(row, offset, field + offset);
 }
 

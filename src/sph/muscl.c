@@ -175,17 +175,16 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     size_t tensors = (size_t)tensor_components(dimension);
     memcpy(record + k, f->correction + (size_t)i * tensors, tensors * sizeof *record);
     k += (int)tensors;
-    size_t gradients = (size_t)(dimension * dimension);
-    memcpy(record + k, f->velocity_gradient + (size_t)i * gradients, gradients * sizeof *record);
-    k += (int)gradients;
-    size_t slopes = (size_t)(dimension * stresses);
-    memcpy(record + k, f->stress_gradient + (size_t)i * slopes, slopes * sizeof *record);
-    k += (int)slopes;
-    for (int axis = 0; axis < dimension; axis++)
-        record[k++] = p->velocity[i][axis] + 2.0 * velocity[axis];
-    for (int a = 0; a < stresses; a++) {
-        int from = dimension == 2 && a == 2 ? 3 : a;
-        record[k++] = at[from] + 2.0 * by[from];
+    const double *g = f->velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
+    const double *h = f->stress_gradient + (size_t)i * (size_t)(dimension * stresses);
+    for (int b = 0; b < dimension + stresses; b++) {
+        double *slope = record + muscl_slope(kind, b);
+        const int step = muscl_slope_step(kind, b), c = b - dimension;
+        for (int a = 0; a < dimension; a++)
+            slope[a * step] = c < 0 ? g[b * dimension + a] : h[a * stresses + c];
+        const int from = dimension == 2 && c == 2 ? 3 : c;
+        slope[dimension * step] =
+            c < 0 ? p->velocity[i][b] + 2.0 * velocity[b] : at[from] + 2.0 * by[from];
     }
 }
 
@@ -197,23 +196,22 @@ static void reflect(const struct simulation *simulation, struct muscl_kind kind,
     const struct vec3 sign = image_sign(image);
     const double signs[3] = {sign.x, sign.y, sign.z};
     const bool tensor = stresses > 1; /* a fluid's stress is one number */
-    double *gradient = record + muscl_velocity_gradient(kind);
-    double *slope = record + muscl_stress_gradient(kind);
-    double *next_velocity = record + muscl_next(kind), *next_stress = next_velocity + dimension;
     sph_reflect_motion(simulation, image, record);
     sph_reflect_tensor(dimension, sign, record + muscl_correction(kind));
-    if (tensor) {
+    if (tensor)
         sph_reflect_tensor(dimension, sign, record + record_stress(dimension));
-        sph_reflect_tensor(dimension, sign, next_stress);
-    }
-    for (int a = 0; a < dimension; a++) {
-        next_velocity[a] *= signs[a];
+    for (int a = 0; a <= dimension;
+         a++) { /* the slopes along an axis; behind them what comes after the step */
+        const double turned = a < dimension ? signs[a] : 1.0;
+        double value[9];
+        for (int b = 0; b < dimension + stresses; b++)
+            value[b] = turned * record[muscl_slope(kind, b) + a * muscl_slope_step(kind, b)];
         for (int b = 0; b < dimension; b++)
-            gradient[dimension * a + b] *= signs[a] * signs[b];
+            value[b] *= signs[b];
         if (tensor)
-            sph_reflect_tensor(dimension, sign, slope + a * stresses);
-        for (int b = 0; b < stresses; b++)
-            slope[a * stresses + b] *= signs[a];
+            sph_reflect_tensor(dimension, sign, value + dimension);
+        for (int b = 0; b < dimension + stresses; b++)
+            record[muscl_slope(kind, b) + a * muscl_slope_step(kind, b)] = value[b];
     }
     if (sph_axisymmetric(simulation) && image % 3 == 1)
         record[muscl_depth(kind)] *= -1.0;

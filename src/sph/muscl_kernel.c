@@ -1,36 +1,32 @@
 /* The pair loop of the second-order contact method for one instruction set, named by BOLIDE_ISA; see
  * muscl_kernel.h. The area vector is that of the renormalised meshless methods (Lanson and Vila, SIAM J. Numer. Anal. 46
- * (2008) 1912), the slopes' limiter van Leer's (J. Comput. Phys. 14 (1974) 361). */
+ * (2008) 1912). */
 #include "sph/muscl_kernel.h"
 #include "riemann/shock.h"
 #include "sph/kernel.h"
+#include "sph/muscl_slopes.h"
 #include "sph/muscl_sums.h"
 
 enum {
-    FIELDS = 64,
+    FIELDS = 32,
     GROUPS = 4 /* of eight neighbours: most rows in space fit */
 };
 
+/* Eight neighbours: their records, and what stands in front of the rows there. */
 struct lanes {
+    const double *record[LANES];
     double field[FIELDS][LANES] ALIGNED;
     double slip[LANES] ALIGNED, open[LANES] ALIGNED;
-};
-
-/* The shares of the change D between two particles that limited slopes carry from each to the middle: b/(D + b) with b
- * = 2 C - D, the change that lies on the other side when the slope changes by C over the pair; nothing where b turns
- * against D. A change is D^2 and twice the two D C. */
-struct shares {
-    double own, other;
-};
-
-struct change {
-    double square, own, other;
 };
 
 /* Eight pairs between the parts of the kernel. Each part runs over all groups before the next begins: what one group
  * waits for, another fills. */
 struct pairs {
     double x[3][LANES] ALIGNED, e[3][LANES] ALIGNED, n[3][LANES] ALIGNED;
+    double c[3][LANES] ALIGNED; /* -V W' 2 D_i/(D_i + D_j) e */
+    double
+        wide[ROW]
+            [LANES] ALIGNED; /* what values in rows change by over x, by the neighbour's slopes */
     double weight[LANES] ALIGNED, area[LANES] ALIGNED; /* V W', |a| */
     double near[LANES] ALIGNED;                        /* 2 D_i/(D_i + D_j) */
     /* along n and across: changes over the pair, own stress, and shares of the slopes, times near */
@@ -38,52 +34,6 @@ struct pairs {
     double across_u[3][LANES] ALIGNED, across_s[3][LANES] ALIGNED, traction[3][LANES] ALIGNED;
     double share[8][LANES] ALIGNED;
 };
-
-/* Those of two quantities, with one division. */
-INLINE void limited_shares(struct change first, struct change second, struct shares *of_first,
-                           struct shares *of_second)
-{
-    const double tiny = 1e-70;
-    double a = maximum(first.own - first.square, 0.0);
-    double b = maximum(first.other - first.square, 0.0);
-    double c = maximum(second.own - second.square, 0.0);
-    double d = maximum(second.other - second.square, 0.0);
-    first.square += tiny;
-    second.square += tiny;
-    double whole_a = first.square + a, whole_b = first.square + b;
-    double whole_c = second.square + c, whole_d = second.square + d;
-    double ab = whole_a * whole_b, cd = whole_c * whole_d, inverse = 1.0 / (ab * cd);
-    double inverse_ab = inverse * cd, inverse_cd = inverse * ab;
-    of_first->own = a * whole_b * inverse_ab;
-    of_first->other = b * whole_a * inverse_ab;
-    of_second->own = c * whole_d * inverse_cd;
-    of_second->other = d * whole_c * inverse_cd;
-}
-
-/* (x.grad) v from the rows of grad v that stand STEP doubles apart. */
-INLINE struct vec3 change_of_vector(int dimension, const double *g, int step, struct vec3 x)
-{
-    if (dimension == 1)
-        return vec3_make(g[0] * x.x, 0.0, 0.0);
-    if (dimension == 2)
-        return vec3_make(g[0] * x.x + g[step] * x.y, g[2 * step] * x.x + g[3 * step] * x.y, 0.0);
-    return vec3_make(g[0] * x.x + g[step] * x.y + g[2 * step] * x.z,
-                     g[3 * step] * x.x + g[4 * step] * x.y + g[5 * step] * x.z,
-                     g[6 * step] * x.x + g[7 * step] * x.y + g[8 * step] * x.z);
-}
-
-/* (x.grad) stress, likewise. */
-INLINE struct sym3 change_of_stress(struct muscl_kind kind, const double *g, int step,
-                                    struct vec3 x)
-{
-    const int dimension = kind.shear ? kind.dimension : 1, next = muscl_stresses(kind) * step;
-    struct sym3 change = sym3_scale(x.x, stress_from(dimension, g, step));
-    if (kind.dimension > 1)
-        change = sym3_add(change, sym3_scale(x.y, stress_from(dimension, g + next, step)));
-    if (kind.dimension > 2)
-        change = sym3_add(change, sym3_scale(x.z, stress_from(dimension, g + 2 * next, step)));
-    return change;
-}
 
 /* Adds V to the sums of a vector that begin at AT, and V^a E^b to those of a tensor. */
 INLINE void add_vector(int dimension, double (*sums)[LANES], int at, int k, struct vec3 v)
@@ -142,27 +92,54 @@ INLINE void find_places(struct muscl_kind kind, double smoothing, const double *
         double weight = lanes->field[v][k] * kernel_slope(r, inverse_h, dimension);
         pairs->weight[k] = weight;
         pairs->area[k] = 0.5 * (ar * inverse_r);
-        pairs->near[k] = smoothing * own[d] * inverse_h;
+        double near = smoothing * own[d] * inverse_h;
+        pairs->near[k] = near;
+        put_vector(dimension, pairs->c, k, vec3_scale(-weight * near, e));
         sums[at.weight][k] += weight;
         sums[at.impedance][k] += weight * lanes->field[z][k];
     }
+}
+
+/* What stands in rows, one neighbour after the other: what these change by over x, and their sums of slopes. */
+INLINE void walk_rows(struct muscl_kind kind, const double *own, const struct lanes *lanes,
+                      struct pairs *pairs, double (*sums)[ROW])
+{
+    const int wide = muscl_wide(kind), first = muscl_wide_rows(kind);
+    const int next = first + kind.dimension * wide;
+    double change[LANES][ROW] ALIGNED;
+    const double *row[LANES];
+    for (int k = 0; k < LANES; k++) {
+        const double *g = lanes->record[k] + first, *q = lanes->record[k] + next;
+#pragma omp simd
+        for (int f = 0; f < wide; f++) {
+            double sum = pairs->x[0][k] * g[f] + pairs->x[1][k] * g[wide + f];
+            if (kind.dimension > 2)
+                sum += pairs->x[2][k] * g[2 * wide + f];
+            change[k][f] = sum;
+            double dq = q[f] - own[next + f];
+            sums[0][f] += pairs->c[0][k] * dq;
+            sums[1][f] += pairs->c[1][k] * dq;
+            if (kind.dimension > 2)
+                sums[2][f] += pairs->c[2][k] * dq;
+        }
+        row[k] = change[k];
+    }
+    for (int f = 0; f < wide; f += 4)
+        transpose(row, f, pairs->wide + f);
 }
 
 /* Adds to the sums what the next step's slopes follow from. */
 INLINE void add_slopes(struct muscl_kind kind, const double *own, const struct lanes *lanes,
                        const struct pairs *pairs, double (*sums)[LANES])
 {
-    const int dimension = kind.dimension, stresses = muscl_stresses(kind);
-    const int next_u = muscl_next(kind), next_s = next_u + dimension;
+    const int dimension = kind.dimension, values = muscl_values(kind), narrow = muscl_narrow(kind);
     const struct layout at = layout_of(kind);
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
-        const struct vec3 c = vec3_scale(-pairs->weight[k] * pairs->near[k],
-                                         vector_from(dimension, &pairs->e[0][k], LANES));
+        const struct vec3 c = vector_from(dimension, &pairs->c[0][k], LANES);
         const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
-        const double r = vec3_dot(x, e);
-        struct vec3 m = vec3_scale(r, c);
+        struct vec3 m = vec3_scale(vec3_dot(x, e), c);
         add_vector(dimension, sums, at.offset, k, m);
         sums[at.moment][k] += m.x * e.x;
         if (dimension == 2) {
@@ -176,17 +153,14 @@ INLINE void add_slopes(struct muscl_kind kind, const double *own, const struct l
             sums[at.moment + 4][k] += m.y * e.z;
             sums[at.moment + 5][k] += m.z * e.x;
         }
-        add_product(dimension, sums, at.velocity_gradient, k,
-                    vec3_sub(vector_from(dimension, &lanes->field[next_u][k], LANES),
-                             vector_from(dimension, own + next_u, 1)),
-                    c);
-        for (int b = 0; b < stresses; b++) {
-            double ds = lanes->field[next_s + b][k] - own[next_s + b];
-            sums[at.stress_gradient + b][k] += ds * c.x;
+        for (int f = values - narrow; f < values; f++) {
+            const int from = muscl_next(kind, f), to = at.narrow + f - (values - narrow);
+            double dq = lanes->field[from][k] - own[from];
+            sums[to][k] += dq * c.x;
             if (dimension > 1)
-                sums[at.stress_gradient + stresses + b][k] += ds * c.y;
+                sums[to + narrow][k] += dq * c.y;
             if (dimension > 2)
-                sums[at.stress_gradient + 2 * stresses + b][k] += ds * c.z;
+                sums[to + 2 * narrow][k] += dq * c.z;
         }
     }
 }
@@ -199,7 +173,6 @@ INLINE void find_changes(struct muscl_kind kind, bool with_law, const double *ow
     const bool shear = kind.shear && dimension > 1;
     const int u = record_velocity(dimension), s = record_stress(dimension);
     const int z = muscl_impedance(kind), q = muscl_bend(kind), matter = muscl_material(kind);
-    const int g = muscl_velocity_gradient(kind), h = muscl_stress_gradient(kind);
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
@@ -212,10 +185,12 @@ INLINE void find_changes(struct muscl_kind kind, bool with_law, const double *ow
                             speed * lanes->field[q][k] < lanes->field[z][k];
         const double near = pairs->near[k], near_i = smooth ? near : 0.0,
                      near_j = smooth ? 2.0 - near : 0.0;
-        const struct vec3 ui = change_of_vector(dimension, own + g, 1, x);
-        const struct vec3 uj = change_of_vector(dimension, &lanes->field[g][k], LANES, x);
-        const struct sym3 hi = change_of_stress(kind, own + h, 1, x);
-        const struct sym3 hj = change_of_stress(kind, &lanes->field[h][k], LANES, x);
+        const struct slopes here = {own, NULL, 1};
+        const struct slopes there = {&lanes->field[0][k], &pairs->wide[0][k], LANES};
+        const struct vec3 ui = change_of_velocity(kind, here, x);
+        const struct vec3 uj = change_of_velocity(kind, there, x);
+        const struct sym3 hi = change_of_stress(kind, here, x);
+        const struct sym3 hj = change_of_stress(kind, there, x);
         struct vec3 ti = {0.0, 0.0, 0.0}, tj = ti, dti = ti, dtj = ti;
         double along_i = own[s], along_j = lanes->field[s][k], si_n = hi.xx, sj_n = hj.xx;
         if (shear) {
@@ -351,7 +326,7 @@ INLINE void add_contacts(struct muscl_kind kind, bool with_law, const double *ow
 
 /* Adds the entries of one part of a row. */
 INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool with_law,
-                     int32_t i, const uint32_t *entry, int count, double (*sums)[LANES])
+                     int32_t i, const uint32_t *entry, int count, struct sums *sums)
 {
     const struct lane_records records = {loop->record, muscl_stride(kind), kind.dimension,
                                          loop->empty,  loop->smoothing,    loop->place};
@@ -365,26 +340,31 @@ INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool
             int left = (walk.ready - first) / LANES, groups = left < GROUPS ? left : GROUPS;
             for (int m = 0; m < groups; m++) {
                 const int32_t *list = walk.list + first + m * LANES;
-                lanes_stage(records, list, lanes[m].field);
+                lanes_rows(records, list, lanes[m].record);
+                for (int f = 0; f < muscl_fields(kind); f += 4)
+                    transpose(lanes[m].record, f, lanes[m].field + f);
                 if (with_law)
                     stage_laws(loop->neighbours, loop->groups, loop->body, i, list, lanes[m].slip,
                                lanes[m].open);
             }
             for (int m = 0; m < groups; m++)
-                find_places(kind, loop->smoothing, own, &lanes[m], &pairs[m], sums);
+                find_places(kind, loop->smoothing, own, &lanes[m], &pairs[m], sums->lane);
+            if (muscl_wide(kind) > 0)
+                for (int m = 0; m < groups; m++)
+                    walk_rows(kind, own, &lanes[m], &pairs[m], sums->row);
             for (int m = 0; m < groups; m++)
                 find_changes(kind, with_law, own, &lanes[m], &pairs[m]);
             for (int m = 0; m < groups; m++)
-                add_contacts(kind, with_law, own, &lanes[m], &pairs[m], sums);
+                add_contacts(kind, with_law, own, &lanes[m], &pairs[m], sums->lane);
             for (int m = 0; m < groups; m++)
-                add_slopes(kind, own, &lanes[m], &pairs[m], sums);
+                add_slopes(kind, own, &lanes[m], &pairs[m], sums->lane);
         }
 }
 
 /* Adds the entries from BEGIN on of the row's parts FIRST and FIRST + 1 (the same under a contact law); returns where
  * the next part begins. */
 INLINE int add_parts(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                     const uint32_t *entry, int begin, unsigned first, double (*sums)[LANES])
+                     const uint32_t *entry, int begin, unsigned first, struct sums *sums)
 {
     int count = (int)loop->neighbours->row[i].count;
     int middle = lanes_part(entry, begin, count, first);
@@ -403,16 +383,17 @@ INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, int
     const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
     double factor =
         -2.0 / (kind.depth ? loop->density[i] * own[muscl_depth(kind)] : loop->density[i]);
-    static const double none[SUMS];
-    double sums[SUMS][LANES] ALIGNED, all[SUMS], images[SUMS];
+    static const double none[TOTALS];
+    static const struct sums nothing;
+    struct sums sums = nothing;
+    double all[TOTALS], images[TOTALS];
     const double *of_images = none;
-    memset(sums, 0, (size_t)at.count * sizeof *sums);
-    int done = add_parts(loop, kind, i, entry, 0, 0, sums);
-    lanes_totals(sums, at.count, all);
+    int done = add_parts(loop, kind, i, entry, 0, 0, &sums);
+    sums_totals(kind, &sums, all);
     if (done < (int)loop->neighbours->row[i].count) {
-        memset(sums, 0, (size_t)at.count * sizeof *sums);
-        add_parts(loop, kind, i, entry, done, PART_IMAGE, sums);
-        lanes_totals(sums, at.count, images);
+        sums = nothing;
+        add_parts(loop, kind, i, entry, done, PART_IMAGE, &sums);
+        sums_totals(kind, &sums, images);
         for (int a = 0; a < at.count; a++)
             all[a] += images[a];
         of_images = images;

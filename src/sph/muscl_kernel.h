@@ -5,10 +5,14 @@
  * moment, which makes sums exact for linear fields; contacts are solved along n = a/|a|. And impedances are those of
  * shocks. A neighbour is seen through its record:
  *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] bend material [depth]
- *   L (as a stress)  du/dx (by rows)  dstress/dx [dstress/dy [dstress/dz]]  u' [v' [w']]  stress'
- * with stress as in record.h, velocity and stress half a step ahead, u' and stress' a whole step, and `bend` rho times
+ *   L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
+ * with stress as in record.h, velocity and stress half a step ahead, q' both of them a whole step, and `bend` rho times
  * the slope of the shock curve (riemann/bend.h). Z_across is the shear impedance; of matter that has none, minus the
- * share of compression in its velocity gradient. */
+ * share of compression in its velocity gradient.
+ *
+ * Of q, the first four or eight values (the most that there are) stand at the end of the record, a row for dq/dx, one
+ * for dq/dy, ..., one for q': the kernel takes these a neighbour at a time, a row in a register. All else stands in
+ * front of them and is taken eight neighbours at a time. */
 #ifndef BOLIDE_SPH_MUSCL_KERNEL_H
 #define BOLIDE_SPH_MUSCL_KERNEL_H
 
@@ -41,21 +45,46 @@ BOLIDE_INLINE int muscl_correction(struct muscl_kind kind)
 {
     return muscl_depth(kind) + kind.depth;
 }
-BOLIDE_INLINE int muscl_velocity_gradient(struct muscl_kind kind)
+/* Values of q: velocity, then stress; how many of them stand in rows, and how many before. */
+BOLIDE_INLINE int muscl_values(struct muscl_kind kind)
+{
+    return kind.dimension + muscl_stresses(kind);
+}
+BOLIDE_INLINE int muscl_wide(struct muscl_kind kind) { return muscl_values(kind) / 4 * 4; }
+BOLIDE_INLINE int muscl_narrow(struct muscl_kind kind)
+{
+    return muscl_values(kind) - muscl_wide(kind);
+}
+BOLIDE_INLINE int muscl_narrow_rows(struct muscl_kind kind)
 {
     return muscl_correction(kind) + tensor_components(kind.dimension);
 }
-BOLIDE_INLINE int muscl_stress_gradient(struct muscl_kind kind)
+/* Fields in front of the rows, a multiple of four. */
+BOLIDE_INLINE int muscl_fields(struct muscl_kind kind)
 {
-    return muscl_velocity_gradient(kind) + kind.dimension * kind.dimension;
+    return (muscl_narrow_rows(kind) + (kind.dimension + 1) * muscl_narrow(kind) + 3) / 4 * 4;
 }
-BOLIDE_INLINE int muscl_next(struct muscl_kind kind)
+BOLIDE_INLINE int muscl_wide_rows(struct muscl_kind kind)
 {
-    return muscl_stress_gradient(kind) + kind.dimension * muscl_stresses(kind);
+    return muscl_wide(kind) == 8 ? (muscl_fields(kind) + 7) / 8 * 8 : muscl_fields(kind);
+}
+/* Where dq/dx of value F stands; the same along the next axis, at last q', are a step further each. */
+BOLIDE_INLINE int muscl_slope(struct muscl_kind kind, int f)
+{
+    return f < muscl_wide(kind) ? muscl_wide_rows(kind) + f
+                                : muscl_narrow_rows(kind) + f - muscl_wide(kind);
+}
+BOLIDE_INLINE int muscl_slope_step(struct muscl_kind kind, int f)
+{
+    return f < muscl_wide(kind) ? muscl_wide(kind) : muscl_narrow(kind);
+}
+BOLIDE_INLINE int muscl_next(struct muscl_kind kind, int f)
+{
+    return muscl_slope(kind, f) + kind.dimension * muscl_slope_step(kind, f);
 }
 BOLIDE_INLINE int muscl_stride(struct muscl_kind kind)
 {
-    int used = muscl_next(kind) + kind.dimension + muscl_stresses(kind);
+    int used = muscl_wide_rows(kind) + (kind.dimension + 1) * muscl_wide(kind);
     return (used + 7) / 8 * 8;
 }
 

@@ -6,7 +6,7 @@
 #include "sph/muscl_kernel.h"
 #include "sph/record.h"
 
-enum { SUMS = 56 };
+enum { SUMS = 32, ROW = 8, TOTALS = SUMS + 3 * (ROW + 1) };
 
 /* Where the sums over a row stand, with w = V W' and f = 2 D_i/(D_i + D_j) twice the share of the pair that i has. */
 struct layout {
@@ -16,10 +16,10 @@ struct layout {
     int drift;           /* on a line: w (U* - U) */
     int impedance;       /* w Z_j */
     int offset, moment;  /* -f w x, -f w x^a e^b */
-    int velocity_gradient,
-        stress_gradient; /* -f w du^a e^b, -f w dstress e^b by b, of the values after the step */
+    int narrow;          /* slopes of what stands in no row */
     int hoop;            /* of axisymmetry: w |a| (depth - d) n_x, w |a| x n_x */
-    int count;           /* a multiple of eight */
+    int slopes; /* totals only: -f w dq e^b by b, of the values after the step; all above, a multiple of eight */
+    int count;
 };
 
 INLINE struct layout layout_of(struct muscl_kind kind)
@@ -34,11 +34,29 @@ INLINE struct layout layout_of(struct muscl_kind kind)
     at.impedance = at.drift + (dimension == 1 ? 1 : 0);
     at.offset = at.impedance + 1;
     at.moment = at.offset + dimension;
-    at.velocity_gradient = at.moment + tensor;
-    at.stress_gradient = at.velocity_gradient + dimension * dimension;
-    at.hoop = at.stress_gradient + dimension * muscl_stresses(kind);
-    at.count = (at.hoop + (kind.depth ? 2 : 0) + 7) / 8 * 8;
+    at.narrow = at.moment + tensor;
+    at.hoop = at.narrow + dimension * muscl_narrow(kind);
+    at.slopes = (at.hoop + (kind.depth ? 2 : 0) + 7) / 8 * 8;
+    at.count = at.slopes + dimension * muscl_values(kind);
     return at;
+}
+
+/* Sums over the neighbours seen so far: in lanes, and of slopes in rows. */
+struct sums {
+    double lane[SUMS][LANES] ALIGNED;
+    double row[3][ROW] ALIGNED;
+};
+
+/* The totals in the order of the layout. */
+INLINE void sums_totals(struct muscl_kind kind, struct sums *sums, double *all)
+{
+    const struct layout at = layout_of(kind);
+    const int values = muscl_values(kind), wide = muscl_wide(kind), narrow = muscl_narrow(kind);
+    lanes_totals(sums->lane, at.slopes, all);
+    for (int b = 0; b < kind.dimension; b++)
+        for (int f = 0; f < values; f++)
+            all[at.slopes + b * values + f] =
+                f < wide ? sums->row[b][f] : all[at.narrow + b * narrow + f - wide];
 }
 
 /* The vector that stands STEP doubles apart from V on. */
@@ -143,37 +161,52 @@ INLINE void write_strain(const struct muscl_loop *loop, struct muscl_kind kind, 
     memcpy(rates->drift[i], drift, sizeof drift);
 }
 
+/* The slopes of all values, by direction: L times their sums. */
+INLINE void find_slopes(struct muscl_kind kind, const double *sums, struct sym3 l, double *slope)
+{
+    const int values = muscl_values(kind);
+    const double rows[3][3] = {{l.xx, l.xy, l.zx}, {l.xy, l.yy, l.yz}, {l.zx, l.yz, l.zz}};
+    for (int a = 0; a < kind.dimension; a++)
+        for (int f = 0; f < values; f++) {
+            double sum = rows[a][0] * sums[f];
+            for (int b = 1; b < kind.dimension; b++)
+                sum += rows[a][b] * sums[b * values + f];
+            slope[a * values + f] = sum;
+        }
+}
+
 /* The force on a unit of volume that the values after the step will make: from their slopes, and from the stress that
  * ends at a free surface. There, with the first moment O and the mean distance r of neighbours, sigma.O 2/r is what
  * neighbours on one side only add up to. Inside O is small and says nothing of a surface: it counts by |O|^3/(O.M.O),
  * one at a flat surface and beyond. Without this a free surface would feel what pulls it half a step late, and thin
  * plates would ring louder and louder. */
-INLINE struct vec3 expected_force(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                                  const double *all, struct sym3 m, struct vec3 o, struct sym3 l,
-                                  double share)
+INLINE struct vec3 expected_force(struct muscl_kind kind, const double *own, const double *all,
+                                  struct sym3 m, struct vec3 o, struct sym3 l, double share)
 {
     const int dimension = kind.dimension, stresses = muscl_stresses(kind);
+    const int values = muscl_values(kind);
     const struct layout at = layout_of(kind);
-    const double *stress =
-        loop->record + (size_t)i * (size_t)muscl_stride(kind) + muscl_next(kind) + dimension;
-    struct vec3 slope[6];
+    double slopes[3 * (ROW + 1)], stress[6];
+    find_slopes(kind, all + at.slopes, l, slopes);
     for (int b = 0; b < stresses; b++)
-        slope[b] = vec3_scale(
-            share, sym3_dot(l, vector_from(dimension, all + at.stress_gradient + b, stresses)));
+        stress[b] = own[muscl_next(kind, dimension + b)];
+    const double *x = slopes + dimension, *y = x + values, *z = y + values;
     const double across = vec3_dot(o, sym3_dot(m, o)), square = vec3_dot(o, o);
     const double trace = m.xx + (dimension > 1 ? m.yy : 0.0) + (dimension > 2 ? m.zz : 0.0);
     const bool any = across > 0.0 && trace > 0.0;
     const double surface = any ? minimum(1.0, square * sqrt(square) / across) : 0.0;
     const double ends = any ? -2.0 * all[at.weight] / trace * surface : 0.0;
-    if (stresses == 1)
-        return vec3_add(slope[0], vec3_scale(ends * stress[0], o));
-    struct vec3 force =
-        vec3_scale(ends, traction_of(dimension, stress_from(dimension, stress, 1), o));
-    if (dimension == 2)
-        return vec3_add(force, vec3_make(slope[0].x + slope[2].y, slope[2].x + slope[1].y, 0.0));
-    return vec3_add(force, vec3_make(slope[0].x + slope[3].y + slope[5].z,
-                                     slope[3].x + slope[1].y + slope[4].z,
-                                     slope[5].x + slope[4].y + slope[2].z));
+    struct vec3 inside, end;
+    if (stresses == 1) {
+        inside = vec3_make(x[0], dimension > 1 ? y[0] : 0.0, dimension > 2 ? z[0] : 0.0);
+        end = vec3_scale(stress[0], o);
+    } else {
+        inside = dimension == 2
+                     ? vec3_make(x[0] + y[2], x[2] + y[1], 0.0)
+                     : vec3_make(x[0] + y[3] + z[5], x[3] + y[1] + z[4], x[5] + y[4] + z[2]);
+        end = traction_of(dimension, stress_from(dimension, stress, 1), o);
+    }
+    return vec3_add(vec3_scale(share, inside), vec3_scale(ends, end));
 }
 
 /* What the next step starts from. */
@@ -181,34 +214,26 @@ INLINE void write_gradients(const struct muscl_loop *loop, struct muscl_kind kin
                             const double *all, struct sym3 m, struct sym3 l, struct vec3 o)
 {
     const int dimension = kind.dimension, stresses = muscl_stresses(kind);
+    const int values = muscl_values(kind);
     const struct layout at = layout_of(kind);
     const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
     const struct sym3 of_forces = correction_of_forces(dimension, m, o);
     write_tensor(dimension, of_forces,
                  loop->rates.correction + (size_t)i * (size_t)tensor_components(dimension));
+    double slope[3 * (ROW + 1)];
+    find_slopes(kind, all + at.slopes, l, slope);
     double *g = loop->rates.velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
-    for (int b = 0; b < dimension; b++) {
-        struct vec3 slope = corrected(dimension, l, all + at.velocity_gradient + b * dimension);
-        g[b * dimension] = slope.x;
-        if (dimension > 1)
-            g[b * dimension + 1] = slope.y;
-        if (dimension > 2)
-            g[b * dimension + 2] = slope.z;
-    }
     double *h = loop->rates.stress_gradient + (size_t)i * (size_t)(dimension * stresses);
     /* Beside matter of far higher impedance the stress is that matter's, and so is the slope. */
     const double ours = 2.0 * own[muscl_impedance(kind)] * all[at.weight], mean = all[at.impedance];
     const double share = ours > mean ? ours / mean : 1.0;
-    for (int b = 0; b < stresses; b++) {
-        const double *from = all + at.stress_gradient + b;
-        struct vec3 slope = vec3_scale(share, sym3_dot(l, vector_from(dimension, from, stresses)));
-        h[b] = slope.x;
-        if (dimension > 1)
-            h[stresses + b] = slope.y;
-        if (dimension > 2)
-            h[2 * stresses + b] = slope.z;
+    for (int a = 0; a < dimension; a++) {
+        for (int b = 0; b < dimension; b++)
+            g[b * dimension + a] = slope[a * values + b];
+        for (int b = 0; b < stresses; b++)
+            h[a * stresses + b] = share * slope[a * values + dimension + b];
     }
-    const struct vec3 force = expected_force(loop, kind, i, all, m, o, of_forces, share);
+    const struct vec3 force = expected_force(kind, own, all, m, o, of_forces, share);
     const double forces[3] = {force.x, force.y, force.z};
     memcpy(loop->rates.force[i], forces, sizeof forces);
 }
