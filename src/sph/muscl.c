@@ -49,71 +49,66 @@ void muscl_start(const struct sph *sph, const struct simulation *simulation)
     }
 }
 
-/* The rates at level n that follow from the gradients alone, which were found a step before: they bring the records half
- * a step ahead, except those of frozen bodies. */
-void muscl_expect(const struct sph *sph, const struct simulation *simulation,
-                  const struct sph_fields *f)
+/* Rates of a particle at level n that follow from its slopes alone, which were found a step before. */
+struct expected {
+    double acceleration[3], gradient[3][3];
+};
+
+BOLIDE_INLINE struct expected expected_rates(const struct simulation *simulation,
+                                             const struct sph_fields *f, struct muscl_kind kind,
+                                             int32_t i)
 {
     const struct particles *p = &simulation->particles;
-    const struct muscl_kind kind = muscl_kind_of(sph);
     const int dimension = kind.dimension;
-#pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < p->count; i++) {
-        if (sph_is_frozen(simulation, p->body[i])) {
-            memset(f->rates.acceleration[i], 0, sizeof *f->rates.acceleration);
-            memset(f->rates.strain_rate[i], 0, sizeof *f->rates.strain_rate);
-            memset(f->rates.spin[i], 0, sizeof *f->rates.spin);
-            continue;
-        }
-        const double *g = f->velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
-        double u[3][3] = {{0.0}}, force[3];
-        memcpy(force, f->force[i], sizeof force);
-        for (int a = 0; a < dimension; a++)
-            for (int b = 0; b < dimension; b++)
-                u[a][b] = g[a * dimension + b];
-        if (sph_axisymmetric(simulation)) {
-            double radius = p->position[i][0];
-            force[0] += (p->deviator[i][0] - p->deviator[i][2]) / radius;
-            if (kind.shear)
-                force[1] += p->deviator[i][3] / radius;
-            u[2][2] = p->velocity[i][0] / radius;
-        }
-        bool held = sph_is_held(simulation, p->body[i]);
-        for (int a = 0; a < 3; a++)
-            f->rates.acceleration[i][a] = held ? 0.0 : force[a] / p->density[i];
-        const double strain[6] = {u[0][0],
-                                  u[1][1],
-                                  u[2][2],
-                                  0.5 * (u[0][1] + u[1][0]),
-                                  0.5 * (u[1][2] + u[2][1]),
-                                  0.5 * (u[2][0] + u[0][2])};
-        const double spin[3] = {0.5 * (u[2][1] - u[1][2]), 0.5 * (u[0][2] - u[2][0]),
-                                0.5 * (u[1][0] - u[0][1])};
-        memcpy(f->rates.strain_rate[i], strain, sizeof strain);
-        memcpy(f->rates.spin[i], spin, sizeof spin);
+    struct expected rates = {{0.0}, {{0.0}}};
+    if (sph_is_frozen(simulation, p->body[i]))
+        return rates;
+    const double *g = f->velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
+    double force[3];
+    memcpy(force, f->force[i], sizeof force);
+    for (int a = 0; a < dimension; a++)
+        for (int b = 0; b < dimension; b++)
+            rates.gradient[a][b] = g[a * dimension + b];
+    if (kind.depth && sph_axisymmetric(simulation)) {
+        double radius = p->position[i][0];
+        force[0] += (p->deviator[i][0] - p->deviator[i][2]) / radius;
+        if (kind.shear)
+            force[1] += p->deviator[i][3] / radius;
+        rates.gradient[2][2] = p->velocity[i][0] / radius;
     }
+    bool held = sph_is_held(simulation, p->body[i]);
+    for (int a = 0; a < 3; a++)
+        rates.acceleration[a] = held ? 0.0 : force[a] / p->density[i];
+    return rates;
 }
 
 /* By how much velocity and stress of particle I change in half a step. The pressure follows the adiabat's slope, the
  * deviator its law, plasticity included. */
 BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
-                                       const struct sph_fields *f, double ahead, int32_t i,
-                                       double velocity[3])
+                                       const struct sph_fields *f, struct muscl_kind kind,
+                                       double ahead, int32_t i, double velocity[3])
 {
     const struct particles *p = &simulation->particles;
     const struct strength *strength = &simulation->material[p->material[i]].strength;
-    const double *rate = f->rates.strain_rate[i], *spin = f->rates.spin[i], *s = p->deviator[i];
+    const struct expected rates = expected_rates(simulation, f, kind, i);
+    const double(*u)[3] = rates.gradient, *s = p->deviator[i];
     for (int axis = 0; axis < 3; axis++)
-        velocity[axis] = ahead * f->rates.acceleration[i][axis];
-    struct sym3 strain = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]};
+        velocity[axis] = ahead * rates.acceleration[axis];
+    struct sym3 strain = {u[0][0],
+                          u[1][1],
+                          u[2][2],
+                          0.5 * (u[0][1] + u[1][0]),
+                          0.5 * (u[1][2] + u[2][1]),
+                          0.5 * (u[2][0] + u[0][2])};
+    const struct vec3 spin =
+        vec3_make(0.5 * (u[2][1] - u[1][2]), 0.5 * (u[0][2] - u[2][0]), 0.5 * (u[1][0] - u[0][1]));
     struct sym3 start = {s[0], s[1], s[2], s[3], s[4], s[5]}, stress = start;
     double shear_square = square(f->sound_shear[i]), sound_square = square(f->sound_long[i]);
     if (f->thickness) /* no stress rate across the plate */
         strain.zz = -(strain.xx + strain.yy) * (1.0 - 2.0 * shear_square / sound_square);
     if (strength->kind != STRENGTH_NONE) {
         double history[POINT_HISTORY] = {p->plastic_strain[i]};
-        strength_step(strength, ahead, strain, vec3_make(spin[0], spin[1], spin[2]), &stress,
-                      history);
+        strength_step(strength, ahead, strain, spin, &stress, history);
     }
     double bulk = p->density[i] * (sound_square - 4.0 / 3.0 * shear_square);
     double pressure = ahead * bulk * sym3_trace(strain);
@@ -151,7 +146,7 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     const struct particles *p = &simulation->particles;
     int dimension = kind.dimension, stresses = muscl_stresses(kind), k = 0;
     double velocity[3];
-    const struct sym3 change = half_step_of(simulation, f, sph->half_step, i, velocity);
+    const struct sym3 change = half_step_of(simulation, f, kind, sph->half_step, i, velocity);
     const double *s = p->deviator[i], pressure = p->pressure[i];
     for (int axis = 0; axis < dimension; axis++)
         record[k++] = p->position[i][axis];

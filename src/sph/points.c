@@ -165,7 +165,9 @@ void sph_limit_step(const struct sph *sph, const struct simulation *simulation,
 #pragma omp for schedule(static)
         for (int32_t i = 0; i < p->count; i++) {
             const double *rate = f->rates.strain_rate[i];
-            double divergence = rate[0] + rate[1] + rate[2], d = f->diameter[i];
+            double divergence = sph_second_order(sph) ? muscl_divergence(simulation, f, i)
+                                                      : rate[0] + rate[1] + rate[2];
+            double d = f->diameter[i];
             double stretch = 4.0 * d * divergence;
             double dt = courant * d / sqrt(square(f->sound_long[i]) + square(stretch));
             if (dt < own.dt || (dt == own.dt && p->id[i] < own.id)) {

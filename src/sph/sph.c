@@ -339,7 +339,6 @@ static void prepare_second_order(struct sph *sph, struct simulation *simulation,
 {
     for (int round = simulation->step == 0 ? 0 : 1; round < 2; round++) {
         double begin = clock_seconds();
-        muscl_expect(sph, simulation, fields);
         sph_limit_step(sph, simulation, fields, limit);
         simulation_spend(simulation, "points", clock_seconds() - begin);
         sum_pairs_ahead(sph, simulation, fields, limit->dt);

@@ -71,13 +71,29 @@ BOLIDE_INLINE bool sph_second_order(const struct sph *sph)
 }
 
 /* Of muscl.c: what the case must not ask for; what the pair loop is instantiated by; what a fresh particle starts from;
- * the rates of level n that follow from the slopes found a step before; records of owned particles, then of ghosts. */
+ * records of owned particles, half a step ahead by the slopes found a step before, then of ghosts. */
 struct error *muscl_check(const struct sph *sph, const struct simulation *simulation);
 struct muscl_kind muscl_kind_of(const struct sph *sph);
 void muscl_start(const struct sph *sph, const struct simulation *simulation);
-void muscl_expect(const struct sph *sph, const struct simulation *simulation,
-                  const struct sph_fields *f);
 void muscl_pack(struct sph *sph, const struct simulation *simulation);
+
+/* Whether BODY keeps all of its state. */
+bool sph_is_frozen(const struct simulation *simulation, int body);
+
+/* div U at level n by the slopes found a step before, 1/s. */
+BOLIDE_INLINE double muscl_divergence(const struct simulation *simulation,
+                                      const struct sph_fields *f, int32_t i)
+{
+    const struct particles *p = &simulation->particles;
+    const int dimension = p->dimension;
+    if (sph_is_frozen(simulation, p->body[i]))
+        return 0.0;
+    const double *g = f->velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
+    double sum = g[0];
+    for (int a = 1; a < dimension; a++)
+        sum += g[a * (dimension + 1)];
+    return sph_axisymmetric(simulation) ? sum + p->velocity[i][0] / p->position[i][0] : sum;
+}
 
 /* The sums measure the gradient A of velocity in places at level n, so that these deform by F = 1 + dt A in a step.
  * Returns det F, and turns the parts of A into those of ln F / dt, to second order. */
@@ -179,9 +195,6 @@ void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, d
 
 /* Whether BODY keeps its velocity whatever pushes. */
 bool sph_is_held(const struct simulation *simulation, int body);
-
-/* Whether BODY keeps all of its state. */
-bool sph_is_frozen(const struct simulation *simulation, int body);
 
 /* Brings bodies to rest whose time has come (`stop`). */
 void sph_stop_bodies(struct simulation *simulation);

@@ -72,14 +72,11 @@ static void assert_velocity_gradient(const struct running *run, const double a[3
                 assert_near(gradient[(i * dimension + row) * dimension + column], a[row][column],
                             tolerance);
             }
-}
-
-/* What the next step starts its records from: rates that follow from the gradients. */
-static const double *expect(struct running *run)
-{
     const struct sph_fields fields = sph_fields_of(&run->sph, &run->simulation);
-    muscl_expect(&run->sph, &run->simulation, &fields);
-    return fields.rates.acceleration[0];
+    const double divergence =
+        a[0][0] + (dimension > 1 ? a[1][1] : 0.0) + (dimension > 2 ? a[2][2] : 0.0);
+    for (int32_t i = 0; i < p->count; i++)
+        assert_near(muscl_divergence(&run->simulation, &fields, i), divergence, 3.0 * tolerance);
 }
 
 static void linear_velocities_have_their_gradient_inside_and_at_free_surfaces(void **state)
@@ -93,8 +90,6 @@ static void linear_velocities_have_their_gradient_inside_and_at_free_surfaces(vo
         random_gradient(&dice, true, a);
         set_velocity(run, a);
         prepare(run);
-        assert_velocity_gradient(run, a);
-        expect(run);
         assert_velocity_gradient(run, a);
         end(run);
     }
@@ -191,7 +186,9 @@ static void the_force_expected_inside_a_lattice_is_the_divergence_of_stress(void
         set_stress(run, &stress, strstr(bodies[k].name, "solid") != NULL);
         prepare(run);
         assert_stress_gradient(run, &stress, bodies[k].stresses);
-        const double *acceleration = expect(run);
+        muscl_pack(&run->sph, &run->simulation);
+        const size_t stride = (size_t)muscl_stride(muscl_kind_of(&run->sph));
+        const double *half_ahead = run->sph.record + record_velocity(p->dimension);
         int32_t inside = 0;
         for (int32_t i = 0; i < p->count; i++) {
             if (!is_inside(p, i, half[p->dimension - 1]))
@@ -202,7 +199,8 @@ static void the_force_expected_inside_a_lattice_is_the_divergence_of_stress(void
                 for (int along = 0; along < p->dimension; along++)
                     if (tensor || along == axis)
                         force += stress.slope[along][tensor ? slot[axis][along] : 0];
-                assert_near(acceleration[3 * i + axis] * p->density[i], force, 1e-9 * 1e10);
+                double gain = half_ahead[(size_t)i * stride + (size_t)axis] - p->velocity[i][axis];
+                assert_near(gain / run->sph.half_step * p->density[i], force, 1e-9 * 1e10);
             }
         }
         assert_true(inside >= 12);
