@@ -11,8 +11,8 @@ enum { CELL_LEVELS = 32, CELL_LEVEL_ZERO = 8 };
 /* A point in the order of cells. */
 struct cell_point {
     double x, y, z, reach;
-    uint64_t word;  /* what a row keeps of it; see neighbours.c */
-    uint16_t group; /* contact group */
+    uint32_t key, entry; /* its order in rows and what they keep of it; see row_kernel.h */
+    uint16_t group;      /* contact group */
 };
 
 /* Points first .. first + count - 1 of the cell. */

@@ -1,5 +1,5 @@
-/* Building neighbour rows; see neighbours.h. A row entry is put together as one 64-bit word, part (2 bits) | rank
- * of (id, image) (32) | record (30), so that sorting a row is sorting words. */
+/* Building neighbour rows; see neighbours.h. A row is ordered by keys, part (2 bits) | rank of (id, image) (30), and
+ * keeps entries, part | record. */
 #include "particle/neighbours.h"
 
 #include <omp.h>
@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "particle/cells.h"
 #include "particle/neighbours_hold.h"
+#include "particle/row_kernel.h"
 
 /* Images are planned this far from a wall, in supports of the largest reach, so that the plan outlives
  * the rows of most runs. */
@@ -27,11 +28,11 @@ struct build {
 
 /* The points around one cell, and room for one row. */
 struct workspace {
-    const struct cell_point **run;
-    int32_t *length;
-    int64_t runs, run_capacity, length_capacity;
-    uint64_t *word, *scratch;
-    int64_t word_capacity, scratch_capacity;
+    struct candidates near;
+    uint16_t *group;                   /* contact group of each */
+    uint32_t *plain_key, *plain_entry; /* without the part of a contact law */
+    uint32_t *key, *entry, *row;       /* kept of them */
+    int64_t capacity;
     bool failed;
 };
 
@@ -60,7 +61,7 @@ static void place_points(struct build *b)
     for (int32_t i = 0; i < p->count; i++) {
         const double *x = p->position[i];
         double own = (1.0 + b->n->skin) * b->reach.smoothing * b->reach.diameter[i];
-        b->point[i] = (struct cell_point){x[0], x[1], x[2], own, 0, group_of(b, p->body[i])};
+        b->point[i] = (struct cell_point){x[0], x[1], x[2], own, 0, 0, group_of(b, p->body[i])};
     }
     for (int32_t g = 0; g < ghosts->count; g++) {
         struct cell_point point = b->point[ghosts->source[g]];
@@ -73,7 +74,7 @@ static void place_points(struct build *b)
     }
 }
 
-/* Ranks all points by id, then image, and puts their words together. */
+/* Ranks all points by id, then image, and puts keys and entries together. */
 static struct error *rank_points(struct build *b, int32_t count)
 {
     struct keyed *entry = memory_allocate((size_t)count * sizeof *entry);
@@ -89,10 +90,11 @@ static struct error *rank_points(struct build *b, int32_t count)
             entry[k].key = b->p->id[i < owned ? i : ghosts->source[i - owned]];
         }
         radix_sort(entry, scratch, count);
-        for (int32_t k = 0; k < count; k++)
-            b->point[entry[k].index].word =
-                (uint64_t)(entry[k].index < owned ? 0 : PART_IMAGE) << 62 |
-                (uint64_t)k << ENTRY_PART_SHIFT | (uint64_t)entry[k].index;
+        for (int32_t k = 0; k < count; k++) {
+            uint32_t part = (uint32_t)(entry[k].index < owned ? 0 : PART_IMAGE) << ENTRY_PART_SHIFT;
+            b->point[entry[k].index].key = part | (uint32_t)k;
+            b->point[entry[k].index].entry = part | (uint32_t)entry[k].index;
+        }
     }
     bool done = entry && scratch;
     free(entry);
@@ -100,85 +102,70 @@ static struct error *rank_points(struct build *b, int32_t count)
     return done ? NULL : out_of_memory(b->p);
 }
 
+static bool workspace_reserve(struct workspace *w, int64_t needed, int64_t kept)
+{
+    const struct {
+        void *array;
+        size_t element;
+    } of[] = {{&w->near.x, sizeof *w->near.x},
+              {&w->near.y, sizeof *w->near.y},
+              {&w->near.z, sizeof *w->near.z},
+              {&w->near.reach, sizeof *w->near.reach},
+              {&w->near.key, sizeof *w->near.key},
+              {&w->near.entry, sizeof *w->near.entry},
+              {&w->group, sizeof *w->group},
+              {&w->plain_key, sizeof *w->plain_key},
+              {&w->plain_entry, sizeof *w->plain_entry},
+              {&w->key, sizeof *w->key},
+              {&w->entry, sizeof *w->entry},
+              {&w->row, sizeof *w->row}};
+    int64_t capacity = w->capacity;
+    for (size_t k = 0; k < COUNT_OF(of); k++) {
+        capacity = w->capacity;
+        if (!memory_reserve(of[k].array, &capacity, needed, kept, of[k].element))
+            return false;
+    }
+    w->capacity = capacity;
+    return true;
+}
+
 static void collect_run(void *context, const struct cell_point *point, int32_t count)
 {
     struct workspace *w = context;
-    if (!memory_reserve((void **)&w->run, &w->run_capacity, w->runs + 1, w->runs, sizeof *w->run) ||
-        !memory_reserve((void **)&w->length, &w->length_capacity, w->runs + 1, w->runs,
-                        sizeof *w->length)) {
+    struct candidates *near = &w->near;
+    if (w->failed || !workspace_reserve(w, near->count + count + CANDIDATES_STEP, near->count)) {
         w->failed = true;
         return;
     }
-    w->run[w->runs] = point;
-    w->length[w->runs++] = count;
-}
-
-static bool workspace_reserve_words(struct workspace *w, int64_t count)
-{
-    return memory_reserve((void **)&w->word, &w->word_capacity, count, 0, sizeof *w->word) &&
-           memory_reserve((void **)&w->scratch, &w->scratch_capacity, count, 0, sizeof *w->scratch);
-}
-
-/* Sorts COUNT words: runs of eight by insertion, then merges; rows are short. */
-static void sort_words(uint64_t *word, uint64_t *scratch, int64_t count)
-{
-    for (int64_t begin = 0; begin < count; begin += 8) {
-        int64_t end = begin + 8 < count ? begin + 8 : count;
-        for (int64_t i = begin + 1; i < end; i++) {
-            uint64_t moving = word[i];
-            int64_t k = i;
-            for (; k > begin && word[k - 1] > moving; k--)
-                word[k] = word[k - 1];
-            word[k] = moving;
-        }
+    for (int32_t k = 0, to = near->count; k < count; k++, to++) {
+        near->x[to] = point[k].x;
+        near->y[to] = point[k].y;
+        near->z[to] = point[k].z;
+        near->reach[to] = point[k].reach;
+        w->group[to] = point[k].group;
+        w->plain_key[to] = near->key[to] = point[k].key;
+        w->plain_entry[to] = near->entry[to] = point[k].entry;
     }
-    uint64_t *from = word, *to = scratch;
-    for (int64_t width = 8; width < count; width *= 2) {
-        for (int64_t begin = 0; begin < count; begin += 2 * width) {
-            int64_t middle = begin + width < count ? begin + width : count;
-            int64_t end = begin + 2 * width < count ? begin + 2 * width : count;
-            int64_t left = begin, right = middle;
-            for (int64_t k = begin; k < end; k++) {
-                bool take_left = right == end || (left < middle && from[left] < from[right]);
-                to[k] = take_left ? from[left] : from[right];
-                left += take_left;
-                right += !take_left;
-            }
-        }
-        uint64_t *swap = from;
-        from = to;
-        to = swap;
-    }
-    if (from != word)
-        memcpy(word, from, (size_t)count * sizeof *word);
+    near->count += count;
 }
 
-/* Finds the neighbours of one owned point among the runs; returns how many words were written. Every candidate
- * is written and the next one overwrites it unless it counts: no branch to mispredict. */
-BOLIDE_INLINE int64_t find_row_with(const struct workspace *w, const struct cell_point *own,
-                                    bool with_law, const uint8_t *law)
+/* What a contact law between two groups puts into keys and entries. */
+static uint32_t law_part(const struct contact_groups *groups, uint16_t group, uint16_t other)
 {
-    uint64_t *word = w->word;
-    for (int64_t r = 0; r < w->runs; r++) {
-        const struct cell_point *other = w->run[r], *end = other + w->length[r];
-        for (; other < end; other++) {
-            double dx = other->x - own->x, dy = other->y - own->y, dz = other->z - own->z;
-            double range = own->reach + other->reach;
-            *word = other->word;
-            if (with_law)
-                *word |= (uint64_t)(law[other->group] != 0) << 62;
-            word += dx * dx + dy * dy + dz * dz < range * range && other != own;
-        }
-    }
-    return word - w->word;
+    if (groups->groups < 2)
+        return 0;
+    uint8_t law = groups->law[(size_t)group * (size_t)groups->groups + other];
+    return (uint32_t)(law ? PART_LAW : 0) << ENTRY_PART_SHIFT;
 }
 
-static int64_t find_row(const struct build *b, const struct workspace *w,
-                        const struct cell_point *own)
+/* Marks those that points of GROUP meet under a law of their own. */
+static void mark_laws(const struct contact_groups *groups, struct workspace *w, uint16_t group)
 {
-    size_t groups = (size_t)b->groups->groups;
-    return groups > 1 ? find_row_with(w, own, true, b->groups->law + own->group * groups)
-                      : find_row_with(w, own, false, NULL);
+    for (int32_t k = 0; k < w->near.count; k++) {
+        uint32_t part = law_part(groups, group, w->group[k]);
+        w->near.key[k] = w->plain_key[k] | part;
+        w->near.entry[k] = w->plain_entry[k] | part;
+    }
 }
 
 /* realloc moves the pages of a large array instead of copying them: rows are the largest array of a run. */
@@ -196,16 +183,13 @@ static bool segment_reserve(struct segment *segment, int64_t needed)
     return true;
 }
 
-static bool store_row(struct neighbours *n, int thread, int32_t i, const uint64_t *word,
-                      int64_t count)
+static bool store_row(struct neighbours *n, int thread, int32_t i, const uint32_t *row,
+                      int32_t count)
 {
     struct segment *segment = &n->segment[thread];
     if (!segment_reserve(segment, segment->count + count))
         return false;
-    uint32_t *entry = segment->entry + segment->count;
-    for (int64_t k = 0; k < count; k++)
-        entry[k] =
-            (uint32_t)(word[k] >> 62) << ENTRY_PART_SHIFT | (uint32_t)(word[k] & ENTRY_INDEX);
+    memcpy(segment->entry + segment->count, row, (size_t)count * sizeof *row);
     n->row[i] = (struct row){(uint32_t)segment->count, (uint16_t)(segment->count >> 32),
                              (uint16_t)thread, (uint32_t)count};
     segment->count += count;
@@ -214,7 +198,7 @@ static bool store_row(struct neighbours *n, int thread, int32_t i, const uint64_
 
 static int32_t index_of(const struct cell_point *point)
 {
-    return (int32_t)(point->word & ENTRY_INDEX);
+    return (int32_t)(point->entry & ENTRY_INDEX);
 }
 
 /* Rows of the owned points of one cell. */
@@ -227,19 +211,20 @@ static bool build_cell(struct build *b, struct workspace *w, int thread, int32_t
         any |= index_of(&own[k]) < b->p->count;
     if (!any)
         return true;
-    w->runs = 0;
+    w->near.count = 0;
     cells_around(&b->cells, cell, collect_run, w);
-    int64_t candidates = 0;
-    for (int64_t r = 0; r < w->runs; r++)
-        candidates += w->length[r];
-    if (w->failed || !workspace_reserve_words(w, candidates + 1))
+    if (w->failed)
         return false;
+    int marked = -1; /* the group that laws are marked for */
     for (int32_t k = 0; k < c->count; k++, own++) {
         if (index_of(own) >= b->p->count)
             continue;
-        int64_t count = find_row(b, w, own);
-        sort_words(w->word, w->scratch, count);
-        if (!store_row(b->n, thread, index_of(own), w->word, count))
+        if (b->groups->groups > 1 && own->group != marked)
+            mark_laws(b->groups, w, (uint16_t)(marked = own->group));
+        const struct row_point point = {own->x, own->y, own->z, own->reach,
+                                        own->key | law_part(b->groups, own->group, own->group)};
+        int32_t count = row_find(&w->near, &point, w->key, w->entry, w->row);
+        if (!store_row(b->n, thread, index_of(own), w->row, count))
             return false;
     }
     return true;
@@ -247,10 +232,11 @@ static bool build_cell(struct build *b, struct workspace *w, int thread, int32_t
 
 static void workspace_free(struct workspace *w)
 {
-    free(w->run);
-    free(w->length);
-    free(w->word);
-    free(w->scratch);
+    void *const arrays[] = {w->near.x,      w->near.y,     w->near.z, w->near.reach,
+                            w->near.key,    w->near.entry, w->group,  w->plain_key,
+                            w->plain_entry, w->key,        w->entry,  w->row};
+    for (size_t k = 0; k < COUNT_OF(arrays); k++)
+        free(arrays[k]);
 }
 
 static struct error *build_rows(struct build *b, int threads)

@@ -1,6 +1,6 @@
 /* Chooses the heat loop for the processor that it runs on. */
+#include "base/isa.h"
 #include "sph/heat_kernel.h"
-#include "sph/isa.h"
 
 typedef void heat_loop_isa(const struct heat_loop *, int32_t, int32_t);
 

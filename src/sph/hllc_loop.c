@@ -1,6 +1,6 @@
 /* Chooses the pair loops with corrected gradients for the processor that they run on. */
+#include "base/isa.h"
 #include "sph/hllc_kernel.h"
-#include "sph/isa.h"
 
 typedef void hllc_pass_isa(const struct hllc_loop *, bool, int32_t, int32_t);
 

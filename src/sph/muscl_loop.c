@@ -1,5 +1,5 @@
 /* Chooses the second-order pair loop for the processor that it runs on. */
-#include "sph/isa.h"
+#include "base/isa.h"
 #include "sph/muscl_kernel.h"
 
 typedef void muscl_loop_isa(const struct muscl_loop *, int32_t, int32_t);

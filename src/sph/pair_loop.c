@@ -1,5 +1,5 @@
 /* Chooses the pair loop for the processor that it runs on. */
-#include "sph/isa.h"
+#include "base/isa.h"
 #include "sph/pair_kernel.h"
 
 typedef void pair_loop_isa(const struct pair_loop *, int32_t, int32_t);

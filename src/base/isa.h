@@ -1,6 +1,6 @@
 /* Instruction sets that the kernels are compiled for; all give the same bits. */
-#ifndef BOLIDE_SPH_ISA_H
-#define BOLIDE_SPH_ISA_H
+#ifndef BOLIDE_ISA_H
+#define BOLIDE_ISA_H
 
 enum isa { ISA_V2, ISA_V3, ISA_V4 }; /* of x86-64; V2 stands for the compiler's own elsewhere */
 
