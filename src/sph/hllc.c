@@ -96,16 +96,10 @@ static double volume_of(const struct simulation *simulation, int32_t i)
 
 void hllc_start(const struct sph *sph, struct simulation *simulation)
 {
-    struct particles *p = &simulation->particles;
     struct hllc_fields f = hllc_fields_of(sph, simulation);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < p->count; i++) {
-        struct point point = {.density = p->density[i], .energy = p->energy[i]};
-        point.history[0] = p->plastic_strain[i];
-        struct response r = material_evaluate(&simulation->material[p->material[i]], &point);
-        p->pressure[i] = point.pressure;
-        f.sph.sound_long[i] = r.sound_long;
-        f.sph.sound_shear[i] = r.sound_shear;
+    for (int32_t i = 0; i < simulation->particles.count; i++) {
+        struct response r = sph_evaluate_point(simulation, &f.sph, i);
         f.dp_drho[i] = r.dp_drho;
         f.dp_de[i] = r.dp_de;
         if (f.sph.diameter[i] == 0.0) /* fresh */

@@ -6,16 +6,10 @@
 
 void sph_evaluate(const struct sph *sph, struct simulation *simulation)
 {
-    struct particles *p = &simulation->particles;
     struct sph_fields f = sph_fields_of(sph, simulation);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < p->count; i++) {
-        struct point point = {.density = p->density[i], .energy = p->energy[i]};
-        point.history[0] = p->plastic_strain[i];
-        struct response r = material_evaluate(&simulation->material[p->material[i]], &point);
-        p->pressure[i] = point.pressure;
-        f.sound_long[i] = r.sound_long;
-        f.sound_shear[i] = r.sound_shear;
+    for (int32_t i = 0; i < simulation->particles.count; i++) {
+        sph_evaluate_point(simulation, &f, i);
         f.diameter[i] = diameter_of_volume(sph_volume(simulation, &f, i), simulation->dimension);
     }
 }

@@ -148,6 +148,20 @@ struct error *sph_impossible(const struct simulation *simulation, int32_t index)
 /* What the case leaves to the method. */
 struct sph_parameters sph_settled(const struct sph_parameters *parameters);
 
+/* Pressure and sound speeds of particle I as it stands; what its material says of them. */
+BOLIDE_INLINE struct response sph_evaluate_point(struct simulation *simulation,
+                                                 const struct sph_fields *f, int32_t i)
+{
+    struct particles *p = &simulation->particles;
+    struct point point = {.density = p->density[i], .energy = p->energy[i]};
+    point.history[0] = p->plastic_strain[i];
+    struct response r = material_evaluate(&simulation->material[p->material[i]], &point);
+    p->pressure[i] = point.pressure;
+    f->sound_long[i] = r.sound_long;
+    f->sound_shear[i] = r.sound_shear;
+    return r;
+}
+
 /* Diameter, pressure and sound speeds of all particles as they stand. */
 void sph_evaluate(const struct sph *sph, struct simulation *simulation);
 

@@ -136,4 +136,18 @@ static inline struct running *begin_fresh(const char *text, const struct variant
     return run;
 }
 
+/* The hash of the state after STEPS steps as VARIANT says; one that is resumed begins as FIRST. */
+static inline uint64_t hash_after(const char *text, const struct variant *first,
+                                  const struct variant *variant, int steps)
+{
+    struct running *run = begin_fresh(text, variant->resumed ? first : variant);
+    step(run, steps / 2);
+    if (variant->resumed)
+        run = resume(run, text, variant);
+    step(run, steps - steps / 2);
+    uint64_t hash = particles_hash(&run->simulation.particles);
+    end(run);
+    return hash;
+}
+
 #endif
