@@ -7,7 +7,7 @@ help:
 	@echo "make demo     install what is missing, build, run a case worth looking at"
 	@echo "make build    install what is missing, build build/release/bolide"
 	@echo "make test     install what is missing, build twice, run the whole suite"
-	@echo "make bench    measure the speed of the rooms that matter"
+	@echo "make bench    measure the speed of steps and of this machine; quick=1 takes a few minutes"
 	@echo "make docs     make the manual as a site: build/docs/index.html"
 	@echo "make install  install into $(prefix); prefix=... and DESTDIR=... change where"
 	@echo "make package  make a Debian package: build/release/package/*.deb"
@@ -27,7 +27,7 @@ test:
 	@scripts/test
 
 bench:
-	@scripts/bench
+	@scripts/bench $(if $(quick),--quick)
 
 docs:
 	@scripts/setup docs
