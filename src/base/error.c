@@ -12,10 +12,11 @@ struct error {
     enum error_kind kind;
     int count;
     char **messages;
+    bool known_to_all;
 };
 
 static char *const out_of_memory_text[] = {"out of memory"};
-static const struct error out_of_memory = {ERROR_SYSTEM, 1, (char **)out_of_memory_text};
+static const struct error out_of_memory = {ERROR_SYSTEM, 1, (char **)out_of_memory_text, false};
 
 /* The one cast from const: error_free and the editing functions leave this error alone. */
 static struct error *error_out_of_memory(void) { return (struct error *)&out_of_memory; }
@@ -35,7 +36,7 @@ struct error *error_new(enum error_kind kind, const char *format, ...)
         return error_out_of_memory();
     }
     messages[0] = message;
-    *error = (struct error){kind, 1, messages};
+    *error = (struct error){kind, 1, messages, false};
     return error;
 }
 
@@ -85,6 +86,15 @@ struct error *error_join(struct error *first, struct error *second)
 }
 
 enum error_kind error_kind(const struct error *error) { return error->kind; }
+
+struct error *error_known_to_all(struct error *error)
+{
+    if (error != &out_of_memory)
+        error->known_to_all = true;
+    return error;
+}
+
+bool error_is_known_to_all(const struct error *error) { return error->known_to_all; }
 
 int error_count(const struct error *error) { return error->count; }
 

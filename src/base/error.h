@@ -28,6 +28,10 @@ struct error *error_join(struct error *first, struct error *second);
 
 enum error_kind error_kind(const struct error *error);
 
+/* Marks ERROR as one that all ranks of a run have, and tells whether it is. */
+struct error *error_known_to_all(struct error *error);
+bool error_is_known_to_all(const struct error *error);
+
 /* Number of messages, and the one at INDEX. The text belongs to the error. */
 int error_count(const struct error *error);
 const char *error_message(const struct error *error, int index);

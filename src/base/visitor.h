@@ -14,6 +14,9 @@ struct visitor {
      * fills DATA, the others leave it as it is. */
     struct error *(*visit)(struct visitor *visitor, const char *name, enum number number,
                            void *data, int64_t count, int components);
+    /* Not zero while the rows that are shown are FIRST and the following of TOTAL, which all ranks show together; other
+     * arrays are the same on all ranks. */
+    int64_t first, total;
 };
 
 #endif

@@ -22,6 +22,7 @@ struct cli_options {
     bool overwrite, resume, quick, thorough, all, convergence;
     const char *time, *template_name;
     struct text_list settings, names;
+    const struct ranks *ranks; /* all processes that were started together */
 };
 
 enum command_bit {
@@ -76,6 +77,11 @@ void options_print(const struct command *command);
 
 /* Prints the messages of ERROR on stderr, one a line, frees it, and gives its exit status. */
 int report_error(struct error *error);
+
+/* Of several ranks the first speaks for all. What a rank alone has to say, that of an ERROR which the others do not know
+ * of (taken), ends them all. */
+void terminal_silence(const struct ranks *ranks);
+struct error *terminal_alarm(const struct ranks *ranks, struct error *error);
 
 /* Words and progress of a run; on a terminal the progress line is drawn over, elsewhere it is a
  * line every ten per cent. */

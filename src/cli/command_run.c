@@ -12,6 +12,7 @@ static struct run_options running_of(const struct cli_options *options, const ch
         .output = folder,
         .overwrite = options->overwrite,
         .resume = options->resume,
+        .ranks = options->ranks,
         .threads = (int)options->threads,
         .stop = signals_catch(),
         .listener = listener,
@@ -54,7 +55,8 @@ static int run_sweep(const struct simulation_case *input, const struct cli_optio
     };
     struct verify_result result = {0};
     struct error *error =
-        verify_case(options->names.text[0], input->name, folder, &verifying, &result);
+        terminal_alarm(options->ranks, verify_case(options->names.text[0], input->name, folder,
+                                                   &verifying, &result));
     if (result.count && result.item[0].sweep_values)
         tell_sweep(&listener, &result, input->sweep_runs, folder);
     int status = error ? report_error(error) : EXIT_OK;
@@ -73,7 +75,7 @@ static int run_input(const struct simulation_case *input, const struct cli_optio
     struct listener listener = terminal_listener();
     struct run_options running = running_of(options, folder, &listener);
     struct run_result result;
-    struct error *error = run_case(input, &running, &result);
+    struct error *error = terminal_alarm(options->ranks, run_case(input, &running, &result));
     int status = EXIT_OK;
     if (error)
         status = report_error(error);
@@ -93,7 +95,8 @@ static int run_input(const struct simulation_case *input, const struct cli_optio
 int command_run(const struct cli_options *options)
 {
     struct simulation_case *input;
-    struct error *error = read_case(options->names.text[0], options, &input);
+    struct error *error =
+        ranks_agree(options->ranks, read_case(options->names.text[0], options, &input));
     if (error)
         return report_error(error);
     char *folder =

@@ -99,6 +99,7 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
         .catalogue = &bolide_catalogue,
         .running = {.output = options->output,
                     .overwrite = true,
+                    .ranks = options->ranks,
                     .threads = (int)options->threads,
                     .stop = signals_catch(),
                     .listener = draws_over ? &listener : NULL,

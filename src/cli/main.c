@@ -63,11 +63,8 @@ static bool wants_help(int count, char **words)
     return false;
 }
 
-int main(int count, char **words)
+static int run_command(int count, char **words, const struct ranks *ranks)
 {
-    /* Arrays of a megabyte and more get pages of their own, which go back when they are freed: glibc's
-     * moving threshold would keep several hundred bytes a particle in its heap. */
-    mallopt(M_MMAP_THRESHOLD, 1 << 20);
     if (count < 2) {
         command_help(&(struct cli_options){0});
         return EXIT_USAGE;
@@ -84,9 +81,26 @@ int main(int count, char **words)
         return command_help(&(struct cli_options){.names = {1, &name}});
     struct cli_options options;
     struct error *error = options_read(command, count - 2, words + 2, &options);
-    int status = error ? report_error(error) : command->run(&options);
+    options.ranks = ranks;
+    int status = EXIT_OK;
+    if (error)
+        status = report_error(error);
+    else if (ranks->rank == 0 || command->bit & (COMMAND_RUN | COMMAND_VERIFY))
+        status = command->run(&options);
     options_free(&options);
     if (fflush(stdout) && status == EXIT_OK)
         status = report_error(error_new(ERROR_SYSTEM, "the output could not be written"));
+    return status;
+}
+
+int main(int count, char **words)
+{
+    /* Arrays of a megabyte and more get pages of their own, which go back when they are freed: glibc's
+     * moving threshold would keep several hundred bytes a particle in its heap. */
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    const struct ranks ranks = ranks_join();
+    terminal_silence(&ranks);
+    int status = run_command(count, words, &ranks);
+    ranks_leave(&ranks);
     return status;
 }

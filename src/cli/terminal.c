@@ -21,6 +21,30 @@ const volatile sig_atomic_t *signals_catch(void)
     return &stop_signal;
 }
 
+/* Where the alarm of a silenced rank goes. */
+static FILE *alarm_stream;
+
+void terminal_silence(const struct ranks *ranks)
+{
+    if (ranks->rank == 0)
+        return;
+    alarm_stream = fdopen(dup(STDERR_FILENO), "w");
+    if (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr))
+        ranks_abort(ranks, ERROR_SYSTEM);
+}
+
+struct error *terminal_alarm(const struct ranks *ranks, struct error *error)
+{
+    if (!error || !ranks->joined || error_is_known_to_all(error))
+        return error;
+    FILE *stream = alarm_stream ? alarm_stream : stderr;
+    for (int i = 0; i < error_count(error); i++)
+        fprintf(stream, "bolide: rank %d: %s\n", ranks->rank, error_message(error, i));
+    fflush(stream);
+    ranks_abort(ranks, (int)error_kind(error));
+    return error;
+}
+
 int signals_status(void) { return 128 + stop_signal; }
 
 /* The progress line goes to stderr, so that stdout holds whole lines only. */

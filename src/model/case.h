@@ -89,6 +89,7 @@ struct output_input {
 struct run_input {
     double until;        /* s */
     int64_t max_steps;   /* 0: no limit */
+    int64_t rebalance;   /* steps; 0: when needed */
     double energy_drift; /* relative, stops the run when exceeded; 0: never */
 };
 

@@ -100,9 +100,12 @@ double energy_drift(const struct totals *now, const struct totals *booked,
 /* A sum as a row of whole numbers: its digits, its pending additions, whether it is not finite. */
 enum { SUM_NUMBERS = EXACT_SUM_DIGITS + 2, SUMS = LEDGER_CAUSES * LEDGER_ENTRIES };
 
-struct error *ledger_visit(struct ledger *ledger, struct visitor *visitor)
+/* All ranks show the sum of their ledgers; rank 0 keeps it, or what is loaded. */
+struct error *ledger_visit(struct ledger *ledger, const struct ranks *ranks,
+                           struct visitor *visitor)
 {
     int64_t rows[SUMS][SUM_NUMBERS];
+    ranks_sum_exact(ranks, &ledger->sum[0][0], SUMS);
     for (int i = 0; i < SUMS; i++) {
         const struct exact_sum *sum = &ledger->sum[i / LEDGER_ENTRIES][i % LEDGER_ENTRIES];
         memcpy(rows[i], sum->digit, sizeof sum->digit);
@@ -116,5 +119,7 @@ struct error *ledger_visit(struct ledger *ledger, struct visitor *visitor)
         sum->pending = rows[i][EXACT_SUM_DIGITS];
         sum->not_finite = rows[i][EXACT_SUM_DIGITS + 1] != 0;
     }
+    if (ranks->rank != 0)
+        memset(ledger, 0, sizeof *ledger);
     return NULL;
 }

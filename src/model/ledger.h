@@ -58,6 +58,8 @@ struct totals particles_totals(const struct particles *particles, const struct r
 double energy_drift(const struct totals *now, const struct totals *booked,
                     const struct totals *start);
 
-struct error *ledger_visit(struct ledger *ledger, struct visitor *visitor);
+/* Collective: loads or saves the sum over all ranks. */
+struct error *ledger_visit(struct ledger *ledger, const struct ranks *ranks,
+                           struct visitor *visitor);
 
 #endif

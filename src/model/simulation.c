@@ -212,6 +212,6 @@ struct error *simulation_visit(struct simulation *simulation, struct visitor *vi
 {
     TRY(visitor->visit(visitor, "time", NUMBER_DOUBLE, &simulation->time, 1, 1));
     TRY(visitor->visit(visitor, "step", NUMBER_INT64, &simulation->step, 1, 1));
-    TRY(ledger_visit(&simulation->ledger, visitor));
+    TRY(ledger_visit(&simulation->ledger, simulation->ranks, visitor));
     return particles_visit(&simulation->particles, visitor);
 }

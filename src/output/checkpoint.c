@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "output/hdf5_file.h"
+#include "output/rows.h"
 
 enum { FORMAT = 1, CHUNK_BYTES = 1 << 20 };
 
@@ -18,7 +19,9 @@ static const char case_name[] = "case", format_name[] = "bolide checkpoint forma
 /* A visitor must come first in what it stands for: visit() gets the pointer to it. */
 struct file_visitor {
     struct visitor visitor;
-    hid_t file;
+    hid_t file; /* of a saver open on rank 0 alone, of a loader on all */
+    const struct ranks *ranks;
+    struct error *error; /* the first of a saver, which lets nobody wait */
 };
 
 static hid_t number_type(enum number number)
@@ -88,12 +91,75 @@ static struct error *write_array(hid_t file, const char *name, hid_t type, const
     return error;
 }
 
+/* Rows of one rank after another. */
+struct sink {
+    hid_t dataset, space, type;
+    const char *name;
+    int components;
+};
+
+static struct error *put_rows(void *context, int64_t at, int64_t count, const void *rows)
+{
+    const struct sink *sink = context;
+    const hsize_t start[2] = {(hsize_t)at, 0};
+    const hsize_t part[2] = {(hsize_t)count, (hsize_t)sink->components};
+    hid_t memory = H5Screate_simple(2, part, NULL);
+    struct error *error = NULL;
+    if (sink->dataset < 0 ||
+        H5Sselect_hyperslab(sink->space, H5S_SELECT_SET, start, NULL, part, NULL) < 0 ||
+        H5Dwrite(sink->dataset, sink->type, memory, sink->space, H5P_DEFAULT, rows) < 0)
+        error = hdf5_error(ERROR_SYSTEM, "%s cannot be written", sink->name);
+    H5Sclose(memory);
+    return error;
+}
+
+struct array {
+    const char *data;
+    size_t bytes;
+};
+
+static void fill_from_array(const void *context, int64_t begin, int64_t end, void *out)
+{
+    const struct array *array = context;
+    memcpy(out, array->data + (size_t)begin * array->bytes, (size_t)(end - begin) * array->bytes);
+}
+
+/* Collective: an array whose rows are spread over the ranks. */
+static struct error *write_spread(const struct file_visitor *saver, const char *name,
+                                  enum number number, const void *data, int64_t count,
+                                  int components)
+{
+    const hsize_t size[2] = {(hsize_t)saver->visitor.total, (hsize_t)components};
+    const struct array array = {data, number_size(number) * (size_t)components};
+    const struct rows rows = {count, array.bytes, array.bytes, fill_from_array, &array};
+    struct sink sink = {H5I_INVALID_HID, H5I_INVALID_HID, number_type(number), name, components};
+    if (saver->file >= 0 && !saver->error) {
+        sink.space = H5Screate_simple(2, size, NULL);
+        hid_t creation = creation_list(sink.type, size);
+        if (make_groups(saver->file, name))
+            sink.dataset = H5Dcreate2(saver->file, name, sink.type, sink.space, H5P_DEFAULT,
+                                      creation, H5P_DEFAULT);
+        H5Pclose(creation);
+    }
+    struct error *error = rows_pass(saver->ranks, &rows, put_rows, &sink);
+    if (sink.dataset >= 0)
+        H5Dclose(sink.dataset);
+    if (sink.space >= 0)
+        H5Sclose(sink.space);
+    return error;
+}
+
 static struct error *save(struct visitor *visitor, const char *name, enum number number, void *data,
                           int64_t count, int components)
 {
-    const struct file_visitor *saver = (const struct file_visitor *)visitor;
+    struct file_visitor *saver = (struct file_visitor *)visitor;
     const hsize_t size[2] = {(hsize_t)count, (hsize_t)components};
-    return write_array(saver->file, name, number_type(number), data, size);
+    if (saver->ranks->joined && visitor->total)
+        saver->error = error_join(
+            saver->error, write_spread(saver, name, number, data, count, components));
+    else if (saver->file >= 0 && !saver->error)
+        saver->error = write_array(saver->file, name, number_type(number), data, size);
+    return NULL;
 }
 
 /* The type of a text of LENGTH bytes. */
@@ -127,17 +193,18 @@ static struct error *visit_all(const struct checkpoint *checkpoint, struct visit
 struct error *checkpoint_write(const char *path, const struct checkpoint *checkpoint)
 {
     struct hdf5_printing printing = hdf5_quiet();
-    hid_t file;
-    struct error *error = hdf5_create(path, true, &file);
-    if (!error) {
-        struct file_visitor saver = {{save}, file};
-        error = write_head(file, checkpoint->case_text);
-        if (!error)
-            error = visit_all(checkpoint, &saver.visitor);
-        error = hdf5_finish(path, file, error_context(error, "%s", path));
-    }
+    const struct ranks *ranks = checkpoint->simulation->ranks;
+    struct file_visitor saver = {{.visit = save}, H5I_INVALID_HID, ranks, NULL};
+    if (ranks->rank == 0)
+        saver.error = hdf5_create(path, true, &saver.file);
+    if (saver.file >= 0)
+        saver.error = write_head(saver.file, checkpoint->case_text);
+    struct error *error = visit_all(checkpoint, &saver.visitor);
+    error = error_join(saver.error, error);
+    if (saver.file >= 0)
+        error = hdf5_finish(path, saver.file, error_context(error, "%s", path));
     hdf5_restore(printing);
-    return error;
+    return ranks_agree(ranks, error);
 }
 
 /* Opens the dataset NAME, whose size must be SIZE. */
@@ -161,18 +228,34 @@ static struct error *open_array(hid_t file, const char *name, const hsize_t size
                      (unsigned long long)size[0], (unsigned long long)size[1]);
 }
 
+/* The COUNT rows from FIRST on. */
+static bool read_rows(hid_t dataset, hid_t type, int64_t first, int64_t count, int components,
+                      void *data)
+{
+    const hsize_t start[2] = {(hsize_t)first, 0};
+    const hsize_t part[2] = {(hsize_t)count, (hsize_t)components};
+    hid_t space = H5Dget_space(dataset), memory = H5Screate_simple(2, part, NULL);
+    bool done = count == 0 ||
+                (H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, part, NULL) >= 0 &&
+                 H5Dread(dataset, type, memory, space, H5P_DEFAULT, data) >= 0);
+    H5Sclose(memory);
+    H5Sclose(space);
+    return done;
+}
+
 static struct error *load(struct visitor *visitor, const char *name, enum number number, void *data,
                           int64_t count, int components)
 {
     const struct file_visitor *loader = (const struct file_visitor *)visitor;
-    const hsize_t size[2] = {(hsize_t)count, (hsize_t)components};
+    const int64_t rows = visitor->total ? visitor->total : count;
+    const hsize_t size[2] = {(hsize_t)rows, (hsize_t)components};
     hid_t wanted = number_type(number), dataset;
     TRY(open_array(loader->file, name, size, &dataset));
     hid_t type = H5Dget_type(dataset);
     struct error *error = NULL;
     if (H5Tequal(type, wanted) <= 0)
         error = error_new(ERROR_SYSTEM, "%s holds another type of number than is wanted", name);
-    else if (H5Dread(dataset, wanted, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+    else if (!read_rows(dataset, wanted, visitor->first, count, components, data))
         error = hdf5_error(ERROR_SYSTEM, "%s is damaged", name);
     H5Tclose(type);
     H5Dclose(dataset);
@@ -231,7 +314,7 @@ static struct error *compare_cases(const char *stored, const char *now)
 static struct error *check_head(hid_t file, const char *case_text)
 {
     int64_t format = 0;
-    struct file_visitor loader = {{load}, file};
+    struct file_visitor loader = {{.visit = load}, file, NULL, NULL};
     if (H5Lexists(file, format_name, H5P_DEFAULT) == 0)
         return error_new(ERROR_INPUT, "is no checkpoint of bolide");
     TRY(load(&loader.visitor, format_name, NUMBER_INT64, &format, 1, 1));
@@ -262,12 +345,12 @@ struct error *checkpoint_read(const char *path, const struct checkpoint *checkpo
     hid_t file = H5I_INVALID_HID;
     struct error *error = open_to_read(path, &file);
     if (!error) {
-        struct file_visitor loader = {{load}, file};
+        struct file_visitor loader = {{.visit = load}, file, NULL, NULL};
         error = check_head(file, checkpoint->case_text);
         if (!error)
             error = visit_all(checkpoint, &loader.visitor);
         H5Fclose(file);
     }
     hdf5_restore(printing);
-    return error_context(error, "%s", path);
+    return ranks_agree(checkpoint->simulation->ranks, error_context(error, "%s", path));
 }

@@ -24,9 +24,9 @@ struct error *history_open(const char *path, int64_t keep, struct history **hist
 {
     struct history *made = calloc(1, sizeof *made);
     char *copy = text_copy(path);
-    struct error *error = made && copy ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = made && (copy || !path) ? NULL : error_new(ERROR_SYSTEM, "out of memory");
     FILE *file = NULL;
-    if (!error)
+    if (!error && path)
         error = csv_grow(path, keep, &file);
     if (error) {
         free(copy);
@@ -44,7 +44,7 @@ struct error *history_close(struct history *history)
 {
     if (!history)
         return NULL;
-    struct error *error = fclose(history->file) ? system_error(history->path, errno) : NULL;
+    struct error *error = history->file && fclose(history->file) ? system_error(history->path, errno) : NULL;
     free(history->path);
     free(history);
     return error;
@@ -185,11 +185,11 @@ struct error *history_row(struct history *history, const struct simulation *simu
                           const struct totals *start)
 {
     const struct row row = find_row(simulation, dt, start);
-    if (history->rows == 0)
+    if (history->rows++ == 0 && history->file)
         write_line(history->file, true, &row);
-    write_line(history->file, false, &row);
-    if (fflush(history->file) || ferror(history->file))
+    if (history->file)
+        write_line(history->file, false, &row);
+    if (history->file && (fflush(history->file) || ferror(history->file)))
         return system_error(history->path, errno);
-    history->rows++;
     return NULL;
 }

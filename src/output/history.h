@@ -7,11 +7,11 @@
 
 struct history;
 
-/* Starts FOLDER/history.csv; with KEEP >= 0 goes on behind the first KEEP rows of an interrupted
+/* Starts the table at PATH, NULL for a rank that writes none; with KEEP >= 0 goes on behind the first KEEP rows of an interrupted
  * run. */
 struct error *history_open(const char *path, int64_t keep, struct history **history);
 
-/* One row: time, step, dt, count, mass, momentum, angular momentum, kinetic, internal and total
+/* Collective. One row: time, step, dt, count, mass, momentum, angular momentum, kinetic, internal and total
  * energy, relative energy drift (ledger counted), the ledger's causes, smallest and largest
  * density, pressure and speed. START are the totals at time zero. Rows reach the disk at once. */
 struct error *history_row(struct history *history, const struct simulation *simulation, double dt,

@@ -8,87 +8,131 @@
 #include "base/memory.h"
 #include "output/file.h"
 #include "output/hdf5_file.h"
+#include "output/rows.h"
 
-enum { SLICE = 1 << 18, COMPONENTS_MAX = 6, VTK_VERTEX = 1 };
+enum { VTK_VERTEX = 1 };
 
-/* A dataset to write: rows of numbers of TYPE in GROUP, either the array DATA, or found slice by
- * slice by FILL, which puts the rows begin .. end - 1 into OUT. */
+/* A snapshot in the making: rank 0 writes, the others hand their rows over. The first error stays, and lets nobody
+ * wait. */
+struct writing {
+    const struct simulation *simulation;
+    bool here;
+    hid_t group; /* that columns go to */
+    struct error *error;
+};
+
+/* A dataset to write: rows of numbers of TYPE, found by FILL, which puts the rows begin .. end - 1 into OUT. */
 struct column {
-    hid_t group;
     const char *name;
     hid_t type;
-    int64_t rows;
+    int64_t rows;   /* of all ranks */
     int components; /* 1: a plain list of numbers */
-    const void *data;
-    void (*fill)(const struct view *view, int64_t begin, int64_t end, void *out);
-    const struct view *view;
+    bool spread;    /* over the ranks, a row a particle; otherwise rank 0 knows all */
+    void (*fill)(const void *context, int64_t begin, int64_t end, void *out);
+    const void *context;
+};
+
+/* Where rows go. */
+struct sink {
+    hid_t dataset, space;
+    const struct column *column;
 };
 
 /* HDF5 forgets why a call failed at the next one: an error is made before anything is closed. */
-static struct error *write_slice(hid_t dataset, hid_t space, const struct column *column,
-                                 int64_t begin, int64_t end, const void *numbers)
+static struct error *put_rows(void *context, int64_t at, int64_t count, const void *rows)
 {
-    hsize_t start[2] = {(hsize_t)begin, 0};
-    hsize_t part[2] = {(hsize_t)(end - begin), (hsize_t)column->components};
+    const struct sink *sink = context;
+    const struct column *column = sink->column;
+    if (sink->dataset < 0)
+        return hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", column->name);
+    hsize_t start[2] = {(hsize_t)at, 0};
+    hsize_t part[2] = {(hsize_t)count, (hsize_t)column->components};
     hid_t memory = H5Screate_simple(column->components > 1 ? 2 : 1, part, NULL);
     struct error *error = NULL;
-    if (memory < 0 || H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, part, NULL) < 0 ||
-        H5Dwrite(dataset, column->type, memory, space, H5P_DEFAULT, numbers) < 0)
+    if (memory < 0 ||
+        H5Sselect_hyperslab(sink->space, H5S_SELECT_SET, start, NULL, part, NULL) < 0 ||
+        H5Dwrite(sink->dataset, column->type, memory, sink->space, H5P_DEFAULT, rows) < 0)
         error = hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", column->name);
     H5Sclose(memory);
     return error;
 }
 
-static struct error *write_slices(hid_t dataset, hid_t space, const struct column *column)
-{
-    int64_t most = column->rows < SLICE ? column->rows : SLICE;
-    void *numbers = memory_allocate((size_t)most * COMPONENTS_MAX * sizeof(double));
-    struct error *error = numbers ? NULL : error_new(ERROR_SYSTEM, "out of memory");
-    for (int64_t begin = 0; begin < column->rows && !error; begin += SLICE) {
-        int64_t end = begin + SLICE < column->rows ? begin + SLICE : column->rows;
-        column->fill(column->view, begin, end, numbers);
-        error = write_slice(dataset, space, column, begin, end, numbers);
-    }
-    free(numbers);
-    return error;
-}
-
-static struct error *write_column(const struct column *column)
+static struct sink open_sink(const struct writing *w, const struct column *column)
 {
     hsize_t size[2] = {(hsize_t)column->rows, (hsize_t)column->components};
-    hid_t space = H5Screate_simple(column->components > 1 ? 2 : 1, size, NULL);
+    struct sink sink = {H5I_INVALID_HID, H5I_INVALID_HID, column};
+    if (!w->here || w->error)
+        return sink;
+    sink.space = H5Screate_simple(column->components > 1 ? 2 : 1, size, NULL);
     hid_t creation = hdf5_creation_list(H5P_DATASET_CREATE);
-    hid_t dataset = H5Dcreate2(column->group, column->name, column->type, space, H5P_DEFAULT,
-                               creation, H5P_DEFAULT);
+    sink.dataset = H5Dcreate2(w->group, column->name, column->type, sink.space, H5P_DEFAULT,
+                              creation, H5P_DEFAULT);
     H5Pclose(creation);
-    struct error *error = NULL;
-    if (dataset < 0 || (column->data && H5Dwrite(dataset, column->type, H5S_ALL, H5S_ALL,
-                                                 H5P_DEFAULT, column->data) < 0))
-        error = hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", column->name);
-    else if (column->fill)
-        error = write_slices(dataset, space, column);
-    if (dataset >= 0)
-        H5Dclose(dataset);
-    H5Sclose(space);
-    return error;
+    return sink;
 }
 
-static void fill_counting(const struct view *view, int64_t begin, int64_t end, void *out)
+static void write_column(struct writing *w, const struct column *column)
 {
-    (void)view;
+    static const struct ranks alone = {0, 1, false};
+    const size_t bytes = H5Tget_size(column->type) * (size_t)column->components;
+    const struct rows rows = {column->spread ? w->simulation->particles.count : column->rows,
+                              bytes, maximum(bytes, (double)column->components * sizeof(double)),
+                              column->fill, column->context};
+    if (!column->spread && !w->here)
+        return;
+    struct sink sink = open_sink(w, column);
+    w->error = error_join(
+        w->error,
+        rows_pass(column->spread ? w->simulation->ranks : &alone, &rows, put_rows, &sink));
+    if (sink.dataset >= 0)
+        H5Dclose(sink.dataset);
+    if (sink.space >= 0)
+        H5Sclose(sink.space);
+}
+
+static void fill_counting(const void *context, int64_t begin, int64_t end, void *out)
+{
+    (void)context;
     for (int64_t i = begin; i < end; i++)
         ((int64_t *)out)[i - begin] = i;
 }
 
-static void fill_types(const struct view *view, int64_t begin, int64_t end, void *out)
+static void fill_types(const void *context, int64_t begin, int64_t end, void *out)
 {
-    (void)view;
+    (void)context;
     memset(out, VTK_VERTEX, (size_t)(end - begin));
 }
 
-/* Narrows in place: a float is never written behind the double that it comes from. */
-static void fill_view(const struct view *view, int64_t begin, int64_t end, void *out)
+static void fill_positions(const void *context, int64_t begin, int64_t end, void *out)
 {
+    const struct particles *particles = context;
+    memcpy(out, particles->position[begin], (size_t)(end - begin) * sizeof *particles->position);
+}
+
+static void fill_ids(const void *context, int64_t begin, int64_t end, void *out)
+{
+    const struct particles *particles = context;
+    memcpy(out, particles->id + begin, (size_t)(end - begin) * sizeof *particles->id);
+}
+
+static void fill_numbers(const void *context, int64_t begin, int64_t end, void *out)
+{
+    const uint16_t *number = context;
+    memcpy(out, number + begin, (size_t)(end - begin) * sizeof *number);
+}
+
+/* One number of eight bytes. */
+static void fill_one(const void *context, int64_t begin, int64_t end, void *out)
+{
+    (void)begin;
+    (void)end;
+    memcpy(out, context, sizeof(double));
+}
+
+/* Narrows in place: a float is never written behind the double that it comes from. */
+static void fill_view(const void *context, int64_t begin, int64_t end, void *out)
+{
+    const struct view *view = context;
     view_read(view, begin, end, out);
     for (int64_t i = 0; i < (end - begin) * view->components; i++) {
         double wide;
@@ -134,57 +178,55 @@ static char *field_name(const struct view *view)
     return fclose(out) ? NULL : text;
 }
 
-static struct error *write_view(hid_t group, const struct view *view, int64_t count)
+static void write_view(struct writing *w, const struct view *view, int64_t count)
 {
     char *name = field_name(view);
     if (!name)
-        return error_new(ERROR_SYSTEM, "out of memory");
-    struct error *error = write_column(&(struct column){group, name, H5T_NATIVE_FLOAT, count,
-                                                        view->components, NULL, fill_view, view});
+        w->error = error_join(w->error, error_new(ERROR_SYSTEM, "out of memory"));
+    write_column(w, &(struct column){name ? name : view->name, H5T_NATIVE_FLOAT, count,
+                                     view->components, true, fill_view, view});
     free(name);
-    return error;
 }
 
-static struct error *write_geometry(hid_t root, const struct particles *particles)
+static void write_geometry(struct writing *w, int64_t count)
 {
-    int64_t count = particles->count;
+    const struct particles *particles = &w->simulation->particles;
     const struct column columns[] = {
-        {root, "NumberOfPoints", H5T_NATIVE_INT64, 1, 1, &count, NULL, NULL},
-        {root, "NumberOfCells", H5T_NATIVE_INT64, 1, 1, &count, NULL, NULL},
-        {root, "NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, 1, &count, NULL, NULL},
-        {root, "Points", H5T_NATIVE_DOUBLE, count, 3, particles->position, NULL, NULL},
-        {root, "Connectivity", H5T_NATIVE_INT64, count, 1, NULL, fill_counting, NULL},
-        {root, "Offsets", H5T_NATIVE_INT64, count + 1, 1, NULL, fill_counting, NULL},
-        {root, "Types", H5T_NATIVE_UINT8, count, 1, NULL, fill_types, NULL},
+        {"NumberOfPoints", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count},
+        {"NumberOfCells", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count},
+        {"NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count},
+        {"Points", H5T_NATIVE_DOUBLE, count, 3, true, fill_positions, particles},
+        {"Connectivity", H5T_NATIVE_INT64, count, 1, false, fill_counting, NULL},
+        {"Offsets", H5T_NATIVE_INT64, count + 1, 1, false, fill_counting, NULL},
+        {"Types", H5T_NATIVE_UINT8, count, 1, false, fill_types, NULL},
     };
     for (size_t i = 0; i < COUNT_OF(columns); i++)
-        TRY(write_column(&columns[i]));
-    return NULL;
+        write_column(w, &columns[i]);
 }
 
-static struct error *write_points(hid_t group, const struct particles *particles,
-                                  const struct views *views)
+static void write_points(struct writing *w, const struct views *views, int64_t count)
 {
-    int64_t count = particles->count;
+    const struct particles *particles = &w->simulation->particles;
     const struct column columns[] = {
-        {group, "id", H5T_NATIVE_INT64, count, 1, particles->id, NULL, NULL},
-        {group, "material", H5T_NATIVE_UINT16, count, 1, particles->material, NULL, NULL},
-        {group, "body", H5T_NATIVE_UINT16, count, 1, particles->body, NULL, NULL},
+        {"id", H5T_NATIVE_INT64, count, 1, true, fill_ids, particles},
+        {"material", H5T_NATIVE_UINT16, count, 1, true, fill_numbers, particles->material},
+        {"body", H5T_NATIVE_UINT16, count, 1, true, fill_numbers, particles->body},
     };
     for (size_t i = 0; i < COUNT_OF(columns); i++)
-        TRY(write_column(&columns[i]));
+        write_column(w, &columns[i]);
     for (int i = 0; i < views->count; i++)
         if (strcmp(views->view[i].name, "position") != 0) /* that is "Points" */
-            TRY(write_view(group, &views->view[i], count));
-    return NULL;
+            write_view(w, &views->view[i], count);
 }
 
-static struct error *write_moment(hid_t group, const struct simulation *simulation)
+static void write_moment(struct writing *w)
 {
-    TRY(write_column(&(struct column){group, "time [s]", H5T_NATIVE_DOUBLE, 1, 1, &simulation->time,
-                                      NULL, NULL}));
-    return write_column(
-        &(struct column){group, "step", H5T_NATIVE_INT64, 1, 1, &simulation->step, NULL, NULL});
+    const struct column columns[] = {
+        {"time [s]", H5T_NATIVE_DOUBLE, 1, 1, false, fill_one, &w->simulation->time},
+        {"step", H5T_NATIVE_INT64, 1, 1, false, fill_one, &w->simulation->step},
+    };
+    for (size_t i = 0; i < COUNT_OF(columns); i++)
+        write_column(w, &columns[i]);
 }
 
 /* What makes the group /VTKHDF one: its version and the kind of data, a text of fixed length. */
@@ -211,46 +253,47 @@ static bool mark_as_vtk(hid_t root)
     return done;
 }
 
-static struct error *write_all(hid_t file, const struct simulation *simulation,
-                               const struct views *views)
+static void write_all(struct writing *w, hid_t file, const struct views *views)
 {
     enum { ROOT, POINTS, CELLS, FIELDS, GROUPS };
     static const char *const names[GROUPS] = {"/VTKHDF", "/VTKHDF/PointData", "/VTKHDF/CellData",
                                               "/VTKHDF/FieldData"};
-    hid_t group[GROUPS];
+    int64_t count = ranks_sum(w->simulation->ranks, w->simulation->particles.count);
+    hid_t group[GROUPS] = {H5I_INVALID_HID, H5I_INVALID_HID, H5I_INVALID_HID, H5I_INVALID_HID};
     bool made = true;
     hid_t creation = hdf5_creation_list(H5P_GROUP_CREATE);
-    for (int i = 0; i < GROUPS; i++) {
+    for (int i = 0; i < GROUPS && w->here && !w->error; i++) {
         group[i] = H5Gcreate2(file, names[i], H5P_DEFAULT, creation, H5P_DEFAULT);
         made = made && group[i] >= 0;
     }
     H5Pclose(creation);
-    struct error *error = NULL;
-    if (!made || !mark_as_vtk(group[ROOT]))
-        error = hdf5_error(ERROR_SYSTEM, "the group VTKHDF cannot be made");
-    if (!error)
-        error = write_geometry(group[ROOT], &simulation->particles);
-    if (!error)
-        error = write_points(group[POINTS], &simulation->particles, views);
-    if (!error)
-        error = write_moment(group[FIELDS], simulation);
+    if (w->here && !w->error && (!made || !mark_as_vtk(group[ROOT])))
+        w->error = hdf5_error(ERROR_SYSTEM, "the group VTKHDF cannot be made");
+    w->group = group[ROOT];
+    write_geometry(w, count);
+    w->group = group[POINTS];
+    write_points(w, views, count);
+    w->group = group[FIELDS];
+    write_moment(w);
     for (int i = 0; i < GROUPS; i++)
-        H5Gclose(group[i]);
-    return error;
+        if (group[i] >= 0)
+            H5Gclose(group[i]);
 }
 
 struct error *snapshot_write(const char *path, const struct simulation *simulation,
                              const struct views *views)
 {
     struct hdf5_printing printing = hdf5_quiet();
-    hid_t file;
-    struct error *error = hdf5_create(path, false, &file);
-    if (!error) {
-        error = error_context(write_all(file, simulation, views), "%s", path);
-        error = hdf5_finish(path, file, error);
-    }
+    hid_t file = H5I_INVALID_HID;
+    struct writing writing = {.simulation = simulation, .here = simulation->ranks->rank == 0};
+    if (writing.here)
+        writing.error = hdf5_create(path, false, &file);
+    const bool created = writing.here && !writing.error;
+    write_all(&writing, file, views);
+    if (created)
+        writing.error = hdf5_finish(path, file, error_context(writing.error, "%s", path));
     hdf5_restore(printing);
-    return error;
+    return ranks_agree(simulation->ranks, writing.error);
 }
 
 static void write_json_text(FILE *file, const char *text)

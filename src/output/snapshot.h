@@ -5,7 +5,7 @@
 
 #include "model/views.h"
 
-/* Writes all views to PATH, by slices, so that memory does not grow with the particles. Field names
+/* Collective: rank 0 writes all views to PATH, by slices, so that memory does not grow with the particles. Field names
  * carry their unit: "pressure [Pa]". */
 struct error *snapshot_write(const char *path, const struct simulation *simulation,
                              const struct views *views);

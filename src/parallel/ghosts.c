@@ -42,29 +42,47 @@ static struct error *plan_add(struct ghosts *ghosts, int32_t source, image_code 
     return NULL;
 }
 
+/* The images of the particle at X whose record is SOURCE. */
+static struct error *plan_images(const struct mirrors *mirrors, int dimension, int32_t source,
+                                 const double x[3], double distance, struct ghosts *ghosts)
+{
+    image_code image[3][3] = {{0}};
+    int images[3] = {1, 1, 1};
+    for (int axis = 0; axis < dimension; axis++)
+        images[axis] = images_along(mirrors, axis, x[axis], distance, image[axis]);
+    for (int c = 0; c < images[2]; c++)
+        for (int b = 0; b < images[1]; b++)
+            for (int a = 0; a < images[0]; a++)
+                if (a || b || c)
+                    TRY(plan_add(ghosts, source,
+                                 (image_code)(image[0][a] + 3 * image[1][b] + 9 * image[2][c])));
+    return NULL;
+}
+
 struct error *ghosts_plan(const struct mirrors *mirrors, int dimension, int32_t count,
                           const double (*position)[3], double distance, struct ghosts *ghosts)
 {
     ghosts->count = 0;
-    for (int32_t i = 0; i < count; i++) {
-        image_code image[3][3] = {{0}};
-        int images[3] = {1, 1, 1};
-        for (int axis = 0; axis < dimension; axis++)
-            images[axis] = images_along(mirrors, axis, position[i][axis], distance, image[axis]);
-        for (int z = 0; z < images[2]; z++)
-            for (int y = 0; y < images[1]; y++)
-                for (int x = 0; x < images[0]; x++)
-                    if (x || y || z)
-                        TRY(plan_add(
-                            ghosts, i,
-                            (image_code)(image[0][x] + 3 * image[1][y] + 9 * image[2][z])));
-    }
+    for (int32_t g = 0; g < ghosts->remotes; g++)
+        TRY(plan_add(ghosts, count + g, 0));
+    for (int32_t i = 0; i < count; i++)
+        TRY(plan_images(mirrors, dimension, i, position[i], distance, ghosts));
+    for (int32_t g = 0; g < ghosts->remotes; g++)
+        TRY(plan_images(mirrors, dimension, count + g, ghosts->remote[g].place, distance, ghosts));
     return NULL;
+}
+
+void ghosts_refresh(struct ghosts *ghosts, double *record, int32_t owned, size_t bytes)
+{
+    exchange_start(&ghosts->exchange, record, bytes, (char *)record + (size_t)owned * bytes);
+    exchange_finish(&ghosts->exchange);
 }
 
 void ghosts_free(struct ghosts *ghosts)
 {
     free(ghosts->source);
     free(ghosts->image);
+    free(ghosts->remote);
+    exchange_free(&ghosts->exchange);
     *ghosts = (struct ghosts){0};
 }

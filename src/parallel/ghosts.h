@@ -1,10 +1,10 @@
 /* Ghosts: records of particles that a rank does not own but must see. One plan, made with the neighbour
- * list, says of each ghost which owned particle it copies and how it is reflected. Mirror walls are the one
- * source of ghosts of a rank alone. */
+ * list, says of each ghost which record it copies and how it is reflected. First come particles of other ranks,
+ * whose records arrive by an exchange; then images behind mirror walls, of owned particles and of those. */
 #ifndef BOLIDE_GHOSTS_H
 #define BOLIDE_GHOSTS_H
 
-#include "base/error.h"
+#include "parallel/exchange.h"
 #include "base/vector.h"
 
 /* Rigid slip walls normal to the axes: at most a low and a high one an axis, NAN where there is none.
@@ -18,11 +18,23 @@ struct mirrors {
 typedef uint8_t image_code;
 enum { IMAGE_CODES = 27 };
 
+/* What a particle of another rank was when the plan was made. */
+struct remote {
+    double place[3], reach;
+    uint64_t id;
+    uint16_t body;
+};
+
+/* Ghost g copies record source[g]: an owned particle below the number of these, ghost source[g] less that number
+ * above. The first `remotes` ghosts come from other ranks and are their own sources. */
 struct ghosts {
     int32_t count;
     int64_t capacity;
     int32_t *source;
     image_code *image;
+    int32_t remotes;
+    struct remote *remote;
+    struct exchange exchange;
 };
 
 /* -1 for the axes that IMAGE reflects, 1 for the others. */
@@ -45,10 +57,15 @@ BOLIDE_INLINE struct vec3 image_position(const struct mirrors *mirrors, image_co
     return x;
 }
 
-/* Makes the plan for COUNT particles at POSITION: an image behind each wall that is nearer to the particle
- * than DISTANCE, and behind the corners of such walls. */
+/* Makes the plan for COUNT particles at POSITION and those of other ranks, which are planned before: an image behind
+ * each wall that is nearer to the particle than DISTANCE, and behind the corners of such walls. */
 struct error *ghosts_plan(const struct mirrors *mirrors, int dimension, int32_t count,
                           const double (*position)[3], double distance, struct ghosts *ghosts);
+
+/* Collective: brings the records of other ranks' particles, BYTES each, behind the OWNED ones at RECORD; images are the
+ * caller's. Needs exchange_reserve for records of that size. */
+void ghosts_refresh(struct ghosts *ghosts, double *record, int32_t owned, size_t bytes);
+
 void ghosts_free(struct ghosts *ghosts);
 
 #endif

@@ -1,9 +1,9 @@
-/* One process alone; see ranks.h. */
+/* What needs no transport; see ranks.h. */
 #include "parallel/ranks.h"
 
 struct ranks ranks_alone(void)
 {
-    struct ranks alone = {0, 1};
+    struct ranks alone = {0, 1, false};
     return alone;
 }
 
@@ -18,31 +18,11 @@ struct slice ranks_slice(const struct ranks *ranks, int64_t total)
 
 double ranks_minimum(const struct ranks *ranks, double value)
 {
-    (void)ranks;
-    return value;
+    return -ranks_maximum(ranks, -value);
 }
 
 double ranks_maximum(const struct ranks *ranks, double value)
 {
-    (void)ranks;
+    ranks_maximum_of(ranks, &value, 1);
     return value;
-}
-
-int64_t ranks_sum(const struct ranks *ranks, int64_t value)
-{
-    (void)ranks;
-    return value;
-}
-
-void ranks_sum_exact(const struct ranks *ranks, struct exact_sum *sums, int count)
-{
-    (void)ranks;
-    (void)sums;
-    (void)count;
-}
-
-struct error *ranks_agree(const struct ranks *ranks, struct error *error)
-{
-    (void)ranks;
-    return error;
 }

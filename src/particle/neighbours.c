@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "particle/cells.h"
+#include "particle/halo.h"
 #include "particle/neighbours_hold.h"
 #include "particle/row_kernel.h"
 
@@ -46,7 +47,7 @@ static double largest_reach(const struct particles *p, struct reach reach)
     double largest = 0.0;
     for (int32_t i = 0; i < p->count; i++)
         largest = maximum(largest, reach.smoothing * reach.diameter[i]);
-    return largest;
+    return ranks_maximum(p->ranks, largest);
 }
 
 static uint16_t group_of(const struct build *b, uint16_t body)
@@ -63,7 +64,13 @@ static void place_points(struct build *b)
         double own = (1.0 + b->n->skin) * b->reach.smoothing * b->reach.diameter[i];
         b->point[i] = (struct cell_point){x[0], x[1], x[2], own, 0, 0, group_of(b, p->body[i])};
     }
-    for (int32_t g = 0; g < ghosts->count; g++) {
+    for (int32_t g = 0; g < ghosts->remotes; g++) {
+        const struct remote *r = &ghosts->remote[g];
+        b->point[p->count + g] = (struct cell_point){
+            r->place[0], r->place[1], r->place[2],         (1.0 + b->n->skin) * r->reach,
+            0,           0,           group_of(b, r->body)};
+    }
+    for (int32_t g = ghosts->remotes; g < ghosts->count; g++) {
         struct cell_point point = b->point[ghosts->source[g]];
         struct vec3 x =
             image_position(b->mirrors, ghosts->image[g], vec3_make(point.x, point.y, point.z));
@@ -72,6 +79,18 @@ static void place_points(struct build *b)
         point.z = x.z;
         b->point[p->count + g] = point;
     }
+}
+
+static uint64_t id_of(const struct build *b, int32_t i)
+{
+    const struct ghosts *ghosts = &b->n->ghosts;
+    int32_t owned = b->p->count, source = i < owned ? i : ghosts->source[i - owned];
+    return source < owned ? b->p->id[source] : ghosts->remote[source - owned].id;
+}
+
+static bool is_image(const struct build *b, int32_t i)
+{
+    return i >= b->p->count + b->n->ghosts.remotes;
 }
 
 /* Ranks all points by id, then image, and puts keys and entries together. */
@@ -86,12 +105,12 @@ static struct error *rank_points(struct build *b, int32_t count)
             entry[i] = (struct keyed){i < owned ? 0 : ghosts->image[i - owned], i};
         radix_sort(entry, scratch, count);
         for (int32_t k = 0; k < count; k++) {
-            int32_t i = entry[k].index;
-            entry[k].key = b->p->id[i < owned ? i : ghosts->source[i - owned]];
+            entry[k].key = id_of(b, entry[k].index);
         }
         radix_sort(entry, scratch, count);
         for (int32_t k = 0; k < count; k++) {
-            uint32_t part = (uint32_t)(entry[k].index < owned ? 0 : PART_IMAGE) << ENTRY_PART_SHIFT;
+            uint32_t part = (uint32_t)(is_image(b, entry[k].index) ? PART_IMAGE : 0)
+                            << ENTRY_PART_SHIFT;
             b->point[entry[k].index].key = part | (uint32_t)k;
             b->point[entry[k].index].entry = part | (uint32_t)entry[k].index;
         }
@@ -295,19 +314,26 @@ struct error *neighbours_build(struct neighbours *neighbours, const struct parti
                                struct reach reach, const struct mirrors *mirrors,
                                const struct contact_groups *groups, int threads)
 {
-    TRY(reserve(neighbours, particles, threads));
+    TRY(ranks_agree(particles->ranks, reserve(neighbours, particles, threads)));
     double distance =
         plan_margin * 2.0 * (1.0 + neighbours->skin) * largest_reach(particles, reach);
-    TRY(ghosts_plan(mirrors, particles->dimension, particles->count,
-                    (const double(*)[3])particles->position, distance, &neighbours->ghosts));
+    struct halo halo;
+    TRY(halo_plan(particles, reach, neighbours->skin, &neighbours->ghosts, &halo));
+    struct error *error =
+        ghosts_plan(mirrors, particles->dimension, particles->count,
+                    (const double(*)[3])particles->position, distance, &neighbours->ghosts);
     struct build build = {
         .n = neighbours, .p = particles, .reach = reach, .mirrors = mirrors, .groups = groups};
-    struct error *error = build_with(&build, threads);
+    if (!error)
+        error = build_with(&build, threads);
     free(build.point);
     cells_free(&build.cells);
-    TRY(error);
+    error = ranks_agree(particles->ranks, error);
+    if (!error)
+        error = motion_start(neighbours, particles, reach, mirrors, distance, &halo, threads);
+    halo_free(&halo);
     neighbours->builds++;
-    return motion_start(neighbours, particles, reach, mirrors, distance, threads);
+    return error;
 }
 
 void neighbours_free(struct neighbours *neighbours)

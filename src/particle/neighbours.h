@@ -65,12 +65,12 @@ struct reach {
     double smoothing; /* reach = smoothing * diameter */
 };
 
-/* Builds all rows and the plan of ghosts, with THREADS threads. The store must be sorted. */
+/* Collective: builds all rows and the plan of ghosts, with THREADS threads. The store must be distributed. */
 struct error *neighbours_build(struct neighbours *neighbours, const struct particles *particles,
                                struct reach reach, const struct mirrors *mirrors,
                                const struct contact_groups *groups, int threads);
 
-/* True while every pair within support is certain to be in the rows: judged block by block from the motion
+/* Collective: true while every pair within support is certain to be in the rows: judged block by block from the motion
  * of neighbouring blocks against each other, so that common motion costs nothing. */
 bool neighbours_hold(struct neighbours *neighbours, const struct particles *particles,
                      struct reach reach, int threads);

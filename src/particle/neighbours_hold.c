@@ -27,7 +27,9 @@ enum { GROUPS_MAX = 32, TOUCHING_MAX = 27 };
 struct block_motion {
     int groups; /* of a block: 32, 4 x 4, 2 x 2 x 2 */
     int64_t block_capacity, group_capacity, touching_capacity, group_of_capacity;
-    struct moved *block, *group; /* one a block; `groups` a block */
+    struct moved *block, *group; /* one a block; `groups` a block; behind ours the others' that touch them */
+    struct exchange exchange; /* of blocks that touch those of other ranks */
+    uint64_t *far_key;        /* of the blocks that come, sorted */
     int32_t (
         *touching)[TOUCHING_MAX]; /* blocks that touch, by offset, itself included; -1 for none */
     uint8_t *group_of;            /* group of each particle within its block */
@@ -47,6 +49,18 @@ static struct error *out_of_memory(void)
     return error_new(ERROR_SYSTEM, "out of memory for the motion of blocks");
 }
 
+static struct error *reserve_motion(struct neighbours *n, const struct particles *p)
+{
+    if (!n->motion)
+        n->motion = memory_allocate(sizeof *n->motion);
+    if (!n->motion)
+        return out_of_memory();
+    n->motion->groups = 1;
+    for (int axis = 0; axis < p->dimension; axis++)
+        n->motion->groups *= groups_along(p->dimension);
+    return NULL;
+}
+
 static struct error *reserve(struct neighbours *n, const struct particles *p)
 {
     int64_t capacity = n->reference_capacity;
@@ -56,17 +70,12 @@ static struct error *reserve(struct neighbours *n, const struct particles *p)
     if (!memory_reserve((void **)&n->origin_reach, &capacity, p->count, 0, sizeof *n->origin_reach))
         return out_of_memory();
     n->reference_capacity = capacity;
-    if (!n->motion)
-        n->motion = memory_allocate(sizeof *n->motion);
     struct block_motion *m = n->motion;
-    if (!m)
-        return out_of_memory();
-    m->groups = 1;
-    for (int axis = 0; axis < p->dimension; axis++)
-        m->groups *= groups_along(p->dimension);
-    if (!memory_reserve((void **)&m->block, &m->block_capacity, p->blocks, 0, sizeof *m->block) ||
-        !memory_reserve((void **)&m->group, &m->group_capacity, (int64_t)p->blocks * m->groups, 0,
-                        sizeof *m->group) ||
+    const int64_t blocks = (int64_t)p->blocks + m->exchange.comes;
+    const size_t group_bytes = (size_t)m->groups * sizeof *m->group;
+    TRY(exchange_reserve(&m->exchange, group_bytes));
+    if (!memory_reserve((void **)&m->block, &m->block_capacity, blocks, 0, sizeof *m->block) ||
+        !memory_reserve((void **)&m->group, &m->group_capacity, blocks, 0, group_bytes) ||
         !memory_reserve((void **)&m->touching, &m->touching_capacity, p->blocks, 0,
                         sizeof *m->touching) ||
         !memory_reserve((void **)&m->group_of, &m->group_of_capacity, p->count, 0, 1))
@@ -140,31 +149,111 @@ static int compare_keys(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* The blocks that touch block B, found by key: blocks are sorted by it. */
+/* The key of the block at offset K of the one at OWN; false for an offset that the dimension does not have. */
+static bool key_beside(int dimension, const int64_t own[3], int k, uint64_t *key)
+{
+    const int offset[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+    int64_t at[3];
+    if ((offset[1] && dimension < 2) || (offset[2] && dimension < 3))
+        return false;
+    for (int axis = 0; axis < 3; axis++)
+        at[axis] = own[axis] + offset[axis];
+    *key = block_key(at);
+    return true;
+}
+
+static int compare_to_key(const void *key, const void *far)
+{
+    uint64_t x = *(const uint64_t *)key, y = *(const uint64_t *)far;
+    return x < y ? -1 : x > y;
+}
+
+/* The blocks that touch block B, found by key: blocks are sorted by it, those of other ranks too. */
 static void list_touching(struct block_motion *motion, const struct particles *p, int32_t b)
 {
-    int64_t own[3], at[3];
+    int64_t own[3];
+    uint64_t key;
     block_coordinates(p->block[b].key, own);
-    int y = p->dimension > 1, z = p->dimension > 2;
     for (int k = 0; k < TOUCHING_MAX; k++) {
-        int offset[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
         motion->touching[b][k] = -1;
-        if ((offset[1] && !y) || (offset[2] && !z))
+        if (!key_beside(p->dimension, own, k, &key))
             continue;
-        for (int axis = 0; axis < 3; axis++)
-            at[axis] = own[axis] + offset[axis];
-        uint64_t key = block_key(at);
         const struct block *found =
             bsearch(&key, p->block, (size_t)p->blocks, sizeof *p->block, compare_keys);
+        const uint64_t *far = !found && motion->far_key
+                                  ? bsearch(&key, motion->far_key, (size_t)motion->exchange.comes,
+                                            sizeof key, compare_to_key)
+                                  : NULL;
         if (found)
             motion->touching[b][k] = (int32_t)(found - p->block);
+        else if (far)
+            motion->touching[b][k] = p->blocks + (int32_t)(far - motion->far_key);
     }
 }
 
-struct error *motion_start(struct neighbours *n, const struct particles *p, struct reach reach,
-                           const struct mirrors *mirrors, double distance, int threads)
+/* Which of our blocks touch those of other ranks. */
+static bool find_errands(const struct particles *p, const struct halo *halo,
+                         struct errand **errand, int32_t *count)
 {
-    TRY(reserve(n, p));
+    int64_t capacity = 0, own[3];
+    uint64_t key;
+    for (int32_t b = 0; b < p->blocks; b++) {
+        const int32_t first = *count;
+        block_coordinates(p->block[b].key, own);
+        for (int k = 0; k < TOUCHING_MAX; k++) {
+            if (!key_beside(p->dimension, own, k, &key))
+                continue;
+            const struct region *other = bsearch(&key, halo->region, (size_t)halo->regions,
+                                                 sizeof *halo->region, compare_to_key);
+            bool is_new = other && other->rank != p->ranks->rank;
+            for (int32_t e = first; e < *count && is_new; e++)
+                is_new = (*errand)[e].rank != other->rank;
+            if (!is_new)
+                continue;
+            if (!memory_reserve((void **)errand, &capacity, *count + 1, *count, sizeof **errand))
+                return false;
+            (*errand)[(*count)++] = (struct errand){other->rank, b};
+        }
+    }
+    return true;
+}
+
+/* Plans the exchange of blocks, and learns the keys of those that come. */
+static struct error *meet(struct block_motion *motion, const struct particles *p,
+                          const struct halo *halo)
+{
+    struct errand *errand = NULL;
+    int32_t count = 0;
+    bool found = find_errands(p, halo, &errand, &count);
+    struct error *error = ranks_agree(p->ranks, found ? NULL : out_of_memory());
+    if (!error)
+        error = exchange_plan(&motion->exchange, p->ranks, errand, count);
+    free(errand);
+    TRY(error);
+    free(motion->far_key);
+    motion->far_key = memory_allocate((size_t)motion->exchange.comes * sizeof *motion->far_key);
+    uint64_t *own = memory_allocate((size_t)p->blocks * sizeof *own);
+    for (int32_t b = 0; b < p->blocks && own; b++)
+        own[b] = p->block[b].key;
+    error = own && motion->far_key ? exchange_reserve(&motion->exchange, sizeof *own)
+                                   : out_of_memory();
+    error = ranks_agree(p->ranks, error);
+    if (!error) {
+        exchange_start(&motion->exchange, own, sizeof *own, motion->far_key);
+        exchange_finish(&motion->exchange);
+    }
+    free(own);
+    return error;
+}
+
+struct error *motion_start(struct neighbours *n, const struct particles *p, struct reach reach,
+                           const struct mirrors *mirrors, double distance,
+                           const struct halo *halo, int threads)
+{
+    TRY(ranks_agree(p->ranks, reserve_motion(n, p)));
+    if (p->ranks->joined)
+        TRY(meet(n->motion, p, halo));
+    TRY(ranks_agree(p->ranks, reserve(n, p)));
     struct block_motion *motion = n->motion;
     motion->distance = distance;
     double largest = 0.0;
@@ -175,7 +264,7 @@ struct error *motion_start(struct neighbours *n, const struct particles *p, stru
         for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++)
             largest = maximum(largest, n->origin_reach[i]);
     }
-    double support = 2.0 * (1.0 + n->skin) * largest;
+    double support = 2.0 * (1.0 + n->skin) * ranks_maximum(p->ranks, largest);
     motion->judged = support < group_edge(p)   ? BY_GROUPS
                      : support < block_edge(p) ? BY_BLOCKS
                                                : BY_ALL;
@@ -192,6 +281,8 @@ void motion_free(struct neighbours *neighbours)
         free(neighbours->motion->group);
         free(neighbours->motion->touching);
         free(neighbours->motion->group_of);
+        free(neighbours->motion->far_key);
+        exchange_free(&neighbours->motion->exchange);
     }
     free(neighbours->motion);
 }
@@ -355,23 +446,42 @@ static bool all_hold(const struct neighbours *n, const struct particles *p)
         motion = maximum(motion, mean + m->spread + m->growth);
         slack = minimum(slack, n->skin * m->smallest_reach);
     }
-    return motion <= slack;
+    double both[2] = {motion, -slack};
+    ranks_maximum_of(p->ranks, both, 2);
+    return both[0] <= -both[1];
 }
 
 /* Blocks that do not touch have come no nearer to each other than supports reach. */
 static bool apart_hold(const struct block_motion *motion, const struct particles *p, double largest)
 {
     struct box span = empty_box;
-    double sum = 0.0;
+    double sum = 0.0, ends[6];
     for (int32_t b = 0; b < p->blocks; b++)
         for (int axis = 0; axis < 3; axis++) {
             const struct moved *m = &motion->block[b];
             span.low[axis] = minimum(span.low[axis], m->mean[axis] - m->spread);
             span.high[axis] = maximum(span.high[axis], m->mean[axis] + m->spread);
         }
+    for (int axis = 0; axis < 3; axis++) {
+        ends[axis] = span.high[axis];
+        ends[3 + axis] = -span.low[axis];
+    }
+    ranks_maximum_of(p->ranks, ends, 6);
     for (int axis = 0; axis < 3; axis++)
-        sum += square(span.high[axis] - span.low[axis]);
+        sum += square(ends[axis] + ends[3 + axis]);
     return sqrt(sum) + 2.0 * largest <= block_edge(p);
+}
+
+/* Brings how other ranks' blocks have moved behind ours. */
+static void meet_again(struct block_motion *motion, const struct particles *p)
+{
+    const size_t group_bytes = (size_t)motion->groups * sizeof *motion->group;
+    exchange_start(&motion->exchange, motion->block, sizeof *motion->block,
+                   motion->block + p->blocks);
+    exchange_finish(&motion->exchange);
+    exchange_start(&motion->exchange, motion->group, group_bytes,
+                   motion->group + (int64_t)p->blocks * motion->groups);
+    exchange_finish(&motion->exchange);
 }
 
 static bool local_hold(const struct neighbours *n, const struct particles *p, int32_t b,
@@ -400,9 +510,11 @@ bool neighbours_hold(struct neighbours *n, const struct particles *p, struct rea
         follow_block(n, p, reach, b);
         largest = maximum(largest, n->motion->block[b].largest_reach);
     }
+    largest = ranks_maximum(p->ranks, largest);
+    meet_again(n->motion, p);
     bool hold = n->motion->judged == BY_ALL ? all_hold(n, p) : apart_hold(n->motion, p, largest);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(&& : hold)
     for (int32_t b = 0; b < p->blocks; b++)
         hold = hold && walls_hold(n->motion, b, largest) && local_hold(n, p, b, largest);
-    return hold;
+    return ranks_minimum(p->ranks, hold) > 0.0;
 }

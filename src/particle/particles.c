@@ -44,7 +44,8 @@ struct error *particles_create(int dimension, double cell, const struct field_de
                                int count, struct particles *particles)
 {
     assert(COUNT_OF(core_fields) + (size_t)count <= PARTICLES_FIELDS);
-    *particles = (struct particles){.dimension = dimension, .cell = cell};
+    static const struct ranks alone = {0, 1, false};
+    *particles = (struct particles){.dimension = dimension, .cell = cell, .ranks = &alone};
     for (size_t k = 0; k < COUNT_OF(core_fields); k++)
         particles->field[particles->fields++].declaration = core_fields[k];
     for (int k = 0; k < count; k++)
@@ -57,6 +58,7 @@ void particles_destroy(struct particles *particles)
     for (int k = 0; k < particles->fields; k++)
         free(particles->field[k].data);
     free(particles->block);
+    free(particles->cut);
     *particles = (struct particles){0};
 }
 
@@ -123,30 +125,43 @@ struct error *particles_commit(struct particles *particles)
     return particles_sort(particles);
 }
 
+/* The number of all ranks' particles, and with it room for this rank's share of those that are loaded. */
+static struct error *visit_count(struct particles *particles, struct visitor *visitor)
+{
+    const struct ranks *ranks = particles->ranks;
+    int64_t before = ranks_sum(ranks, particles->count), total = before;
+    TRY(visitor->visit(visitor, "particles/count", NUMBER_INT64, &total, 1, 1));
+    visitor->first = ranks_before(ranks, particles->count);
+    visitor->total = total;
+    if (total == before)
+        return NULL;
+    struct slice slice = ranks_slice(ranks, total);
+    int32_t first, count = (int32_t)(slice.end - slice.begin);
+    particles->count = particles->pending = 0;
+    TRY(particles_append(particles, count, &first));
+    particles->count = count;
+    particles->pending = 0;
+    visitor->first = slice.begin;
+    return NULL;
+}
+
 struct error *particles_visit(struct particles *particles, struct visitor *visitor)
 {
-    int64_t count = particles->count;
-    TRY(visitor->visit(visitor, "particles/count", NUMBER_INT64, &count, 1, 1));
-    if (count != particles->count) {
-        particles->count = particles->pending = 0;
-        int32_t first;
-        TRY(particles_append(particles, (int32_t)count, &first));
-        particles->count = (int32_t)count;
-        particles->pending = 0;
-    }
-    for (int k = 0; k < particles->fields; k++) {
+    struct error *error = visit_count(particles, visitor);
+    for (int k = 0; k < particles->fields && !error; k++) {
         const struct field_declaration *field = &particles->field[k].declaration;
         if (!(field->kind & FIELD_STATE))
             continue;
         char *name = text_format("particles/%s", field->name);
         if (!name)
-            return error_new(ERROR_SYSTEM, "out of memory");
-        struct error *error = visitor->visit(visitor, name, field->number, particles->field[k].data,
-                                             count, field->components);
+            error = error_new(ERROR_SYSTEM, "out of memory");
+        else
+            error = visitor->visit(visitor, name, field->number, particles->field[k].data,
+                                   particles->count, field->components);
         free(name);
-        TRY(error);
     }
-    return NULL;
+    visitor->first = visitor->total = 0;
+    return error;
 }
 
 /* The finaliser of splitmix64: every bit of WORD reaches every bit of the result. */
@@ -177,7 +192,7 @@ uint64_t particles_hash(const struct particles *particles)
         }
         sum += hash;
     }
-    return sum;
+    return (uint64_t)ranks_sum(particles->ranks, (int64_t)sum);
 }
 
 size_t particles_bytes(const struct particles *particles)

@@ -43,6 +43,9 @@ struct particles {
     int32_t blocks;
     int64_t block_capacity;
     struct block *block;
+    const struct ranks *ranks; /* that have particles of the run; this process alone unless told */
+    uint64_t *cut;             /* rank r owns the blocks of keys cut[r] .. cut[r + 1] - 1 */
+    double work;    /* seconds spent on the particles since the cut */
     double cell;    /* edge of a cell of the global grid, m; fixed for a run */
     uint64_t order; /* grows with every sort: an index means the same particle while it stays */
     int fields;
@@ -79,10 +82,22 @@ struct error *particles_commit(struct particles *particles);
  * (64, 8 x 8, 4 x 4 x 4) of the global grid, whose origin is the origin of space. */
 struct error *particles_sort(struct particles *particles);
 
+/* Collective: moves every particle to the rank that owns its block, then sorts. SECONDS are what the rank has worked
+ * on its particles since the last call; where the ranks' work since the cut differs by too much, and with RECUT in
+ * any case, the blocks are divided anew: the curve of their keys is cut into parts of equal work. */
+struct error *particles_distribute(struct particles *particles, double seconds, bool recut);
+
+/* Collective: all particles of all ranks as a store of its own on rank 0, sorted; the other ranks get an empty one.
+ * For what needs all at once. */
+struct error *particles_gather(const struct particles *particles, struct particles *whole);
+
+/* The key of the block that X lies in. */
+uint64_t particles_block_key(const struct particles *particles, const double x[3]);
+
 /* Loads or saves: count first, then every STATE field, as "particles/NAME". */
 struct error *particles_visit(struct particles *particles, struct visitor *visitor);
 
-/* One number for the bits of all STATE fields, whatever the order of storage. */
+/* Collective: one number for the bits of all STATE fields, whatever the order of storage. */
 uint64_t particles_hash(const struct particles *particles);
 
 /* Bytes that the store holds for each particle. */

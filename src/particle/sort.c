@@ -23,17 +23,23 @@ static void sorting_free(struct sorting *s)
     free(s->moved);
 }
 
-/* The key of a particle's block; *cell becomes its cell within the block. */
-static uint64_t locate(const struct particles *p, int32_t i, uint64_t *cell)
+/* The key of the block that X lies in; *cell becomes its cell within the block. */
+static uint64_t locate(const struct particles *p, const double x[3], uint64_t *cell)
 {
     int64_t at[3] = {0, 0, 0}, cells = block_cells(p->dimension);
     *cell = 0;
     for (int axis = 0; axis < p->dimension; axis++) {
-        int64_t index = cell_index(p->position[i][axis], p->cell, cells * BLOCK_MIDDLE);
+        int64_t index = cell_index(x[axis], p->cell, cells * BLOCK_MIDDLE);
         at[axis] = index >= 0 ? index / cells : (index + 1) / cells - 1;
         *cell = *cell * (uint64_t)cells + (uint64_t)(index - at[axis] * cells);
     }
     return block_key(at);
+}
+
+uint64_t particles_block_key(const struct particles *particles, const double x[3])
+{
+    uint64_t cell;
+    return locate(particles, x, &cell);
 }
 
 /* Finds the blocks of the particles, sorted by key so far. */
@@ -108,7 +114,7 @@ static struct error *sort_with(struct particles *p, struct sorting *s)
     /* First by material and cell, then, keeping that order, by block. */
     for (int32_t i = 0; i < p->count; i++) {
         uint64_t cell;
-        s->block[i] = locate(p, i, &cell);
+        s->block[i] = locate(p, p->position[i], &cell);
         s->entry[i] = (struct keyed){(uint64_t)p->material[i] << 6 | cell, i};
     }
     radix_sort(s->entry, s->scratch, p->count);
@@ -120,7 +126,7 @@ static struct error *sort_with(struct particles *p, struct sorting *s)
         struct keyed *entry = s->entry + p->block[b].first;
         for (int32_t k = 0; k < p->block[b].count; k++) {
             uint64_t cell;
-            locate(p, entry[k].index, &cell);
+            locate(p, p->position[entry[k].index], &cell);
             entry[k].key = (uint64_t)p->material[entry[k].index] << 6 | cell;
         }
         order_by_id(entry, p->block[b].count, p->id);

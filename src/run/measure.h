@@ -32,6 +32,7 @@ struct measure_class {
     /* The value; NAN when there is nothing to measure (no particle in the window, no front). */
     struct error *(*measure)(const struct measurement *measurement, double *value);
     bool of_bodies; /* of whole bodies: `between` has no meaning */
+    bool at_once;   /* it must see the particles of all ranks; otherwise it is collective */
     /* What the measure wants to keep from time zero; may be NULL. */
     struct error *(*start)(const struct measurement *measurement, double *value);
 };

@@ -186,25 +186,26 @@ static struct error *read_back(struct probe *probe)
     return NULL;
 }
 
-static struct error *open_one(struct probe *probe, const char *folder, bool resume)
+static struct error *open_one(struct probe *probe, const char *folder, bool resume, bool writes)
 {
     char *name = text_format("%s.csv", probe->name);
     probe->path = name ? path_join(folder, name) : NULL;
     free(name);
     if (!probe->path)
         return out_of_memory();
-    TRY(csv_grow(probe->path, resume ? probe->rows : -1, &probe->file));
+    if (writes)
+        TRY(csv_grow(probe->path, resume ? probe->rows : -1, &probe->file));
     return resume && probe->kept ? read_back(probe) : NULL;
 }
 
-struct error *probes_open(struct probes *probes, const char *folder, bool resume)
+struct error *probes_open(struct probes *probes, const char *folder, bool resume, bool writes)
 {
     if (probes->count == 0)
         return NULL;
     char *own = path_join(folder, "probes");
-    struct error *error = own ? folder_make(own) : out_of_memory();
+    struct error *error = !own ? out_of_memory() : writes ? folder_make(own) : NULL;
     for (int i = 0; i < probes->count && !error; i++)
-        error = open_one(&probes->item[i], own, resume);
+        error = open_one(&probes->item[i], own, resume, writes);
     free(own);
     return error;
 }
@@ -230,10 +231,9 @@ static struct error *record(struct probe *probe, const struct simulation *simula
                             const struct views *views)
 {
     double *row = row_of(probe);
-    if (!row)
-        return out_of_memory();
+    TRY(ranks_agree(simulation->ranks, row ? NULL : out_of_memory()));
     row[0] = simulation->time;
-    TRY(class_of(probe)->sample(probe, simulation, views, row + 1));
+    TRY(ranks_agree(simulation->ranks, class_of(probe)->sample(probe, simulation, views, row + 1)));
     if (probe->file)
         write_row(probe, row);
     probe->rows++;

@@ -79,9 +79,9 @@ struct error *probes_prepare(struct probes *probes, const struct simulation *sim
                              const struct views *views);
 void probes_free(struct probes *probes);
 
-/* Opens FOLDER/probes/NAME.csv of each; with RESUME behind the rows that were taken, which are read back
- * where a check wants them. */
-struct error *probes_open(struct probes *probes, const char *folder, bool resume);
+/* Opens FOLDER/probes/NAME.csv of each where this rank WRITES; with RESUME behind the rows that were taken, which are
+ * read back where a check wants them. */
+struct error *probes_open(struct probes *probes, const char *folder, bool resume, bool writes);
 
 /* Takes the rows that are due at this step; those of the last step with LAST. Collective. */
 struct error *probes_watch(struct probes *probes, const struct simulation *simulation,

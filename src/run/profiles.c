@@ -147,8 +147,8 @@ static struct error *sort(const struct profile *profile, const struct simulation
     sorting->places = sorting->groups * sorting->bins;
     sorting->place = memory_allocate(((size_t)particles->count + 1) * sizeof *sorting->place);
     sorting->count = memory_allocate(((size_t)sorting->places + 1) * sizeof *sorting->count);
-    if (!sorting->place || !sorting->count)
-        return out_of_memory();
+    TRY(ranks_agree(simulation->ranks,
+                    sorting->place && sorting->count ? NULL : out_of_memory()));
     for (int32_t i = 0; i < particles->count; i++) {
         sorting->place[i] = place_of(profile, simulation, sorting, i);
         if (sorting->place[i] >= 0)
@@ -209,15 +209,15 @@ static struct error *find_all(const struct profile *profile, const struct simula
     const int32_t count = simulation->particles.count;
     double *value = memory_allocate(((size_t)count + 1) * sizeof *value);
     struct exact_sum *sums = memory_allocate(((size_t)sorting->places + 1) * sizeof *sums);
-    bool made = value && sums;
-    for (int i = 0; i < profile->fields.count && made; i++) {
+    struct error *error = ranks_agree(simulation->ranks, value && sums ? NULL : out_of_memory());
+    for (int i = 0; i < profile->fields.count && !error; i++) {
         const struct chosen_field *field = &profile->fields.field[i];
         view_read_component(&views->view[field->view], field->component, 0, count, value);
         find_scatter(simulation, sorting, value, sums, scatter + i * sorting->places);
     }
     free(value);
     free(sums);
-    return made ? NULL : out_of_memory();
+    return error;
 }
 
 static void put_heads(FILE *file, const struct profile *profile)
@@ -293,9 +293,10 @@ static struct error *write_one(const struct profile *profile, const struct simul
         scatter = memory_allocate(room * sizeof *scatter);
         error = scatter ? find_all(profile, simulation, views, &sorting, scatter) : out_of_memory();
     }
-    if (!error)
+    error = ranks_agree(simulation->ranks, error);
+    if (!error && simulation->ranks->rank == 0)
         error = file_begin(path, &file);
-    if (!error) {
+    if (!error && simulation->ranks->rank == 0) {
         put_heads(file, profile);
         put_rows(file, profile, simulation, &sorting, scatter);
         error = file_end(path, file);
@@ -311,11 +312,17 @@ struct error *profiles_write(const struct profiles *profiles, const struct simul
     if (profiles->count == 0)
         return NULL;
     char *own = path_join(folder, "profiles");
-    struct error *error = own ? folder_make(own) : out_of_memory();
+    struct error *error = !own                         ? out_of_memory()
+                          : simulation->ranks->rank == 0 ? folder_make(own)
+                                                         : NULL;
+    error = ranks_agree(simulation->ranks, error);
     for (int i = 0; i < profiles->count && !error; i++) {
         char *path =
             text_format("%s/%s-%06lld.csv", own, profiles->item[i].name, (long long)number);
-        error = path ? write_one(&profiles->item[i], simulation, views, path) : out_of_memory();
+        error = ranks_agree(simulation->ranks, path ? NULL : out_of_memory());
+        if (!error)
+            error = ranks_agree(simulation->ranks,
+                                write_one(&profiles->item[i], simulation, views, path));
         free(path);
     }
     free(own);

@@ -15,6 +15,7 @@
 #include "model/generate.h"
 #include "output/picture.h"
 #include "run/run_internal.h"
+#include "run/whole.h"
 
 /* Fewer particles than this a thread cost more in waiting than they gain in work. */
 enum { PARTICLES_A_THREAD = 2000 };
@@ -46,17 +47,15 @@ double step_towards(double limit, double time, double until)
     return remains < 2.0 * limit ? 0.5 * remains : limit;
 }
 
-/* What the particle of the step's limit was when the step made no sense. */
-static struct error *no_step(const struct run *run)
+/* What the particle of the step's limit was when the step made no sense; NULL where it is not. */
+static struct error *no_step_of(const struct run *run)
 {
     const struct particles *p = &run->simulation.particles;
     int32_t i = 0;
     while (i < p->count && p->id[i] != run->limit.id)
         i++;
     if (i == p->count)
-        return error_new(ERROR_STATE, "step %lld, t = %.6g s: no step is possible: %g s (%s)",
-                         (long long)run->simulation.step + 1, run->simulation.time, run->limit.dt,
-                         run->limit.why ? run->limit.why : "unknown");
+        return NULL;
     return error_new(ERROR_STATE,
                      "step %lld, t = %.6g s: no step is possible: %g s (%s), particle %llu of body "
                      "\"%s\" at (%g, %g, %g) m: density %g kg/m^3, energy %g J/kg, pressure %g Pa, "
@@ -66,6 +65,15 @@ static struct error *no_step(const struct run *run)
                      run->input->bodies.names[p->body[i]], p->position[i][0], p->position[i][1],
                      p->position[i][2], p->density[i], p->energy[i], p->pressure[i],
                      p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
+}
+
+static struct error *no_step(const struct run *run)
+{
+    TRY(ranks_agree(&run->ranks, no_step_of(run)));
+    return error_known_to_all(
+        error_new(ERROR_STATE, "step %lld, t = %.6g s: no step is possible: %g s (%s)",
+                  (long long)run->simulation.step + 1, run->simulation.time, run->limit.dt,
+                  run->limit.why ? run->limit.why : "unknown"));
 }
 
 /* The time that a step must not pass: the end, or that of a body which stops before. */
@@ -95,7 +103,7 @@ static struct error *take_step(struct run *run)
     run->step = dt;
     run->result->updates += ranks_sum(&run->ranks, simulation->particles.count);
     if (ranks_sum(&run->ranks, simulation->particles.pending) > 0)
-        TRY(particles_commit(&simulation->particles));
+        TRY(ranks_agree(&run->ranks, particles_commit(&simulation->particles)));
     return NULL;
 }
 
@@ -191,6 +199,8 @@ static struct error *make_solver(struct run *run)
 static struct error *make_particles(struct run *run)
 {
     TRY(run->options->resume ? run_load(run) : generate_particles(&run->simulation));
+    if (run->ranks.joined)
+        TRY(particles_distribute(&run->simulation.particles, 0.0, true));
     run->simulation.threads = threads_for(run);
     TRY(run->method->start(run->solver, &run->simulation));
     if (!run->options->resume)
@@ -225,9 +235,9 @@ static struct error *look_ahead(struct run *run)
 
 static struct error *begin(struct run *run)
 {
-    TRY(make_solver(run));
+    TRY(ranks_agree(&run->ranks, make_solver(run)));
     struct error *error = make_particles(run);
-    return error_join(error, look_ahead(run));
+    return ranks_agree(&run->ranks, error_join(error, look_ahead(run)));
 }
 
 static void tell_beginning(struct run *run)
@@ -249,6 +259,16 @@ static void tell_beginning(struct run *run)
         run_say(run, "resumed at step %lld, t = %.9g s", (long long)s->step, s->time);
 }
 
+static struct error *draw_checks(struct run *run, const char *pictures)
+{
+    struct whole whole;
+    struct error *error = whole_make(&run->simulation, &run->views, &whole);
+    if (!error && whole.here)
+        error = checks_draw(run->checks, whole.simulation, whole.views, pictures);
+    whole_free(&whole);
+    return ranks_agree(&run->ranks, error);
+}
+
 /* Checks and the last files. */
 static struct error *conclude(struct run *run)
 {
@@ -259,10 +279,11 @@ static struct error *conclude(struct run *run)
         char *path = run_path(run, "checks.csv");
         char *pictures = run_path(run, "pictures");
         struct error *error = NULL;
-        if (path && result->checks.count)
+        if (path && run_writes(run) && result->checks.count)
             error = check_results_write(&result->checks, path);
+        error = ranks_agree(&run->ranks, error);
         if (!error && pictures)
-            error = checks_draw(run->checks, &run->simulation, &run->views, pictures);
+            error = draw_checks(run, pictures);
         free(path);
         free(pictures);
         TRY(error);
@@ -307,6 +328,12 @@ static void tell_end(struct run *run)
     }
 }
 
+/* An error that the other ranks do not know of: nothing may be asked of them any more. */
+static bool is_lonely(const struct run *run, const struct error *error)
+{
+    return error && run->ranks.joined && !error_is_known_to_all(error);
+}
+
 static struct error *run_through(struct run *run)
 {
     TRY(run_check_folder(run));
@@ -317,6 +344,8 @@ static struct error *run_through(struct run *run)
     struct error *error = run_summary_begin(run);
     if (!error)
         error = loop(run);
+    if (is_lonely(run, error))
+        return error;
     measure_speed(run);
     if (error && error_kind(error) == ERROR_STATE)
         error = error_join(error, run_snapshot_of_failure(run));
@@ -362,7 +391,7 @@ static struct run *run_new(const struct simulation_case *input, const struct run
     run->input = input;
     run->options = options;
     run->result = result;
-    run->ranks = ranks_alone();
+    run->ranks = options->ranks ? *options->ranks : ranks_alone();
     return run;
 }
 
@@ -373,7 +402,7 @@ struct error *run_case(const struct simulation_case *input, const struct run_opt
     if (!run)
         return error_new(ERROR_SYSTEM, "out of memory");
     struct error *error = run_close_files(run, run_through(run));
-    if (run->began > 0.0)
+    if (run->began > 0.0 && !is_lonely(run, error))
         error = run_report(run, error);
     destroy(run);
     return error;

@@ -44,6 +44,9 @@ struct run {
 /* The folder's path of NAME; NULL without a folder. Free it. */
 char *run_path(const struct run *run, const char *name);
 
+/* This rank writes the files. */
+bool run_writes(const struct run *run);
+
 /* A line for the log and the user. */
 void run_say(struct run *run, const char *format, ...) BOLIDE_PRINTF(2, 3);
 

@@ -11,12 +11,18 @@
 #include "output/picture.h"
 #include "output/snapshot.h"
 #include "run/run_internal.h"
+#include "run/whole.h"
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
 char *run_path(const struct run *run, const char *name)
 {
     return run->options->output ? path_join(run->options->output, name) : NULL;
+}
+
+bool run_writes(const struct run *run)
+{
+    return run->options->output && run->ranks.rank == 0;
 }
 
 void run_say(struct run *run, const char *format, ...)
@@ -86,9 +92,11 @@ struct error *run_check_folder(struct run *run)
     if (!options->output)
         return options->resume ? error_new(ERROR_INPUT, "a run without a folder cannot be resumed")
                                : NULL;
-    TRY(make_case_text(run));
-    return options->resume ? look_for_checkpoint(run)
-                           : folder_check(options->output, options->overwrite);
+    struct error *error = make_case_text(run);
+    if (!error)
+        error = options->resume ? look_for_checkpoint(run)
+                                : folder_check(options->output, options->overwrite);
+    return ranks_agree(&run->ranks, error);
 }
 
 static struct error *open_log(struct run *run)
@@ -104,15 +112,17 @@ static struct error *open_history(struct run *run)
 {
     char *path = run_path(run, "history.csv");
     int64_t keep = run->options->resume ? run->history_rows : -1;
-    struct error *error = path ? history_open(path, keep, &run->history) : out_of_memory();
+    struct error *error =
+        path ? history_open(run_writes(run) ? path : NULL, keep, &run->history) : out_of_memory();
     free(path);
     return error;
 }
 
-struct error *run_open_folder(struct run *run)
+/* What rank 0 does before the others may read anything. */
+static struct error *ready_folder(struct run *run)
 {
     const struct run_options *options = run->options;
-    if (!options->output)
+    if (!run_writes(run))
         return NULL;
     if (!options->resume)
         TRY(folder_ready(options->output, options->overwrite));
@@ -120,9 +130,19 @@ struct error *run_open_folder(struct run *run)
     TRY(make_folder(run, "pictures"));
     if (!options->resume)
         TRY(write_case(run));
-    TRY(open_log(run));
-    TRY(open_history(run));
-    return probes_open(&run->probes, options->output, options->resume);
+    return open_log(run);
+}
+
+struct error *run_open_folder(struct run *run)
+{
+    const struct run_options *options = run->options;
+    if (!options->output)
+        return NULL;
+    TRY(ranks_agree(&run->ranks, ready_folder(run)));
+    struct error *error = open_history(run);
+    if (!error)
+        error = probes_open(&run->probes, options->output, options->resume, run_writes(run));
+    return ranks_agree(&run->ranks, error);
 }
 
 struct error *run_close_files(struct run *run, struct error *error)
@@ -179,17 +199,21 @@ static struct error *watch_energy(struct run *run)
 static struct error *draw_pictures(struct run *run, int64_t number)
 {
     const struct name_list *fields = &run->input->output.pictures;
-    struct error *error = NULL;
-    for (int i = 0; i < fields->count && !error; i++) {
+    struct whole whole;
+    if (!fields->count)
+        return NULL;
+    struct error *error = whole_make(&run->simulation, &run->views, &whole);
+    for (int i = 0; i < fields->count && !error && whole.here; i++) {
         char *name = text_format("pictures/%s-%06lld.png", fields->names[i], (long long)number);
         char *path = name ? run_path(run, name) : NULL;
-        error = path ? picture_particles(path, &run->simulation, &run->views, fields->names[i], NAN,
+        error = path ? picture_particles(path, whole.simulation, whole.views, fields->names[i], NAN,
                                          NAN)
                      : out_of_memory();
         free(name);
         free(path);
     }
-    return error;
+    whole_free(&whole);
+    return ranks_agree(&run->ranks, error);
 }
 
 static struct error *write_series(struct run *run)
@@ -231,7 +255,9 @@ static struct error *write_snapshot(struct run *run)
         path ? snapshot_write(path, &run->simulation, &run->views) : out_of_memory();
     free(name);
     free(path);
-    return error ? error : write_series(run);
+    if (!error && run_writes(run))
+        error = write_series(run);
+    return ranks_agree(&run->ranks, error);
 }
 
 /* A resumed run stands where an output was already taken: its counters tell. */
@@ -245,6 +271,7 @@ struct error *run_watch(struct run *run, bool last)
     struct error *error = row ? watch_energy(run) : NULL;
     if (!error && row && run->history)
         error = history_row(run->history, &run->simulation, run->step, &run->start);
+    error = ranks_agree(&run->ranks, error);
     if (run->history)
         run->history_rows = history_rows(run->history);
     if (!error)
@@ -336,7 +363,7 @@ struct error *run_checkpoint(struct run *run)
 {
     if (!run->options->output)
         return NULL;
-    TRY(probes_flush(&run->probes));
+    TRY(ranks_agree(&run->ranks, probes_flush(&run->probes)));
     char *path = run_path(run, "checkpoint.h5");
     struct checkpoint checkpoint = checkpoint_of(run);
     struct error *error = path ? checkpoint_write(path, &checkpoint) : out_of_memory();

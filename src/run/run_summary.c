@@ -147,6 +147,8 @@ static void put_run(FILE *file, const struct run *run, const char *status,
     put_text(file, "run", "", "method", input->solver.choice->name);
     put_number(file, "run", "", "particles", ranks_sum(&run->ranks, s->particles.count), "");
     put_number(file, "run", "", "threads", s->threads, "");
+    if (run->ranks.size > 1)
+        put_number(file, "run", "", "ranks", run->ranks.size, "");
     put_number(file, "run", "", "until", input->run.until, "s");
     put_number(file, "run", "", "time", s->time, "s");
     put_number(file, "run", "", "steps", (double)s->step, "");
@@ -177,16 +179,22 @@ static struct error *write_summary(const struct run *run, const char *status,
                                    const struct error *error)
 {
     FILE *file;
-    char *path = run_path(run, "summary.csv");
-    if (!path)
-        return error_new(ERROR_SYSTEM, "out of memory");
-    struct error *failure = file_begin(path, &file);
-    if (!failure) {
-        put_summary(file, run, status, error);
+    char *path = run_path(run, "summary.csv"), *text = NULL;
+    size_t size;
+    FILE *memory = open_memstream(&text, &size);
+    struct error *failure = path && memory ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    TRY(ranks_agree(&run->ranks, failure));
+    put_summary(memory, run, status, error);
+    failure = fclose(memory) ? error_new(ERROR_SYSTEM, "out of memory") : NULL;
+    if (!failure && run_writes(run))
+        failure = file_begin(path, &file);
+    if (!failure && run_writes(run)) {
+        fputs(text, file);
         failure = file_end(path, file);
     }
+    free(text);
     free(path);
-    return failure;
+    return ranks_agree(&run->ranks, failure);
 }
 
 struct error *run_summary_begin(const struct run *run)
@@ -200,7 +208,7 @@ struct error *run_report(const struct run *run, struct error *error)
         return error;
     const char *status = error ? "failed" : run->result->finished ? "finished" : "stopped";
     struct error *failure = write_summary(run, status, error);
-    if (!failure)
+    if (!failure && run_writes(run))
         failure = page_write(run->options->output);
     return error_join(error, failure);
 }

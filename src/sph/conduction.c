@@ -75,7 +75,7 @@ struct error *conduction_reserve(struct sph *sph, const struct simulation *simul
                         HEAT_STRIDE * sizeof(double)))
         return error_new(ERROR_SYSTEM, "out of memory for the heat of %lld particles",
                          (long long)count);
-    return NULL;
+    return exchange_reserve(&sph->neighbours.ghosts.exchange, HEAT_STRIDE * sizeof(double));
 }
 
 /* Record of particle I; see heat_kernel.h for the order. */
@@ -103,17 +103,18 @@ static void pack_owned(const struct simulation *simulation, const struct sph_fie
 static void pack(struct sph *sph, const struct simulation *simulation, const struct sph_fields *f)
 {
     const struct particles *p = &simulation->particles;
-    const struct ghosts *ghosts = &sph->neighbours.ghosts;
+    struct ghosts *ghosts = &sph->neighbours.ghosts;
     double *record = sph->conduction.record;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++)
         pack_owned(simulation, f, sph->kind.depth, i, record + (size_t)i * HEAT_STRIDE);
+    ghosts_refresh(ghosts, record, p->count, HEAT_STRIDE * sizeof *record);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t g = 0; g < ghosts->count; g++) {
-        double *image = record + (size_t)(p->count + g) * HEAT_STRIDE;
-        const double *x = p->position[ghosts->source[g]];
+    for (int32_t g = ghosts->remotes; g < ghosts->count; g++) {
+        double *image = record + (size_t)(p->count + g) * HEAT_STRIDE, x[3] = {0.0};
         memcpy(image, record + (size_t)ghosts->source[g] * HEAT_STRIDE,
                HEAT_STRIDE * sizeof *image);
+        memcpy(x, image, (size_t)simulation->dimension * sizeof *x);
         struct vec3 place =
             image_position(&simulation->mirrors, ghosts->image[g], vec3_make(x[0], x[1], x[2]));
         double at[3] = {place.x, place.y, place.z};
@@ -149,6 +150,7 @@ static void lower_limit(const struct sph *sph, const struct simulation *simulati
         if (own.dt < smallest.dt || (own.dt == smallest.dt && own.id < smallest.id))
             smallest = own;
     }
+    smallest = sph_least_limit(simulation, smallest);
     if (smallest.dt < limit->dt)
         *limit = smallest;
 }

@@ -207,14 +207,15 @@ static void pack(struct sph *sph, const struct simulation *simulation, const str
                  bool forces)
 {
     const struct particles *p = &simulation->particles;
-    const struct ghosts *ghosts = &sph->neighbours.ghosts;
+    struct ghosts *ghosts = &sph->neighbours.ghosts;
     size_t stride = (size_t)(forces ? hllc_stride(sph->hllc) : HLLC_GRADIENT_STRIDE);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++)
         (forces ? pack_for_forces : pack_for_gradients)(sph, simulation, f, i,
                                                         sph->record + (size_t)i * stride);
+    ghosts_refresh(ghosts, sph->record, p->count, stride * sizeof *sph->record);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t g = 0; g < ghosts->count; g++) {
+    for (int32_t g = ghosts->remotes; g < ghosts->count; g++) {
         double *record = sph->record + (size_t)(p->count + g) * stride;
         memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
         reflect(sph, simulation, ghosts->image[g], forces, record);
@@ -293,5 +294,5 @@ void hllc_limit_step(const struct sph *sph, const struct simulation *simulation,
     for (int32_t i = 0; i < p->count; i++)
         if (ratio * f->sph.diameter[i] / f->sph.sound_long[i] == smallest && p->id[i] < id)
             id = p->id[i];
-    *limit = (struct limit){smallest, "sound speed", id};
+    *limit = sph_least_limit(simulation, (struct limit){smallest, "sound speed", id});
 }

@@ -254,17 +254,21 @@ void muscl_pack(struct sph *sph, const struct simulation *simulation)
                                       {pack_plane_fluid, pack_plane_solid},
                                       {pack_space_fluid, pack_space_solid},
                                       {pack_deep_fluid, pack_deep_solid}};
-    const struct ghosts *ghosts = &sph->neighbours.ghosts;
+    struct ghosts *ghosts = &sph->neighbours.ghosts;
     const int32_t count = simulation->particles.count;
     const struct sph_fields f = sph_fields_of(sph, simulation);
     const struct muscl_kind kind = muscl_kind_of(sph);
     size_t stride = (size_t)muscl_stride(kind);
     table[kind.depth ? DEEP : kind.dimension - 1][kind.shear](sph, simulation, &f);
+    ghosts_refresh(ghosts, sph->record, count, stride * sizeof *sph->record);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t g = 0; g < ghosts->count; g++) {
         double *record = sph->record + (size_t)(count + g) * stride;
-        memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
-        reflect(simulation, kind, ghosts->image[g], record);
+        if (g >= ghosts->remotes) {
+            memcpy(record, sph->record + (size_t)ghosts->source[g] * stride,
+                   stride * sizeof *record);
+            reflect(simulation, kind, ghosts->image[g], record);
+        }
         place_record(sph, kind.dimension, count + g, stride);
     }
     double *empty = sph->record + (size_t)(count + ghosts->count) * stride;

@@ -99,7 +99,7 @@ static void reflect(const struct simulation *simulation, struct pair_kind kind, 
 void sph_pack(struct sph *sph, const struct simulation *simulation)
 {
     const struct particles *p = &simulation->particles;
-    const struct ghosts *ghosts = &sph->neighbours.ghosts;
+    struct ghosts *ghosts = &sph->neighbours.ghosts;
     struct sph_fields f = sph_fields_of(sph, simulation);
     size_t stride = (size_t)record_stride(sph->kind);
     struct pair_kind kind = sph->kind;
@@ -115,8 +115,9 @@ void sph_pack(struct sph *sph, const struct simulation *simulation)
             pack_owned(sph, simulation, &f, kind, i, record);
         }
     }
+    ghosts_refresh(ghosts, sph->record, p->count, stride * sizeof *sph->record);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t g = 0; g < ghosts->count; g++) {
+    for (int32_t g = ghosts->remotes; g < ghosts->count; g++) {
         double *record = sph->record + (size_t)(p->count + g) * stride;
         memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
         reflect(simulation, sph->kind, ghosts->image[g], record);
@@ -147,6 +148,12 @@ void sph_find_viscosity(const struct sph *sph, const struct simulation *simulati
     }
 }
 
+struct limit sph_least_limit(const struct simulation *simulation, struct limit own)
+{
+    double dt = ranks_minimum(simulation->ranks, own.dt);
+    return own.dt > dt ? (struct limit){dt, "another rank", UINT64_MAX} : own;
+}
+
 void sph_limit_step(const struct sph *sph, const struct simulation *simulation,
                     const struct sph_fields *f, struct limit *limit)
 {
@@ -174,7 +181,7 @@ void sph_limit_step(const struct sph *sph, const struct simulation *simulation,
         if (own.dt < smallest.dt || (own.dt == smallest.dt && own.id < smallest.id))
             smallest = own;
     }
-    *limit = smallest;
+    *limit = sph_least_limit(simulation, smallest);
 }
 
 /* The particle with the smallest id whose new state is impossible. */

@@ -44,7 +44,10 @@ INLINE void stage_laws(const struct neighbours *n, const struct contact_groups *
         int32_t j = list[k];
         if (j >= n->count && j < n->count + n->ghosts.count)
             j = n->ghosts.source[j - n->count];
-        unsigned bits = j < n->count ? law[groups->of_body[body[j]]] : 0;
+        unsigned bits = j < n->count ? law[groups->of_body[body[j]]]
+                        : j < n->count + n->ghosts.remotes
+                            ? law[groups->of_body[n->ghosts.remote[j - n->count].body]]
+                            : 0;
         slip[k] = bits & 1 ? 1.0 : 0.0;
         open[k] = bits & 2 ? 1.0 : 0.0;
     }

@@ -5,6 +5,7 @@
 #include "sph/sph.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -225,7 +226,9 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     double support = 2.0 * sph->parameters.smoothing * diameter;
     TRY(check_walls(simulation, support - (1.0 + 1e-9) * diameter));
     double cell = growth_room * support * (1.0 + sph->parameters.skin);
-    return particles_create(simulation->dimension, cell, fields, count, &simulation->particles);
+    TRY(particles_create(simulation->dimension, cell, fields, count, &simulation->particles));
+    simulation->particles.ranks = simulation->ranks;
+    return NULL;
 }
 
 static struct error *sph_start(void *solver, struct simulation *simulation)
@@ -256,7 +259,26 @@ static struct error *reserve_records(struct sph *sph, const struct simulation *s
                                                   0, PLACE_STRIDE * sizeof(double))))
         return error_new(ERROR_SYSTEM, "out of memory for the records of %lld particles",
                          (long long)count);
-    return NULL;
+    return exchange_reserve(&sph->neighbours.ghosts.exchange, stride * sizeof(double));
+}
+
+/* Seconds that this rank's particles have taken up to now. */
+static double work_of(const struct simulation *simulation)
+{
+    static const char *const names[] = {"pairs", "gradients", "heat"};
+    double sum = 0.0;
+    for (int i = 0; i < simulation->phases; i++)
+        for (size_t k = 0; k < COUNT_OF(names); k++)
+            sum += strcmp(simulation->phase[i].name, names[k]) ? 0.0 : simulation->phase[i].seconds;
+    return sum;
+}
+
+/* True at the steps at which the case has the blocks divided anew. */
+static bool recuts(const struct sph *sph, const struct simulation *simulation)
+{
+    int64_t every = simulation->input->run.rebalance;
+    return every > 0 && simulation->ranks->joined && simulation->step % every == 0 &&
+           sph->steps_since_build > 0;
 }
 
 struct error *sph_refresh_rows(struct sph *sph, struct simulation *simulation)
@@ -265,12 +287,16 @@ struct error *sph_refresh_rows(struct sph *sph, struct simulation *simulation)
     struct reach reach = {particles_field(p, "diameter"), sph->parameters.smoothing};
     int64_t most = sph->parameters.rebuild;
     double begin = clock_seconds();
-    if (!(most && sph->steps_since_build >= most) &&
+    bool recut = recuts(sph, simulation);
+    if (!(most && sph->steps_since_build >= most) && !recut &&
         neighbours_hold(&sph->neighbours, p, reach, simulation->threads)) {
         simulation_spend(simulation, "neighbours", clock_seconds() - begin);
         return NULL;
     }
-    TRY(particles_sort(p));
+    double work = work_of(simulation);
+    TRY(particles_distribute(p, work - sph->work, recut));
+    sph->work = work;
+    reach.diameter = particles_field(p, "diameter");
     TRY(neighbours_build(&sph->neighbours, p, reach, &simulation->mirrors, &sph->groups,
                          simulation->threads));
     sph->steps_since_build = 0;
@@ -386,7 +412,6 @@ static struct error *sph_prepare(void *solver, struct simulation *simulation, st
         conduction_prepare(sph, simulation, &fields, limit);
         simulation_spend(simulation, "heat", clock_seconds() - begin);
     }
-    limit->dt = ranks_minimum(simulation->ranks, limit->dt);
     return NULL;
 }
 

@@ -33,6 +33,7 @@ struct sph {
     struct contact_groups groups;
     struct reach reach;
     int64_t steps_since_build;
+    double work; /* seconds that the particles had taken when they were last distributed */
     double *record, *place;
     int64_t record_capacity, place_capacity; /* in records */
     struct conduction conduction;
@@ -172,7 +173,10 @@ void sph_pack(struct sph *sph, const struct simulation *simulation);
 void sph_find_viscosity(const struct sph *sph, const struct simulation *simulation,
                         const struct sph_fields *f);
 
-/* dt = K D / sqrt(C^2 + (4 D div U)^2) (1.87), the smallest, of equal ones that of the smallest id. */
+/* Collective: the least of the ranks' OWN limits. */
+struct limit sph_least_limit(const struct simulation *simulation, struct limit own);
+
+/* Collective: dt = K D / sqrt(C^2 + (4 D div U)^2) (1.87), the smallest, of equal ones that of the smallest id. */
 void sph_limit_step(const struct sph *sph, const struct simulation *simulation,
                     const struct sph_fields *f, struct limit *limit);
 

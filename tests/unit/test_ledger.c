@@ -96,10 +96,10 @@ static void a_saved_ledger_loads_with_every_digit(void **state)
                     1e300);
     ledger_book(&ledger, LEDGER_WALLS, NAN, vec3_make(0.0, 0.0, 0.0), vec3_make(0.0, 0.0, 0.0),
                 1.0);
-    struct memory_visitor memory = {.visitor = {visit_memory}};
-    assert_null(ledger_visit(&ledger, &memory.visitor));
+    struct memory_visitor memory = {.visitor = {.visit = visit_memory}};
+    assert_null(ledger_visit(&ledger, &alone, &memory.visitor));
     memory.loads = true;
-    assert_null(ledger_visit(&loaded, &memory.visitor));
+    assert_null(ledger_visit(&loaded, &alone, &memory.visitor));
     ledger_book(&ledger, LEDGER_WALLS, 0.0, vec3_make(1.0, 0.0, 0.0), vec3_make(0.0, 1.0, 0.0),
                 -1e300);
     ledger_book(&loaded, LEDGER_WALLS, 0.0, vec3_make(1.0, 0.0, 0.0), vec3_make(0.0, 1.0, 0.0),

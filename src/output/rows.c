@@ -1,0 +1,68 @@
+/* Rows from all ranks to one; see rows.h. */
+#include "output/rows.h"
+
+#include <stdlib.h>
+
+#include "base/memory.h"
+
+enum { ROWS_AT_ONCE = 1 << 18 };
+
+static int64_t piece_from(int64_t begin, int64_t count)
+{
+    return count - begin < ROWS_AT_ONCE ? count - begin : ROWS_AT_ONCE;
+}
+
+static void send(int to, const struct rows *rows, void *piece, void *request)
+{
+    for (int64_t begin = 0; begin < rows->count; begin += ROWS_AT_ONCE) {
+        int64_t some = piece_from(begin, rows->count);
+        rows->fill(rows->context, begin, begin + some, piece);
+        const struct message message = {to, false, piece, some};
+        ranks_start(&message, 1, rows->bytes, request);
+        ranks_finish(1, request);
+    }
+}
+
+/* The COUNT rows of rank FROM. */
+static struct error *receive(int from, int64_t count, const struct rows *rows, void *piece,
+                             void *request, int64_t at, rows_put *put, void *sink,
+                             struct error *error)
+{
+    for (int64_t begin = 0; begin < count; begin += ROWS_AT_ONCE) {
+        int64_t some = piece_from(begin, count);
+        if (from == 0) {
+            rows->fill(rows->context, begin, begin + some, piece);
+        } else {
+            const struct message message = {from, true, piece, some};
+            ranks_start(&message, 1, rows->bytes, request);
+            ranks_finish(1, request);
+        }
+        if (!error)
+            error = put(sink, at + begin, some, piece);
+    }
+    return error;
+}
+
+struct error *rows_pass(const struct ranks *ranks, const struct rows *rows, rows_put *put,
+                        void *sink)
+{
+    void *counts = NULL;
+    int64_t number = 0, most = (int64_t)ranks_maximum(ranks, (double)rows->count), at = 0;
+    void *request = memory_allocate(ranks_request_size() + 1);
+    void *piece = memory_allocate((size_t)piece_from(0, most) * rows->space);
+    struct error *error = ranks_agree(
+        ranks, request && piece ? NULL : error_new(ERROR_SYSTEM, "out of memory for an output"));
+    if (!error)
+        error = ranks_gather(ranks, 0, &rows->count, 1, sizeof rows->count, &counts, &number);
+    if (!error && ranks->rank != 0)
+        send(0, rows, piece, request);
+    for (int r = 0; r < (int)number && piece; r++) {
+        int64_t count = ((int64_t *)counts)[r];
+        error = receive(r, count, rows, piece, request, at, put, sink, error);
+        at += count;
+    }
+    free(counts);
+    free(request);
+    free(piece);
+    return error;
+}

@@ -1,0 +1,113 @@
+/* Exchanges between ranks; see exchange.h. */
+#include "parallel/exchange.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static struct error *out_of_memory(void)
+{
+    return error_new(ERROR_SYSTEM, "out of memory for an exchange between ranks");
+}
+
+/* Sorts ERRANDS by rank; TO counts those of each. */
+static void sort_errands(struct exchange *x, int ranks, const struct errand *errands, int32_t count,
+                         const int32_t *to, int32_t *next)
+{
+    int32_t first = 0;
+    for (int r = 0; r < ranks; r++) {
+        next[r] = first;
+        first += to[r];
+    }
+    for (int32_t k = 0; k < count; k++)
+        x->errand[next[errands[k].rank]++] = errands[k];
+}
+
+static void add_messages(struct exchange *x, int ranks, const int32_t *counts, bool comes)
+{
+    for (int r = 0; r < ranks; r++)
+        if (counts[r])
+            x->message[x->messages++] = (struct message){r, comes, NULL, counts[r]};
+}
+
+static int partners_of(int ranks, const int32_t *counts, int32_t *items)
+{
+    int partners = 0;
+    *items = 0;
+    for (int r = 0; r < ranks; r++) {
+        partners += counts[r] != 0;
+        *items += counts[r];
+    }
+    return partners;
+}
+
+/* COUNTS is room for three numbers a rank. */
+static struct error *plan(struct exchange *x, const struct ranks *ranks,
+                          const struct errand *errands, int32_t count, int32_t *counts)
+{
+    int32_t *to = counts, *from = counts + ranks->size, *next = from + ranks->size;
+    for (int32_t k = 0; k < count; k++)
+        to[errands[k].rank]++;
+    ranks_swap_counts(ranks, to, from);
+    int partners =
+        partners_of(ranks->size, to, &x->goes) + partners_of(ranks->size, from, &x->comes);
+    x->errand = memory_allocate((size_t)count * sizeof *x->errand);
+    x->message = memory_allocate((size_t)partners * sizeof *x->message);
+    x->requests = memory_allocate((size_t)partners * ranks_request_size());
+    if (!x->errand || !x->message || !x->requests)
+        return out_of_memory();
+    sort_errands(x, ranks->size, errands, count, to, next);
+    add_messages(x, ranks->size, from, true);
+    add_messages(x, ranks->size, to, false);
+    return NULL;
+}
+
+struct error *exchange_plan(struct exchange *exchange, const struct ranks *ranks,
+                            const struct errand *errands, int32_t count)
+{
+    exchange_free(exchange);
+    int32_t *counts = memory_allocate(3 * (size_t)ranks->size * sizeof *counts);
+    TRY(ranks_agree(ranks, counts ? NULL : out_of_memory()));
+    struct error *error = plan(exchange, ranks, errands, count, counts);
+    free(counts);
+    return ranks_agree(ranks, error);
+}
+
+struct error *exchange_reserve(struct exchange *exchange, size_t bytes)
+{
+    int64_t needed = (int64_t)exchange->goes * (int64_t)bytes;
+    return memory_reserve(&exchange->buffer, &exchange->buffer_bytes, needed, 0, 1)
+               ? NULL
+               : out_of_memory();
+}
+
+void exchange_start(struct exchange *exchange, const void *items, size_t bytes, void *received)
+{
+    char *out = exchange->buffer, *in = received;
+    assert((int64_t)exchange->goes * (int64_t)bytes <= exchange->buffer_bytes);
+    for (int32_t k = 0; k < exchange->goes; k++)
+        memcpy(out + (size_t)k * bytes,
+               (const char *)items + (size_t)exchange->errand[k].item * bytes, bytes);
+    for (int i = 0; i < exchange->messages; i++) {
+        struct message *m = &exchange->message[i];
+        char **at = m->comes ? &in : &out;
+        m->data = *at;
+        *at += (size_t)m->items * bytes;
+    }
+    ranks_start(exchange->message, exchange->messages, bytes, exchange->requests);
+}
+
+void exchange_finish(struct exchange *exchange)
+{
+    ranks_finish(exchange->messages, exchange->requests);
+}
+
+void exchange_free(struct exchange *exchange)
+{
+    free(exchange->message);
+    free(exchange->errand);
+    free(exchange->requests);
+    free(exchange->buffer);
+    *exchange = (struct exchange){0};
+}

@@ -1,0 +1,38 @@
+/* An exchange between ranks that is made again and again: which of this rank's items go to which ranks, and how
+ * many come from whom. Items that come stand in the order of their ranks, each rank's in the order in which it
+ * sends them. */
+#ifndef BOLIDE_EXCHANGE_H
+#define BOLIDE_EXCHANGE_H
+
+#include "parallel/ranks.h"
+
+/* ITEM goes to RANK. */
+struct errand {
+    int32_t rank, item;
+};
+
+struct exchange {
+    int32_t goes, comes; /* items in all */
+    int messages;
+    struct message *message; /* data: not yet */
+    struct errand *errand;   /* by rank */
+    void *buffer, *requests;
+    int64_t buffer_bytes;
+};
+
+/* Collective: plans COUNT errands, in any order of ranks; items of one rank keep their order. Replaces an earlier
+ * plan. */
+struct error *exchange_plan(struct exchange *exchange, const struct ranks *ranks,
+                            const struct errand *errands, int32_t count);
+
+/* Room for items of BYTES each. */
+struct error *exchange_reserve(struct exchange *exchange, size_t bytes);
+
+/* Sends the planned ones of ITEMS, BYTES each, for which there must be room, and takes what comes to RECEIVED, which
+ * holds it once exchange_finish returns. ITEMS may change before. */
+void exchange_start(struct exchange *exchange, const void *items, size_t bytes, void *received);
+void exchange_finish(struct exchange *exchange);
+
+void exchange_free(struct exchange *exchange);
+
+#endif

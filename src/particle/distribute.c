@@ -1,0 +1,232 @@
+/* Which rank owns which blocks, and how particles get there: the curve that runs through all blocks in the order of
+ * their keys is cut into as many parts as there are ranks. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "parallel/exchange.h"
+#include "particle/particles.h"
+
+/* Blocks are divided anew when a rank has worked this much longer than the mean of all. */
+static const double imbalance_limit = 1.1;
+
+struct weight {
+    uint64_t key;
+    double work;
+};
+
+static struct error *out_of_memory(void)
+{
+    return error_new(ERROR_SYSTEM, "out of memory while particles go to other ranks");
+}
+
+static int compare_weights(const void *a, const void *b)
+{
+    uint64_t x = ((const struct weight *)a)->key, y = ((const struct weight *)b)->key;
+    return x < y ? -1 : x > y;
+}
+
+/* A block goes to the part that its middle falls into. The blocks at one place of the curve may still belong to several
+ * ranks. */
+static void cut_curve(uint64_t *cut, int parts, struct weight *weight, int64_t count)
+{
+    double total = 0.0, before = 0.0;
+    qsort(weight, (size_t)count, sizeof *weight, compare_weights);
+    for (int64_t k = 0; k < count; k++)
+        total += weight[k].work;
+    int part = 0;
+    cut[0] = 0;
+    for (int64_t k = 0, next; k < count; k = next) {
+        double work = 0.0;
+        for (next = k; next < count && weight[next].key == weight[k].key; next++)
+            work += weight[next].work;
+        while (part + 1 < parts && (before + 0.5 * work) * parts >= total * (part + 1))
+            cut[++part] = weight[k].key;
+        before += work;
+    }
+    while (part < parts)
+        cut[++part] = UINT64_MAX;
+}
+
+/* The work of the blocks as the particles lie now, from what the rank has spent on each of its own. */
+static struct error *divide(struct particles *p)
+{
+    const struct ranks *ranks = p->ranks;
+    double each = p->work > 0.0 && p->count ? p->work / p->count : 0.0;
+    bool measured = ranks_minimum(ranks, p->count && each <= 0.0 ? 0.0 : 1.0) > 0.0;
+    struct weight *own = memory_allocate((size_t)p->blocks * sizeof *own), *all = NULL;
+    int64_t count = 0;
+    if (!p->cut)
+        p->cut = memory_allocate(((size_t)ranks->size + 1) * sizeof *p->cut);
+    struct error *error = ranks_agree(ranks, own && p->cut ? NULL : out_of_memory());
+    for (int32_t b = 0; b < p->blocks && !error; b++)
+        own[b] = (struct weight){p->block[b].key, p->block[b].count * (measured ? each : 1.0)};
+    if (!error)
+        error = ranks_gather(ranks, -1, own, p->blocks, sizeof *own, (void **)&all, &count);
+    if (!error)
+        cut_curve(p->cut, ranks->size, all, count);
+    free(own);
+    free(all);
+    p->work = 0.0;
+    return error;
+}
+
+static int owner_of(const struct particles *p, uint64_t key)
+{
+    int low = 0, high = p->ranks->size; /* cut[low] <= key < cut[high] */
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        if (p->cut[middle] <= key)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static size_t bytes_of(const struct field *field)
+{
+    return number_size(field->declaration.number) * (size_t)field->declaration.components;
+}
+
+static void pack(const struct particles *p, int32_t i, char *out)
+{
+    for (int k = 0; k < p->fields; k++) {
+        size_t bytes = bytes_of(&p->field[k]);
+        memcpy(out, (const char *)p->field[k].data + (size_t)i * bytes, bytes);
+        out += bytes;
+    }
+}
+
+static void unpack(struct particles *p, int32_t i, const char *in)
+{
+    for (int k = 0; k < p->fields; k++) {
+        size_t bytes = bytes_of(&p->field[k]);
+        memcpy((char *)p->field[k].data + (size_t)i * bytes, in, bytes);
+        in += bytes;
+    }
+}
+
+/* The particles that leave, and where they go. */
+struct leaving {
+    int32_t count;
+    int64_t errand_capacity, packed_capacity;
+    struct errand *errand;
+    char *packed;
+};
+
+static struct error *find_leaving(struct particles *p, struct leaving *leaving)
+{
+    size_t bytes = particles_bytes(p);
+    for (int32_t i = 0; i < p->count; i++) {
+        int32_t owner = owner_of(p, particles_block_key(p, p->position[i]));
+        if (owner == p->ranks->rank)
+            continue;
+        int64_t kept = leaving->count;
+        if (!memory_reserve((void **)&leaving->errand, &leaving->errand_capacity, kept + 1, kept,
+                            sizeof *leaving->errand) ||
+            !memory_reserve((void **)&leaving->packed, &leaving->packed_capacity, kept + 1, kept,
+                            bytes))
+            return out_of_memory();
+        pack(p, i, leaving->packed + (size_t)kept * bytes);
+        leaving->errand[leaving->count] = (struct errand){owner, leaving->count};
+        leaving->count++;
+    }
+    return NULL;
+}
+
+/* Takes in what comes, and lets go what leaves. */
+static struct error *swap(struct particles *p, struct exchange *exchange,
+                          const struct leaving *leaving)
+{
+    size_t bytes = particles_bytes(p);
+    int32_t first, comes = exchange->comes;
+    char *arriving = memory_allocate((size_t)comes * bytes);
+    struct error *error = arriving ? exchange_reserve(exchange, bytes) : out_of_memory();
+    for (int32_t i = 0; i < p->count && !error && leaving->count; i++)
+        if (owner_of(p, particles_block_key(p, p->position[i])) != p->ranks->rank)
+            particles_delete(p, i);
+    if (!error)
+        error = particles_append(p, comes, &first);
+    error = ranks_agree(p->ranks, error);
+    if (!error) {
+        exchange_start(exchange, leaving->packed, bytes, arriving);
+        exchange_finish(exchange);
+        for (int32_t k = 0; k < comes; k++)
+            unpack(p, first + k, arriving + (size_t)k * bytes);
+    }
+    free(arriving);
+    return error;
+}
+
+static struct error *migrate(struct particles *p)
+{
+    struct leaving leaving = {0};
+    struct exchange exchange = {0};
+    struct error *error = ranks_agree(p->ranks, find_leaving(p, &leaving));
+    if (!error)
+        error = exchange_plan(&exchange, p->ranks, leaving.errand, leaving.count);
+    if (!error)
+        error = swap(p, &exchange, &leaving);
+    exchange_free(&exchange);
+    free(leaving.errand);
+    free(leaving.packed);
+    return error ? error : ranks_agree(p->ranks, particles_commit(p));
+}
+
+/* The ranks' work since the cut differs by too much. */
+static bool unbalanced(const struct particles *p)
+{
+    double most = ranks_maximum(p->ranks, p->work), mean = 0.0;
+    struct exact_sum sum = {0};
+    exact_sum_add(&sum, p->work);
+    ranks_sum_exact(p->ranks, &sum, 1);
+    mean = exact_sum_value(&sum) / p->ranks->size;
+    return mean > 0.01 && most > imbalance_limit * mean;
+}
+
+struct error *particles_distribute(struct particles *particles, double seconds, bool recut)
+{
+    if (!particles->ranks->joined)
+        return particles_sort(particles);
+    particles->work += seconds;
+    if (!particles->cut || recut || unbalanced(particles)) {
+        TRY(ranks_agree(particles->ranks, particles_sort(particles)));
+        TRY(divide(particles));
+    }
+    return migrate(particles);
+}
+
+static struct error *gather_fields(const struct particles *particles, struct particles *whole)
+{
+    int64_t total = ranks_sum(particles->ranks, particles->count), count;
+    int32_t first, wanted = particles->ranks->rank == 0 ? (int32_t)total : 0;
+    struct error *error = total > INT32_MAX / 2 ? error_new(ERROR_SYSTEM, "%lld particles are too "
+                                                            "many for one rank", (long long)total)
+                                                : particles_append(whole, wanted, &first);
+    TRY(ranks_agree(particles->ranks, error));
+    for (int k = 0; k < particles->fields; k++) {
+        const size_t bytes = bytes_of(&particles->field[k]);
+        void *all;
+        TRY(ranks_gather(particles->ranks, 0, particles->field[k].data, particles->count, bytes,
+                         &all, &count));
+        if (count)
+            memcpy(whole->field[k].data, all, (size_t)count * bytes);
+        free(all);
+    }
+    return ranks_agree(particles->ranks, particles_commit(whole));
+}
+
+struct error *particles_gather(const struct particles *particles, struct particles *whole)
+{
+    struct particles *all = whole;
+    *all = (struct particles){0};
+    struct field_declaration more[PARTICLES_FIELDS];
+    int known = 0, count = 0;
+    TRY(particles_create(particles->dimension, particles->cell, NULL, 0, all));
+    known = all->fields;
+    for (int k = known; k < particles->fields; k++)
+        more[count++] = particles->field[k].declaration;
+    TRY(particles_create(particles->dimension, particles->cell, more, count, all));
+    return gather_fields(particles, all);
+}
