@@ -227,8 +227,9 @@ static const struct parameter run_table[] = {
      .standard = "0",
      .below = INFINITY,
      .closed = true,
-     .help = "with several ranks, the number of steps after which space is divided among them anew; "
-             "0: when one has worked longer than the others"},
+     .help =
+         "with several ranks, the number of steps after which space is divided among them anew; "
+         "0: when one has worked longer than the others"},
     {.key = "energy_drift",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct run_input, energy_drift),

@@ -155,8 +155,8 @@ static struct error *save(struct visitor *visitor, const char *name, enum number
     struct file_visitor *saver = (struct file_visitor *)visitor;
     const hsize_t size[2] = {(hsize_t)count, (hsize_t)components};
     if (saver->ranks->joined && visitor->total)
-        saver->error = error_join(
-            saver->error, write_spread(saver, name, number, data, count, components));
+        saver->error =
+            error_join(saver->error, write_spread(saver, name, number, data, count, components));
     else if (saver->file >= 0 && !saver->error)
         saver->error = write_array(saver->file, name, number_type(number), data, size);
     return NULL;
@@ -235,9 +235,9 @@ static bool read_rows(hid_t dataset, hid_t type, int64_t first, int64_t count, i
     const hsize_t start[2] = {(hsize_t)first, 0};
     const hsize_t part[2] = {(hsize_t)count, (hsize_t)components};
     hid_t space = H5Dget_space(dataset), memory = H5Screate_simple(2, part, NULL);
-    bool done = count == 0 ||
-                (H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, part, NULL) >= 0 &&
-                 H5Dread(dataset, type, memory, space, H5P_DEFAULT, data) >= 0);
+    bool done =
+        count == 0 || (H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, part, NULL) >= 0 &&
+                       H5Dread(dataset, type, memory, space, H5P_DEFAULT, data) >= 0);
     H5Sclose(memory);
     H5Sclose(space);
     return done;

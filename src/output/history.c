@@ -44,7 +44,8 @@ struct error *history_close(struct history *history)
 {
     if (!history)
         return NULL;
-    struct error *error = history->file && fclose(history->file) ? system_error(history->path, errno) : NULL;
+    struct error *error =
+        history->file && fclose(history->file) ? system_error(history->path, errno) : NULL;
     free(history->path);
     free(history);
     return error;

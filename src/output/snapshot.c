@@ -75,15 +75,14 @@ static void write_column(struct writing *w, const struct column *column)
 {
     static const struct ranks alone = {0, 1, false};
     const size_t bytes = H5Tget_size(column->type) * (size_t)column->components;
-    const struct rows rows = {column->spread ? w->simulation->particles.count : column->rows,
-                              bytes, maximum(bytes, (double)column->components * sizeof(double)),
+    const struct rows rows = {column->spread ? w->simulation->particles.count : column->rows, bytes,
+                              maximum(bytes, (double)column->components * sizeof(double)),
                               column->fill, column->context};
     if (!column->spread && !w->here)
         return;
     struct sink sink = open_sink(w, column);
-    w->error = error_join(
-        w->error,
-        rows_pass(column->spread ? w->simulation->ranks : &alone, &rows, put_rows, &sink));
+    w->error = error_join(w->error, rows_pass(column->spread ? w->simulation->ranks : &alone, &rows,
+                                              put_rows, &sink));
     if (sink.dataset >= 0)
         H5Dclose(sink.dataset);
     if (sink.space >= 0)

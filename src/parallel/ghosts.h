@@ -4,8 +4,8 @@
 #ifndef BOLIDE_GHOSTS_H
 #define BOLIDE_GHOSTS_H
 
-#include "parallel/exchange.h"
 #include "base/vector.h"
+#include "parallel/exchange.h"
 
 /* Rigid slip walls normal to the axes: at most a low and a high one an axis, NAN where there is none.
  * Source of the reflection: Parshikov (2013), sections 2.8 and 3.1. */

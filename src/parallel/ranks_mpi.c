@@ -122,7 +122,8 @@ static struct error *gather(const struct ranks *ranks, int to, const void *own, 
     *all = memory_allocate((size_t)*total * bytes + 1);
     struct error *error = NULL;
     if (!*all)
-        error = error_new(ERROR_SYSTEM, "out of memory for %lld items of all ranks", (long long)sum);
+        error =
+            error_new(ERROR_SYSTEM, "out of memory for %lld items of all ranks", (long long)sum);
     else if (sum > INT32_MAX)
         error = error_new(ERROR_SYSTEM, "%lld items are too many for one rank", (long long)sum);
     TRY(ranks_agree(ranks, error));

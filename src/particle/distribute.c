@@ -201,9 +201,10 @@ static struct error *gather_fields(const struct particles *particles, struct par
 {
     int64_t total = ranks_sum(particles->ranks, particles->count), count;
     int32_t first, wanted = particles->ranks->rank == 0 ? (int32_t)total : 0;
-    struct error *error = total > INT32_MAX / 2 ? error_new(ERROR_SYSTEM, "%lld particles are too "
-                                                            "many for one rank", (long long)total)
-                                                : particles_append(whole, wanted, &first);
+    struct error *error =
+        total > INT32_MAX / 2
+            ? error_new(ERROR_SYSTEM, "%lld particles are too many for one rank", (long long)total)
+            : particles_append(whole, wanted, &first);
     TRY(ranks_agree(particles->ranks, error));
     for (int k = 0; k < particles->fields; k++) {
         const size_t bytes = bytes_of(&particles->field[k]);
@@ -214,19 +215,18 @@ static struct error *gather_fields(const struct particles *particles, struct par
             memcpy(whole->field[k].data, all, (size_t)count * bytes);
         free(all);
     }
-    return ranks_agree(particles->ranks, particles_commit(whole));
+    whole->count = wanted;
+    whole->pending = 0;
+    return NULL;
 }
 
 struct error *particles_gather(const struct particles *particles, struct particles *whole)
 {
-    struct particles *all = whole;
-    *all = (struct particles){0};
     struct field_declaration more[PARTICLES_FIELDS];
-    int known = 0, count = 0;
-    TRY(particles_create(particles->dimension, particles->cell, NULL, 0, all));
-    known = all->fields;
-    for (int k = known; k < particles->fields; k++)
+    int count = 0;
+    TRY(particles_create(particles->dimension, particles->cell, NULL, 0, whole));
+    for (int k = whole->fields; k < particles->fields; k++)
         more[count++] = particles->field[k].declaration;
-    TRY(particles_create(particles->dimension, particles->cell, more, count, all));
-    return gather_fields(particles, all);
+    TRY(particles_create(particles->dimension, particles->cell, more, count, whole));
+    return gather_fields(particles, whole);
 }

@@ -83,8 +83,7 @@ static bool add_block(const struct particles *p, const struct block *block, stru
         double own = (1.0 + skin) * reach.smoothing * reach.diameter[i];
         int32_t last = -1;
         for (int64_t k = 0; k < count; k++) {
-            if (near[k]->rank == last ||
-                !within(near[k], p->position[i], p->position[i], own))
+            if (near[k]->rank == last || !within(near[k], p->position[i], p->position[i], own))
                 continue;
             last = near[k]->rank;
             if (!add_errand(list, last, i))
@@ -125,15 +124,13 @@ static struct error *introduce(const struct particles *p, struct reach reach, st
     struct remote *own = memory_allocate((size_t)p->count * sizeof *own);
     free(ghosts->remote);
     ghosts->remote = memory_allocate((size_t)ghosts->exchange.comes * sizeof *ghosts->remote);
-    struct error *error = own && ghosts->remote ? exchange_reserve(&ghosts->exchange, sizeof *own)
-                                                : out_of_memory();
+    struct error *error =
+        own && ghosts->remote ? exchange_reserve(&ghosts->exchange, sizeof *own) : out_of_memory();
     error = ranks_agree(p->ranks, error);
     for (int32_t i = 0; i < p->count && !error; i++) {
         const double *x = p->position[i];
-        own[i] = (struct remote){{x[0], x[1], x[2]},
-                                 reach.smoothing * reach.diameter[i],
-                                 p->id[i],
-                                 p->body[i]};
+        own[i] = (struct remote){
+            {x[0], x[1], x[2]}, reach.smoothing * reach.diameter[i], p->id[i], p->body[i]};
     }
     if (!error) {
         exchange_start(&ghosts->exchange, own, sizeof *own, ghosts->remote);
@@ -154,12 +151,11 @@ struct error *halo_plan(const struct particles *particles, struct reach reach, d
     struct region whole, *own = own_regions(particles, reach, skin, &whole);
     struct error *error = ranks_agree(ranks, own ? NULL : out_of_memory());
     if (!error)
-        error = ranks_gather(ranks, -1, own, particles->blocks, sizeof *own,
-                             (void **)&halo->region, &halo->regions);
+        error = ranks_gather(ranks, -1, own, particles->blocks, sizeof *own, (void **)&halo->region,
+                             &halo->regions);
     struct list list = {0};
     if (!error)
-        error = ranks_agree(
-            ranks, find_errands(particles, reach, skin, halo, own, &whole, &list));
+        error = ranks_agree(ranks, find_errands(particles, reach, skin, halo, own, &whole, &list));
     free(own);
     if (!error)
         error = exchange_plan(&ghosts->exchange, ranks, list.errand, list.count);

@@ -12,31 +12,6 @@
 #include "base/memory.h"
 #include "particle/block.h"
 
-/* A group or a block since the rows were built. */
-struct moved {
-    bool any;              /* it has particles */
-    double smallest_reach; /* at building */
-    double low[3];         /* nearest to each low wall, at building; NAN without wall */
-    double high[3];
-    unsigned walls; /* bit 2 axis + side: had images behind this wall */
-    double mean[3], spread, growth, largest_reach; /* now */
-};
-
-enum { GROUPS_MAX = 32, TOUCHING_MAX = 27 };
-
-struct block_motion {
-    int groups; /* of a block: 32, 4 x 4, 2 x 2 x 2 */
-    int64_t block_capacity, group_capacity, touching_capacity, group_of_capacity;
-    struct moved *block, *group; /* one a block; `groups` a block; behind ours the others' that touch them */
-    struct exchange exchange; /* of blocks that touch those of other ranks */
-    uint64_t *far_key;        /* of the blocks that come, sorted */
-    int32_t (
-        *touching)[TOUCHING_MAX]; /* blocks that touch, by offset, itself included; -1 for none */
-    uint8_t *group_of;            /* group of each particle within its block */
-    double distance;              /* of the plan of images */
-    enum { BY_GROUPS, BY_BLOCKS, BY_ALL } judged; /* by the smallest that supports fit into */
-};
-
 /* Groups along each axis of a block. */
 static int groups_along(int dimension) { return block_cells(dimension) / 2; }
 
@@ -44,17 +19,12 @@ static double group_edge(const struct particles *p) { return 2.0 * p->cell; }
 
 static double block_edge(const struct particles *p) { return p->cell * block_cells(p->dimension); }
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for the motion of blocks");
-}
-
 static struct error *reserve_motion(struct neighbours *n, const struct particles *p)
 {
     if (!n->motion)
         n->motion = memory_allocate(sizeof *n->motion);
     if (!n->motion)
-        return out_of_memory();
+        return motion_out_of_memory();
     n->motion->groups = 1;
     for (int axis = 0; axis < p->dimension; axis++)
         n->motion->groups *= groups_along(p->dimension);
@@ -65,10 +35,10 @@ static struct error *reserve(struct neighbours *n, const struct particles *p)
 {
     int64_t capacity = n->reference_capacity;
     if (!memory_reserve((void **)&n->origin, &capacity, p->count, 0, sizeof *n->origin))
-        return out_of_memory();
+        return motion_out_of_memory();
     capacity = n->reference_capacity;
     if (!memory_reserve((void **)&n->origin_reach, &capacity, p->count, 0, sizeof *n->origin_reach))
-        return out_of_memory();
+        return motion_out_of_memory();
     n->reference_capacity = capacity;
     struct block_motion *m = n->motion;
     const int64_t blocks = (int64_t)p->blocks + m->exchange.comes;
@@ -79,7 +49,7 @@ static struct error *reserve(struct neighbours *n, const struct particles *p)
         !memory_reserve((void **)&m->touching, &m->touching_capacity, p->blocks, 0,
                         sizeof *m->touching) ||
         !memory_reserve((void **)&m->group_of, &m->group_of_capacity, p->count, 0, 1))
-        return out_of_memory();
+        return motion_out_of_memory();
     return NULL;
 }
 
@@ -149,25 +119,6 @@ static int compare_keys(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* The key of the block at offset K of the one at OWN; false for an offset that the dimension does not have. */
-static bool key_beside(int dimension, const int64_t own[3], int k, uint64_t *key)
-{
-    const int offset[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
-    int64_t at[3];
-    if ((offset[1] && dimension < 2) || (offset[2] && dimension < 3))
-        return false;
-    for (int axis = 0; axis < 3; axis++)
-        at[axis] = own[axis] + offset[axis];
-    *key = block_key(at);
-    return true;
-}
-
-static int compare_to_key(const void *key, const void *far)
-{
-    uint64_t x = *(const uint64_t *)key, y = *(const uint64_t *)far;
-    return x < y ? -1 : x > y;
-}
-
 /* The blocks that touch block B, found by key: blocks are sorted by it, those of other ranks too. */
 static void list_touching(struct block_motion *motion, const struct particles *p, int32_t b)
 {
@@ -176,13 +127,13 @@ static void list_touching(struct block_motion *motion, const struct particles *p
     block_coordinates(p->block[b].key, own);
     for (int k = 0; k < TOUCHING_MAX; k++) {
         motion->touching[b][k] = -1;
-        if (!key_beside(p->dimension, own, k, &key))
+        if (!motion_key_beside(p->dimension, own, k, &key))
             continue;
         const struct block *found =
             bsearch(&key, p->block, (size_t)p->blocks, sizeof *p->block, compare_keys);
         const uint64_t *far = !found && motion->far_key
                                   ? bsearch(&key, motion->far_key, (size_t)motion->exchange.comes,
-                                            sizeof key, compare_to_key)
+                                            sizeof key, motion_compare_key)
                                   : NULL;
         if (found)
             motion->touching[b][k] = (int32_t)(found - p->block);
@@ -191,68 +142,13 @@ static void list_touching(struct block_motion *motion, const struct particles *p
     }
 }
 
-/* Which of our blocks touch those of other ranks. */
-static bool find_errands(const struct particles *p, const struct halo *halo,
-                         struct errand **errand, int32_t *count)
-{
-    int64_t capacity = 0, own[3];
-    uint64_t key;
-    for (int32_t b = 0; b < p->blocks; b++) {
-        const int32_t first = *count;
-        block_coordinates(p->block[b].key, own);
-        for (int k = 0; k < TOUCHING_MAX; k++) {
-            if (!key_beside(p->dimension, own, k, &key))
-                continue;
-            const struct region *other = bsearch(&key, halo->region, (size_t)halo->regions,
-                                                 sizeof *halo->region, compare_to_key);
-            bool is_new = other && other->rank != p->ranks->rank;
-            for (int32_t e = first; e < *count && is_new; e++)
-                is_new = (*errand)[e].rank != other->rank;
-            if (!is_new)
-                continue;
-            if (!memory_reserve((void **)errand, &capacity, *count + 1, *count, sizeof **errand))
-                return false;
-            (*errand)[(*count)++] = (struct errand){other->rank, b};
-        }
-    }
-    return true;
-}
-
-/* Plans the exchange of blocks, and learns the keys of those that come. */
-static struct error *meet(struct block_motion *motion, const struct particles *p,
-                          const struct halo *halo)
-{
-    struct errand *errand = NULL;
-    int32_t count = 0;
-    bool found = find_errands(p, halo, &errand, &count);
-    struct error *error = ranks_agree(p->ranks, found ? NULL : out_of_memory());
-    if (!error)
-        error = exchange_plan(&motion->exchange, p->ranks, errand, count);
-    free(errand);
-    TRY(error);
-    free(motion->far_key);
-    motion->far_key = memory_allocate((size_t)motion->exchange.comes * sizeof *motion->far_key);
-    uint64_t *own = memory_allocate((size_t)p->blocks * sizeof *own);
-    for (int32_t b = 0; b < p->blocks && own; b++)
-        own[b] = p->block[b].key;
-    error = own && motion->far_key ? exchange_reserve(&motion->exchange, sizeof *own)
-                                   : out_of_memory();
-    error = ranks_agree(p->ranks, error);
-    if (!error) {
-        exchange_start(&motion->exchange, own, sizeof *own, motion->far_key);
-        exchange_finish(&motion->exchange);
-    }
-    free(own);
-    return error;
-}
-
 struct error *motion_start(struct neighbours *n, const struct particles *p, struct reach reach,
-                           const struct mirrors *mirrors, double distance,
-                           const struct halo *halo, int threads)
+                           const struct mirrors *mirrors, double distance, const struct halo *halo,
+                           int threads)
 {
     TRY(ranks_agree(p->ranks, reserve_motion(n, p)));
     if (p->ranks->joined)
-        TRY(meet(n->motion, p, halo));
+        TRY(motion_meet(n->motion, p, halo));
     TRY(ranks_agree(p->ranks, reserve(n, p)));
     struct block_motion *motion = n->motion;
     motion->distance = distance;
@@ -472,18 +368,6 @@ static bool apart_hold(const struct block_motion *motion, const struct particles
     return sqrt(sum) + 2.0 * largest <= block_edge(p);
 }
 
-/* Brings how other ranks' blocks have moved behind ours. */
-static void meet_again(struct block_motion *motion, const struct particles *p)
-{
-    const size_t group_bytes = (size_t)motion->groups * sizeof *motion->group;
-    exchange_start(&motion->exchange, motion->block, sizeof *motion->block,
-                   motion->block + p->blocks);
-    exchange_finish(&motion->exchange);
-    exchange_start(&motion->exchange, motion->group, group_bytes,
-                   motion->group + (int64_t)p->blocks * motion->groups);
-    exchange_finish(&motion->exchange);
-}
-
 static bool local_hold(const struct neighbours *n, const struct particles *p, int32_t b,
                        double largest)
 {
@@ -511,7 +395,7 @@ bool neighbours_hold(struct neighbours *n, const struct particles *p, struct rea
         largest = maximum(largest, n->motion->block[b].largest_reach);
     }
     largest = ranks_maximum(p->ranks, largest);
-    meet_again(n->motion, p);
+    motion_meet_again(n->motion, p);
     bool hold = n->motion->judged == BY_ALL ? all_hold(n, p) : apart_hold(n->motion, p, largest);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(&& : hold)
     for (int32_t b = 0; b < p->blocks; b++)

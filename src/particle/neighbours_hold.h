@@ -4,11 +4,49 @@
 
 #include "particle/halo.h"
 
+/* A group or a block since the rows were built. */
+struct moved {
+    bool any;              /* it has particles */
+    double smallest_reach; /* at building */
+    double low[3];         /* nearest to each low wall, at building; NAN without wall */
+    double high[3];
+    unsigned walls; /* bit 2 axis + side: had images behind this wall */
+    double mean[3], spread, growth, largest_reach; /* now */
+};
+
+enum { GROUPS_MAX = 32, TOUCHING_MAX = 27 };
+
+struct block_motion {
+    int groups; /* of a block: 32, 4 x 4, 2 x 2 x 2 */
+    int64_t block_capacity, group_capacity, touching_capacity, group_of_capacity;
+    struct moved *block,
+        *group; /* one a block; `groups` a block; behind ours the others' that touch them */
+    struct exchange exchange; /* of blocks that touch those of other ranks */
+    uint64_t *far_key;        /* of the blocks that come, sorted */
+    int32_t (
+        *touching)[TOUCHING_MAX]; /* blocks that touch, by offset, itself included; -1 for none */
+    uint8_t *group_of;            /* group of each particle within its block */
+    double distance;              /* of the plan of images */
+    enum { BY_GROUPS, BY_BLOCKS, BY_ALL } judged; /* by the smallest that supports fit into */
+};
+
+struct error *motion_out_of_memory(void);
+
+/* The key of the block at offset K, 0 .. TOUCHING_MAX - 1, of the one at OWN; false for an offset that the dimension
+ * does not have. And the order of a key and a thing that begins with one. */
+bool motion_key_beside(int dimension, const int64_t own[3], int k, uint64_t *key);
+int motion_compare_key(const void *key, const void *far);
+
+/* Collective: plans the exchange of blocks that touch those of other ranks, and learns the keys of those that come; and
+ * brings how these have moved behind ours. */
+struct error *motion_meet(struct block_motion *motion, const struct particles *p,
+                          const struct halo *halo);
+void motion_meet_again(struct block_motion *motion, const struct particles *p);
+
 /* Collective: takes down places and reaches at the time of building; images were planned within DISTANCE of walls, the
  * blocks of all ranks are those of HALO. */
 struct error *motion_start(struct neighbours *neighbours, const struct particles *particles,
-                           struct reach reach,
-                           const struct mirrors *mirrors, double distance,
+                           struct reach reach, const struct mirrors *mirrors, double distance,
                            const struct halo *halo, int threads);
 void motion_free(struct neighbours *neighbours);
 

@@ -45,8 +45,8 @@ struct particles {
     struct block *block;
     const struct ranks *ranks; /* that have particles of the run; this process alone unless told */
     uint64_t *cut;             /* rank r owns the blocks of keys cut[r] .. cut[r + 1] - 1 */
-    double work;    /* seconds spent on the particles since the cut */
-    double cell;    /* edge of a cell of the global grid, m; fixed for a run */
+    double work;               /* seconds spent on the particles since the cut */
+    double cell;               /* edge of a cell of the global grid, m; fixed for a run */
     uint64_t order; /* grows with every sort: an index means the same particle while it stays */
     int fields;
     struct field field[PARTICLES_FIELDS];
@@ -87,8 +87,8 @@ struct error *particles_sort(struct particles *particles);
  * any case, the blocks are divided anew: the curve of their keys is cut into parts of equal work. */
 struct error *particles_distribute(struct particles *particles, double seconds, bool recut);
 
-/* Collective: all particles of all ranks as a store of its own on rank 0, sorted; the other ranks get an empty one.
- * For what needs all at once. */
+/* Collective: all particles of all ranks as a store of its own on rank 0, as a process alone has them but without
+ * blocks; the other ranks get an empty one. For what needs all at once. */
 struct error *particles_gather(const struct particles *particles, struct particles *whole);
 
 /* The key of the block that X lies in. */

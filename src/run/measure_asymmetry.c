@@ -119,5 +119,8 @@ static struct error *measure(const struct measurement *measurement, double *valu
     return error;
 }
 
-const struct measure_class measure_asymmetry = {.at_once = true, 
-    .of_field = true, .unit = measure_no_unit, .measure = measure, .of_bodies = true};
+const struct measure_class measure_asymmetry = {.at_once = true,
+                                                .of_field = true,
+                                                .unit = measure_no_unit,
+                                                .measure = measure,
+                                                .of_bodies = true};

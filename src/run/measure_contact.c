@@ -59,12 +59,14 @@ static struct error *contact_rms(const struct measurement *measurement, double *
     return NULL;
 }
 
-const struct measure_class measure_contact_max = {.at_once = true, .needs_exact = true,
+const struct measure_class measure_contact_max = {.at_once = true,
+                                                  .needs_exact = true,
                                                   .needs_contact = true,
                                                   .of_field = true,
                                                   .unit = measure_no_unit,
                                                   .measure = contact_max};
-const struct measure_class measure_contact_rms = {.at_once = true, .needs_exact = true,
+const struct measure_class measure_contact_rms = {.at_once = true,
+                                                  .needs_exact = true,
                                                   .needs_contact = true,
                                                   .of_field = true,
                                                   .unit = measure_no_unit,

@@ -156,4 +156,5 @@ static struct error *measure(const struct measurement *measurement, double *valu
     return NULL;
 }
 
-const struct measure_class measure_front = {.at_once = true, .of_field = true, .unit = unit, .measure = measure};
+const struct measure_class measure_front = {
+    .at_once = true, .of_field = true, .unit = unit, .measure = measure};

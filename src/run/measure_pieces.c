@@ -102,4 +102,5 @@ static struct error *measure(const struct measurement *measurement, double *valu
     return error;
 }
 
-const struct measure_class measure_pieces = {.at_once = true, .unit = unit, .measure = measure, .of_bodies = true};
+const struct measure_class measure_pieces = {
+    .at_once = true, .unit = unit, .measure = measure, .of_bodies = true};

@@ -173,4 +173,5 @@ static struct error *measure(const struct measurement *measurement, double *valu
     return error;
 }
 
-const struct measure_class measure_shear_layer = {.at_once = true, .unit = unit, .measure = measure};
+const struct measure_class measure_shear_layer = {
+    .at_once = true, .unit = unit, .measure = measure};

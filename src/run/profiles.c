@@ -147,8 +147,7 @@ static struct error *sort(const struct profile *profile, const struct simulation
     sorting->places = sorting->groups * sorting->bins;
     sorting->place = memory_allocate(((size_t)particles->count + 1) * sizeof *sorting->place);
     sorting->count = memory_allocate(((size_t)sorting->places + 1) * sizeof *sorting->count);
-    TRY(ranks_agree(simulation->ranks,
-                    sorting->place && sorting->count ? NULL : out_of_memory()));
+    TRY(ranks_agree(simulation->ranks, sorting->place && sorting->count ? NULL : out_of_memory()));
     for (int32_t i = 0; i < particles->count; i++) {
         sorting->place[i] = place_of(profile, simulation, sorting, i);
         if (sorting->place[i] >= 0)
@@ -312,7 +311,7 @@ struct error *profiles_write(const struct profiles *profiles, const struct simul
     if (profiles->count == 0)
         return NULL;
     char *own = path_join(folder, "profiles");
-    struct error *error = !own                         ? out_of_memory()
+    struct error *error = !own                           ? out_of_memory()
                           : simulation->ranks->rank == 0 ? folder_make(own)
                                                          : NULL;
     error = ranks_agree(simulation->ranks, error);

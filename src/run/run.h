@@ -14,12 +14,12 @@ struct progress_pace {
 };
 
 struct run_options {
-    const char *output; /* folder of the results; NULL: nothing is written */
-    bool overwrite;     /* results that are there already give way */
-    bool resume;        /* go on from the folder's checkpoint */
+    const char *output;        /* folder of the results; NULL: nothing is written */
+    bool overwrite;            /* results that are there already give way */
+    bool resume;               /* go on from the folder's checkpoint */
     const struct ranks *ranks; /* that run it together; NULL: this process alone */
-    int threads;        /* 0: as many as OpenMP would take */
-    int64_t max_steps;  /* of this call, which then stops as if told to; 0: no limit */
+    int threads;               /* 0: as many as OpenMP would take */
+    int64_t max_steps;         /* of this call, which then stops as if told to; 0: no limit */
     const volatile sig_atomic_t *stop; /* not zero: write a checkpoint and stop; may be NULL */
     const struct listener *listener;   /* may be NULL */
     struct progress_pace progress;

@@ -20,10 +20,7 @@ char *run_path(const struct run *run, const char *name)
     return run->options->output ? path_join(run->options->output, name) : NULL;
 }
 
-bool run_writes(const struct run *run)
-{
-    return run->options->output && run->ranks.rank == 0;
-}
+bool run_writes(const struct run *run) { return run->options->output && run->ranks.rank == 0; }
 
 void run_say(struct run *run, const char *format, ...)
 {

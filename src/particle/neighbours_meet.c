@@ -1,0 +1,94 @@
+/* The blocks of other ranks that touch ours, and how they have moved; see neighbours_hold.h. */
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "particle/block.h"
+#include "particle/neighbours_hold.h"
+
+struct error *motion_out_of_memory(void)
+{
+    return error_new(ERROR_SYSTEM, "out of memory for the motion of blocks");
+}
+
+bool motion_key_beside(int dimension, const int64_t own[3], int k, uint64_t *key)
+{
+    const int offset[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+    int64_t at[3];
+    if ((offset[1] && dimension < 2) || (offset[2] && dimension < 3))
+        return false;
+    for (int axis = 0; axis < 3; axis++)
+        at[axis] = own[axis] + offset[axis];
+    *key = block_key(at);
+    return true;
+}
+
+int motion_compare_key(const void *key, const void *far)
+{
+    uint64_t x = *(const uint64_t *)key, y = *(const uint64_t *)far;
+    return x < y ? -1 : x > y;
+}
+
+/* Which of our blocks touch those of other ranks. */
+static bool find_errands(const struct particles *p, const struct halo *halo, struct errand **errand,
+                         int32_t *count)
+{
+    int64_t capacity = 0, own[3];
+    uint64_t key;
+    for (int32_t b = 0; b < p->blocks; b++) {
+        const int32_t first = *count;
+        block_coordinates(p->block[b].key, own);
+        for (int k = 0; k < TOUCHING_MAX; k++) {
+            if (!motion_key_beside(p->dimension, own, k, &key))
+                continue;
+            const struct region *other = bsearch(&key, halo->region, (size_t)halo->regions,
+                                                 sizeof *halo->region, motion_compare_key);
+            bool is_new = other && other->rank != p->ranks->rank;
+            for (int32_t e = first; e < *count && is_new; e++)
+                is_new = (*errand)[e].rank != other->rank;
+            if (!is_new)
+                continue;
+            if (!memory_reserve((void **)errand, &capacity, *count + 1, *count, sizeof **errand))
+                return false;
+            (*errand)[(*count)++] = (struct errand){other->rank, b};
+        }
+    }
+    return true;
+}
+
+struct error *motion_meet(struct block_motion *motion, const struct particles *p,
+                          const struct halo *halo)
+{
+    struct errand *errand = NULL;
+    int32_t count = 0;
+    bool found = find_errands(p, halo, &errand, &count);
+    struct error *error = ranks_agree(p->ranks, found ? NULL : motion_out_of_memory());
+    if (!error)
+        error = exchange_plan(&motion->exchange, p->ranks, errand, count);
+    free(errand);
+    TRY(error);
+    free(motion->far_key);
+    motion->far_key = memory_allocate((size_t)motion->exchange.comes * sizeof *motion->far_key);
+    uint64_t *own = memory_allocate((size_t)p->blocks * sizeof *own);
+    for (int32_t b = 0; b < p->blocks && own; b++)
+        own[b] = p->block[b].key;
+    error = own && motion->far_key ? exchange_reserve(&motion->exchange, sizeof *own)
+                                   : motion_out_of_memory();
+    error = ranks_agree(p->ranks, error);
+    if (!error) {
+        exchange_start(&motion->exchange, own, sizeof *own, motion->far_key);
+        exchange_finish(&motion->exchange);
+    }
+    free(own);
+    return error;
+}
+
+void motion_meet_again(struct block_motion *motion, const struct particles *p)
+{
+    const size_t group_bytes = (size_t)motion->groups * sizeof *motion->group;
+    exchange_start(&motion->exchange, motion->block, sizeof *motion->block,
+                   motion->block + p->blocks);
+    exchange_finish(&motion->exchange);
+    exchange_start(&motion->exchange, motion->group, group_bytes,
+                   motion->group + (int64_t)p->blocks * motion->groups);
+    exchange_finish(&motion->exchange);
+}
