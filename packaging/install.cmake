@@ -29,6 +29,9 @@ install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bolide COMPONENT 
     FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE PATTERN cli EXCLUDE)
 set(pkg_config_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH pkg_config_to_prefix /prefix/${pkg_config_folder} /prefix)
+if(BOLIDE_MPI)
+    list(JOIN MPI_C_LIBRARIES " " mpi_libraries)
+endif()
 configure_file(packaging/bolide.pc.in bolide.pc @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/bolide.pc DESTINATION ${pkg_config_folder} COMPONENT library)
 

@@ -141,7 +141,7 @@ static struct error *write_spread(const struct file_visitor *saver, const char *
                                       creation, H5P_DEFAULT);
         H5Pclose(creation);
     }
-    struct error *error = rows_pass(saver->ranks, &rows, put_rows, &sink);
+    struct error *error = rows_pass(saver->ranks, &rows, put_rows, &sink, saver->error);
     if (sink.dataset >= 0)
         H5Dclose(sink.dataset);
     if (sink.space >= 0)
@@ -155,8 +155,7 @@ static struct error *save(struct visitor *visitor, const char *name, enum number
     struct file_visitor *saver = (struct file_visitor *)visitor;
     const hsize_t size[2] = {(hsize_t)count, (hsize_t)components};
     if (saver->ranks->joined && visitor->total)
-        saver->error =
-            error_join(saver->error, write_spread(saver, name, number, data, count, components));
+        saver->error = write_spread(saver, name, number, data, count, components);
     else if (saver->file >= 0 && !saver->error)
         saver->error = write_array(saver->file, name, number_type(number), data, size);
     return NULL;

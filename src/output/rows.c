@@ -44,17 +44,17 @@ static struct error *receive(int from, int64_t count, const struct rows *rows, v
 }
 
 struct error *rows_pass(const struct ranks *ranks, const struct rows *rows, rows_put *put,
-                        void *sink)
+                        void *sink, struct error *error)
 {
     void *counts = NULL;
     int64_t number = 0, most = (int64_t)ranks_maximum(ranks, (double)rows->count), at = 0;
     void *request = memory_allocate(ranks_request_size() + 1);
     void *piece = memory_allocate((size_t)piece_from(0, most) * rows->space);
-    struct error *error = ranks_agree(
+    struct error *failure = ranks_agree(
         ranks, request && piece ? NULL : error_new(ERROR_SYSTEM, "out of memory for an output"));
-    if (!error)
-        error = ranks_gather(ranks, 0, &rows->count, 1, sizeof rows->count, &counts, &number);
-    if (!error && ranks->rank != 0)
+    if (!failure)
+        failure = ranks_gather(ranks, 0, &rows->count, 1, sizeof rows->count, &counts, &number);
+    if (!failure && ranks->rank != 0)
         send(0, rows, piece, request);
     for (int r = 0; r < (int)number && piece; r++) {
         int64_t count = ((int64_t *)counts)[r];
@@ -64,5 +64,5 @@ struct error *rows_pass(const struct ranks *ranks, const struct rows *rows, rows
     free(counts);
     free(request);
     free(piece);
-    return error;
+    return error_join(error, failure);
 }

@@ -17,8 +17,8 @@ struct rows {
 typedef struct error *rows_put(void *sink, int64_t at, int64_t count, const void *rows);
 
 /* Collective: calls PUT on rank 0 with the rows of rank 0, 1, ..., some at a time, so that memory does not grow with
- * them. The first error of PUT ends the calls, but not the passing; rank 0 alone has it. */
+ * them. The first error of PUT, or an earlier ERROR (taken), ends the calls, but not the passing; rank 0 alone has it. */
 struct error *rows_pass(const struct ranks *ranks, const struct rows *rows, rows_put *put,
-                        void *sink);
+                        void *sink, struct error *error);
 
 #endif

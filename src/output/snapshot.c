@@ -81,8 +81,8 @@ static void write_column(struct writing *w, const struct column *column)
     if (!column->spread && !w->here)
         return;
     struct sink sink = open_sink(w, column);
-    w->error = error_join(w->error, rows_pass(column->spread ? w->simulation->ranks : &alone, &rows,
-                                              put_rows, &sink));
+    w->error =
+        rows_pass(column->spread ? w->simulation->ranks : &alone, &rows, put_rows, &sink, w->error);
     if (sink.dataset >= 0)
         H5Dclose(sink.dataset);
     if (sink.space >= 0)

@@ -332,40 +332,49 @@ static bool walls_hold(const struct block_motion *motion, int32_t b, double larg
     return true;
 }
 
-/* Where supports outgrow groups: the motion of all against all. */
-static bool all_hold(const struct neighbours *n, const struct particles *p)
+/* What all ranks' blocks together have done since the rows were built. */
+struct together {
+    double largest_reach, motion, slack;
+    struct box span;
+};
+
+static struct together together_of(const struct neighbours *n, const struct particles *p)
 {
-    double motion = 0.0, slack = (double)INFINITY;
+    struct together t = {.slack = (double)INFINITY, .span = empty_box};
     for (int32_t b = 0; b < p->blocks; b++) {
         const struct moved *m = &n->motion->block[b];
         double mean = sqrt(square(m->mean[0]) + square(m->mean[1]) + square(m->mean[2]));
-        motion = maximum(motion, mean + m->spread + m->growth);
-        slack = minimum(slack, n->skin * m->smallest_reach);
+        t.largest_reach = maximum(t.largest_reach, m->largest_reach);
+        t.motion = maximum(t.motion, mean + m->spread + m->growth);
+        t.slack = minimum(t.slack, n->skin * m->smallest_reach);
+        for (int axis = 0; axis < 3; axis++) {
+            t.span.low[axis] = minimum(t.span.low[axis], m->mean[axis] - m->spread);
+            t.span.high[axis] = maximum(t.span.high[axis], m->mean[axis] + m->spread);
+        }
     }
-    double both[2] = {motion, -slack};
-    ranks_maximum_of(p->ranks, both, 2);
-    return both[0] <= -both[1];
+    double all[9] = {t.largest_reach, t.motion, -t.slack};
+    for (int axis = 0; axis < 3; axis++) {
+        all[3 + axis] = t.span.high[axis];
+        all[6 + axis] = -t.span.low[axis];
+    }
+    ranks_maximum_of(p->ranks, all, (int)COUNT_OF(all));
+    t.largest_reach = all[0];
+    t.motion = all[1];
+    t.slack = -all[2];
+    for (int axis = 0; axis < 3; axis++) {
+        t.span.high[axis] = all[3 + axis];
+        t.span.low[axis] = -all[6 + axis];
+    }
+    return t;
 }
 
 /* Blocks that do not touch have come no nearer to each other than supports reach. */
-static bool apart_hold(const struct block_motion *motion, const struct particles *p, double largest)
+static bool apart_hold(const struct together *t, const struct particles *p)
 {
-    struct box span = empty_box;
-    double sum = 0.0, ends[6];
-    for (int32_t b = 0; b < p->blocks; b++)
-        for (int axis = 0; axis < 3; axis++) {
-            const struct moved *m = &motion->block[b];
-            span.low[axis] = minimum(span.low[axis], m->mean[axis] - m->spread);
-            span.high[axis] = maximum(span.high[axis], m->mean[axis] + m->spread);
-        }
-    for (int axis = 0; axis < 3; axis++) {
-        ends[axis] = span.high[axis];
-        ends[3 + axis] = -span.low[axis];
-    }
-    ranks_maximum_of(p->ranks, ends, 6);
+    double sum = 0.0;
     for (int axis = 0; axis < 3; axis++)
-        sum += square(ends[axis] + ends[3 + axis]);
-    return sqrt(sum) + 2.0 * largest <= block_edge(p);
+        sum += square(t->span.high[axis] - t->span.low[axis]);
+    return sqrt(sum) + 2.0 * t->largest_reach <= block_edge(p);
 }
 
 static bool local_hold(const struct neighbours *n, const struct particles *p, int32_t b,
@@ -388,17 +397,16 @@ bool neighbours_hold(struct neighbours *n, const struct particles *p, struct rea
 {
     if (n->builds == 0 || n->order != p->order)
         return false;
-    double largest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : largest)
-    for (int32_t b = 0; b < p->blocks; b++) {
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t b = 0; b < p->blocks; b++)
         follow_block(n, p, reach, b);
-        largest = maximum(largest, n->motion->block[b].largest_reach);
-    }
-    largest = ranks_maximum(p->ranks, largest);
     motion_meet_again(n->motion, p);
-    bool hold = n->motion->judged == BY_ALL ? all_hold(n, p) : apart_hold(n->motion, p, largest);
+    const struct together all = together_of(n, p);
+    /* Where supports outgrow groups, the motion of all against all is judged. */
+    bool hold = n->motion->judged == BY_ALL ? all.motion <= all.slack : apart_hold(&all, p);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(&& : hold)
     for (int32_t b = 0; b < p->blocks; b++)
-        hold = hold && walls_hold(n->motion, b, largest) && local_hold(n, p, b, largest);
+        hold = hold && walls_hold(n->motion, b, all.largest_reach) &&
+               local_hold(n, p, b, all.largest_reach);
     return ranks_minimum(p->ranks, hold) > 0.0;
 }

@@ -101,9 +101,11 @@ static struct error *take_step(struct run *run)
     simulation->time = after;
     simulation->step++;
     run->step = dt;
-    run->result->updates += ranks_sum(&run->ranks, simulation->particles.count);
-    if (ranks_sum(&run->ranks, simulation->particles.pending) > 0)
+    run->result->updates += run->particles;
+    if (ranks_sum(&run->ranks, simulation->particles.pending) > 0) {
         TRY(ranks_agree(&run->ranks, particles_commit(&simulation->particles)));
+        run->particles = ranks_sum(&run->ranks, simulation->particles.count);
+    }
     return NULL;
 }
 
@@ -206,6 +208,7 @@ static struct error *make_particles(struct run *run)
     if (!run->options->resume)
         run->start = totals_at_start(run);
     run->first_step = run->simulation.step;
+    run->particles = ranks_sum(&run->ranks, run->simulation.particles.count);
     run->start_time = run->last_progress_time = run->simulation.time;
     return NULL;
 }

@@ -21,7 +21,8 @@ struct run {
     struct profiles profiles;
     struct checks *checks;
     struct limit limit;
-    double step; /* the last one taken, s */
+    double step;       /* the last one taken, s */
+    int64_t particles; /* of all ranks */
 
     /* What a resumed run needs beside the state: the totals at time zero, how many times each
      * output has been due and been written, and when. */

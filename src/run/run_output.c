@@ -268,7 +268,8 @@ struct error *run_watch(struct run *run, bool last)
     struct error *error = row ? watch_energy(run) : NULL;
     if (!error && row && run->history)
         error = history_row(run->history, &run->simulation, run->step, &run->start);
-    error = ranks_agree(&run->ranks, error);
+    if (row)
+        error = ranks_agree(&run->ranks, error);
     if (run->history)
         run->history_rows = history_rows(run->history);
     if (!error)
@@ -279,7 +280,7 @@ struct error *run_watch(struct run *run, bool last)
     run->watching += spent;
     if (row || snapshot)
         simulation_spend(&run->simulation, "output", spent);
-    return ranks_agree(&run->ranks, error);
+    return row || snapshot ? ranks_agree(&run->ranks, error) : error;
 }
 
 void run_progress(struct run *run)
@@ -372,7 +373,7 @@ struct error *run_checkpoint_if_due(struct run *run)
 {
     double interval = run->input->output.checkpoint, now = clock_seconds();
     bool due = interval > 0.0 && now - run->last_checkpoint >= interval;
-    if (!(ranks_maximum(&run->ranks, due) > 0.0))
+    if (!(interval > 0.0) || !(ranks_maximum(&run->ranks, due) > 0.0))
         return NULL;
     run->last_checkpoint = now;
     struct error *error = run_checkpoint(run);

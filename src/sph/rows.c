@@ -60,7 +60,8 @@ struct error *sph_refresh_rows(struct sph *sph, struct simulation *simulation)
                          simulation->threads));
     sph->steps_since_build = 0;
     simulation_spend(simulation, "neighbours", clock_seconds() - begin);
-    if (conduction_on(sph))
-        TRY(conduction_reserve(sph, simulation));
-    return reserve_records(sph, simulation);
+    struct error *error = conduction_on(sph) ? conduction_reserve(sph, simulation) : NULL;
+    if (!error)
+        error = reserve_records(sph, simulation);
+    return ranks_agree(simulation->ranks, error);
 }

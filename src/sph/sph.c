@@ -338,7 +338,7 @@ static struct error *sph_prepare(void *solver, struct simulation *simulation, st
 {
     struct sph *sph = solver;
     sph_stop_bodies(simulation);
-    TRY(ranks_agree(simulation->ranks, sph_refresh_rows(sph, simulation)));
+    TRY(sph_refresh_rows(sph, simulation));
     struct sph_fields fields = sph_fields_of(sph, simulation);
     *limit = (struct limit){(double)INFINITY, "nothing", 0};
     if (sph_corrected(sph))

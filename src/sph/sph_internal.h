@@ -140,7 +140,8 @@ void hllc_start(const struct sph *sph, struct simulation *simulation);
 void hllc_prepare(struct sph *sph, struct simulation *simulation, struct limit *limit);
 struct error *hllc_advance(struct sph *sph, struct simulation *simulation, double dt);
 
-/* Neighbour rows and records for the particles as they stand; sorts when the rows no longer hold. */
+/* Collective: neighbour rows and records for the particles as they stand; distributes and sorts them when the rows no
+ * longer hold. */
 struct error *sph_refresh_rows(struct sph *sph, struct simulation *simulation);
 
 /* The error that names particle INDEX, whose new state is impossible. */

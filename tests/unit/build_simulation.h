@@ -10,7 +10,7 @@
  * drop_simulation. */
 static inline struct simulation *build_simulation(int32_t count)
 {
-    static const struct ranks alone = {0, 1};
+    static const struct ranks alone = {0, 1, false};
     struct simulation *simulation = calloc(1, sizeof *simulation);
     simulation->ranks = &alone;
     simulation->threads = 1;

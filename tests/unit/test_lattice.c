@@ -14,7 +14,7 @@ static const double density = 8.0; /* of every body of the workshop */
 static void make_body(struct workshop *w, struct simulation *simulation, const char *shape,
                       void *value, enum lattice_kind lattice, void *parameters, double resolution)
 {
-    static const struct ranks alone = {0, 1};
+    static const struct ranks alone = {0, 1, false};
     open_workshop(w, 2, resolution);
     add_body(w, shape, value)->lattice = lattice_of(lattice, parameters);
     assert_null(lattice_wrong(&w->bodies[0].lattice, &w->bodies[0].shape, 2));
@@ -234,7 +234,7 @@ static void rivals_are_found_from_every_lattice(void **state)
     (void)state;
     struct shape_ball disc = {VECTOR(0.0, 0.0), 1.0}, hole = {VECTOR(0.5, 0.3), 0.2};
     struct lattice_rings rings = {.count = 0};
-    static const struct ranks alone = {0, 1};
+    static const struct ranks alone = {0, 1, false};
     for (int kind = 0; kind < LATTICE_KINDS; kind++) {
         struct workshop w;
         struct simulation simulation;

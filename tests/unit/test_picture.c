@@ -22,7 +22,7 @@ static const char path[] = "picture.png";
 /* A lattice of NX x NY (x NZ) particles of spacing SPACING, with a pressure that grows along x. */
 static struct simulation *lattice(int dimension, int nx, int ny, int nz, double spacing)
 {
-    static const struct ranks alone = {0, 1};
+    static const struct ranks alone = {0, 1, false};
     struct simulation *simulation = calloc(1, sizeof *simulation);
     struct particles *p = &simulation->particles;
     int32_t count = nx * ny * nz, first;

@@ -306,7 +306,7 @@ static void rows_come_as_often_as_wanted_and_stay_on_resume(void **state)
     struct probe_body body = {left};
     b->given.every = 0.3;
     struct probe *probe = ready(b, "body", &body);
-    assert_null(probes_open(&b->probes, b->folder, false));
+    assert_null(probes_open(&b->probes, b->folder, false, true));
     for (int step = 0; step <= 10; step++) {
         b->simulation.step = step;
         b->simulation.time = 0.1 * step;
@@ -318,7 +318,7 @@ static void rows_come_as_often_as_wanted_and_stay_on_resume(void **state)
     double third = probe->value[2 * probe->columns];
     probe = ready(b, "body", &body);
     probe->rows = 3;
-    assert_null(probes_open(&b->probes, b->folder, true));
+    assert_null(probes_open(&b->probes, b->folder, true, true));
     assert_int_equal(probe->rows, 3);
     assert_float_equal(probe->value[2 * probe->columns], third, 0.0);
     assert_null(probes_close(&b->probes));

@@ -106,7 +106,7 @@ static inline void assert_slices_agree(const struct workshop *w)
     for (int run = 0; run < RUNS; run++) {
         ids[run] = malloc(MOST * sizeof *ids[run]);
         for (int rank = 0; rank < sizes[run]; rank++) {
-            const struct ranks ranks = {rank, sizes[run]};
+            const struct ranks ranks = {rank, sizes[run], false};
             struct simulation simulation;
             assert_made(w, &ranks, &simulation);
             assert_true(counts[run] + simulation.particles.count <= MOST);
