@@ -78,10 +78,10 @@ void options_print(const struct command *command);
 /* Prints the messages of ERROR on stderr, one a line, frees it, and gives its exit status. */
 int report_error(struct error *error);
 
-/* Of several ranks the first speaks for all. What a rank alone has to say, that of an ERROR which the others do not know
- * of (taken), ends them all. */
+/* Of several ranks the first speaks for all. Only an ERROR that a rank alone has is told by that rank, and ends them
+ * all. */
 void terminal_silence(const struct ranks *ranks);
-struct error *terminal_alarm(const struct ranks *ranks, struct error *error);
+void terminal_alarm(const struct ranks *ranks, const struct error *error);
 
 /* Words and progress of a run; on a terminal the progress line is drawn over, elsewhere it is a
  * line every ten per cent. */

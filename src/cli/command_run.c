@@ -16,6 +16,7 @@ static struct run_options running_of(const struct cli_options *options, const ch
         .threads = (int)options->threads,
         .stop = signals_catch(),
         .listener = listener,
+        .alarm = terminal_alarm,
         .progress = terminal_pace(),
     };
 }
@@ -55,8 +56,7 @@ static int run_sweep(const struct simulation_case *input, const struct cli_optio
     };
     struct verify_result result = {0};
     struct error *error =
-        terminal_alarm(options->ranks, verify_case(options->names.text[0], input->name, folder,
-                                                   &verifying, &result));
+        verify_case(options->names.text[0], input->name, folder, &verifying, &result);
     if (result.count && result.item[0].sweep_values)
         tell_sweep(&listener, &result, input->sweep_runs, folder);
     int status = error ? report_error(error) : EXIT_OK;
@@ -75,7 +75,7 @@ static int run_input(const struct simulation_case *input, const struct cli_optio
     struct listener listener = terminal_listener();
     struct run_options running = running_of(options, folder, &listener);
     struct run_result result;
-    struct error *error = terminal_alarm(options->ranks, run_case(input, &running, &result));
+    struct error *error = run_case(input, &running, &result);
     int status = EXIT_OK;
     if (error)
         status = report_error(error);

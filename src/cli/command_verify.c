@@ -100,6 +100,7 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
         .running = {.output = options->output,
                     .overwrite = true,
                     .ranks = options->ranks,
+                    .alarm = terminal_alarm,
                     .threads = (int)options->threads,
                     .stop = signals_catch(),
                     .listener = draws_over ? &listener : NULL,

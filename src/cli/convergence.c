@@ -132,7 +132,7 @@ static struct error *study_case(const char *path, const struct verify_options *v
                                  : error_new(ERROR_SYSTEM, "out of memory");
     if (study.runs) {
         print_study(&study, name);
-        struct error *unwritten = study_write(folder, &study);
+        struct error *unwritten = options->ranks->rank ? NULL : study_write(folder, &study);
         if (!unwritten)
             printf("results in %s/convergence.html\n", folder);
         error = error_join(error, unwritten);
@@ -155,6 +155,7 @@ int verify_convergence(const char *const *paths, int count, bool of_all,
         .catalogue = &bolide_catalogue,
         .running = {.overwrite = true,
                     .ranks = options->ranks,
+                    .alarm = terminal_alarm,
                     .threads = (int)options->threads,
                     .stop = signals_catch(),
                     .listener = pace.fraction == 0.0 ? &listener : NULL,

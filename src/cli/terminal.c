@@ -33,16 +33,13 @@ void terminal_silence(const struct ranks *ranks)
         ranks_abort(ranks, ERROR_SYSTEM);
 }
 
-struct error *terminal_alarm(const struct ranks *ranks, struct error *error)
+void terminal_alarm(const struct ranks *ranks, const struct error *error)
 {
-    if (!error || !ranks->joined || error_is_known_to_all(error))
-        return error;
     FILE *stream = alarm_stream ? alarm_stream : stderr;
     for (int i = 0; i < error_count(error); i++)
-        fprintf(stream, "bolide: rank %d: %s\n", ranks->rank, error_message(error, i));
+        fprintf(stream, "rank %d: %s\n", ranks->rank, error_message(error, i));
     fflush(stream);
     ranks_abort(ranks, (int)error_kind(error));
-    return error;
 }
 
 int signals_status(void) { return 128 + stop_signal; }

@@ -86,7 +86,7 @@ void exchange_start(struct exchange *exchange, const void *items, size_t bytes, 
 {
     char *out = exchange->buffer, *in = received;
     assert((int64_t)exchange->goes * (int64_t)bytes <= exchange->buffer_bytes);
-    for (int32_t k = 0; k < exchange->goes; k++)
+    for (int32_t k = 0; k < exchange->goes && items; k++)
         memcpy(out + (size_t)k * bytes,
                (const char *)items + (size_t)exchange->errand[k].item * bytes, bytes);
     for (int i = 0; i < exchange->messages; i++) {

@@ -107,55 +107,63 @@ static void unpack(struct particles *p, int32_t i, const char *in)
     }
 }
 
-/* The particles that leave, and where they go. */
+/* The particles that leave, and where they go. `sent` are gone, and what comes has taken the places of `filled` of
+ * them. */
 struct leaving {
-    int32_t count;
-    int64_t errand_capacity, packed_capacity;
+    int64_t capacity;
+    int32_t count, sent, filled;
     struct errand *errand;
-    char *packed;
 };
 
 static struct error *find_leaving(struct particles *p, struct leaving *leaving)
 {
-    size_t bytes = particles_bytes(p);
     for (int32_t i = 0; i < p->count; i++) {
         int32_t owner = owner_of(p, particles_block_key(p, p->position[i]));
         if (owner == p->ranks->rank)
             continue;
-        int64_t kept = leaving->count;
-        if (!memory_reserve((void **)&leaving->errand, &leaving->errand_capacity, kept + 1, kept,
-                            sizeof *leaving->errand) ||
-            !memory_reserve((void **)&leaving->packed, &leaving->packed_capacity, kept + 1, kept,
-                            bytes))
+        if (!memory_reserve((void **)&leaving->errand, &leaving->capacity, leaving->count + 1,
+                            leaving->count, sizeof *leaving->errand))
             return out_of_memory();
-        pack(p, i, leaving->packed + (size_t)kept * bytes);
-        leaving->errand[leaving->count] = (struct errand){owner, leaving->count};
-        leaving->count++;
+        leaving->errand[leaving->count++] = (struct errand){owner, i};
     }
     return NULL;
 }
 
-/* Takes in what comes, and lets go what leaves. */
-static struct error *swap(struct particles *p, struct exchange *exchange,
-                          const struct leaving *leaving)
+/* Takes in the COUNT particles that came. */
+static struct error *take_in(struct particles *p, struct leaving *leaving, const char *came,
+                             int32_t count)
 {
-    size_t bytes = particles_bytes(p);
-    int32_t first, comes = exchange->comes;
-    char *arriving = memory_allocate((size_t)comes * bytes);
-    struct error *error = arriving ? exchange_reserve(exchange, bytes) : out_of_memory();
-    for (int32_t i = 0; i < p->count && !error && leaving->count; i++)
-        if (owner_of(p, particles_block_key(p, p->position[i])) != p->ranks->rank)
-            particles_delete(p, i);
-    if (!error)
-        error = particles_append(p, comes, &first);
-    error = ranks_agree(p->ranks, error);
+    const size_t bytes = particles_bytes(p);
+    int32_t k = 0, first;
+    for (; k < count && leaving->filled < leaving->sent; k++)
+        unpack(p, leaving->errand[leaving->filled++].item, came + (size_t)k * bytes);
+    TRY(particles_append(p, count - k, &first));
+    for (; k < count; k++)
+        unpack(p, first++, came + (size_t)k * bytes);
+    return NULL;
+}
+
+/* Sends some of those that are left, so that memory stays small however many move. */
+static struct error *send_some(struct particles *p, struct exchange *exchange,
+                               struct leaving *leaving)
+{
+    enum { AT_ONCE = 1 << 15 };
+    const size_t bytes = particles_bytes(p);
+    int32_t some = leaving->count - leaving->sent;
+    some = some < AT_ONCE ? some : AT_ONCE;
+    TRY(exchange_plan(exchange, p->ranks, leaving->errand + leaving->sent, some));
+    char *coming = memory_allocate((size_t)exchange->comes * bytes);
+    struct error *error =
+        ranks_agree(p->ranks, coming ? exchange_reserve(exchange, bytes) : out_of_memory());
     if (!error) {
-        exchange_start(exchange, leaving->packed, bytes, arriving);
+        for (int32_t k = 0; k < exchange->goes; k++)
+            pack(p, exchange->errand[k].item, (char *)exchange->buffer + (size_t)k * bytes);
+        exchange_start(exchange, NULL, bytes, coming);
         exchange_finish(exchange);
-        for (int32_t k = 0; k < comes; k++)
-            unpack(p, first + k, arriving + (size_t)k * bytes);
+        leaving->sent += some;
+        error = ranks_agree(p->ranks, take_in(p, leaving, coming, exchange->comes));
     }
-    free(arriving);
+    free(coming);
     return error;
 }
 
@@ -164,13 +172,12 @@ static struct error *migrate(struct particles *p)
     struct leaving leaving = {0};
     struct exchange exchange = {0};
     struct error *error = ranks_agree(p->ranks, find_leaving(p, &leaving));
-    if (!error)
-        error = exchange_plan(&exchange, p->ranks, leaving.errand, leaving.count);
-    if (!error)
-        error = swap(p, &exchange, &leaving);
+    while (!error && ranks_maximum(p->ranks, leaving.count - leaving.sent) > 0.0)
+        error = send_some(p, &exchange, &leaving);
+    for (int32_t k = leaving.filled; k < leaving.sent; k++)
+        particles_delete(p, leaving.errand[k].item);
     exchange_free(&exchange);
     free(leaving.errand);
-    free(leaving.packed);
     return error ? error : ranks_agree(p->ranks, particles_commit(p));
 }
 

@@ -195,6 +195,14 @@ static bool drawn_before(const struct checks *checks, int index)
     return false;
 }
 
+bool checks_are_drawn(const struct checks *checks)
+{
+    bool any = false;
+    for (int i = 0; i < checks->count; i++)
+        any |= checks->item[i].measurement.exact != NULL;
+    return any;
+}
+
 struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,
                           const struct views *views, const char *folder)
 {

@@ -265,6 +265,8 @@ static void tell_beginning(struct run *run)
 static struct error *draw_checks(struct run *run, const char *pictures)
 {
     struct whole whole;
+    if (!checks_are_drawn(run->checks))
+        return NULL;
     struct error *error = whole_make(&run->simulation, &run->views, &whole);
     if (!error && whole.here)
         error = checks_draw(run->checks, whole.simulation, whole.views, pictures);
@@ -405,7 +407,10 @@ struct error *run_case(const struct simulation_case *input, const struct run_opt
     if (!run)
         return error_new(ERROR_SYSTEM, "out of memory");
     struct error *error = run_close_files(run, run_through(run));
-    if (run->began > 0.0 && !is_lonely(run, error))
+    if (is_lonely(run, error)) {
+        if (options->alarm)
+            options->alarm(&run->ranks, error);
+    } else if (run->began > 0.0)
         error = run_report(run, error);
     destroy(run);
     return error;

@@ -22,6 +22,8 @@ struct run_options {
     int64_t max_steps;         /* of this call, which then stops as if told to; 0: no limit */
     const volatile sig_atomic_t *stop; /* not zero: write a checkpoint and stop; may be NULL */
     const struct listener *listener;   /* may be NULL */
+    /* Told of an error that this rank alone has, which nothing else can tell the others, who wait for it; NULL: nobody. */
+    void (*alarm)(const struct ranks *ranks, const struct error *error);
     struct progress_pace progress;
 };
 

@@ -23,9 +23,11 @@ char *verify_name(const char *path)
     return text_copy_part(start, (size_t)(end - start));
 }
 
+/* Collective. */
 static bool told_to_stop(const struct verify_options *options)
 {
-    return options->running.stop && *options->running.stop;
+    const bool stop = options->running.stop && *options->running.stop;
+    return options->running.ranks ? ranks_maximum(options->running.ranks, stop) > 0.0 : stop;
 }
 
 static bool is_there(const char *folder, const char *name)
@@ -155,7 +157,8 @@ static struct error *run_sweep(const char *path, const char *name, const char *f
         case_free(input);
         TRY(error);
     }
-    if (!folder || options->reading.convergence)
+    const struct ranks *ranks = options->running.ranks;
+    if (!folder || options->reading.convergence || (ranks && ranks->rank != 0))
         return NULL;
     return sweep_write(folder, result->item + first, result->count - first);
 }
