@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 
 /* The images along one axis: always itself, then those behind near walls. Returns how many. */
@@ -67,15 +68,22 @@ struct error *ghosts_plan(const struct mirrors *mirrors, int dimension, int32_t 
         TRY(plan_add(ghosts, count + g, 0));
     for (int32_t i = 0; i < count; i++)
         TRY(plan_images(mirrors, dimension, i, position[i], distance, ghosts));
+    ghosts->early = ghosts->count;
     for (int32_t g = 0; g < ghosts->remotes; g++)
         TRY(plan_images(mirrors, dimension, count + g, ghosts->remote[g].place, distance, ghosts));
     return NULL;
 }
 
-void ghosts_refresh(struct ghosts *ghosts, double *record, int32_t owned, size_t bytes)
+void ghosts_start(struct ghosts *ghosts, double *record, int32_t owned, size_t bytes)
 {
     exchange_start(&ghosts->exchange, record, bytes, (char *)record + (size_t)owned * bytes);
+}
+
+void ghosts_finish(struct ghosts *ghosts)
+{
+    double begin = clock_seconds();
     exchange_finish(&ghosts->exchange);
+    ghosts->waited += clock_seconds() - begin;
 }
 
 void ghosts_free(struct ghosts *ghosts)

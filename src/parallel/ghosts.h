@@ -33,7 +33,10 @@ struct ghosts {
     int32_t *source;
     image_code *image;
     int32_t remotes;
+    int32_t
+        early; /* the ghosts from `remotes` to `early` - 1 are images of owned particles; those behind, of others */
     struct remote *remote;
+    double waited; /* seconds, for records of other ranks */
     struct exchange exchange;
 };
 
@@ -62,9 +65,10 @@ BOLIDE_INLINE struct vec3 image_position(const struct mirrors *mirrors, image_co
 struct error *ghosts_plan(const struct mirrors *mirrors, int dimension, int32_t count,
                           const double (*position)[3], double distance, struct ghosts *ghosts);
 
-/* Collective: brings the records of other ranks' particles, BYTES each, behind the OWNED ones at RECORD; images are the
- * caller's. Needs exchange_reserve for records of that size. */
-void ghosts_refresh(struct ghosts *ghosts, double *record, int32_t owned, size_t bytes);
+/* Collective: brings the records of other ranks' particles, BYTES each, behind the OWNED ones at RECORD; they are there
+ * when ghosts_finish returns. Images are the caller's. Needs exchange_reserve for records of that size. */
+void ghosts_start(struct ghosts *ghosts, double *record, int32_t owned, size_t bytes);
+void ghosts_finish(struct ghosts *ghosts);
 
 void ghosts_free(struct ghosts *ghosts);
 

@@ -289,8 +289,31 @@ static struct error *reserve(struct neighbours *n, const struct particles *p, in
     }
     if (!memory_reserve((void **)&n->row, &n->row_capacity, p->count, 0, sizeof *n->row))
         return out_of_memory(p);
+    if (p->ranks->joined &&
+        !memory_reserve((void **)&n->outer, &n->outer_capacity, p->blocks, 0, 1))
+        return out_of_memory(p);
     n->count = p->count;
     return NULL;
+}
+
+/* Which blocks must wait for other ranks. */
+static void find_outer(struct neighbours *n, const struct particles *p, int threads)
+{
+    const uint32_t owned = (uint32_t)p->count, first_image = owned + (uint32_t)n->ghosts.remotes,
+                   far_image = owned + (uint32_t)n->ghosts.early;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t b = 0; b < p->blocks; b++) {
+        bool outer = false;
+        int32_t end = p->block[b].first + p->block[b].count;
+        for (int32_t i = p->block[b].first; i < end && !outer; i++) {
+            const uint32_t *entry = neighbours_row(n, i);
+            for (uint32_t k = 0; k < n->row[i].count; k++) {
+                uint32_t j = entry[k] & ENTRY_INDEX;
+                outer |= j >= owned && (j < first_image || j >= far_image);
+            }
+        }
+        n->outer[b] = outer;
+    }
 }
 
 static struct error *build_with(struct build *b, int threads)
@@ -307,7 +330,10 @@ static struct error *build_with(struct build *b, int threads)
     TRY(cells_make(&b->cells, b->p->dimension, b->p->cell, b->point, count));
     free(b->point); /* the cells have them now */
     b->point = NULL;
-    return build_rows(b, threads);
+    TRY(build_rows(b, threads));
+    if (b->p->ranks->joined)
+        find_outer(n, b->p, threads);
+    return NULL;
 }
 
 struct error *neighbours_build(struct neighbours *neighbours, const struct particles *particles,
@@ -342,6 +368,7 @@ void neighbours_free(struct neighbours *neighbours)
         free(neighbours->segment[t].entry);
     free(neighbours->segment);
     free(neighbours->row);
+    free(neighbours->outer);
     ghosts_free(&neighbours->ghosts);
     motion_free(neighbours);
     *neighbours = (struct neighbours){0};

@@ -47,7 +47,9 @@ struct neighbours {
     int32_t count;
     int64_t row_capacity;
     struct row *row; /* one a particle */
-    int segments;    /* one a thread */
+    uint8_t *outer;  /* of each block: a row needs records of other ranks; NULL for a rank alone */
+    int64_t outer_capacity;
+    int segments; /* one a thread */
     struct segment *segment;
     struct ghosts ghosts;
     int64_t builds;
@@ -79,6 +81,12 @@ void neighbours_free(struct neighbours *neighbours);
 
 /* Bytes held, for reports. */
 size_t neighbours_bytes(const struct neighbours *neighbours);
+
+/* Whether the rows of block B need nothing that other ranks send. */
+BOLIDE_INLINE bool neighbours_inner(const struct neighbours *n, int32_t b)
+{
+    return !n->outer || !n->outer[b];
+}
 
 BOLIDE_INLINE const uint32_t *neighbours_row(const struct neighbours *n, int32_t i)
 {

@@ -99,19 +99,17 @@ static void pack_owned(const struct simulation *simulation, const struct sph_fie
         record[k++] = 0.0;
 }
 
-/* An image has the temperature of its particle: walls are adiabatic. */
-static void pack(struct sph *sph, const struct simulation *simulation, const struct sph_fields *f)
+/* The records of ghosts BEGIN .. END - 1, which are images. An image has the temperature of its particle: walls are
+ * adiabatic. */
+static void pack_images(struct sph *sph, const struct simulation *simulation, int32_t begin,
+                        int32_t end)
 {
-    const struct particles *p = &simulation->particles;
-    struct ghosts *ghosts = &sph->neighbours.ghosts;
+    const struct ghosts *ghosts = &sph->neighbours.ghosts;
     double *record = sph->conduction.record;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < p->count; i++)
-        pack_owned(simulation, f, sph->kind.depth, i, record + (size_t)i * HEAT_STRIDE);
-    ghosts_refresh(ghosts, record, p->count, HEAT_STRIDE * sizeof *record);
-#pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t g = ghosts->remotes; g < ghosts->count; g++) {
-        double *image = record + (size_t)(p->count + g) * HEAT_STRIDE, x[3] = {0.0};
+    for (int32_t g = begin; g < end; g++) {
+        double *image = record + (size_t)(simulation->particles.count + g) * HEAT_STRIDE,
+               x[3] = {0.0};
         memcpy(image, record + (size_t)ghosts->source[g] * HEAT_STRIDE,
                HEAT_STRIDE * sizeof *image);
         memcpy(x, image, (size_t)simulation->dimension * sizeof *x);
@@ -122,6 +120,18 @@ static void pack(struct sph *sph, const struct simulation *simulation, const str
         if (sph_axisymmetric(simulation) && ghosts->image[g] % 3 == 1) /* behind the axis */
             image[heat_record_depth(2)] *= -1.0;
     }
+}
+
+static void pack(struct sph *sph, const struct simulation *simulation, const struct sph_fields *f)
+{
+    const struct particles *p = &simulation->particles;
+    struct ghosts *ghosts = &sph->neighbours.ghosts;
+    double *record = sph->conduction.record;
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < p->count; i++)
+        pack_owned(simulation, f, sph->kind.depth, i, record + (size_t)i * HEAT_STRIDE);
+    ghosts_start(ghosts, record, p->count, HEAT_STRIDE * sizeof *record);
+    pack_images(sph, simulation, ghosts->remotes, ghosts->early);
     memset(record + (size_t)(p->count + ghosts->count) * HEAT_STRIDE, 0,
            HEAT_STRIDE * sizeof *record);
 }
@@ -170,9 +180,17 @@ void conduction_prepare(struct sph *sph, struct simulation *simulation,
         .neighbours = &sph->neighbours,
         .density = p->density,
         .rate = fields->heat_rate};
+    for (int rest = 0; rest < 2; rest++) {
+        struct ghosts *ghosts = &sph->neighbours.ghosts;
+        if (rest) {
+            ghosts_finish(ghosts);
+            pack_images(sph, simulation, ghosts->early, ghosts->count);
+        }
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
-    for (int32_t b = 0; b < p->blocks; b++)
-        heat_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
+        for (int32_t b = 0; b < p->blocks; b++)
+            if (neighbours_inner(&sph->neighbours, b) != rest)
+                heat_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
+    }
     lower_limit(sph, simulation, fields, limit);
 }
 

@@ -201,6 +201,20 @@ static void reflect(const struct sph *sph, const struct simulation *simulation, 
         record[hllc_slopes(sph->hllc) + s] *= sign.x;
 }
 
+/* The records of ghosts BEGIN .. END - 1, which are images. */
+static void pack_images(struct sph *sph, const struct simulation *simulation, bool forces,
+                        int32_t begin, int32_t end)
+{
+    const struct ghosts *ghosts = &sph->neighbours.ghosts;
+    size_t stride = (size_t)(forces ? hllc_stride(sph->hllc) : HLLC_GRADIENT_STRIDE);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t g = begin; g < end; g++) {
+        double *record = sph->record + (size_t)(simulation->particles.count + g) * stride;
+        memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
+        reflect(sph, simulation, ghosts->image[g], forces, record);
+    }
+}
+
 /* Records of owned particles, then of ghosts, then the one that fills up lanes: it has no volume, and its contact
  * problem must only have an answer. */
 static void pack(struct sph *sph, const struct simulation *simulation, const struct hllc_fields *f,
@@ -213,19 +227,22 @@ static void pack(struct sph *sph, const struct simulation *simulation, const str
     for (int32_t i = 0; i < p->count; i++)
         (forces ? pack_for_forces : pack_for_gradients)(sph, simulation, f, i,
                                                         sph->record + (size_t)i * stride);
-    ghosts_refresh(ghosts, sph->record, p->count, stride * sizeof *sph->record);
-#pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t g = ghosts->remotes; g < ghosts->count; g++) {
-        double *record = sph->record + (size_t)(p->count + g) * stride;
-        memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
-        reflect(sph, simulation, ghosts->image[g], forces, record);
-    }
+    ghosts_start(ghosts, sph->record, p->count, stride * sizeof *sph->record);
+    pack_images(sph, simulation, forces, ghosts->remotes, ghosts->early);
     double *empty = sph->record + (size_t)(p->count + ghosts->count) * stride;
     memset(empty, 0, stride * sizeof *empty);
     if (forces) {
         empty[hllc_density(simulation->dimension)] = 1.0;
         empty[hllc_response(simulation->dimension) + (sph->hllc.viscous ? 0 : 1)] = 1.0;
     }
+}
+
+/* Records of other ranks' particles, and of their images. */
+static void pack_rest(struct sph *sph, const struct simulation *simulation, bool forces)
+{
+    struct ghosts *ghosts = &sph->neighbours.ghosts;
+    ghosts_finish(ghosts);
+    pack_images(sph, simulation, forces, ghosts->early, ghosts->count);
 }
 
 /* The hoop stress, and the hoop strain u/r, which gradients of this method need no correction for. */
@@ -270,10 +287,15 @@ void hllc_find_rates(struct sph *sph, struct simulation *simulation, const struc
         pack(sph, simulation, f, pass == 1);
         simulation_spend(simulation, "records", clock_seconds() - begin);
         begin = clock_seconds();
+        for (int rest = 0; rest < 2; rest++) {
+            if (rest)
+                pack_rest(sph, simulation, pass == 1);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
-        for (int32_t b = 0; b < p->blocks; b++)
-            (pass ? hllc_find_forces : hllc_find_gradients)(&loop, p->block[b].first,
-                                                            p->block[b].first + p->block[b].count);
+            for (int32_t b = 0; b < p->blocks; b++)
+                if (neighbours_inner(&sph->neighbours, b) != rest)
+                    (pass ? hllc_find_forces : hllc_find_gradients)(
+                        &loop, p->block[b].first, p->block[b].first + p->block[b].count);
+        }
         simulation_spend(simulation, pass ? "pairs" : "gradients", clock_seconds() - begin);
     }
     if (sph->hllc.depth)

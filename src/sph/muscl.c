@@ -246,6 +246,23 @@ PACK_KIND(pack_deep_solid, 2, true, true)
 PACK_KIND(pack_space_fluid, 3, false, false)
 PACK_KIND(pack_space_solid, 3, true, false)
 
+/* The records of ghosts BEGIN .. END - 1, which are images. */
+static void pack_images(struct sph *sph, const struct simulation *simulation, int32_t begin,
+                        int32_t end)
+{
+    const struct ghosts *ghosts = &sph->neighbours.ghosts;
+    const struct muscl_kind kind = muscl_kind_of(sph);
+    const int32_t count = simulation->particles.count;
+    size_t stride = (size_t)muscl_stride(kind);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t g = begin; g < end; g++) {
+        double *record = sph->record + (size_t)(count + g) * stride;
+        memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
+        reflect(simulation, kind, ghosts->image[g], record);
+        place_record(sph, kind.dimension, count + g, stride);
+    }
+}
+
 void muscl_pack(struct sph *sph, const struct simulation *simulation)
 {
     typedef void pack(const struct sph *, const struct simulation *, const struct sph_fields *);
@@ -260,17 +277,19 @@ void muscl_pack(struct sph *sph, const struct simulation *simulation)
     const struct muscl_kind kind = muscl_kind_of(sph);
     size_t stride = (size_t)muscl_stride(kind);
     table[kind.depth ? DEEP : kind.dimension - 1][kind.shear](sph, simulation, &f);
-    ghosts_refresh(ghosts, sph->record, count, stride * sizeof *sph->record);
-#pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t g = 0; g < ghosts->count; g++) {
-        double *record = sph->record + (size_t)(count + g) * stride;
-        if (g >= ghosts->remotes) {
-            memcpy(record, sph->record + (size_t)ghosts->source[g] * stride,
-                   stride * sizeof *record);
-            reflect(simulation, kind, ghosts->image[g], record);
-        }
-        place_record(sph, kind.dimension, count + g, stride);
-    }
+    ghosts_start(ghosts, sph->record, count, stride * sizeof *sph->record);
+    pack_images(sph, simulation, ghosts->remotes, ghosts->early);
     double *empty = sph->record + (size_t)(count + ghosts->count) * stride;
     memset(empty, 0, stride * sizeof *empty);
+}
+
+void muscl_pack_rest(struct sph *sph, const struct simulation *simulation)
+{
+    struct ghosts *ghosts = &sph->neighbours.ghosts;
+    const struct muscl_kind kind = muscl_kind_of(sph);
+    ghosts_finish(ghosts);
+    for (int32_t g = 0; g < ghosts->remotes; g++)
+        place_record(sph, kind.dimension, simulation->particles.count + g,
+                     (size_t)muscl_stride(kind));
+    pack_images(sph, simulation, ghosts->early, ghosts->count);
 }

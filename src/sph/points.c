@@ -96,6 +96,20 @@ static void reflect(const struct simulation *simulation, struct pair_kind kind, 
     }
 }
 
+/* The records of ghosts BEGIN .. END - 1, which are images. */
+static void pack_images(struct sph *sph, const struct simulation *simulation, int32_t begin,
+                        int32_t end)
+{
+    const struct ghosts *ghosts = &sph->neighbours.ghosts;
+    size_t stride = (size_t)record_stride(sph->kind);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t g = begin; g < end; g++) {
+        double *record = sph->record + (size_t)(simulation->particles.count + g) * stride;
+        memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
+        reflect(simulation, sph->kind, ghosts->image[g], record);
+    }
+}
+
 void sph_pack(struct sph *sph, const struct simulation *simulation)
 {
     const struct particles *p = &simulation->particles;
@@ -115,13 +129,8 @@ void sph_pack(struct sph *sph, const struct simulation *simulation)
             pack_owned(sph, simulation, &f, kind, i, record);
         }
     }
-    ghosts_refresh(ghosts, sph->record, p->count, stride * sizeof *sph->record);
-#pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t g = ghosts->remotes; g < ghosts->count; g++) {
-        double *record = sph->record + (size_t)(p->count + g) * stride;
-        memcpy(record, sph->record + (size_t)ghosts->source[g] * stride, stride * sizeof *record);
-        reflect(simulation, sph->kind, ghosts->image[g], record);
-    }
+    ghosts_start(ghosts, sph->record, p->count, stride * sizeof *sph->record);
+    pack_images(sph, simulation, ghosts->remotes, ghosts->early);
     /* The record that fills up lanes has no volume; its contact problem must only have an answer. */
     double *empty = sph->record + (size_t)(p->count + ghosts->count) * stride;
     memset(empty, 0, stride * sizeof *empty);
@@ -132,6 +141,13 @@ void sph_pack(struct sph *sph, const struct simulation *simulation)
         empty[bend] = 1.0;
         empty[bend + 1] = 2.0;
     }
+}
+
+void sph_pack_rest(struct sph *sph, const struct simulation *simulation)
+{
+    struct ghosts *ghosts = &sph->neighbours.ghosts;
+    ghosts_finish(ghosts);
+    pack_images(sph, simulation, ghosts->early, ghosts->count);
 }
 
 void sph_find_viscosity(const struct sph *sph, const struct simulation *simulation,

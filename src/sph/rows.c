@@ -22,14 +22,14 @@ static struct error *reserve_records(struct sph *sph, const struct simulation *s
 }
 
 /* Seconds that this rank's particles have taken up to now. */
-static double work_of(const struct simulation *simulation)
+static double work_of(const struct sph *sph, const struct simulation *simulation)
 {
     static const char *const names[] = {"pairs", "gradients", "heat"};
     double sum = 0.0;
     for (int i = 0; i < simulation->phases; i++)
         for (size_t k = 0; k < COUNT_OF(names); k++)
             sum += strcmp(simulation->phase[i].name, names[k]) ? 0.0 : simulation->phase[i].seconds;
-    return sum;
+    return sum - sph->neighbours.ghosts.waited;
 }
 
 /* True at the steps at which the case has the blocks divided anew. */
@@ -52,7 +52,7 @@ struct error *sph_refresh_rows(struct sph *sph, struct simulation *simulation)
         simulation_spend(simulation, "neighbours", clock_seconds() - begin);
         return NULL;
     }
-    double work = work_of(simulation);
+    double work = work_of(sph, simulation);
     TRY(particles_distribute(p, work - sph->work, recut));
     sph->work = work;
     reach.diameter = particles_field(p, "diameter");

@@ -260,9 +260,14 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
                              .body = p->body,
                              .density = p->density,
                              .rates = fields->rates};
+    for (int rest = 0; rest < 2; rest++) {
+        if (rest)
+            sph_pack_rest(sph, simulation);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
-    for (int32_t b = 0; b < p->blocks; b++)
-        pair_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
+        for (int32_t b = 0; b < p->blocks; b++)
+            if (neighbours_inner(&sph->neighbours, b) != rest)
+                pair_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
+    }
     if (sph_axisymmetric(simulation))
         sph_add_hoop(sph, simulation, fields);
 }
@@ -290,9 +295,14 @@ static void sum_pairs_ahead(struct sph *sph, struct simulation *simulation,
                               .rates = {fields->rates, fields->correction,
                                         fields->velocity_gradient, fields->stress_gradient,
                                         fields->force, fields->packing}};
+    for (int rest = 0; rest < 2; rest++) {
+        if (rest)
+            muscl_pack_rest(sph, simulation);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
-    for (int32_t b = 0; b < p->blocks; b++)
-        muscl_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
+        for (int32_t b = 0; b < p->blocks; b++)
+            if (neighbours_inner(&sph->neighbours, b) != rest)
+                muscl_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
+    }
     if (sph_axisymmetric(simulation))
         sph_add_hoop(sph, simulation, fields);
     simulation_spend(simulation, "pairs", clock_seconds() - begin);

@@ -72,11 +72,12 @@ BOLIDE_INLINE bool sph_second_order(const struct sph *sph)
 }
 
 /* Of muscl.c: what the case must not ask for; what the pair loop is instantiated by; what a fresh particle starts from;
- * records of owned particles, half a step ahead by the slopes found a step before, then of ghosts. */
+ * records half a step ahead by the slopes found a step before, as sph_pack and sph_pack_rest. */
 struct error *muscl_check(const struct sph *sph, const struct simulation *simulation);
 struct muscl_kind muscl_kind_of(const struct sph *sph);
 void muscl_start(const struct sph *sph, const struct simulation *simulation);
 void muscl_pack(struct sph *sph, const struct simulation *simulation);
+void muscl_pack_rest(struct sph *sph, const struct simulation *simulation);
 
 /* Whether BODY keeps all of its state. */
 bool sph_is_frozen(const struct simulation *simulation, int body);
@@ -167,8 +168,10 @@ BOLIDE_INLINE struct response sph_evaluate_point(struct simulation *simulation,
 /* Diameter, pressure and sound speeds of all particles as they stand. */
 void sph_evaluate(const struct sph *sph, struct simulation *simulation);
 
-/* Packs the records of owned particles, then of ghosts. */
+/* Packs the records of owned particles and their images, while those of other ranks are on their way; then these, with
+ * their images. */
 void sph_pack(struct sph *sph, const struct simulation *simulation);
+void sph_pack_rest(struct sph *sph, const struct simulation *simulation);
 
 /* q = a D^2 rho k|k| + b D rho C k in compression, k = -div U (2.5). */
 void sph_find_viscosity(const struct sph *sph, const struct simulation *simulation,
