@@ -18,9 +18,10 @@ struct solver_class {
      * particles come after; `start` is called once they are there (fresh or loaded). */
     struct error *(*create)(void *solver, struct simulation *simulation, const void *parameters);
     struct error *(*start)(void *solver, struct simulation *simulation);
-    /* Everything that level n determines: lists, ghosts, rates; returns the largest step. */
+    /* Collective: everything that level n determines: lists, ghosts, rates; returns the largest step. */
     struct error *(*prepare)(void *solver, struct simulation *simulation, struct limit *limit);
-    /* All stages; ends at level n + 1 with every derived field up to date. Leaves time and step alone. */
+    /* Collective: all stages; ends at level n + 1 with every derived field up to date. Leaves time and step
+     * alone. An error may be this rank's alone: the run loop makes the ranks agree. */
     struct error *(*advance)(void *solver, struct simulation *simulation, double dt);
     /* Arrays beyond the simulation's that a resumed run needs. */
     struct error *(*state)(void *solver, struct visitor *visitor);

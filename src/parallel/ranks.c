@@ -21,6 +21,11 @@ double ranks_minimum(const struct ranks *ranks, double value)
     return -ranks_maximum(ranks, -value);
 }
 
+struct error *ranks_agree(const struct ranks *ranks, struct error *error)
+{
+    return ranks_agree_on(ranks, error, NULL, 0);
+}
+
 double ranks_maximum(const struct ranks *ranks, double value)
 {
     ranks_maximum_of(ranks, &value, 1);

@@ -70,4 +70,8 @@ void ranks_finish(int count, void *requests);
  * before any other collective call that an error would keep a rank from. Takes ERROR. */
 struct error *ranks_agree(const struct ranks *ranks, struct error *error);
 
+/* The same, and ranks_maximum_of, in one call. */
+struct error *ranks_agree_on(const struct ranks *ranks, struct error *error, double *values,
+                             int count);
+
 #endif

@@ -207,14 +207,9 @@ static char *texts_of(const struct error *error, int64_t *bytes)
     return texts;
 }
 
-struct error *ranks_agree(const struct ranks *ranks, struct error *error)
+/* ERROR becomes that of rank FIRST. */
+static struct error *share_error(const struct ranks *ranks, int first, struct error *error)
 {
-    if (!ranks->joined)
-        return error;
-    int first = error ? ranks->rank : ranks->size;
-    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-    if (first == ranks->size)
-        return NULL;
     int64_t head[2] = {0, 0};
     char *texts = NULL;
     if (first == ranks->rank) {
@@ -240,4 +235,21 @@ struct error *ranks_agree(const struct ranks *ranks, struct error *error)
     }
     free(texts);
     return error_known_to_all(error);
+}
+
+struct error *ranks_agree_on(const struct ranks *ranks, struct error *error, double *values,
+                             int count)
+{
+    enum { AT_MOST = 8 };
+    double numbers[1 + AT_MOST] = {-(double)(error ? ranks->rank : ranks->size)};
+    assert(count <= AT_MOST);
+    if (!ranks->joined)
+        return error;
+    if (count)
+        memcpy(numbers + 1, values, (size_t)count * sizeof *values);
+    ranks_maximum_of(ranks, numbers, 1 + count);
+    if (count)
+        memcpy(values, numbers + 1, (size_t)count * sizeof *values);
+    int first = -(int)numbers[0];
+    return first == ranks->size ? NULL : share_error(ranks, first, error);
 }

@@ -258,14 +258,15 @@ static unsigned common_walls(const struct moved *a, const struct moved *b)
     return axes;
 }
 
-/* No approach of the two, or of one to the other's images, beyond SLACK. */
-static bool pair_holds(const struct moved *a, const struct moved *b, double slack)
+/* The largest approach of the two, or of one to the other's images. */
+static double pair_approach(const struct moved *a, const struct moved *b)
 {
     unsigned walls = common_walls(a, b);
+    double largest = 0.0;
     for (unsigned mirrored = 0; mirrored < 8; mirrored++)
-        if (!(mirrored & ~walls) && approach(a, b, mirrored) > slack)
-            return false;
-    return true;
+        if (!(mirrored & ~walls))
+            largest = maximum(largest, approach(a, b, mirrored));
+    return largest;
 }
 
 /* Group G of block B against the groups that touch it. */
@@ -292,104 +293,73 @@ static bool group_holds(const struct neighbours *n, int dimension, int32_t b, in
             continue;
         const struct moved *other = motion->group + (int64_t)c * motion->groups + group;
         double slack = n->skin * (own->smallest_reach + other->smallest_reach);
-        if (other->any && !pair_holds(own, other, slack))
+        if (other->any && pair_approach(own, other) > slack)
             return false;
     }
     return true;
 }
 
-/* Block B against the blocks that touch it, itself included. ROOM is what they may approach by where
- * their groups are judged too, since groups that do not touch lie that far apart. */
-static bool block_holds(const struct neighbours *n, int32_t b, double room)
+/* The largest of what blocks have done since the rows were built; where the smallest counts, of its negative. */
+enum {
+    REACH,
+    MOTION, /* of all against all, */
+    SLACK,  /* and the negative of what it may be */
+    APPROACH,
+    WALL,            /* the negative of the distance from a wall of what has no image behind it */
+    BROKEN,          /* 1: neighbours have come nearer to each other than their own slack */
+    RISE,            /* displacements, along each axis, */
+    FALL = RISE + 3, /* and their negatives */
+    JUDGED = FALL + 3
+};
+
+static void raise_to(double *most, double value) { *most = maximum(*most, value); }
+
+/* Block B against the blocks that touch it, itself included. Where groups are judged, what blocks may approach by is
+ * the room that groups which do not touch have between them. */
+static void judge_touching(const struct neighbours *n, int dimension, int32_t b, double *most)
 {
     const struct block_motion *motion = n->motion;
     const struct moved *own = &motion->block[b];
-    for (int k = 0; k < TOUCHING_MAX; k++) {
+    for (int k = 0; k < TOUCHING_MAX && motion->judged != BY_ALL; k++) {
         int32_t c = motion->touching[b][k];
         if (c < 0)
             continue;
         const struct moved *other = &motion->block[c];
-        double slack = motion->judged == BY_GROUPS
-                           ? room
-                           : n->skin * (own->smallest_reach + other->smallest_reach);
-        if (!pair_holds(own, other, slack))
-            return false;
+        double near = pair_approach(own, other);
+        double slack = n->skin * (own->smallest_reach + other->smallest_reach);
+        raise_to(&most[APPROACH], near);
+        raise_to(&most[BROKEN], motion->judged == BY_BLOCKS && near > slack);
     }
-    return true;
+    for (int g = 0; motion->judged == BY_GROUPS && g < motion->groups; g++)
+        if (motion->group[(int64_t)b * motion->groups + g].any)
+            raise_to(&most[BROKEN], !group_holds(n, dimension, b, g));
 }
 
-/* No particle without image has come within reach of a wall. */
-static bool walls_hold(const struct block_motion *motion, int32_t b, double largest)
+static void judge_block(const struct neighbours *n, int dimension, int32_t b, double *most)
 {
-    const struct moved *m = &motion->block[b];
+    const struct moved *m = &n->motion->block[b];
+    double mean = sqrt(square(m->mean[0]) + square(m->mean[1]) + square(m->mean[2]));
+    raise_to(&most[REACH], m->largest_reach);
+    raise_to(&most[MOTION], mean + m->spread + m->growth);
+    raise_to(&most[SLACK], -n->skin * m->smallest_reach);
     for (int axis = 0; axis < 3; axis++) {
-        double low = maximum(m->low[axis], motion->distance) + m->mean[axis] - m->spread;
-        double high = maximum(m->high[axis], motion->distance) - m->mean[axis] - m->spread;
-        if ((!isnan(m->low[axis]) && low < 2.0 * largest) ||
-            (!isnan(m->high[axis]) && high < 2.0 * largest))
-            return false;
+        double low = maximum(m->low[axis], n->motion->distance) + m->mean[axis] - m->spread;
+        double high = maximum(m->high[axis], n->motion->distance) - m->mean[axis] - m->spread;
+        raise_to(&most[WALL], isnan(m->low[axis]) ? -INFINITY : -low);
+        raise_to(&most[WALL], isnan(m->high[axis]) ? -INFINITY : -high);
+        raise_to(&most[RISE + axis], m->mean[axis] + m->spread);
+        raise_to(&most[FALL + axis], m->spread - m->mean[axis]);
     }
-    return true;
-}
-
-/* What all ranks' blocks together have done since the rows were built. */
-struct together {
-    double largest_reach, motion, slack;
-    struct box span;
-};
-
-static struct together together_of(const struct neighbours *n, const struct particles *p)
-{
-    struct together t = {.slack = (double)INFINITY, .span = empty_box};
-    for (int32_t b = 0; b < p->blocks; b++) {
-        const struct moved *m = &n->motion->block[b];
-        double mean = sqrt(square(m->mean[0]) + square(m->mean[1]) + square(m->mean[2]));
-        t.largest_reach = maximum(t.largest_reach, m->largest_reach);
-        t.motion = maximum(t.motion, mean + m->spread + m->growth);
-        t.slack = minimum(t.slack, n->skin * m->smallest_reach);
-        for (int axis = 0; axis < 3; axis++) {
-            t.span.low[axis] = minimum(t.span.low[axis], m->mean[axis] - m->spread);
-            t.span.high[axis] = maximum(t.span.high[axis], m->mean[axis] + m->spread);
-        }
-    }
-    double all[9] = {t.largest_reach, t.motion, -t.slack};
-    for (int axis = 0; axis < 3; axis++) {
-        all[3 + axis] = t.span.high[axis];
-        all[6 + axis] = -t.span.low[axis];
-    }
-    ranks_maximum_of(p->ranks, all, (int)COUNT_OF(all));
-    t.largest_reach = all[0];
-    t.motion = all[1];
-    t.slack = -all[2];
-    for (int axis = 0; axis < 3; axis++) {
-        t.span.high[axis] = all[3 + axis];
-        t.span.low[axis] = -all[6 + axis];
-    }
-    return t;
+    judge_touching(n, dimension, b, most);
 }
 
 /* Blocks that do not touch have come no nearer to each other than supports reach. */
-static bool apart_hold(const struct together *t, const struct particles *p)
+static bool apart_hold(const struct particles *p, const double *most)
 {
     double sum = 0.0;
     for (int axis = 0; axis < 3; axis++)
-        sum += square(t->span.high[axis] - t->span.low[axis]);
-    return sqrt(sum) + 2.0 * t->largest_reach <= block_edge(p);
-}
-
-static bool local_hold(const struct neighbours *n, const struct particles *p, int32_t b,
-                       double largest)
-{
-    const struct block_motion *motion = n->motion;
-    if (motion->judged == BY_ALL)
-        return true;
-    if (!block_holds(n, b, group_edge(p) - 2.0 * largest))
-        return false;
-    for (int g = 0; motion->judged == BY_GROUPS && g < motion->groups; g++)
-        if (motion->group[(int64_t)b * motion->groups + g].any &&
-            !group_holds(n, p->dimension, b, g))
-            return false;
-    return true;
+        sum += square(most[RISE + axis] + most[FALL + axis]);
+    return sqrt(sum) + 2.0 * most[REACH] <= block_edge(p);
 }
 
 bool neighbours_hold(struct neighbours *n, const struct particles *p, struct reach reach,
@@ -401,12 +371,18 @@ bool neighbours_hold(struct neighbours *n, const struct particles *p, struct rea
     for (int32_t b = 0; b < p->blocks; b++)
         follow_block(n, p, reach, b);
     motion_meet_again(n->motion, p);
-    const struct together all = together_of(n, p);
-    /* Where supports outgrow groups, the motion of all against all is judged. */
-    bool hold = n->motion->judged == BY_ALL ? all.motion <= all.slack : apart_hold(&all, p);
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(&& : hold)
+    double most[JUDGED];
+    for (int k = 0; k < JUDGED; k++)
+        most[k] = -INFINITY;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : most[:JUDGED])
     for (int32_t b = 0; b < p->blocks; b++)
-        hold = hold && walls_hold(n->motion, b, all.largest_reach) &&
-               local_hold(n, p, b, all.largest_reach);
-    return ranks_minimum(p->ranks, hold) > 0.0;
+        judge_block(n, p->dimension, b, most);
+    ranks_maximum_of(p->ranks, most, JUDGED);
+    if (most[BROKEN] > 0.0 || -most[WALL] < 2.0 * most[REACH])
+        return false;
+    /* Where supports outgrow groups, the motion of all against all is judged. */
+    if (n->motion->judged == BY_ALL)
+        return most[MOTION] <= -most[SLACK];
+    return apart_hold(p, most) &&
+           (n->motion->judged != BY_GROUPS || most[APPROACH] <= group_edge(p) - 2.0 * most[REACH]);
 }

@@ -88,6 +88,26 @@ static double next_event(const struct run *run)
     return event;
 }
 
+/* Collective, once a step: what one rank says holds for all, be it that its particles came to an impossible state, that
+ * some were made or went, that it was told to stop, or that it is time for a checkpoint. */
+static struct error *hear_ranks(struct run *run, struct error *error)
+{
+    const struct run_options *options = run->options;
+    struct particles *particles = &run->simulation.particles;
+    enum { CHANGED, STOP, CHECKPOINT, SAID };
+    double said[SAID] = {[CHANGED] = particles->pending > 0,
+                         [STOP] = options->stop && *options->stop,
+                         [CHECKPOINT] = run_checkpoint_is_due(run)};
+    TRY(ranks_agree_on(&run->ranks, error, said, SAID));
+    run->told_to_stop = said[STOP] > 0.0;
+    run->checkpoint_is_due = said[CHECKPOINT] > 0.0;
+    if (said[CHANGED] > 0.0) {
+        TRY(ranks_agree(&run->ranks, particles_commit(particles)));
+        run->particles = ranks_sum(&run->ranks, particles->count);
+    }
+    return NULL;
+}
+
 static struct error *take_step(struct run *run)
 {
     struct simulation *simulation = &run->simulation;
@@ -97,15 +117,11 @@ static struct error *take_step(struct run *run)
     double after = dt == event - simulation->time ? event : simulation->time + dt;
     if (!(dt > 0.0) || !(after > simulation->time))
         return no_step(run);
-    TRY(run->method->advance(run->solver, simulation, dt));
+    TRY(hear_ranks(run, run->method->advance(run->solver, simulation, dt)));
     simulation->time = after;
     simulation->step++;
     run->step = dt;
     run->result->updates += run->particles;
-    if (ranks_sum(&run->ranks, simulation->particles.pending) > 0) {
-        TRY(ranks_agree(&run->ranks, particles_commit(&simulation->particles)));
-        run->particles = ranks_sum(&run->ranks, simulation->particles.count);
-    }
     return NULL;
 }
 
@@ -117,13 +133,12 @@ static bool at_end(const struct run *run)
            (most > 0 && run->simulation.step >= most);
 }
 
-static bool told_to_stop(const struct run *run)
+/* True where this call ends, be it before the end. */
+static bool at_stop(const struct run *run)
 {
-    const struct run_options *options = run->options;
-    bool stop =
-        (options->stop && *options->stop) ||
-        (options->max_steps > 0 && run->simulation.step - run->first_step >= options->max_steps);
-    return ranks_maximum(&run->ranks, stop) > 0.0;
+    int64_t most = run->options->max_steps;
+    return at_end(run) || run->told_to_stop ||
+           (most > 0 && run->simulation.step - run->first_step >= most);
 }
 
 static struct check_moment moment_of(struct run *run)
@@ -144,12 +159,14 @@ static struct error *loop(struct run *run)
         TRY(checks_start(run->checks, &beginning));
     TRY(run_watch(run, false));
     TRY(watch_checks(run));
-    while (!at_end(run) && !told_to_stop(run)) {
+    TRY(hear_ranks(run, NULL));
+    while (!at_stop(run)) {
         TRY(take_step(run));
         run_observe(run);
         TRY(run_watch(run, at_end(run)));
         TRY(watch_checks(run));
-        TRY(run_checkpoint_if_due(run));
+        if (run->checkpoint_is_due)
+            TRY(run_checkpoint(run));
         run_progress(run);
     }
     run->result->finished = at_end(run);
@@ -204,7 +221,7 @@ static struct error *make_particles(struct run *run)
     if (run->ranks.joined)
         TRY(particles_distribute(&run->simulation.particles, 0.0, true));
     run->simulation.threads = threads_for(run);
-    TRY(run->method->start(run->solver, &run->simulation));
+    TRY(ranks_agree(&run->ranks, run->method->start(run->solver, &run->simulation)));
     if (!run->options->resume)
         run->start = totals_at_start(run);
     run->first_step = run->simulation.step;
@@ -406,11 +423,14 @@ struct error *run_case(const struct simulation_case *input, const struct run_opt
     struct run *run = run_new(input, options, result);
     if (!run)
         return error_new(ERROR_SYSTEM, "out of memory");
-    struct error *error = run_close_files(run, run_through(run));
-    if (is_lonely(run, error)) {
-        if (options->alarm)
-            options->alarm(&run->ranks, error);
-    } else if (run->began > 0.0)
+    struct error *error = run_through(run);
+    const bool lonely = is_lonely(run, error);
+    error = run_close_files(run, error);
+    if (lonely && options->alarm)
+        options->alarm(&run->ranks, error);
+    if (!lonely)
+        error = ranks_agree(&run->ranks, error);
+    if (!lonely && run->began > 0.0)
         error = run_report(run, error);
     destroy(run);
     return error;

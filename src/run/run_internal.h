@@ -21,8 +21,9 @@ struct run {
     struct profiles profiles;
     struct checks *checks;
     struct limit limit;
-    double step;       /* the last one taken, s */
-    int64_t particles; /* of all ranks */
+    double step;                          /* the last one taken, s */
+    int64_t particles;                    /* of all ranks */
+    bool told_to_stop, checkpoint_is_due; /* a rank of them was, to a rank it is */
 
     /* What a resumed run needs beside the state: the totals at time zero, how many times each
      * output has been due and been written, and when. */
@@ -67,9 +68,9 @@ void run_observe(struct run *run);
 struct error *run_watch(struct run *run, bool last);
 void run_progress(struct run *run);
 
-/* checkpoint.h5, now, or when its wall-clock time has come. */
+/* checkpoint.h5 now, and whether its wall-clock time has come. */
 struct error *run_checkpoint(struct run *run);
-struct error *run_checkpoint_if_due(struct run *run);
+bool run_checkpoint_is_due(const struct run *run);
 struct error *run_load(struct run *run);
 
 /* summary.csv at the beginning of a run; and at its end, with what went wrong (ERROR, NULL: nothing), then

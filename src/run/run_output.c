@@ -362,23 +362,19 @@ struct error *run_checkpoint(struct run *run)
     if (!run->options->output)
         return NULL;
     TRY(ranks_agree(&run->ranks, probes_flush(&run->probes)));
+    double begin = run->last_checkpoint = clock_seconds();
     char *path = run_path(run, "checkpoint.h5");
     struct checkpoint checkpoint = checkpoint_of(run);
     struct error *error = path ? checkpoint_write(path, &checkpoint) : out_of_memory();
     free(path);
+    run->watching += clock_seconds() - begin;
     return error;
 }
 
-struct error *run_checkpoint_if_due(struct run *run)
+bool run_checkpoint_is_due(const struct run *run)
 {
-    double interval = run->input->output.checkpoint, now = clock_seconds();
-    bool due = interval > 0.0 && now - run->last_checkpoint >= interval;
-    if (!(interval > 0.0) || !(ranks_maximum(&run->ranks, due) > 0.0))
-        return NULL;
-    run->last_checkpoint = now;
-    struct error *error = run_checkpoint(run);
-    run->watching += clock_seconds() - now;
-    return error;
+    double interval = run->input->output.checkpoint;
+    return interval > 0.0 && clock_seconds() - run->last_checkpoint >= interval;
 }
 
 struct error *run_load(struct run *run)
