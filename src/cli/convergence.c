@@ -163,9 +163,10 @@ int verify_convergence(const char *const *paths, int count, bool of_all,
         .ended = run_ended,
     };
     struct error *error = NULL;
-    for (int i = 0; i < count && !*verifying.running.stop; i++) {
+    for (int i = 0; i < count && !verify_told_to_stop(&verifying); i++) {
         struct simulation_case *input = NULL;
-        struct error *wrong = case_read(paths[i], &verifying.reading, &bolide_catalogue, &input);
+        struct error *wrong = ranks_agree(
+            options->ranks, case_read(paths[i], &verifying.reading, &bolide_catalogue, &input));
         if (!wrong && (!of_all || document_has(input->document, "convergence")))
             wrong = study_case(paths[i], &verifying, input, options);
         error = error_join(error, wrong);

@@ -342,14 +342,18 @@ struct error *checkpoint_read(const char *path, const struct checkpoint *checkpo
 {
     struct hdf5_printing printing = hdf5_quiet();
     hid_t file = H5I_INVALID_HID;
+    const struct ranks *ranks = checkpoint->simulation->ranks;
     struct error *error = open_to_read(path, &file);
+    if (!error)
+        error = check_head(file, checkpoint->case_text);
+    error = ranks_agree(ranks, error_context(error, "%s", path));
     if (!error) {
         struct file_visitor loader = {{.visit = load}, file, NULL, NULL};
-        error = check_head(file, checkpoint->case_text);
-        if (!error)
-            error = visit_all(checkpoint, &loader.visitor);
-        H5Fclose(file);
+        error = visit_all(checkpoint, &loader.visitor);
+        error = ranks_agree(ranks, error_context(error, "%s", path));
     }
+    if (file >= 0)
+        H5Fclose(file);
     hdf5_restore(printing);
-    return ranks_agree(checkpoint->simulation->ranks, error_context(error, "%s", path));
+    return error;
 }

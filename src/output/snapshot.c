@@ -74,9 +74,9 @@ static struct sink open_sink(const struct writing *w, const struct column *colum
 static void write_column(struct writing *w, const struct column *column)
 {
     static const struct ranks alone = {0, 1, false};
-    const size_t bytes = H5Tget_size(column->type) * (size_t)column->components;
-    const struct rows rows = {column->spread ? w->simulation->particles.count : column->rows, bytes,
-                              maximum(bytes, (double)column->components * sizeof(double)),
+    const size_t components = (size_t)column->components;
+    const struct rows rows = {column->spread ? w->simulation->particles.count : column->rows,
+                              components * H5Tget_size(column->type), components * sizeof(double),
                               column->fill, column->context};
     if (!column->spread && !w->here)
         return;

@@ -26,15 +26,14 @@ struct remote {
 };
 
 /* Ghost g copies record source[g]: an owned particle below the number of these, ghost source[g] less that number
- * above. The first `remotes` ghosts come from other ranks and are their own sources. */
+ * above. The first `remotes` ghosts come from other ranks and are their own sources; those from there to `early` - 1 are
+ * images of owned particles, those behind of others. */
 struct ghosts {
     int32_t count;
     int64_t capacity;
     int32_t *source;
     image_code *image;
-    int32_t remotes;
-    int32_t
-        early; /* the ghosts from `remotes` to `early` - 1 are images of owned particles; those behind, of others */
+    int32_t remotes, early;
     struct remote *remote;
     double waited; /* seconds, for records of other ranks */
     struct exchange exchange;

@@ -186,7 +186,12 @@ struct error *samples_take(const struct measurement *measurement, struct samples
     int component;
     *samples = (struct samples){0, NULL};
     TRY(find_field(measurement, &view, &component));
-    return samples_select(&simulation->particles, view, component, &selection, samples);
+    struct error *error =
+        samples_select(&simulation->particles, view, component, &selection, samples);
+    error = ranks_agree(simulation->ranks, error);
+    if (error)
+        samples_free(samples);
+    return error;
 }
 
 void samples_free(struct samples *samples)

@@ -164,7 +164,7 @@ int measure_body(const struct measurement *measurement);
 /* Collective: the mean of the places AT of the particles of BODY (-1: all), by mass. */
 struct vec3 measure_center(const struct measurement *measurement, const double (*at)[3], int body);
 
-/* The owned particles that the check speaks of (`of`, `between`) with the values of its field. */
+/* Collective: the owned particles that the check speaks of (`of`, `between`) with the values of its field. */
 struct error *samples_take(const struct measurement *measurement, struct samples *samples);
 void samples_free(struct samples *samples);
 /* Sorts by position, low first, and by value at the same place. */

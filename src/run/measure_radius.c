@@ -107,6 +107,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     if (!start || !told)
         error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles",
                           (int)simulation->particles.count);
+    error = ranks_agree(simulation->ranks, error);
     if (!error) {
         start_places(simulation, 0, simulation->particles.count, start);
         const int64_t count = radii(measurement, (const double(*)[3])start, told);

@@ -60,8 +60,10 @@ static struct error *measure(const struct measurement *measurement, double *valu
     const struct simulation *simulation = measurement->simulation;
     const int32_t count = simulation->particles.count;
     double(*start)[3] = memory_allocate(((size_t)count + 1) * sizeof *start);
+    struct error *error = NULL;
     if (!start)
-        return error_new(ERROR_SYSTEM, "out of memory for a check of %d particles", (int)count);
+        error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles", (int)count);
+    TRY(ranks_agree(simulation->ranks, error));
     start_places(simulation, 0, count, start);
     *value = angle(measurement, (const double(*)[3])start);
     free(start);

@@ -52,8 +52,8 @@ static struct error *sample(struct probe *probe, const struct simulation *simula
     const int count = probe->fields->count;
     double radius = isnan(gauge->radius) ? simulation->input->resolution : gauge->radius;
     struct exact_sum *sums = memory_allocate(((size_t)count + 2) * sizeof *sums);
-    if (!sums)
-        return error_new(ERROR_SYSTEM, "out of memory for a gauge");
+    TRY(ranks_agree(simulation->ranks,
+                    sums ? NULL : error_new(ERROR_SYSTEM, "out of memory for a gauge")));
     for (int32_t i = 0; i < particles->count; i++)
         if (distance_square(&gauge->at, particles->position[i]) <= square(radius) &&
             (probe->selection.body < 0 || particles->body[i] == probe->selection.body))

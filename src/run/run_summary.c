@@ -183,9 +183,11 @@ static struct error *write_summary(const struct run *run, const char *status,
     size_t size;
     FILE *memory = open_memstream(&text, &size);
     struct error *failure = path && memory ? NULL : error_new(ERROR_SYSTEM, "out of memory");
-    TRY(ranks_agree(&run->ranks, failure));
-    put_summary(memory, run, status, error);
-    failure = fclose(memory) ? error_new(ERROR_SYSTEM, "out of memory") : NULL;
+    failure = ranks_agree(&run->ranks, failure);
+    if (!failure)
+        put_summary(memory, run, status, error);
+    if (memory && fclose(memory) && !failure)
+        failure = error_new(ERROR_SYSTEM, "out of memory");
     if (!failure && run_writes(run))
         failure = file_begin(path, &file);
     if (!failure && run_writes(run)) {

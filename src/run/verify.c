@@ -23,11 +23,29 @@ char *verify_name(const char *path)
     return text_copy_part(start, (size_t)(end - start));
 }
 
-/* Collective. */
-static bool told_to_stop(const struct verify_options *options)
+static const struct ranks *ranks_of(const struct verify_options *options)
+{
+    static const struct ranks alone = {0, 1, false};
+    return options->running.ranks ? options->running.ranks : &alone;
+}
+
+bool verify_told_to_stop(const struct verify_options *options)
 {
     const bool stop = options->running.stop && *options->running.stop;
-    return options->running.ranks ? ranks_maximum(options->running.ranks, stop) > 0.0 : stop;
+    return ranks_maximum(ranks_of(options), stop) > 0.0;
+}
+
+/* Collective: no rank reads a case that another cannot read. */
+static struct error *read_case(const char *path, const struct case_options *reading,
+                               const struct verify_options *options, struct simulation_case **input)
+{
+    struct error *error =
+        ranks_agree(ranks_of(options), case_read(path, reading, options->catalogue, input));
+    if (error) {
+        case_free(*input);
+        *input = NULL;
+    }
+    return error;
 }
 
 static bool is_there(const char *folder, const char *name)
@@ -145,20 +163,21 @@ static struct error *check_folder(const char *folder, const struct run_options *
 static struct error *run_sweep(const char *path, const char *name, const char *folder, int runs,
                                const struct verify_options *options, struct verify_result *result)
 {
-    TRY(check_folder(folder, &options->running));
-    TRY(check_sweep(path, runs, options));
+    struct error *error = check_folder(folder, &options->running);
+    if (!error)
+        error = check_sweep(path, runs, options);
+    TRY(ranks_agree(ranks_of(options), error));
     int first = result->count;
     struct case_options reading = options->reading;
-    for (int run = 1; run <= runs && !told_to_stop(options); run++) {
-        struct simulation_case *input;
+    for (int run = 1; run <= runs && !verify_told_to_stop(options); run++) {
+        struct simulation_case *input = NULL;
         reading.sweep_run = run;
-        TRY(case_read(path, &reading, options->catalogue, &input));
-        struct error *error = run_of_sweep(input, path, name, folder, options, result);
+        TRY(read_case(path, &reading, options, &input));
+        error = run_of_sweep(input, path, name, folder, options, result);
         case_free(input);
         TRY(error);
     }
-    const struct ranks *ranks = options->running.ranks;
-    if (!folder || options->reading.convergence || (ranks && ranks->rank != 0))
+    if (!folder || options->reading.convergence || ranks_of(options)->rank != 0)
         return NULL;
     return sweep_write(folder, result->item + first, result->count - first);
 }
@@ -166,8 +185,8 @@ static struct error *run_sweep(const char *path, const char *name, const char *f
 static struct error *run_path(const char *path, const char *name, const char *folder,
                               const struct verify_options *options, struct verify_result *result)
 {
-    struct simulation_case *input;
-    TRY(case_read(path, &options->reading, options->catalogue, &input));
+    struct simulation_case *input = NULL;
+    TRY(read_case(path, &options->reading, options, &input));
     int runs = input->sweep_runs;
     struct verify_case *verified = runs ? NULL : add_case(result, path, text_copy(name));
     struct error *error = runs || verified ? NULL : out_of_memory();
@@ -238,7 +257,7 @@ struct error *verify_cases(const char *const *paths, int count,
 {
     *result = (struct verify_result){0};
     const char *output = options->running.output;
-    for (int i = 0; i < count && !told_to_stop(options); i++) {
+    for (int i = 0; i < count && !verify_told_to_stop(options); i++) {
         char *name = verify_name(paths[i]);
         char *folder = name && output ? path_join(output, name) : NULL;
         struct error *error = name && (folder || !output)

@@ -18,6 +18,7 @@ struct error *whole_make(const struct simulation *simulation, const struct views
     if (!simulation->ranks->joined)
         return NULL;
     struct gathered *own = memory_allocate(sizeof *own);
+    whole->own = own;
     TRY(ranks_agree(simulation->ranks, own ? NULL : error_new(ERROR_SYSTEM, "out of memory")));
     own->alone = ranks_alone();
     own->simulation = *simulation;

@@ -288,6 +288,7 @@ void muscl_pack_rest(struct sph *sph, const struct simulation *simulation)
     struct ghosts *ghosts = &sph->neighbours.ghosts;
     const struct muscl_kind kind = muscl_kind_of(sph);
     ghosts_finish(ghosts);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t g = 0; g < ghosts->remotes; g++)
         place_record(sph, kind.dimension, simulation->particles.count + g,
                      (size_t)muscl_stride(kind));
