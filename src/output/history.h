@@ -7,8 +7,8 @@
 
 struct history;
 
-/* Starts the table at PATH, NULL for a rank that writes none; with KEEP >= 0 goes on behind the first KEEP rows of an interrupted
- * run. */
+/* Starts the table at PATH, NULL for a rank that writes none; with KEEP >= 0 goes on behind the first KEEP rows of an
+ * interrupted run. */
 struct error *history_open(const char *path, int64_t keep, struct history **history);
 
 /* Collective. One row: time, step, dt, count, mass, momentum, angular momentum, kinetic, internal and total

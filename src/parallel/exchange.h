@@ -29,8 +29,8 @@ struct error *exchange_plan(struct exchange *exchange, const struct ranks *ranks
 struct error *exchange_reserve(struct exchange *exchange, size_t bytes);
 
 /* Sends the planned ones of ITEMS, BYTES each, for which there must be room (NULL: the caller has put them into the
- * buffer, in the order of the errands), and takes what comes to RECEIVED, which
- * holds it once exchange_finish returns. ITEMS may change before. */
+ * buffer, in the order of the errands), and takes what comes to RECEIVED, which holds it once exchange_finish returns.
+ * ITEMS may change before. */
 void exchange_start(struct exchange *exchange, const void *items, size_t bytes, void *received);
 void exchange_finish(struct exchange *exchange);
 
