@@ -418,7 +418,7 @@ static double sph_bytes(const void *parameters, int dimension)
     if (sph->method == SPH_MUSCL) {
         const struct muscl_kind kind = {dimension, dimension > 1, false}; /* as of a solid */
         int slopes = tensor_components(dimension) + dimension * (dimension + muscl_stresses(kind));
-        fields += (slopes + 4) * sizeof(double);
+        fields += (slopes + 5) * sizeof(double);
         record = (muscl_stride(kind) + PLACE_STRIDE) * sizeof(double);
     }
     return fields + heat + record + 4 * sizeof(double) + sizeof(struct row) +
