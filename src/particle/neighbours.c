@@ -208,7 +208,8 @@ static bool store_row(struct neighbours *n, int thread, int32_t i, const uint32_
     struct segment *segment = &n->segment[thread];
     if (!segment_reserve(segment, segment->count + count))
         return false;
-    memcpy(segment->entry + segment->count, row, (size_t)count * sizeof *row);
+    if (count > 0) /* else there may be no room yet */
+        memcpy(segment->entry + segment->count, row, (size_t)count * sizeof *row);
     n->row[i] = (struct row){(uint32_t)segment->count, (uint16_t)(segment->count >> 32),
                              (uint16_t)thread, (uint32_t)count};
     segment->count += count;
