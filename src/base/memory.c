@@ -18,9 +18,9 @@ static void *allocate_raw(size_t size)
         return NULL;
     void *memory = aligned_alloc(alignment, rounded ? rounded : alignment);
 #if defined(MADV_HUGEPAGE)
+    /* a wish: without them it is slower, no more */
     if (memory && alignment == HUGE_PAGE)
-        (void)madvise(memory, rounded,
-                      MADV_HUGEPAGE); /* a wish: without them it is slower, no more */
+        (void)madvise(memory, rounded, MADV_HUGEPAGE);
 #endif
     return memory;
 }

@@ -195,10 +195,10 @@ static void reflect(const struct simulation *simulation, struct muscl_kind kind,
     sph_reflect_tensor(dimension, sign, record + muscl_correction(kind));
     if (tensor)
         sph_reflect_tensor(dimension, sign, record + record_stress(dimension));
-    for (int a = 0; a <= dimension;
-         a++) { /* the slopes along an axis; behind them what comes after the step */
+    /* the slopes along each axis; behind them what comes after the step */
+    for (int a = 0; a <= dimension; a++) {
         const double turned = a < dimension ? signs[a] : 1.0;
-        double value[9];
+        double value[3 + 6];
         for (int b = 0; b < dimension + stresses; b++)
             value[b] = turned * record[muscl_slope(kind, b) + a * muscl_slope_step(kind, b)];
         for (int b = 0; b < dimension; b++)

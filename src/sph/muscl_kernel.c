@@ -24,9 +24,8 @@ struct lanes {
 struct pairs {
     double x[3][LANES] ALIGNED, e[3][LANES] ALIGNED, n[3][LANES] ALIGNED;
     double c[3][LANES] ALIGNED; /* -V W' 2 D_i/(D_i + D_j) e */
-    double
-        wide[ROW]
-            [LANES] ALIGNED; /* what values in rows change by over x, by the neighbour's slopes */
+    /* what values in rows change by over x, by the neighbour's slopes */
+    double wide[ROW][LANES] ALIGNED;
     double weight[LANES] ALIGNED, area[LANES] ALIGNED; /* V W', |a| */
     double near[LANES] ALIGNED;                        /* 2 D_i/(D_i + D_j) */
     /* along n and across: changes over the pair, own stress, and shares of the slopes, times near */

@@ -2,6 +2,8 @@
  * resume. */
 #include "second_order.h"
 
+#include "base/isa.h"
+
 typedef void muscl_loop_isa(const struct muscl_loop *, int32_t, int32_t);
 muscl_loop_isa muscl_loop_run_v2;
 #if defined(__x86_64__)
@@ -34,22 +36,6 @@ static const char *const cases[] = {CASE("1", SOLID, LINE),    CASE("2", FLUID, 
                                     CASE("2", SOLID, PLANE),   CASE(ROUND, FLUID, PLANE),
                                     CASE(ROUND, SOLID, PLANE), CASE("3", FLUID, SPACE),
                                     CASE("3", SOLID, SPACE)};
-
-/* The instruction sets of this processor, the least first. */
-static int instruction_sets(muscl_loop_isa *set[3])
-{
-    int count = 0;
-    set[count++] = muscl_loop_run_v2;
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-        __builtin_cpu_supports("bmi2"))
-        set[count++] = muscl_loop_run_v3;
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
-        set[count++] = muscl_loop_run_v4;
-#endif
-    return count;
-}
 
 /* Particles off their sites in random motion, a few steps on: records of gradients that are not zero. */
 static struct running *begin_random(const char *text, struct dice *dice)
@@ -103,9 +89,15 @@ static double *rates_by(muscl_loop_isa *set, struct running *run, size_t *bytes)
 static void all_instruction_sets_give_the_same_bits(void **state)
 {
     (void)state;
-    muscl_loop_isa *set[3];
+    muscl_loop_isa *const set[] = {
+        muscl_loop_run_v2,
+#if defined(__x86_64__)
+        muscl_loop_run_v3,
+        muscl_loop_run_v4
+#endif
+    };
     struct dice dice = {1};
-    const int sets = instruction_sets(set);
+    const int sets = (int)isa_best() + 1;
     print_message("%d instruction sets\n", sets);
     for (size_t k = 0; k < COUNT_OF(cases); k++) {
         struct running *run = begin_random(cases[k], &dice);
