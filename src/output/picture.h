@@ -4,9 +4,10 @@
 
 #include "model/views.h"
 
-/* Draws the particles coloured by FIELD ("pressure", "velocity.x") with axes in a readable unit (mm, µm),
- * colour scale with unit, title, time and outline-free discs of the particle's diameter. In 3-D the
+/* Collective: the particles of all ranks coloured by FIELD ("pressure", "velocity.x") with axes in a readable unit
+ * (mm, µm), colour scale with unit, title, time and outline-free discs of the particle's diameter. In 3-D the
  * particles in the slab about the middle plane (of the smallest extent) are drawn; in 1-D it is a plot of FIELD over x.
+ * The picture has the same bits on any number of ranks, however the particles are stored. Rank 0 writes it.
  * FIELD may be "material" or "body" too: one colour each, with a legend of their names.
  * LOW and HIGH fix the colour scale (in 1-D the y axis); NAN: the field's own range. A particle at a place
  * that is not finite is left out, one whose value is NaN is grey. ERROR_INPUT when FIELD is unknown or
@@ -42,5 +43,19 @@ struct plot {
 };
 
 struct error *picture_plot(const char *path, const struct plot *plot);
+
+/* Dots for a plot. */
+struct scatter {
+    int64_t count;
+    double *x, *y;
+};
+
+/* False when memory is out; free it all the same. */
+bool scatter_allocate(struct scatter *scatter, int64_t count);
+void scatter_free(struct scatter *scatter);
+
+/* Collective: brings the dots of all ranks to rank 0, sorted, one where several would lie on each other; the others are
+ * left with none. Those that are not finite are left out. */
+struct error *scatter_gather(const struct ranks *ranks, struct scatter *scatter);
 
 #endif

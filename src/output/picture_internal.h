@@ -63,10 +63,12 @@ void axes_frame(const struct canvas *canvas, const struct axis *x, const struct 
 /* Ticks of a horizontal axis below y, with its label. */
 void axis_draw_below(const struct canvas *canvas, const struct axis *axis, double y);
 
-/* The pixels of an image that may be painted: columns left .. right - 1, rows top .. bottom - 1. */
+/* The pixels of an image that may be painted: columns left .. right - 1, rows top .. bottom - 1; the data begin with
+ * FIRST_ROW. */
 struct pixels {
     uint32_t *data;
     int64_t stride; /* in pixels */
+    int first_row;
     int left, right, top, bottom;
 };
 

@@ -28,7 +28,7 @@ void paint_square(const struct pixels *pixels, double x, double y, double edge,
     int last_row = clamp(bottom, pixels->top, pixels->bottom);
     for (int row = clamp(top, pixels->top, pixels->bottom); row < last_row; ++row)
         for (int column = first; column < end; ++column)
-            pixels->data[row * pixels->stride + column] = packed;
+            pixels->data[(row - pixels->first_row) * pixels->stride + column] = packed;
 }
 
 static uint32_t blend(uint32_t behind, uint32_t front, double part)
@@ -53,7 +53,7 @@ void paint_disc(const struct pixels *pixels, double x, double y, double diameter
     int end = clamp(ceil(x + reach), first, pixels->right);
     int last_row = clamp(ceil(y + reach), pixels->top, pixels->bottom);
     for (int row = clamp(floor(y - reach), pixels->top, pixels->bottom); row < last_row; ++row) {
-        uint32_t *line = pixels->data + row * pixels->stride;
+        uint32_t *line = pixels->data + (row - pixels->first_row) * pixels->stride;
         for (int column = first; column < end; ++column) {
             double distance = hypot(column + 0.5 - x, row + 0.5 - y);
             double cover = minimum(radius + 0.5 - distance, 1.0);

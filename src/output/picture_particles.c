@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/units.h"
 #include "output/picture.h"
-#include "output/picture_internal.h"
+#include "output/picture_dots.h"
 
 /* The layout, in points. */
 enum {
@@ -25,146 +25,6 @@ enum {
     MARGIN = 4, /* between the particles and the frame, but where a wall is the frame */
 };
 
-enum { SLICE = 4096 };
-
-/* The plane of the picture, and what of space is in it. */
-struct plane {
-    bool rings;             /* the particles are those of axisymmetry */
-    int across, up, normal; /* axes of space; normal -1: none */
-    struct range extent[3]; /* of the particles with their size */
-    bool wall[3][2];        /* the low, the high end of the extent is a mirror wall */
-    double middle;          /* of the slab, along the normal */
-    double diameter;        /* geometric mean of the particles' */
-};
-
-/* A particle in the picture, in metres from the middle of the extents: floats halve the memory. */
-struct dot {
-    float across, up, depth, diameter, value;
-};
-
-struct dots {
-    int64_t count, capacity;
-    struct dot *dot;
-    struct range values;
-};
-
-/* The edge of the square or cube that a particle fills; of RINGS that of their section. */
-static double particle_diameter(const struct particles *particles, bool rings, int64_t i)
-{
-    double volume = particles->mass[i] / particles->density[i];
-    if (rings) /* mass is that of a radian */
-        volume /= fabs(particles->position[i][0]);
-    return diameter_of_volume(volume, particles->dimension);
-}
-
-static double middle_of(struct range range) { return 0.5 * (range.low + range.high); }
-static double length_of(struct range range) { return range.high - range.low; }
-
-/* Where the matter lies on a wall, its extent ends there. */
-static void end_at_walls(struct plane *plane, const struct mirrors *mirrors)
-{
-    for (int axis = 0; axis < 3; ++axis) {
-        struct range *extent = &plane->extent[axis];
-        const double low = mirrors->low[axis], high = mirrors->high[axis];
-        plane->wall[axis][0] = fabs(extent->low - low) <= plane->diameter && low < extent->high;
-        plane->wall[axis][1] = fabs(extent->high - high) <= plane->diameter && high > extent->low;
-        extent->low = plane->wall[axis][0] ? low : extent->low;
-        extent->high = plane->wall[axis][1] ? high : extent->high;
-    }
-}
-
-/* Finds extents, mean diameter, and in 3-D the two longest axes. */
-static struct plane survey(const struct particles *particles, const struct mirrors *mirrors,
-                           bool rings)
-{
-    struct plane plane = {.rings = rings,
-                          .across = 0,
-                          .up = 1,
-                          .normal = -1,
-                          .extent = {range_empty(), range_empty(), range_empty()}};
-    double logarithms = 0.0;
-    int64_t counted = 0;
-    for (int64_t i = 0; i < particles->count; ++i) {
-        for (int axis = 0; axis < 3; ++axis)
-            range_include(&plane.extent[axis], particles->position[i][axis]);
-        double logarithm = log(particle_diameter(particles, rings, i));
-        if (isfinite(logarithm)) {
-            logarithms += logarithm;
-            ++counted;
-        }
-    }
-    plane.diameter = counted > 0 ? exp(logarithms / (double)counted) : 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        struct range *extent = &plane.extent[axis];
-        if (!(extent->low <= extent->high))
-            *extent = (struct range){0.0, plane.diameter > 0.0 ? 0.0 : 1.0};
-        extent->low -= 0.5 * plane.diameter;
-        extent->high += 0.5 * plane.diameter;
-    }
-    end_at_walls(&plane, mirrors);
-    if (particles->dimension == 3) {
-        /* Of equal axes the last, but for rounding, so that x and y are the picture's. */
-        plane.normal = 2;
-        for (int axis = 1; axis >= 0; --axis)
-            if (length_of(plane.extent[axis]) < 0.99 * length_of(plane.extent[plane.normal]))
-                plane.normal = axis;
-        plane.across = plane.normal == 0;
-        plane.up = plane.normal == 2 ? 1 : 2;
-        plane.middle = middle_of(plane.extent[plane.normal]);
-    }
-    return plane;
-}
-
-/* Adds particle I, unless it lies outside of the slab: its centre within 3/4 of its diameter of the middle,
- * so that a lattice shows one or two layers and never a gap. */
-static bool gather_one(const struct particles *particles, const struct plane *plane, int64_t i,
-                       double value, struct dots *dots)
-{
-    const double *position = particles->position[i];
-    double depth = plane->normal < 0 ? 0.0 : position[plane->normal] - plane->middle;
-    double diameter = particle_diameter(particles, plane->rings, i);
-    /* A particle blown to next to nothing would cover all others. */
-    diameter = minimum(isfinite(diameter) ? diameter : plane->diameter, 4.0 * plane->diameter);
-    if (!isfinite(position[plane->across]) || !isfinite(position[plane->up]) ||
-        !(fabs(depth) <= 0.75 * diameter || plane->normal < 0))
-        return true;
-    if (dots->count == dots->capacity &&
-        !memory_reserve((void **)&dots->dot, &dots->capacity, dots->count + 1, dots->count,
-                        sizeof *dots->dot))
-        return false;
-    struct dot *dot = &dots->dot[dots->count++];
-    dot->across = (float)(position[plane->across] - middle_of(plane->extent[plane->across]));
-    dot->up = (float)(position[plane->up] - middle_of(plane->extent[plane->up]));
-    dot->depth = (float)depth;
-    dot->diameter = (float)diameter;
-    dot->value = (float)value;
-    range_include(&dots->values, value);
-    return true;
-}
-
-static int compare_depth(const void *a, const void *b)
-{
-    float first = ((const struct dot *)a)->depth, second = ((const struct dot *)b)->depth;
-    return (first > second) - (first < second);
-}
-
-static struct error *gather(const struct particles *particles, const struct shown *shown,
-                            const struct plane *plane, struct dots *dots)
-{
-    double values[SLICE];
-    *dots = (struct dots){.values = range_empty()};
-    for (int64_t begin = 0; begin < particles->count; begin += SLICE) {
-        int64_t end = begin + SLICE < particles->count ? begin + SLICE : particles->count;
-        shown_read(shown, begin, end, values);
-        for (int64_t i = begin; i < end; ++i)
-            if (!gather_one(particles, plane, i, values[i - begin], dots))
-                return error_new(ERROR_SYSTEM, "picture: out of memory");
-    }
-    if (plane->normal >= 0 && dots->count > 0)
-        qsort(dots->dot, (size_t)dots->count, sizeof *dots->dot, compare_depth);
-    return NULL;
-}
-
 /* How the picture fills its page. */
 struct page {
     struct axis x, y;
@@ -172,43 +32,6 @@ struct page {
     double middle_x, middle_y; /* where the middle of the extents is, in points */
     double width, height;
 };
-
-/* Paints every dot at FACTOR times its diameter by PAINT_ONE. */
-static void paint_layer(const struct pixels *pixels, const struct page *page,
-                        const struct dots *dots, const struct shown *shown,
-                        const struct colour_scale *colours, double factor,
-                        paint_function *paint_one)
-{
-    double scale = page->scale * PIXELS_PER_POINT;
-    double x = page->middle_x * PIXELS_PER_POINT, y = page->middle_y * PIXELS_PER_POINT;
-    for (int64_t i = 0; i < dots->count; ++i) {
-        const struct dot *dot = &dots->dot[i];
-        double diameter = factor * dot->diameter * scale;
-        struct colour colour =
-            shown->category ? colour_of_category((int)dot->value) : colour_of(colours, dot->value);
-        paint_one(pixels, x + dot->across * scale, y - dot->up * scale, diameter, colour);
-    }
-}
-
-static void paint(const struct canvas *canvas, const struct page *page, const struct dots *dots,
-                  const struct shown *shown, const struct colour_scale *colours, double diameter)
-{
-    cairo_surface_flush(canvas->surface);
-    struct pixels pixels = {
-        .data = (uint32_t *)(void *)cairo_image_surface_get_data(canvas->surface),
-        .stride = cairo_image_surface_get_stride(canvas->surface) / 4,
-        .left = (int)floor(page->x.start * PIXELS_PER_POINT),
-        .right = (int)floor(page->x.end * PIXELS_PER_POINT),
-        .top = (int)floor(page->y.end * PIXELS_PER_POINT),
-        .bottom = (int)floor(page->y.start * PIXELS_PER_POINT),
-    };
-    /* Small particles of one body should read as a solid: squares behind them fill the gaps, which a lattice of
-     * discs has at its corners, and wherever it is compressed along one axis. */
-    if (diameter * page->scale * PIXELS_PER_POINT < 14.0)
-        paint_layer(&pixels, page, dots, shown, colours, 1.3, paint_square);
-    paint_layer(&pixels, page, dots, shown, colours, 1.05, paint_disc);
-    cairo_surface_mark_dirty(canvas->surface);
-}
 
 /* Places the frame: equal axes, as large as the page allows; only the page's height follows the
  * particles, but for long strips and tall columns. FOOT is the height of what comes below. */
@@ -290,28 +113,32 @@ static void draw_colour_bar(const struct canvas *canvas, const struct page *page
     axis_draw_below(canvas, &bar, top + BAR_THICKNESS);
 }
 
-/* The categories that are in the picture; returns their number, at most LEGEND_MAX. */
-enum { LEGEND_MAX = 24, CATEGORIES_MAX = UINT16_MAX + 1 };
-static int category_entries(const struct dots *dots, const struct named_map *names,
-                            struct legend_entry *entries)
+/* Collective: the categories that are in the picture; *count of them, at most LEGEND_MAX. */
+enum { LEGEND_MAX = 24 };
+static struct error *category_entries(const struct dots *dots, const struct ranks *ranks,
+                                      const struct named_map *names, struct legend_entry *entries,
+                                      int *count)
 {
     static const struct legend_entry more = {MARK_NONE, {0.0, 0.0, 0.0}, "and others"};
-    bool present[CATEGORIES_MAX] = {false};
+    const int categories = dots->values.low <= dots->values.high ? (int)dots->values.high + 1 : 0;
+    double *present = memory_allocate(((size_t)categories + 1) * sizeof *present);
+    TRY(ranks_agree(ranks, present ? NULL : error_new(ERROR_SYSTEM, "picture: out of memory")));
     for (int64_t i = 0; i < dots->count; ++i)
-        present[(int)dots->dot[i].value] = true;
-    int count = 0;
-    for (int i = 0; i < CATEGORIES_MAX; ++i) {
-        if (!present[i])
+        present[(int)dots->dot[i].value] = 1.0;
+    ranks_maximum_of(ranks, present, categories);
+    for (int i = 0; i < categories; ++i) {
+        if (present[i] == 0.0)
             continue;
-        if (count == LEGEND_MAX) {
-            entries[count - 1] = more;
+        if (*count == LEGEND_MAX) {
+            entries[*count - 1] = more;
             break;
         }
-        entries[count++] = (struct legend_entry){
+        entries[(*count)++] = (struct legend_entry){
             MARK_SQUARE, colour_of_category(i),
             names && i < names->count && names->names[i] ? names->names[i] : "?"};
     }
-    return count;
+    free(present);
+    return NULL;
 }
 
 /* "plastic strain" of "plastic_strain", "velocity x" of "velocity.x". */
@@ -347,22 +174,61 @@ static void note_text(const struct simulation *simulation, const struct plane *p
     }
 }
 
-/* The frame with the particles in it; below it the colour bar, unless SHOWN is a category. */
+/* Where the particles are painted. */
+static struct easel easel_of(const struct page *page, const struct plane *plane,
+                             const struct colour_scale *colours)
+{
+    return (struct easel){.left = (int)floor(page->x.start * PIXELS_PER_POINT),
+                          .right = (int)floor(page->x.end * PIXELS_PER_POINT),
+                          .top = (int)floor(page->y.end * PIXELS_PER_POINT),
+                          .bottom = (int)floor(page->y.start * PIXELS_PER_POINT),
+                          .x = page->middle_x * PIXELS_PER_POINT,
+                          .y = page->middle_y * PIXELS_PER_POINT,
+                          .scale = page->scale * PIXELS_PER_POINT,
+                          .squares = plane->diameter * page->scale * PIXELS_PER_POINT < 14.0,
+                          .colours = colours};
+}
+
+/* Puts the IMAGE of the particles into the frame. */
+static void put_image(const struct canvas *canvas, const struct easel *easel, const uint32_t *image)
+{
+    cairo_surface_flush(canvas->surface);
+    uint32_t *data = (uint32_t *)(void *)cairo_image_surface_get_data(canvas->surface);
+    const int64_t stride = cairo_image_surface_get_stride(canvas->surface) / 4;
+    for (int64_t row = easel->top; row < easel->bottom; ++row)
+        memcpy(data + row * stride + easel->left,
+               image + (row - easel->top) * easel->right + easel->left,
+               (size_t)(easel->right - easel->left) * sizeof *data);
+    cairo_surface_mark_dirty(canvas->surface);
+}
+
+/* What a picture shows beside the particles. */
+struct surroundings {
+    const struct simulation *simulation;
+    const struct plane *plane;
+    const struct shown *shown;
+    const char *field;
+    struct colour_scale colours;
+    int entries;
+    struct legend_entry entry[LEGEND_MAX];
+};
+
+/* The frame with the particles in it; below it the colour bar, unless a category is shown. */
 static void draw_page(const struct canvas *canvas, struct page *page, const struct dots *dots,
-                      const struct shown *shown, const struct colour_scale *colours,
-                      double diameter, const char *field)
+                      const struct surroundings *around, const struct easel *easel,
+                      const uint32_t *image)
 {
     axis_ticks(&page->x, canvas);
     axis_ticks(&page->y, canvas);
-    paint(canvas, page, dots, shown, colours, diameter);
+    put_image(canvas, easel, image);
     axes_frame(canvas, &page->x, &page->y);
-    if (!shown->category) {
+    if (!around->shown->category) {
         char name[LABEL_TEXT];
-        field_text(field, name, sizeof name);
-        draw_colour_bar(canvas, page, page->y.start + AXIS_HEIGHT + BAR_GAP, colours, dots, name,
-                        shown->view->unit);
+        field_text(around->field, name, sizeof name);
+        draw_colour_bar(canvas, page, page->y.start + AXIS_HEIGHT + BAR_GAP, &around->colours, dots,
+                        name, around->shown->view->unit);
     }
-    if (dots->count == 0)
+    if (dots->of_all == 0)
         canvas_text(canvas, TEXT_NOTE, 0.5 * (page->x.start + page->x.end),
                     0.5 * (page->y.start + page->y.end) + 4.0, 0.5,
                     page->x.end - page->x.start - 8.0, "no particles");
@@ -382,37 +248,89 @@ static struct error *measure_head(const struct legend_entry *entries, int count,
     return error;
 }
 
-static struct error *draw_plane(const char *path, const struct simulation *simulation,
-                                const struct plane *plane, const struct shown *shown,
-                                const struct dots *dots, const char *field, struct range fixed)
+/* The picture itself. */
+static struct error *write_page(const char *path, struct page *page, const struct dots *dots,
+                                const struct surroundings *around, const struct easel *easel,
+                                const uint32_t *image)
 {
-    struct legend_entry entries[LEGEND_MAX];
-    int count = shown->category ? category_entries(dots, shown->names, entries) : 0;
-    double head = 0.0, foot = shown->category ? 4.0 : BAR_GAP + BAR_THICKNESS + AXIS_HEIGHT;
+    char note[2 * UNIT_TEXT + 32];
+    note_text(around->simulation, around->plane, note, sizeof note);
+    struct canvas canvas;
+    struct error *error = canvas_create(page->width, page->height, &canvas);
+    if (!error) {
+        double top = canvas_header(&canvas, LEFT, title_of(around->simulation), note);
+        legend_draw(&canvas, around->entry, around->entries, LEFT, top, page->width - LEFT - RIGHT,
+                    true);
+        draw_page(&canvas, page, dots, around, easel, image);
+        error = canvas_publish(&canvas, path);
+    }
+    canvas_destroy(&canvas);
+    return error;
+}
+
+/* Lays the page out: rank 0 knows how large texts are. */
+static struct error *find_page(const struct surroundings *around, struct page *page)
+{
+    const struct ranks *ranks = around->simulation->ranks;
+    double head = 0.0, foot = around->shown->category ? 4.0 : BAR_GAP + BAR_THICKNESS + AXIS_HEIGHT;
     /* The width of the page does not depend on its head. */
-    double width = lay_out(plane, head, foot).width - LEFT - RIGHT;
-    TRY(measure_head(entries, count, width, &head));
-    struct page page = lay_out(plane, head, foot);
+    double width = lay_out(around->plane, head, foot).width - LEFT - RIGHT;
+    struct error *error = NULL;
+    if (ranks->rank == 0)
+        error = measure_head(around->entry, around->entries, width, &head);
+    TRY(ranks_agree(ranks, error));
+    ranks_broadcast(ranks, 0, &head, sizeof head);
+    *page = lay_out(around->plane, head, foot);
+    return NULL;
+}
+
+static struct error *draw_plane(const char *path, struct surroundings *around, struct dots *dots,
+                                struct range fixed)
+{
+    const struct ranks *ranks = around->simulation->ranks;
+    const struct shown *shown = around->shown;
+    struct page page;
+    uint32_t *image;
+    dots->of_all = ranks_sum(ranks, dots->count);
+    dots->values = range_of_all(ranks, dots->values);
+    if (shown->category)
+        TRY(category_entries(dots, ranks, shown->names, around->entry, &around->entries));
+    TRY(find_page(around, &page));
 
     struct range range = range_drawable(dots->values, false);
     if (!isnan(fixed.low))
         range = (struct range){fixed.low, maximum(range.high, fixed.low)};
     if (!isnan(fixed.high))
         range = (struct range){minimum(range.low, fixed.high), fixed.high};
-    struct colour_scale colours = colour_scale_make(range);
-    char note[2 * UNIT_TEXT + 32];
-    note_text(simulation, plane, note, sizeof note);
+    around->colours = colour_scale_make(range);
+    struct easel easel = easel_of(&page, around->plane, shown->category ? NULL : &around->colours);
+    TRY(dots_paint(ranks, dots, &easel, &image));
+    struct error *error = NULL;
+    if (ranks->rank == 0)
+        error = write_page(path, &page, dots, around, &easel, image);
+    free(image);
+    return ranks_agree(ranks, error);
+}
 
-    struct canvas canvas;
-    struct error *error = canvas_create(page.width, page.height, &canvas);
-    if (!error) {
-        double top = canvas_header(&canvas, LEFT, title_of(simulation), note);
-        legend_draw(&canvas, entries, count, LEFT, top, width, true);
-        draw_page(&canvas, &page, dots, shown, &colours, plane->diameter, field);
-        error = canvas_publish(&canvas, path);
-    }
-    canvas_destroy(&canvas);
-    return error;
+static struct error *plot_line_problem(const char *path, const struct simulation *simulation,
+                                       const struct shown *shown, const char *field,
+                                       struct range fixed, const struct scatter *scatter)
+{
+    char note[2 * UNIT_TEXT + 32], name[LABEL_TEXT];
+    note_text(simulation, NULL, note, sizeof note);
+    field_text(field, name, sizeof name);
+    struct series series = {.count = scatter->count, .x = scatter->x, .y = scatter->y};
+    struct plot plot = {.title = title_of(simulation),
+                        .x_name = "x",
+                        .x_unit = "m",
+                        .y_name = name,
+                        .y_unit = shown->view ? shown->view->unit : "",
+                        .count = 1,
+                        .series = &series,
+                        .note = note,
+                        .y_low = isnan(fixed.high) ? NAN : fixed.low,
+                        .y_high = fixed.high};
+    return picture_plot(path, &plot);
 }
 
 /* In 1-D: the field over x, as dots. */
@@ -421,35 +339,22 @@ static struct error *draw_line_problem(const char *path, const struct simulation
                                        struct range fixed)
 {
     const struct particles *particles = &simulation->particles;
-    int64_t count = particles->count;
-    double *x = memory_allocate((size_t)(count + 1) * sizeof *x);
-    double *y = memory_allocate((size_t)(count + 1) * sizeof *y);
+    struct scatter scatter;
     struct error *error = NULL;
-    if (x && y) {
-        char note[2 * UNIT_TEXT + 32], name[LABEL_TEXT];
-        note_text(simulation, NULL, note, sizeof note);
-        field_text(field, name, sizeof name);
-        for (int64_t i = 0; i < count; ++i)
-            x[i] = particles->position[i][0];
-        shown_read(shown, 0, count, y);
-        struct series series = {.count = count, .x = x, .y = y};
-        struct plot plot = {.title = title_of(simulation),
-                            .x_name = "x",
-                            .x_unit = "m",
-                            .y_name = name,
-                            .y_unit = shown->view ? shown->view->unit : "",
-                            .count = 1,
-                            .series = &series,
-                            .note = note,
-                            .y_low = isnan(fixed.high) ? NAN : fixed.low,
-                            .y_high = fixed.high};
-        error = picture_plot(path, &plot);
+    if (scatter_allocate(&scatter, particles->count)) {
+        for (int64_t i = 0; i < particles->count; ++i)
+            scatter.x[i] = particles->position[i][0];
+        shown_read(shown, 0, particles->count, scatter.y);
     } else {
         error = error_new(ERROR_SYSTEM, "picture: out of memory");
     }
-    free(x);
-    free(y);
-    return error;
+    error = ranks_agree(simulation->ranks, error);
+    if (!error)
+        error = scatter_gather(simulation->ranks, &scatter);
+    if (!error && simulation->ranks->rank == 0)
+        error = plot_line_problem(path, simulation, shown, field, fixed, &scatter);
+    scatter_free(&scatter);
+    return ranks_agree(simulation->ranks, error);
 }
 
 struct error *picture_particles(const char *path, const struct simulation *simulation,
@@ -461,12 +366,14 @@ struct error *picture_particles(const char *path, const struct simulation *simul
     TRY(shown_find(simulation, views, field, &shown));
     if (simulation->particles.dimension == 1)
         return draw_line_problem(path, simulation, &shown, field, fixed);
-    struct plane plane = survey(&simulation->particles, &simulation->mirrors,
-                                simulation->geometry == GEOMETRY_AXISYMMETRIC);
+    struct plane plane = plane_find(simulation);
     struct dots dots;
-    struct error *error = gather(&simulation->particles, &shown, &plane, &dots);
+    struct surroundings around = {
+        .simulation = simulation, .plane = &plane, .shown = &shown, .field = field};
+    struct error *error = dots_take(&simulation->particles, &shown, &plane, &dots);
+    error = ranks_agree(simulation->ranks, error);
     if (!error)
-        error = draw_plane(path, simulation, &plane, &shown, &dots, field, fixed);
+        error = draw_plane(path, &around, &dots, fixed);
     free(dots.dot);
     return error;
 }

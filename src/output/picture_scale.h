@@ -3,7 +3,7 @@
 #ifndef BOLIDE_PICTURE_SCALE_H
 #define BOLIDE_PICTURE_SCALE_H
 
-#include "base/base.h"
+#include "parallel/ranks.h"
 
 enum { TICKS_MAX = 32, TICK_TEXT = 40, UNIT_TEXT = 64 };
 
@@ -37,6 +37,13 @@ BOLIDE_INLINE void range_include(struct range *range, double value)
         range->low = minimum(range->low, value);
         range->high = maximum(range->high, value);
     }
+}
+
+/* Collective: what the ranges of all ranks hold together. */
+BOLIDE_INLINE struct range range_of_all(const struct ranks *ranks, struct range range)
+{
+    struct range all = {ranks_minimum(ranks, range.low), ranks_maximum(ranks, range.high)};
+    return all;
 }
 
 /* The largest magnitude in RANGE. */

@@ -103,6 +103,38 @@ void exchange_finish(struct exchange *exchange)
     ranks_finish(exchange->messages, exchange->requests);
 }
 
+/* EXCHANGE is planned. */
+static struct error *pass(struct exchange *exchange, const struct ranks *ranks, const void *items,
+                          size_t bytes, void **received)
+{
+    *received = memory_allocate((size_t)exchange->comes * bytes);
+    TRY(ranks_agree(ranks, *received ? exchange_reserve(exchange, bytes) : out_of_memory()));
+    exchange_start(exchange, items, bytes, *received);
+    exchange_finish(exchange);
+    return NULL;
+}
+
+struct error *exchange_once(const struct ranks *ranks, const struct errand *errands, int32_t count,
+                            const void *items, size_t bytes, void **received, int32_t *came)
+{
+    *received = NULL;
+    *came = count;
+    if (!ranks->joined) {
+        char *copy = *received = memory_allocate((size_t)count * bytes);
+        for (int32_t k = 0; k < count && copy; k++)
+            memcpy(copy + (size_t)k * bytes, (const char *)items + (size_t)errands[k].item * bytes,
+                   bytes);
+        return copy ? NULL : out_of_memory();
+    }
+    struct exchange exchange = {0};
+    struct error *error = exchange_plan(&exchange, ranks, errands, count);
+    if (!error)
+        error = pass(&exchange, ranks, items, bytes, received);
+    *came = error ? 0 : exchange.comes;
+    exchange_free(&exchange);
+    return error;
+}
+
 void exchange_free(struct exchange *exchange)
 {
     free(exchange->message);

@@ -36,4 +36,9 @@ void exchange_finish(struct exchange *exchange);
 
 void exchange_free(struct exchange *exchange);
 
+/* Collective, for what is sent once: the planned ones of ITEMS, BYTES each, go to their ranks; *came come, in fresh memory
+ * at *received (free it). A rank alone gets what it sends. */
+struct error *exchange_once(const struct ranks *ranks, const struct errand *errands, int32_t count,
+                            const void *items, size_t bytes, void **received, int32_t *came);
+
 #endif

@@ -38,6 +38,9 @@ void ranks_sum_exact(const struct ranks *ranks, struct exact_sum *sums, int coun
 /* Collective: each of COUNT values becomes its largest over all ranks. */
 void ranks_maximum_of(const struct ranks *ranks, double *values, int count);
 
+/* Collective: each of COUNT values becomes its sum over all ranks. */
+void ranks_sum_of(const struct ranks *ranks, int64_t *values, int count);
+
 /* Collective: the sum of VALUE over the lower ranks. */
 int64_t ranks_before(const struct ranks *ranks, int64_t value);
 

@@ -34,6 +34,13 @@ void ranks_maximum_of(const struct ranks *ranks, double *values, int count)
     (void)count;
 }
 
+void ranks_sum_of(const struct ranks *ranks, int64_t *values, int count)
+{
+    (void)ranks;
+    (void)values;
+    (void)count;
+}
+
 int64_t ranks_before(const struct ranks *ranks, int64_t value)
 {
     (void)ranks;

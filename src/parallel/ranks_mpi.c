@@ -55,6 +55,12 @@ void ranks_maximum_of(const struct ranks *ranks, double *values, int count)
         MPI_Allreduce(MPI_IN_PLACE, values, count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
 }
 
+void ranks_sum_of(const struct ranks *ranks, int64_t *values, int count)
+{
+    if (ranks->joined)
+        MPI_Allreduce(MPI_IN_PLACE, values, count, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+}
+
 int64_t ranks_before(const struct ranks *ranks, int64_t value)
 {
     int64_t sum = 0;

@@ -203,37 +203,3 @@ struct error *particles_distribute(struct particles *particles, double seconds, 
     }
     return migrate(particles);
 }
-
-static struct error *gather_fields(const struct particles *particles, struct particles *whole)
-{
-    int64_t total = ranks_sum(particles->ranks, particles->count), count;
-    int32_t first, wanted = particles->ranks->rank == 0 ? (int32_t)total : 0;
-    struct error *error =
-        total > INT32_MAX / 2
-            ? error_new(ERROR_SYSTEM, "%lld particles are too many for one rank", (long long)total)
-            : particles_append(whole, wanted, &first);
-    TRY(ranks_agree(particles->ranks, error));
-    for (int k = 0; k < particles->fields; k++) {
-        const size_t bytes = bytes_of(&particles->field[k]);
-        void *all;
-        TRY(ranks_gather(particles->ranks, 0, particles->field[k].data, particles->count, bytes,
-                         &all, &count));
-        if (count)
-            memcpy(whole->field[k].data, all, (size_t)count * bytes);
-        free(all);
-    }
-    whole->count = wanted;
-    whole->pending = 0;
-    return NULL;
-}
-
-struct error *particles_gather(const struct particles *particles, struct particles *whole)
-{
-    struct field_declaration more[PARTICLES_FIELDS];
-    int count = 0;
-    TRY(particles_create(particles->dimension, particles->cell, NULL, 0, whole));
-    for (int k = whole->fields; k < particles->fields; k++)
-        more[count++] = particles->field[k].declaration;
-    TRY(particles_create(particles->dimension, particles->cell, more, count, whole));
-    return gather_fields(particles, whole);
-}

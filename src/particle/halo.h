@@ -1,5 +1,5 @@
 /* Which particles other ranks must see: those within reach of their particles, found from the boxes that the blocks of
- * all ranks fill. Private to this room. */
+ * all ranks fill. */
 #ifndef BOLIDE_HALO_H
 #define BOLIDE_HALO_H
 

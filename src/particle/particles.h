@@ -87,10 +87,6 @@ struct error *particles_sort(struct particles *particles);
  * any case, the blocks are divided anew: the curve of their keys is cut into parts of equal work. */
 struct error *particles_distribute(struct particles *particles, double seconds, bool recut);
 
-/* Collective: all particles of all ranks as a store of its own on rank 0, as a process alone has them but without
- * blocks; the other ranks get an empty one. For what needs all at once. */
-struct error *particles_gather(const struct particles *particles, struct particles *whole);
-
 /* The key of the block that X lies in. */
 uint64_t particles_block_key(const struct particles *particles, const double x[3]);
 

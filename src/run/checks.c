@@ -8,7 +8,6 @@
 #include "base/memory.h"
 #include "output/file.h"
 #include "run/checks_internal.h"
-#include "run/whole.h"
 
 static const struct measure_class *class_of(const struct check_input *check)
 {
@@ -219,36 +218,18 @@ static bool relative_to_start(const struct check_input *check)
     return check->relative && check->relative_check < 0;
 }
 
-/* The value of M by MEASURE, the same on all ranks. */
-static struct error *measure_on_ranks(struct measurement *m,
-                                      struct error *(*measure)(const struct measurement *,
-                                                               double *),
-                                      double *value)
-{
-    const struct simulation *simulation = m->simulation;
-    if (!class_of(m->check)->at_once)
-        return ranks_agree(simulation->ranks, measure(m, value));
-    struct whole whole;
-    struct error *error = whole_make(simulation, m->views, &whole);
-    m->simulation = whole.simulation;
-    m->views = whole.views;
-    if (!error && whole.here)
-        error = measure(m, value);
-    whole_free(&whole);
-    return whole_tell(simulation, error, value, 1);
-}
-
 struct error *checks_start(const struct checks *checks, const struct check_moment *moment)
 {
+    const struct ranks *ranks = moment->simulation->ranks;
     for (int i = 0; i < checks->count; i++) {
         struct check_memory *memory = &moment->memory[i];
         *memory = (struct check_memory){NAN, NAN, NAN};
         struct measurement m = measurement_at(&checks->item[i], moment, memory);
         const struct measure_class *class = class_of(m.check);
         if (relative_to_start(m.check))
-            TRY(measure_on_ranks(&m, class->measure, &memory->start));
+            TRY(ranks_agree(ranks, class->measure(&m, &memory->start)));
         else if (class->start)
-            TRY(measure_on_ranks(&m, class->start, &memory->start));
+            TRY(ranks_agree(ranks, class->start(&m, &memory->start)));
     }
     return NULL;
 }
@@ -258,7 +239,7 @@ static struct error *measure_now(const struct prepared_check *prepared,
 {
     struct measurement m = measurement_at(prepared, moment, memory);
     memory->time = moment->simulation->time;
-    return measure_on_ranks(&m, class_of(m.check)->measure, &memory->measured);
+    return ranks_agree(m.simulation->ranks, class_of(m.check)->measure(&m, &memory->measured));
 }
 
 struct error *checks_watch(const struct checks *checks, const struct check_moment *moment)

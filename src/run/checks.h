@@ -66,10 +66,7 @@ struct error *checks_watch(const struct checks *checks, const struct check_momen
 struct error *checks_evaluate(const struct checks *checks, const struct check_moment *moment,
                               struct check_results *results);
 
-/* Whether there is anything to draw. */
-bool checks_are_drawn(const struct checks *checks);
-
-/* Draws FOLDER/check-FIELD.png for every field that is measured against an exact solution: the
+/* Collective: draws FOLDER/check-FIELD.png for every field that is measured against an exact solution: the
  * solution as a line, the particles as dots, over the check's axis or distance. */
 struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,
                           const struct views *views, const char *folder);

@@ -95,66 +95,70 @@ struct error *check_results_write(const struct check_results *results, const cha
     return file_end(path, file);
 }
 
-/* Arrays of a picture: the particles' places and values, and the curve's. */
-struct drawing {
-    double *x, *value, *curve_x, *curve;
-};
-
-static void drawing_free(struct drawing *drawing)
-{
-    free(drawing->x);
-    free(drawing->value);
-    free(drawing->curve_x);
-    free(drawing->curve);
-}
-
-static bool drawing_allocate(struct drawing *drawing, int64_t count)
-{
-    size_t room = ((size_t)count + 1) * sizeof(double), curve = CURVE_POINTS * sizeof(double);
-    drawing->x = memory_allocate(room);
-    drawing->value = memory_allocate(room);
-    drawing->curve_x = memory_allocate(curve);
-    drawing->curve = memory_allocate(curve);
-    return drawing->x && drawing->value && drawing->curve_x && drawing->curve;
-}
-
-static struct error *draw(const struct measurement *m, const struct samples *samples,
-                          const char *unit, const char *path)
+/* The exact solution over the range of the particles. */
+static bool find_curve(const struct measurement *m, const struct scatter *particles,
+                       struct scatter *curve)
 {
     const struct measure_field *parameters = m->check->measure.value;
-    struct drawing drawing = {0};
-    if (!drawing_allocate(&drawing, samples->count)) {
-        drawing_free(&drawing);
-        return error_new(ERROR_SYSTEM, "out of memory for a picture");
+    const double time = m->simulation->time;
+    double low = INFINITY, high = -INFINITY;
+    for (int64_t i = 0; i < particles->count; i++) {
+        low = minimum(low, particles->x[i]);
+        high = maximum(high, particles->x[i]);
     }
-    for (int64_t i = 0; i < samples->count; i++) {
-        drawing.x[i] = samples->at[i].at;
-        drawing.value[i] = samples->at[i].value;
-    }
-    static const char *const axes[] = {"x", "y", "z"};
-    double time = m->simulation->time;
-    double low = samples->at[0].at, high = samples->at[samples->count - 1].at;
+    if (!scatter_allocate(curve, CURVE_POINTS))
+        return false;
     for (int i = 0; i < CURVE_POINTS; i++) {
         double x = low + (high - low) * i / (CURVE_POINTS - 1);
         struct exact_state state =
             m->exact->sample(m->solved, exact_side_at(m->exact, m->solved, x, time), x, time);
-        drawing.curve_x[i] = x;
-        drawing.curve[i] = exact_field(&state, parameters->field);
+        curve->x[i] = x;
+        curve->y[i] = exact_field(&state, parameters->field);
     }
-    struct series series[] = {
-        {"exact", CURVE_POINTS, drawing.curve_x, drawing.curve, LINE_PLAIN},
-        {"particles", samples->count, drawing.x, drawing.value, LINE_NONE},
-    };
-    struct plot plot = {.title = m->simulation->input->title,
-                        .x_name = m->check->about.count ? "distance" : axes[m->check->axis],
-                        .x_unit = "m",
-                        .y_name = parameters->field,
-                        .y_unit = unit,
-                        .count = 2,
-                        .series = series};
-    struct error *error = picture_plot(path, &plot);
-    drawing_free(&drawing);
+    return true;
+}
+
+static struct error *draw(const struct measurement *m, const struct scatter *particles,
+                          const char *unit, const char *path)
+{
+    static const char *const axes[] = {"x", "y", "z"};
+    const struct measure_field *parameters = m->check->measure.value;
+    struct scatter curve;
+    struct error *error = NULL;
+    if (find_curve(m, particles, &curve)) {
+        struct series series[] = {
+            {"exact", curve.count, curve.x, curve.y, LINE_PLAIN},
+            {"particles", particles->count, particles->x, particles->y, LINE_NONE},
+        };
+        struct plot plot = {.title = m->simulation->input->title,
+                            .x_name = m->check->about.count ? "distance" : axes[m->check->axis],
+                            .x_unit = "m",
+                            .y_name = parameters->field,
+                            .y_unit = unit,
+                            .count = 2,
+                            .series = series};
+        error = picture_plot(path, &plot);
+    } else
+        error = error_new(ERROR_SYSTEM, "out of memory for a picture");
+    scatter_free(&curve);
     return error;
+}
+
+/* The particles' places and values as dots, on rank 0 those of all. */
+static struct error *take_dots(const struct measurement *m, struct scatter *dots)
+{
+    const struct ranks *ranks = m->simulation->ranks;
+    struct samples samples;
+    *dots = (struct scatter){0};
+    TRY(samples_take(m, &samples));
+    bool made = scatter_allocate(dots, samples.count);
+    for (int64_t i = 0; i < samples.count && made; i++) {
+        dots->x[i] = samples.at[i].at;
+        dots->y[i] = samples.at[i].value;
+    }
+    samples_free(&samples);
+    TRY(ranks_agree(ranks, made ? NULL : error_new(ERROR_SYSTEM, "out of memory for a picture")));
+    return scatter_gather(ranks, dots);
 }
 
 /* Takes the samples of a whole field (not of a check's window) and draws them. */
@@ -167,19 +171,19 @@ static struct error *draw_field(const struct measurement *measurement, const cha
     m.check = &everywhere;
     const struct measure_field *parameters = m.check->measure.value;
     const char *unit;
-    struct samples samples;
+    struct scatter dots;
     TRY(measure_field_unit(&m, &unit));
-    TRY(samples_take(&m, &samples));
-    samples_sort(&samples);
-    char *name = text_format("check-%s.png", parameters->field);
-    char *path = name ? path_join(folder, name) : NULL;
-    struct error *error = path ? NULL : error_new(ERROR_SYSTEM, "out of memory for a picture");
-    if (!error && samples.count > 1)
-        error = draw(&m, &samples, unit, path);
-    free(name);
-    free(path);
-    samples_free(&samples);
-    return error;
+    struct error *error = take_dots(&m, &dots);
+    if (!error && dots.count > 1) {
+        char *name = text_format("check-%s.png", parameters->field);
+        char *path = name ? path_join(folder, name) : NULL;
+        error = path ? draw(&m, &dots, unit, path)
+                     : error_new(ERROR_SYSTEM, "out of memory for a picture");
+        free(name);
+        free(path);
+    }
+    scatter_free(&dots);
+    return ranks_agree(m.simulation->ranks, error);
 }
 
 /* True when an earlier check has drawn this one's field. */
@@ -193,14 +197,6 @@ static bool drawn_before(const struct checks *checks, int index)
             return true;
     }
     return false;
-}
-
-bool checks_are_drawn(const struct checks *checks)
-{
-    bool any = false;
-    for (int i = 0; i < checks->count; i++)
-        any |= checks->item[i].measurement.exact != NULL;
-    return any;
 }
 
 struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,

@@ -200,12 +200,16 @@ void samples_free(struct samples *samples)
     *samples = (struct samples){0, NULL};
 }
 
-static int compare_samples(const void *first, const void *second)
+int sample_order(const struct sample *a, const struct sample *b)
 {
-    const struct sample *a = first, *b = second;
     if (a->at != b->at)
         return a->at > b->at ? 1 : -1;
     return (a->value > b->value) - (a->value < b->value);
+}
+
+static int compare_samples(const void *first, const void *second)
+{
+    return sample_order(first, second);
 }
 
 void samples_sort(struct samples *samples)

@@ -29,10 +29,9 @@ struct measure_class {
     /* The SI unit of the value, "" for a ratio, NULL where it hangs on something that is wrong itself;
      * an ERROR_INPUT when the measure makes no sense here. */
     struct error *(*unit)(const struct measurement *measurement, const char **unit);
-    /* The value; NAN when there is nothing to measure (no particle in the window, no front). */
+    /* Collective: the value; NAN when there is nothing to measure (no particle in the window, no front). */
     struct error *(*measure)(const struct measurement *measurement, double *value);
     bool of_bodies; /* of whole bodies: `between` has no meaning */
-    bool at_once;   /* it must see the particles of all ranks; otherwise it is collective */
     /* What the measure wants to keep from time zero; may be NULL. */
     struct error *(*start)(const struct measurement *measurement, double *value);
 };
@@ -167,16 +166,18 @@ struct vec3 measure_center(const struct measurement *measurement, const double (
 /* Collective: the owned particles that the check speaks of (`of`, `between`) with the values of its field. */
 struct error *samples_take(const struct measurement *measurement, struct samples *samples);
 void samples_free(struct samples *samples);
-/* Sorts by position, low first, and by value at the same place. */
+/* Sorts by position, low first, and by value at the same place; below zero where A comes before B. */
 void samples_sort(struct samples *samples);
+int sample_order(const struct sample *a, const struct sample *b);
 
 /* Whether FRONT makes sense for a field of UNIT: an ERROR_INPUT, not located, where it does not. */
 struct error *front_check(const struct measure_front *front, const char *unit);
 
-/* Where SAMPLES of TIME, which it sorts and may average, first cross the value of FRONT, told in its frame;
- * NAN where they do not. *level is that value. */
-double front_place(struct samples *samples, const struct measure_front *front, double time,
-                   double *level);
+/* Collective: where the samples OWN of all ranks at TIME, which it may replace by averages, first cross the value of FRONT,
+ * told in its frame; NAN where they do not. *level is that value. */
+struct error *front_place(const struct ranks *ranks, struct samples *own,
+                          const struct measure_front *front, double time, double *place,
+                          double *level);
 
 /* On which side of the contact a body started: the side of the middle of its shape. A particle is
  * compared with the exact state of its own body's side, wherever it drifted. */

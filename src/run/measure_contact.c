@@ -10,8 +10,9 @@ struct ratio {
 };
 
 static void add_ratio(const struct measurement *measurement, const struct sample *sample,
-                      enum exact_side side, struct ratio *ratio)
+                      struct ratio *ratio)
 {
+    const enum exact_side side = measure_side(measurement, sample->body);
     const struct measure_field *parameters = measurement->check->measure.value;
     struct exact_state star = measurement->exact->star(measurement->solved, side);
     double off = fabs(sample->value / exact_field(&star, parameters->field) - 1.0);
@@ -20,26 +21,37 @@ static void add_ratio(const struct measurement *measurement, const struct sample
     ratio->count++;
 }
 
-/* Nearest the contact are the last ones of the left side and the first ones of the right. */
+/* Puts the samples nearest the contact, the last ones of the left side and the first ones of the right, to NEAR; their
+ * number. */
+static int take_nearest(const struct measurement *measurement, struct samples *samples,
+                        struct sample near[2 * NEAREST])
+{
+    int found = 0;
+    samples_sort(samples);
+    for (int64_t i = samples->count; i-- > 0 && found < NEAREST;)
+        if (measure_side(measurement, samples->at[i].body) == SIDE_LEFT)
+            near[found++] = samples->at[i];
+    const int left = found;
+    for (int64_t i = 0; i < samples->count && found < left + NEAREST; i++)
+        if (measure_side(measurement, samples->at[i].body) == SIDE_RIGHT)
+            near[found++] = samples->at[i];
+    return found;
+}
+
 static struct error *measure_ratio(const struct measurement *measurement, struct ratio *ratio)
 {
-    struct samples samples;
+    struct samples samples, all;
+    struct sample near[2 * NEAREST];
     TRY(samples_take(measurement, &samples));
-    samples_sort(&samples);
-    *ratio = (struct ratio){0.0, 0.0, 0};
-    int found = 0;
-    for (int64_t i = samples.count; i-- > 0 && found < NEAREST;)
-        if (measure_side(measurement, samples.at[i].body) == SIDE_LEFT) {
-            add_ratio(measurement, &samples.at[i], SIDE_LEFT, ratio);
-            found++;
-        }
-    found = 0;
-    for (int64_t i = 0; i < samples.count && found < NEAREST; i++)
-        if (measure_side(measurement, samples.at[i].body) == SIDE_RIGHT) {
-            add_ratio(measurement, &samples.at[i], SIDE_RIGHT, ratio);
-            found++;
-        }
+    int found = take_nearest(measurement, &samples, near);
     samples_free(&samples);
+    TRY(ranks_gather(measurement->simulation->ranks, -1, near, found, sizeof *near,
+                     (void **)&all.at, &all.count));
+    found = take_nearest(measurement, &all, near);
+    samples_free(&all);
+    *ratio = (struct ratio){0.0, 0.0, 0};
+    for (int k = 0; k < found; k++)
+        add_ratio(measurement, &near[k], ratio);
     return NULL;
 }
 
@@ -59,14 +71,12 @@ static struct error *contact_rms(const struct measurement *measurement, double *
     return NULL;
 }
 
-const struct measure_class measure_contact_max = {.at_once = true,
-                                                  .needs_exact = true,
+const struct measure_class measure_contact_max = {.needs_exact = true,
                                                   .needs_contact = true,
                                                   .of_field = true,
                                                   .unit = measure_no_unit,
                                                   .measure = contact_max};
-const struct measure_class measure_contact_rms = {.at_once = true,
-                                                  .needs_exact = true,
+const struct measure_class measure_contact_rms = {.needs_exact = true,
                                                   .needs_contact = true,
                                                   .of_field = true,
                                                   .unit = measure_no_unit,

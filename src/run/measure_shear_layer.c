@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "exact/stokes_layer.h"
 #include "model/start_place.h"
+#include "run/bands.h"
 #include "run/measure.h"
 
 enum layer_value { LAYER_VISCOSITY, LAYER_DISPLACEMENT, LAYER_VELOCITY };
@@ -47,76 +48,60 @@ static struct error *unit(const struct measurement *measurement, const char **un
     return NULL;
 }
 
-/* Of a particle, of a row: distance from the plane at the start, displacement and velocity along x. */
-struct row {
-    double height, displacement, velocity;
-};
-
+/* The rows as bands: distance from the plane at the start, displacement and velocity along x. */
 struct rows {
-    int64_t count;
-    struct row *row;
+    struct bands bands;
     double speed, time;
 };
 
-static int compare_rows(const void *first, const void *second)
-{
-    const struct row *a = first, *b = second;
-    return (a->height > b->height) - (a->height < b->height);
-}
-
-/* Those that the check speaks of, by the places at the start. */
-static struct error *take_particles(const struct measurement *measurement, struct rows *rows)
+/* The particles that the check speaks of, by the places at the start; their number. */
+static int64_t take_particles(const struct measurement *measurement, const double (*start)[3],
+                              struct band *taken)
 {
     const struct measure_shear_layer *parameters = measurement->check->measure.value;
     const struct vector_value *between = &measurement->check->between;
     const struct particles *p = &measurement->simulation->particles;
     const int body = measure_body(measurement);
-    double(*start)[3] = memory_allocate(((size_t)p->count + 1) * sizeof *start);
-    rows->row = memory_allocate(((size_t)p->count + 1) * sizeof *rows->row);
-    if (!start || !rows->row) {
-        free(start);
-        return error_new(ERROR_SYSTEM, "out of memory for a check of %d particles", (int)p->count);
-    }
-    start_places(measurement->simulation, 0, p->count, start);
+    int64_t count = 0;
     for (int32_t i = 0; i < p->count; i++) {
         const double x = start[i][0];
         bool inside = between->count == 0 || (x >= between->at[0] && x <= between->at[1]);
         if (inside && (body < 0 || p->body[i] == body))
-            rows->row[rows->count++] = (struct row){start[i][1] - parameters->plane,
-                                                    p->position[i][0] - x, p->velocity[i][0]};
+            taken[count++] = (struct band){start[i][1] - parameters->plane, p->position[i][0] - x,
+                                           p->velocity[i][0]};
     }
-    free(start);
-    return NULL;
+    return count;
 }
 
-/* Replaces the particles of each height by their mean. */
-static void average(struct rows *rows, double resolution)
+static struct error *find_rows(const struct measurement *measurement, struct bands *rows)
 {
-    int64_t made = 0;
-    qsort(rows->row, (size_t)rows->count, sizeof *rows->row, compare_rows);
-    for (int64_t i = 0; i < rows->count;) {
-        const double height = rows->row[i].height;
-        struct exact_sum sums[2] = {{{0}, 0, false}};
-        int64_t first = i;
-        for (; i < rows->count && rows->row[i].height - height < 1e-3 * resolution; i++) {
-            exact_sum_add(&sums[0], rows->row[i].displacement);
-            exact_sum_add(&sums[1], rows->row[i].velocity);
-        }
-        const double particles = (double)(i - first);
-        rows->row[made++] = (struct row){height, exact_sum_value(&sums[0]) / particles,
-                                         exact_sum_value(&sums[1]) / particles};
+    const struct simulation *simulation = measurement->simulation;
+    const int32_t count = simulation->particles.count;
+    double(*start)[3] = memory_allocate(((size_t)count + 1) * sizeof *start);
+    struct band *own = memory_allocate(((size_t)count + 1) * sizeof *own);
+    struct error *error = NULL;
+    if (!start || !own)
+        error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles", (int)count);
+    error = ranks_agree(simulation->ranks, error);
+    if (!error) {
+        start_places(simulation, 0, count, start);
+        const int64_t taken = take_particles(measurement, (const double(*)[3])start, own);
+        error =
+            bands_make(simulation->ranks, own, taken, 1e-3 * simulation->input->resolution, rows);
     }
-    rows->count = made;
+    free(start);
+    free(own);
+    return error;
 }
 
 /* Sum of the squares of the distances of the rows from the layer of VISCOSITY. */
 static double misfit(const struct rows *rows, double viscosity)
 {
     double sum = 0.0;
-    for (int64_t i = 0; i < rows->count; i++) {
+    for (int64_t i = 0; i < rows->bands.count; i++) {
         const double wanted =
-            rows->speed * stokes_layer_displacement(rows->row[i].height, rows->time, viscosity);
-        sum += square(rows->row[i].displacement - wanted);
+            rows->speed * stokes_layer_displacement(rows->bands.band[i].at, rows->time, viscosity);
+        sum += square(rows->bands.band[i].first - wanted);
     }
     return sum;
 }
@@ -126,7 +111,8 @@ static double misfit(const struct rows *rows, double viscosity)
 static double fit(const struct rows *rows)
 {
     static const double golden = 0.61803398874989484820, step = 0.5;
-    const double reach = maximum(fabs(rows->row[0].height), rows->row[rows->count - 1].height);
+    const double reach =
+        maximum(fabs(rows->bands.band[0].at), rows->bands.band[rows->bands.count - 1].at);
     const double scale = square(reach) / rows->time;
     double best = 0.0, low, high;
     for (double power = -20.0; power <= 5.0; power += step)
@@ -147,10 +133,10 @@ static double fit(const struct rows *rows)
 static double velocity_misfit(const struct rows *rows, double viscosity)
 {
     double sum = 0.0;
-    for (int64_t i = 0; i < rows->count; i++) {
+    for (int64_t i = 0; i < rows->bands.count; i++) {
         const double wanted =
-            rows->speed * stokes_layer_velocity(rows->row[i].height, rows->time, viscosity);
-        sum += square(rows->row[i].velocity - wanted);
+            rows->speed * stokes_layer_velocity(rows->bands.band[i].at, rows->time, viscosity);
+        sum += square(rows->bands.band[i].second - wanted);
     }
     return sum;
 }
@@ -159,19 +145,17 @@ static struct error *measure(const struct measurement *measurement, double *valu
 {
     const struct measure_shear_layer *parameters = measurement->check->measure.value;
     struct rows rows = {.speed = parameters->speed, .time = measurement->simulation->time};
-    struct error *error = take_particles(measurement, &rows);
+    struct error *error = find_rows(measurement, &rows.bands);
     *value = NAN;
-    if (!error && rows.count > 0 && rows.time > 0.0) {
-        average(&rows, measurement->simulation->input->resolution);
-        const double viscosity = fit(&rows), count = (double)rows.count;
+    if (!error && rows.bands.count > 0 && rows.time > 0.0) {
+        const double viscosity = fit(&rows), count = (double)rows.bands.count;
         *value = parameters->value == LAYER_VISCOSITY ? viscosity
                  : parameters->value == LAYER_DISPLACEMENT
                      ? sqrt(misfit(&rows, viscosity) / count)
                      : sqrt(velocity_misfit(&rows, viscosity) / count);
     }
-    free(rows.row);
+    bands_free(&rows.bands);
     return error;
 }
 
-const struct measure_class measure_shear_layer = {
-    .at_once = true, .unit = unit, .measure = measure};
+const struct measure_class measure_shear_layer = {.unit = unit, .measure = measure};

@@ -1,6 +1,5 @@
 /* front: the place of a front over time, by the formula of the measure `front`. */
 #include "run/probes.h"
-#include "run/whole.h"
 
 /* COLUMN is the field's, as index of the view and component. */
 static struct error *prepare(struct probe *probe, const struct simulation *simulation,
@@ -28,17 +27,15 @@ static struct error *sample(struct probe *probe, const struct simulation *simula
                             const struct views *views, double *row)
 {
     const struct chosen_field *field = &probe->fields->field[0];
-    struct whole whole;
     struct samples samples = {0, NULL};
-    struct error *error = whole_make(simulation, views, &whole);
-    if (!error && whole.here)
-        error = samples_select(&whole.simulation->particles, &whole.views->view[field->view],
-                               field->component, &probe->selection, &samples);
-    if (!error && whole.here)
-        row[0] = front_place(&samples, probe->input->probe.value, simulation->time, &row[1]);
+    struct error *error = samples_select(&simulation->particles, &views->view[field->view],
+                                         field->component, &probe->selection, &samples);
+    error = ranks_agree(simulation->ranks, error);
+    if (!error)
+        error = front_place(simulation->ranks, &samples, probe->input->probe.value,
+                            simulation->time, &row[0], &row[1]);
     samples_free(&samples);
-    whole_free(&whole);
-    return whole_tell(simulation, error, row, 2);
+    return error;
 }
 
 const struct probe_class probe_front = {PROBE_TAKES_OF | PROBE_TAKES_AXIS, prepare, sample};

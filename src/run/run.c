@@ -15,7 +15,6 @@
 #include "model/generate.h"
 #include "output/picture.h"
 #include "run/run_internal.h"
-#include "run/whole.h"
 
 /* Fewer particles than this a thread cost more in waiting than they gain in work. */
 enum { PARTICLES_A_THREAD = 2000 };
@@ -279,18 +278,6 @@ static void tell_beginning(struct run *run)
         run_say(run, "resumed at step %lld, t = %.9g s", (long long)s->step, s->time);
 }
 
-static struct error *draw_checks(struct run *run, const char *pictures)
-{
-    struct whole whole;
-    if (!checks_are_drawn(run->checks))
-        return NULL;
-    struct error *error = whole_make(&run->simulation, &run->views, &whole);
-    if (!error && whole.here)
-        error = checks_draw(run->checks, whole.simulation, whole.views, pictures);
-    whole_free(&whole);
-    return ranks_agree(&run->ranks, error);
-}
-
 /* Checks and the last files. */
 static struct error *conclude(struct run *run)
 {
@@ -305,7 +292,7 @@ static struct error *conclude(struct run *run)
             error = check_results_write(&result->checks, path);
         error = ranks_agree(&run->ranks, error);
         if (!error && pictures)
-            error = draw_checks(run, pictures);
+            error = checks_draw(run->checks, &run->simulation, &run->views, pictures);
         free(path);
         free(pictures);
         TRY(error);

@@ -11,7 +11,6 @@
 #include "output/picture.h"
 #include "output/snapshot.h"
 #include "run/run_internal.h"
-#include "run/whole.h"
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
@@ -196,21 +195,18 @@ static struct error *watch_energy(struct run *run)
 static struct error *draw_pictures(struct run *run, int64_t number)
 {
     const struct name_list *fields = &run->input->output.pictures;
-    struct whole whole;
-    if (!fields->count)
-        return NULL;
-    struct error *error = whole_make(&run->simulation, &run->views, &whole);
-    for (int i = 0; i < fields->count && !error && whole.here; i++) {
+    struct error *error = NULL;
+    for (int i = 0; i < fields->count && !error; i++) {
         char *name = text_format("pictures/%s-%06lld.png", fields->names[i], (long long)number);
         char *path = name ? run_path(run, name) : NULL;
-        error = path ? picture_particles(path, whole.simulation, whole.views, fields->names[i], NAN,
-                                         NAN)
-                     : out_of_memory();
+        error = ranks_agree(&run->ranks, path ? NULL : out_of_memory());
+        if (!error)
+            error =
+                picture_particles(path, &run->simulation, &run->views, fields->names[i], NAN, NAN);
         free(name);
         free(path);
     }
-    whole_free(&whole);
-    return ranks_agree(&run->ranks, error);
+    return error;
 }
 
 static struct error *write_series(struct run *run)

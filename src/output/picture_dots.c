@@ -1,0 +1,186 @@
+/* Painting dots on all ranks; see picture_dots.h. A rank gets the dots that touch its rows; rows are dealt so that all
+ * ranks have about as many dots. */
+#include "output/picture_dots.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "parallel/exchange.h"
+#include "particle/radix.h"
+
+/* Diameters of squares and discs over those of the particles. Small particles of one body should read as a solid: squares
+ * behind them fill the gaps, which a lattice of discs has at its corners, and wherever it is compressed along one axis. */
+static const double square_factor = 1.3, disc_factor = 1.05;
+
+static struct error *out_of_memory(void)
+{
+    return error_new(ERROR_SYSTEM, "picture: out of memory");
+}
+
+struct rows {
+    int first, end;
+};
+
+/* The rows that DOT may touch, its smooth rim included; one at least. */
+static struct rows rows_of(const struct easel *easel, const struct dot *dot)
+{
+    double y = easel->y - dot->up * easel->scale;
+    double reach = 0.5 * square_factor * dot->diameter * easel->scale + 2.0;
+    double last = easel->bottom - 1;
+    return (struct rows){(int)minimum(maximum(floor(y - reach), easel->top), last),
+                         1 + (int)minimum(maximum(floor(y + reach), easel->top), last)};
+}
+
+/* Deals the rows of EASEL: rank r gets those from cut[r] to cut[r + 1] - 1. COUNT has room for a number a row. */
+static void deal_rows(const struct ranks *ranks, const struct dots *dots, const struct easel *easel,
+                      int64_t *count, int *cut)
+{
+    const int height = easel->bottom - easel->top;
+    int64_t total = 0, before = 0;
+    for (int64_t i = 0; i < dots->count; ++i) {
+        struct rows rows = rows_of(easel, &dots->dot[i]);
+        ++count[(rows.first + rows.end) / 2 - easel->top];
+    }
+    ranks_sum_of(ranks, count, height);
+    for (int row = 0; row < height; ++row)
+        total += count[row];
+    int rank = 0;
+    cut[0] = easel->top;
+    for (int row = 0; row < height; ++row) {
+        while (rank + 1 < ranks->size && before * ranks->size >= total * (rank + 1))
+            cut[++rank] = easel->top + row;
+        before += count[row];
+    }
+    while (rank < ranks->size)
+        cut[++rank] = easel->bottom;
+}
+
+/* Which ranks get which dots. */
+static struct error *find_errands(const struct ranks *ranks, const struct dots *dots,
+                                  const struct easel *easel, const int *cut,
+                                  struct errand **errands, int32_t *count)
+{
+    int64_t room = 0;
+    for (int64_t i = 0; i < dots->count; ++i) {
+        struct rows rows = rows_of(easel, &dots->dot[i]);
+        int low = 0, high = ranks->size; /* cut[low] <= rows.first < cut[high] */
+        while (high - low > 1) {
+            int middle = (low + high) / 2;
+            if (cut[middle] <= rows.first)
+                low = middle;
+            else
+                high = middle;
+        }
+        for (int rank = low; rank < ranks->size && cut[rank] < rows.end; ++rank) {
+            if (cut[rank] == cut[rank + 1])
+                continue;
+            if (!memory_reserve((void **)errands, &room, *count + 1, *count, sizeof **errands))
+                return out_of_memory();
+            (*errands)[(*count)++] = (struct errand){rank, (int32_t)i};
+        }
+    }
+    return NULL;
+}
+
+/* The dots become those that touch the rows of this rank, FIRST to END - 1. */
+static struct error *pass_dots(const struct ranks *ranks, struct dots *dots,
+                               const struct easel *easel, int *first, int *end)
+{
+    int *cut = memory_allocate(((size_t)ranks->size + 1) * sizeof *cut);
+    int64_t *count = memory_allocate((size_t)(easel->bottom - easel->top) * sizeof *count);
+    struct errand *errands = NULL;
+    int32_t goes = 0, comes;
+    void *received;
+    struct error *error = ranks_agree(ranks, cut && count ? NULL : out_of_memory());
+    if (!error) {
+        deal_rows(ranks, dots, easel, count, cut);
+        *first = cut[ranks->rank];
+        *end = cut[ranks->rank + 1];
+        error = ranks_agree(ranks, find_errands(ranks, dots, easel, cut, &errands, &goes));
+    }
+    if (!error)
+        error =
+            exchange_once(ranks, errands, goes, dots->dot, sizeof *dots->dot, &received, &comes);
+    free(errands);
+    free(cut);
+    free(count);
+    if (error)
+        return error;
+    free(dots->dot);
+    dots->dot = received;
+    dots->count = dots->capacity = comes;
+    return NULL;
+}
+
+/* DEPTH as a whole number of the same order. */
+static uint64_t key_of_depth(float depth)
+{
+    const float clean = depth + 0.0f; /* no negative zero */
+    uint32_t bits;
+    memcpy(&bits, &clean, sizeof bits);
+    return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+}
+
+/* The order in which the dots are painted, in fresh memory; NULL when it is out. */
+static struct keyed *sort_dots(const struct dots *dots)
+{
+    const size_t count = (size_t)dots->count;
+    struct keyed *order = memory_allocate((2 * count + 1) * sizeof *order);
+    if (!order)
+        return NULL;
+    for (size_t k = 0; k < count; ++k)
+        order[k] = (struct keyed){dots->dot[k].id, (int32_t)k};
+    radix_sort(order, order + count, dots->count);
+    for (size_t k = 0; k < count; ++k)
+        order[k].key = key_of_depth(dots->dot[order[k].index].depth);
+    radix_sort(order, order + count, dots->count);
+    return order;
+}
+
+/* Paints every dot at FACTOR times its diameter by PAINT_ONE. */
+static void paint_layer(const struct pixels *pixels, const struct easel *easel,
+                        const struct dots *dots, const struct keyed *order, double factor,
+                        paint_function *paint_one)
+{
+    for (int64_t k = 0; k < dots->count; ++k) {
+        const struct dot *dot = &dots->dot[order[k].index];
+        double diameter = factor * dot->diameter * easel->scale;
+        struct colour colour = easel->colours ? colour_of(easel->colours, dot->value)
+                                              : colour_of_category((int)dot->value);
+        paint_one(pixels, easel->x + dot->across * easel->scale, easel->y - dot->up * easel->scale,
+                  diameter, colour);
+    }
+}
+
+struct error *dots_paint(const struct ranks *ranks, struct dots *dots, const struct easel *easel,
+                         uint32_t **image)
+{
+    int first = easel->top, end = easel->bottom;
+    int64_t total;
+    *image = NULL;
+    if (ranks->joined)
+        TRY(pass_dots(ranks, dots, easel, &first, &end));
+    const size_t bytes = (size_t)easel->right * sizeof(uint32_t);
+    const size_t size = (size_t)(end - first) * bytes;
+    uint32_t *own = memory_allocate(size);
+    struct keyed *order = sort_dots(dots);
+    struct error *error = ranks_agree(ranks, own && order ? NULL : out_of_memory());
+    if (!error) {
+        memset(own, 0xff, size); /* white */
+        const struct pixels pixels = {.data = own,
+                                      .stride = easel->right,
+                                      .first_row = first,
+                                      .left = easel->left,
+                                      .right = easel->right,
+                                      .top = first,
+                                      .bottom = end};
+        if (easel->squares)
+            paint_layer(&pixels, easel, dots, order, square_factor, paint_square);
+        paint_layer(&pixels, easel, dots, order, disc_factor, paint_disc);
+        error = ranks_gather(ranks, 0, own, end - first, bytes, (void **)image, &total);
+    }
+    free(own);
+    free(order);
+    return error;
+}

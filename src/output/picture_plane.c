@@ -1,0 +1,124 @@
+/* What of space is in a picture of particles, and which of them. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "output/picture_dots.h"
+
+enum { SLICE = 4096 };
+
+/* The edge of the square or cube that a particle fills; of RINGS that of their section. */
+static double particle_diameter(const struct particles *particles, bool rings, int64_t i)
+{
+    double volume = particles->mass[i] / particles->density[i];
+    if (rings) /* mass is that of a radian */
+        volume /= fabs(particles->position[i][0]);
+    return diameter_of_volume(volume, particles->dimension);
+}
+
+/* Where the matter lies on a wall, its extent ends there. */
+static void end_at_walls(struct plane *plane, const struct mirrors *mirrors)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        struct range *extent = &plane->extent[axis];
+        const double low = mirrors->low[axis], high = mirrors->high[axis];
+        plane->wall[axis][0] = fabs(extent->low - low) <= plane->diameter && low < extent->high;
+        plane->wall[axis][1] = fabs(extent->high - high) <= plane->diameter && high > extent->low;
+        extent->low = plane->wall[axis][0] ? low : extent->low;
+        extent->high = plane->wall[axis][1] ? high : extent->high;
+    }
+}
+
+/* Collective: extents and mean diameter of the particles of all ranks, without their size. */
+static void measure(const struct particles *particles, const struct ranks *ranks,
+                    struct plane *plane)
+{
+    struct range *extent = plane->extent;
+    struct exact_sum logarithms = {0};
+    int64_t counted = 0;
+    for (int64_t i = 0; i < particles->count; ++i) {
+        for (int axis = 0; axis < 3; ++axis)
+            range_include(&extent[axis], particles->position[i][axis]);
+        double logarithm = log(particle_diameter(particles, plane->rings, i));
+        if (isfinite(logarithm)) {
+            exact_sum_add(&logarithms, logarithm);
+            ++counted;
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis)
+        extent[axis] = range_of_all(ranks, extent[axis]);
+    ranks_sum_exact(ranks, &logarithms, 1);
+    counted = ranks_sum(ranks, counted);
+    plane->diameter = counted > 0 ? exp(exact_sum_value(&logarithms) / (double)counted) : 0.0;
+}
+
+struct plane plane_find(const struct simulation *simulation)
+{
+    struct plane plane = {.rings = simulation->geometry == GEOMETRY_AXISYMMETRIC,
+                          .across = 0,
+                          .up = 1,
+                          .normal = -1,
+                          .extent = {range_empty(), range_empty(), range_empty()}};
+    measure(&simulation->particles, simulation->ranks, &plane);
+    for (int axis = 0; axis < 3; ++axis) {
+        struct range *extent = &plane.extent[axis];
+        if (!(extent->low <= extent->high))
+            *extent = (struct range){0.0, plane.diameter > 0.0 ? 0.0 : 1.0};
+        extent->low -= 0.5 * plane.diameter;
+        extent->high += 0.5 * plane.diameter;
+    }
+    end_at_walls(&plane, &simulation->mirrors);
+    if (simulation->particles.dimension == 3) {
+        /* Of equal axes the last, but for rounding, so that x and y are the picture's. */
+        plane.normal = 2;
+        for (int axis = 1; axis >= 0; --axis)
+            if (length_of(plane.extent[axis]) < 0.99 * length_of(plane.extent[plane.normal]))
+                plane.normal = axis;
+        plane.across = plane.normal == 0;
+        plane.up = plane.normal == 2 ? 1 : 2;
+        plane.middle = middle_of(plane.extent[plane.normal]);
+    }
+    return plane;
+}
+
+/* Adds particle I, unless it lies outside of the slab: its centre within 3/4 of its diameter of the middle,
+ * so that a lattice shows one or two layers and never a gap. */
+static bool take_one(const struct particles *particles, const struct plane *plane, int64_t i,
+                     double value, struct dots *dots)
+{
+    const double *position = particles->position[i];
+    double depth = plane->normal < 0 ? 0.0 : position[plane->normal] - plane->middle;
+    double diameter = particle_diameter(particles, plane->rings, i);
+    /* A particle blown to next to nothing would cover all others. */
+    diameter = minimum(isfinite(diameter) ? diameter : plane->diameter, 4.0 * plane->diameter);
+    if (!isfinite(position[plane->across]) || !isfinite(position[plane->up]) ||
+        !(fabs(depth) <= 0.75 * diameter || plane->normal < 0))
+        return true;
+    if (dots->count == dots->capacity &&
+        !memory_reserve((void **)&dots->dot, &dots->capacity, dots->count + 1, dots->count,
+                        sizeof *dots->dot))
+        return false;
+    struct dot *dot = &dots->dot[dots->count++];
+    dot->across = (float)(position[plane->across] - middle_of(plane->extent[plane->across]));
+    dot->up = (float)(position[plane->up] - middle_of(plane->extent[plane->up]));
+    dot->depth = (float)depth;
+    dot->diameter = (float)diameter;
+    dot->value = (float)value;
+    dot->id = particles->id[i];
+    range_include(&dots->values, value);
+    return true;
+}
+
+struct error *dots_take(const struct particles *particles, const struct shown *shown,
+                        const struct plane *plane, struct dots *dots)
+{
+    double values[SLICE];
+    *dots = (struct dots){.values = range_empty()};
+    for (int64_t begin = 0; begin < particles->count; begin += SLICE) {
+        int64_t end = begin + SLICE < particles->count ? begin + SLICE : particles->count;
+        shown_read(shown, begin, end, values);
+        for (int64_t i = begin; i < end; ++i)
+            if (!take_one(particles, plane, i, values[i - begin], dots))
+                return error_new(ERROR_SYSTEM, "picture: out of memory");
+    }
+    return NULL;
+}
