@@ -1,6 +1,4 @@
 /* What of space is in a picture of particles, and which of them. */
-#include <math.h>
-
 #include "base/memory.h"
 #include "output/picture_dots.h"
 

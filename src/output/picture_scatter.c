@@ -8,7 +8,7 @@
 /* Of the points in one of so many by so many cells over the range of all the first is kept: a cell is about a pixel. */
 enum { CELLS = 1024 };
 
-struct point {
+struct drawn_point {
     uint32_t cell;
     double x, y;
 };
@@ -20,7 +20,7 @@ static struct error *out_of_memory(void)
 
 static int compare_points(const void *first, const void *second)
 {
-    const struct point *a = first, *b = second;
+    const struct drawn_point *a = first, *b = second;
     if (a->cell != b->cell)
         return a->cell > b->cell ? 1 : -1;
     if (a->x != b->x)
@@ -35,7 +35,7 @@ static uint32_t cell_of(struct range range, double value)
 }
 
 /* Sorts COUNT points and keeps one of each cell; their number. */
-static int64_t thin(struct point *point, int64_t count)
+static int64_t thin(struct drawn_point *point, int64_t count)
 {
     int64_t kept = 0;
     qsort(point, (size_t)count, sizeof *point, compare_points);
@@ -46,15 +46,15 @@ static int64_t thin(struct point *point, int64_t count)
 }
 
 /* The points of this rank that can be drawn, thinned; NULL when memory is out. */
-static struct point *take_points(const struct scatter *scatter, struct range x, struct range y,
-                                 int64_t *count)
+static struct drawn_point *take_points(const struct scatter *scatter, struct range x,
+                                       struct range y, int64_t *count)
 {
-    struct point *point = memory_allocate(((size_t)scatter->count + 1) * sizeof *point);
+    struct drawn_point *point = memory_allocate(((size_t)scatter->count + 1) * sizeof *point);
     *count = 0;
     for (int64_t i = 0; i < scatter->count && point; ++i)
         if (isfinite(scatter->x[i]) && isfinite(scatter->y[i])) {
             const uint32_t cell = cell_of(x, scatter->x[i]) * CELLS + cell_of(y, scatter->y[i]);
-            point[(*count)++] = (struct point){cell, scatter->x[i], scatter->y[i]};
+            point[(*count)++] = (struct drawn_point){cell, scatter->x[i], scatter->y[i]};
         }
     if (point)
         *count = thin(point, *count);
@@ -72,7 +72,7 @@ struct error *scatter_gather(const struct ranks *ranks, struct scatter *scatter)
     x = range_of_all(ranks, x);
     y = range_of_all(ranks, y);
     int64_t count;
-    struct point *all = NULL, *own = take_points(scatter, x, y, &count);
+    struct drawn_point *all = NULL, *own = take_points(scatter, x, y, &count);
     struct error *error = ranks_agree(ranks, own ? NULL : out_of_memory());
     if (!error)
         error = ranks_gather(ranks, 0, own, count, sizeof *own, (void **)&all, &count);
