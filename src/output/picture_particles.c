@@ -50,7 +50,7 @@ static struct page lay_out(const struct plane *plane, double head, double foot)
     double width = maximum(page.scale * across, WIDTH_MIN) + margin_x;
     double height = maximum(page.scale * up, HEIGHT_MIN) + margin_y;
     page.width = ceil(maximum(width + LEFT + RIGHT, PAGE_WIDTH_MIN) - 1e-6);
-    page.height = ceil(head + height + AXIS_HEIGHT + foot);
+    page.height = ceil(head + height + AXIS_HEIGHT + foot - 1e-6);
     page.x.start = LEFT + 0.5 * (page.width - LEFT - RIGHT - width);
     page.x.end = page.x.start + width;
     page.y.end = head;

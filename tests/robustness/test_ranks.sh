@@ -18,8 +18,8 @@ same() {
     [ -n "$(hash_of "$1")" ] && [ "$(hash_of "$1")" = "$(hash_of "$2")" ] || return 1
     diff -rq -x summary.csv -x run.log -x report.html -x checkpoint.h5 -x case.yaml "${@:3}" "$1" "$2"
 }
-# The same where particles were sorted at other times: these show them in the order of storage.
-same_but_for_order() { same "$1" "$2" -x snapshots -x pictures; }
+# The same where particles were sorted at other times: snapshots hold them in the order of storage.
+same_but_for_order() { same "$1" "$2" -x snapshots; }
 
 # Every method, geometry and law, a few steps each: what their checks say of so few does not count.
 names="riemann/gas-standard riemann/gas-second-order heat/aluminium-brass elastic-plastic/aluminium
@@ -28,7 +28,7 @@ names="riemann/gas-standard riemann/gas-second-order heat/aluminium-brass elasti
     porous-aluminium/demo-second-order rubber/stiff-cylinders impact/steel-cube-30 shear/water-layer-3d"
 cases=
 for name in $names; do cases="$cases $BOLIDE_SOURCE_DIR/examples/$name/case.yaml"; done
-few=(verify $cases --short --set run.max_steps=41 --set run.energy_drift=0)
+few=(verify $cases --short --set run.max_steps=41 --set run.energy_drift=0 --set "output.pictures=[density]")
 "$BOLIDE" "${few[@]}" --output one >one.log 2>&1
 on 2 "${few[@]}" --output two >two.log 2>&1
 on 4 "${few[@]}" --set run.rebalance=20 --output four >four.log 2>&1
@@ -67,11 +67,16 @@ probes:
 profiles:
   along: {fields: [pressure, velocity.x], along: x, by: body, bins: 20}
 run: {until: 1.2 us, rebalance: 20}
-output: {every: 0.3 us, checkpoint: 0.2 s, pictures: [pressure]}
+output: {every: 0.3 us, checkpoint: 0.2 s, pictures: [pressure, body]}
 checks:
   mass: {conserved: mass, within: 1e-12}
   piston moved: {mean: displacement.x, of: piston, is: 500 m/s*stopped, within: 1e-12 m}
   piston stands: {maximum: speed, of: piston, at_most: 0 m/s}
+  crumbs: {pieces: {link: 0.5}, at_least: 2}
+  halves: {asymmetry: {field: velocity.y, across: y, center: [0 mm, 1.5 mm, 0 mm]}, at_least: 0}
+  layers: {shear_layer: {speed: 1 m/s, plane: 1.5 mm}, at_least: 0 m^2/s}
+  slabs: {front: {field: velocity.x, value: 10 m/s, slab: 0.5 mm}, at_least: 0 mm}
+  wave: {front: {field: pressure, half: yes, from: low}, of: bar, at_least: 0 mm}
   bar is pushed: {recorded: {probe: bar, column: velocity.x, take: range}, at_least: 10 m/s}
 CASE
 rm -rf whole killed
