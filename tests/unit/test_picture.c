@@ -40,6 +40,7 @@ static struct simulation *lattice(int dimension, int nx, int ny, int nz, double 
         p->mass[i] = 1000.0 * pow(spacing, dimension);
         p->pressure[i] = 1e9 * (site[0] + 1);
         p->body[i] = (uint16_t)(2 * site[0] / nx);
+        p->id[i] = (uint64_t)i;
     }
     return simulation;
 }
@@ -253,6 +254,48 @@ static void section_of_a_solid_shows_its_two_longest_axes(void **state)
     drop(simulation);
 }
 
+/* Stores the particles the other way round. */
+static void turn_round(struct particles *p)
+{
+    for (int k = 0; k < p->fields; ++k) {
+        const struct field_declaration *field = &p->field[k].declaration;
+        const size_t bytes = number_size(field->number) * (size_t)field->components;
+        for (int32_t i = 0; i < p->count / 2; ++i) {
+            char buffer[64], *a = (char *)p->field[k].data + (size_t)i * bytes;
+            char *b = (char *)p->field[k].data + (size_t)(p->count - 1 - i) * bytes;
+            memcpy(buffer, a, bytes);
+            memcpy(a, b, bytes);
+            memcpy(b, buffer, bytes);
+        }
+    }
+}
+
+static void a_picture_is_the_same_in_any_order_of_storage(void **state)
+{
+    (void)state;
+    for (int dimension = 1; dimension <= 3; ++dimension) {
+        struct simulation *simulation =
+            lattice(dimension, 30, dimension > 1 ? 20 : 1, dimension > 2 ? 10 : 1, 1e-3);
+        /* Dense enough that discs lie on each other. */
+        for (int32_t i = 0; i < simulation->particles.count; ++i)
+            simulation->particles.mass[i] *= 8.0;
+        assert_null(draw_in(simulation, "pressure", NAN, NAN));
+        cairo_surface_t *first = read_picture();
+        turn_round(&simulation->particles);
+        assert_null(draw_in(simulation, "pressure", NAN, NAN));
+        cairo_surface_t *second = read_picture();
+        const size_t bytes = (size_t)cairo_image_surface_get_stride(first) *
+                             (size_t)cairo_image_surface_get_height(first);
+        assert_int_equal(cairo_image_surface_get_height(first),
+                         cairo_image_surface_get_height(second));
+        assert_memory_equal(cairo_image_surface_get_data(first),
+                            cairo_image_surface_get_data(second), bytes);
+        cairo_surface_destroy(first);
+        cairo_surface_destroy(second);
+        drop(simulation);
+    }
+}
+
 static void extreme_shapes_keep_the_page_within_limits(void **state)
 {
     (void)state;
@@ -400,6 +443,7 @@ int main(void)
         cmocka_unit_test(bodies_have_a_colour_each),
         cmocka_unit_test(the_frame_stands_where_a_wall_bounds_the_particles),
         cmocka_unit_test(section_of_a_solid_shows_its_two_longest_axes),
+        cmocka_unit_test(a_picture_is_the_same_in_any_order_of_storage),
         cmocka_unit_test(extreme_shapes_keep_the_page_within_limits),
         cmocka_unit_test(extreme_values_are_drawn),
         cmocka_unit_test(wrong_fields_are_input_errors),
