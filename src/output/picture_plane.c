@@ -111,6 +111,10 @@ struct error *dots_take(const struct particles *particles, const struct shown *s
 {
     double values[SLICE];
     *dots = (struct dots){.values = range_empty()};
+    /* In a plane all are shown. */
+    if (plane->normal < 0 && !memory_reserve((void **)&dots->dot, &dots->capacity, particles->count,
+                                             0, sizeof *dots->dot))
+        return error_new(ERROR_SYSTEM, "picture: out of memory");
     for (int64_t begin = 0; begin < particles->count; begin += SLICE) {
         int64_t end = begin + SLICE < particles->count ? begin + SLICE : particles->count;
         shown_read(shown, begin, end, values);
