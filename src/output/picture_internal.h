@@ -80,9 +80,9 @@ paint_function paint_square, paint_disc;
 
 /* What is shown of the particles: a component of a view, or a category. */
 struct shown {
-    const struct view *view;
+    const struct view *view; /* NULL: a category */
     int component;
-    const uint16_t *category; /* NULL: the view */
+    const uint16_t *category; /* of each particle; NULL also where there is none */
     const struct named_map *names;
 };
 

@@ -222,7 +222,7 @@ static void draw_page(const struct canvas *canvas, struct page *page, const stru
     axis_ticks(&page->y, canvas);
     put_image(canvas, easel, image);
     axes_frame(canvas, &page->x, &page->y);
-    if (!around->shown->category) {
+    if (around->shown->view) {
         char name[LABEL_TEXT];
         field_text(around->field, name, sizeof name);
         draw_colour_bar(canvas, page, page->y.start + AXIS_HEIGHT + BAR_GAP, &around->colours, dots,
@@ -272,7 +272,7 @@ static struct error *write_page(const char *path, struct page *page, const struc
 static struct error *find_page(const struct surroundings *around, struct page *page)
 {
     const struct ranks *ranks = around->simulation->ranks;
-    double head = 0.0, foot = around->shown->category ? 4.0 : BAR_GAP + BAR_THICKNESS + AXIS_HEIGHT;
+    double head = 0.0, foot = around->shown->view ? BAR_GAP + BAR_THICKNESS + AXIS_HEIGHT : 4.0;
     /* The width of the page does not depend on its head. */
     double width = lay_out(around->plane, head, foot).width - LEFT - RIGHT;
     struct error *error = NULL;
@@ -293,7 +293,7 @@ static struct error *draw_plane(const char *path, struct surroundings *around, s
     uint32_t *image;
     dots->of_all = ranks_sum(ranks, dots->count);
     dots->values = range_of_all(ranks, dots->values);
-    if (shown->category)
+    if (!shown->view)
         TRY(category_entries(dots, ranks, shown->names, around->entry, &around->entries));
     TRY(find_page(around, &page));
 
@@ -303,7 +303,7 @@ static struct error *draw_plane(const char *path, struct surroundings *around, s
     if (!isnan(fixed.high))
         range = (struct range){minimum(range.low, fixed.high), fixed.high};
     around->colours = colour_scale_make(range);
-    struct easel easel = easel_of(&page, around->plane, shown->category ? NULL : &around->colours);
+    struct easel easel = easel_of(&page, around->plane, shown->view ? &around->colours : NULL);
     TRY(dots_paint(ranks, dots, &easel, &image));
     struct error *error = NULL;
     if (ranks->rank == 0)

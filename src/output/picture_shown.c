@@ -29,7 +29,7 @@ struct error *picture_field_check(const struct simulation *simulation, const str
 
 void shown_read(const struct shown *shown, int64_t begin, int64_t end, double *out)
 {
-    if (shown->category)
+    if (!shown->view)
         for (int64_t i = begin; i < end; ++i)
             out[i - begin] = shown->category[i];
     else

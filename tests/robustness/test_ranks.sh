@@ -97,6 +97,11 @@ on 3 run space.yaml --output killed --resume >resumed.log 2>&1 ||
 grep -q "^resumed at step" resumed.log || fail "nothing was resumed: $(cat resumed.log)"
 same_but_for_order whole killed || fail "killed on 2 ranks and resumed on 3"
 
+# Ranks that have no particle.
+"$BOLIDE" run space.yaml --set "resolution=1 mm" --output few >few.log 2>&1 || fail "few particles: $(cat few.log)"
+on 4 run space.yaml --set "resolution=1 mm" --output fewer >few.log 2>&1 || fail "ranks without any: $(cat few.log)"
+same_but_for_order few fewer || fail "few particles on 4 ranks"
+
 # A mistake is told once, an impossible state too.
 on 2 run space.yaml --set "bodies.bar.material=cheese" --output wrong >wrong.log 2>&1
 [ "$(grep -c cheese wrong.log)" = 1 ] || fail "a mistake must be told once: $(cat wrong.log)"
