@@ -153,8 +153,7 @@ static struct error *sort(const struct profile *profile, const struct simulation
         if (sorting->place[i] >= 0)
             sorting->count[sorting->place[i]]++;
     }
-    for (int64_t k = 0; k < sorting->places; k++)
-        sorting->count[k] = ranks_sum(simulation->ranks, sorting->count[k]);
+    ranks_sum_of(simulation->ranks, sorting->count, (int)sorting->places);
     return NULL;
 }
 
@@ -176,11 +175,13 @@ static void sum_up(const struct simulation *simulation, const struct sorting *so
     ranks_sum_exact(simulation->ranks, sums, (int)sorting->places);
 }
 
+/* ENDS has room for two numbers a place. */
 static void find_scatter(const struct simulation *simulation, const struct sorting *sorting,
-                         const double *value, struct exact_sum *sums, struct scatter *scatter)
+                         const double *value, struct exact_sum *sums, double *ends,
+                         struct scatter *scatter)
 {
-    for (int64_t k = 0; k < sorting->places; k++)
-        scatter[k] = (struct scatter){NAN, NAN, INFINITY, -INFINITY};
+    for (int64_t k = 0; k < 2 * sorting->places; k++)
+        ends[k] = -INFINITY;
     sum_up(simulation, sorting, value, NULL, sums);
     for (int64_t k = 0; k < sorting->places; k++)
         scatter[k].mean = exact_sum_value(&sums[k]) / (double)sorting->count[k];
@@ -189,14 +190,15 @@ static void find_scatter(const struct simulation *simulation, const struct sorti
         int64_t k = sorting->place[i];
         if (k < 0)
             continue;
-        scatter[k].low = minimum(scatter[k].low, value[i]);
-        scatter[k].high = maximum(scatter[k].high, value[i]);
+        ends[2 * k] = maximum(ends[2 * k], -value[i]);
+        ends[2 * k + 1] = maximum(ends[2 * k + 1], value[i]);
     }
+    ranks_maximum_of(simulation->ranks, ends, 2 * (int)sorting->places);
     for (int64_t k = 0; k < sorting->places; k++) {
         bool any = sorting->count[k] > 0;
         scatter[k].spread = sqrt(exact_sum_value(&sums[k]) / (double)sorting->count[k]);
-        scatter[k].low = any ? ranks_minimum(simulation->ranks, scatter[k].low) : NAN;
-        scatter[k].high = any ? ranks_maximum(simulation->ranks, scatter[k].high) : NAN;
+        scatter[k].low = any ? -ends[2 * k] : NAN;
+        scatter[k].high = any ? ends[2 * k + 1] : NAN;
     }
 }
 
@@ -208,14 +210,17 @@ static struct error *find_all(const struct profile *profile, const struct simula
     const int32_t count = simulation->particles.count;
     double *value = memory_allocate(((size_t)count + 1) * sizeof *value);
     struct exact_sum *sums = memory_allocate(((size_t)sorting->places + 1) * sizeof *sums);
-    struct error *error = ranks_agree(simulation->ranks, value && sums ? NULL : out_of_memory());
+    double *ends = memory_allocate((2 * (size_t)sorting->places + 1) * sizeof *ends);
+    struct error *error =
+        ranks_agree(simulation->ranks, value && sums && ends ? NULL : out_of_memory());
     for (int i = 0; i < profile->fields.count && !error; i++) {
         const struct chosen_field *field = &profile->fields.field[i];
         view_read_component(&views->view[field->view], field->component, 0, count, value);
-        find_scatter(simulation, sorting, value, sums, scatter + i * sorting->places);
+        find_scatter(simulation, sorting, value, sums, ends, scatter + i * sorting->places);
     }
     free(value);
     free(sums);
+    free(ends);
     return error;
 }
 
