@@ -377,9 +377,12 @@ void neighbours_free(struct neighbours *neighbours)
 
 size_t neighbours_bytes(const struct neighbours *n)
 {
-    size_t bytes = (size_t)n->row_capacity * sizeof *n->row +
-                   (size_t)n->reference_capacity * 4 * sizeof(double) +
-                   (size_t)n->ghosts.capacity * (sizeof *n->ghosts.source + 1);
+    size_t bytes =
+        (size_t)n->row_capacity * sizeof *n->row +
+        (size_t)n->near_row_capacity * sizeof *n->near_row +
+        (size_t)n->near_capacity * sizeof *n->near_entry +
+        (size_t)(n->reference_capacity + n->near_reference_capacity) * 4 * sizeof(double) +
+        (size_t)n->ghosts.capacity * (sizeof *n->ghosts.source + 1);
     for (int t = 0; t < n->segments; t++)
         bytes += (size_t)n->segment[t].capacity * sizeof *n->segment[t].entry;
     return bytes;

@@ -4,7 +4,10 @@
  * The support of a pair is the sum of the two particles' reaches, reach = smoothing * diameter. A row
  * holds every neighbour nearer than that sum times (1 + skin), sorted by (part, id, image), so that what a
  * pair loop adds up, and in which order, does not depend on storage, on the age of the rows or on the skin,
- * once the loop has dropped those out of support. */
+ * once the loop has dropped those out of support.
+ *
+ * Most of a row is skin. So near rows are kept beside the rows, of the entries nearer than (1 + near skin) times the
+ * support, in the same order: found from the rows, which is cheap, whenever they no longer hold, and walked instead. */
 #ifndef BOLIDE_NEIGHBOURS_H
 #define BOLIDE_NEIGHBOURS_H
 
@@ -40,10 +43,19 @@ struct segment {
     int64_t capacity, count;
 };
 
+/* The same of near rows. */
+struct near_row {
+    int64_t begin;
+    uint32_t count;
+};
+
 struct block_motion;
 
 struct neighbours {
-    double skin; /* relative to the support */
+    double skin, near_skin; /* relative to the support; no near rows when the latter is zero */
+    bool near;              /* near rows are walked; */
+    bool prune;             /* but they must be found first, by neighbours_prune of each block */
+    int near_steps, rest;   /* steps that near rows have held; that none are wanted */
     int32_t count;
     int64_t row_capacity;
     struct row *row; /* one a particle */
@@ -59,6 +71,13 @@ struct neighbours {
     int64_t reference_capacity;
     double (*origin)[3], *origin_reach;
     struct block_motion *motion;
+
+    /* The same for the near rows; and these, those of a block one behind the other in the room of its rows. */
+    int64_t near_reference_capacity, near_row_capacity, near_capacity, near_block_capacity;
+    double (*near_origin)[3], *near_reach;
+    struct near_row *near_row;
+    uint32_t *near_entry;
+    int64_t *near_block; /* where that room begins */
 };
 
 /* Of the particles: what the rows follow from. */
@@ -73,7 +92,8 @@ struct error *neighbours_build(struct neighbours *neighbours, const struct parti
                                const struct contact_groups *groups, int threads);
 
 /* Collective: true while every pair within support is certain to be in the rows: judged block by block from the motion
- * of neighbouring blocks against each other, so that common motion costs nothing. */
+ * of neighbouring blocks against each other, so that common motion costs nothing. Where it is the near rows that no
+ * longer hold, asks for new ones (`prune`). */
 bool neighbours_hold(struct neighbours *neighbours, const struct particles *particles,
                      struct reach reach, int threads);
 
@@ -92,6 +112,13 @@ BOLIDE_INLINE const uint32_t *neighbours_row(const struct neighbours *n, int32_t
 {
     struct row row = n->row[i];
     return n->segment[row.segment].entry + ((int64_t)row.begin_high << 32 | row.begin_low);
+}
+
+/* The entries that a loop walks, which include all neighbours within support. */
+BOLIDE_INLINE const uint32_t *neighbours_walk(const struct neighbours *n, int32_t i, int *count)
+{
+    *count = (int)(n->near ? n->near_row[i].count : n->row[i].count);
+    return n->near ? n->near_entry + n->near_row[i].begin : neighbours_row(n, i);
 }
 
 #endif

@@ -3,185 +3,16 @@
  * their supports have grown, by more than the difference. Motion is judged by groups, the cubes of two cells that a
  * block falls into: a group's mean displacement, the spread about it, the growth of reach. Groups that touch are
  * compared pair by pair, also with each other's images behind walls; groups that do not touch have an edge of a group
- * between them to eat up first, which is judged by their blocks, and blocks that do not touch have an edge of a block. */
+ * between them to eat up first, which is judged by their blocks, and blocks that do not touch have an edge of a block.
+ *
+ * Near rows are judged alike by the motion since they were found. For them the rows must have held all pairs within (1 +
+ * near skin) times the support at that moment. */
 #include "particle/neighbours_hold.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/memory.h"
-#include "particle/block.h"
-
-/* Groups along each axis of a block. */
-static int groups_along(int dimension) { return block_cells(dimension) / 2; }
-
-static double group_edge(const struct particles *p) { return 2.0 * p->cell; }
-
-static double block_edge(const struct particles *p) { return p->cell * block_cells(p->dimension); }
-
-static struct error *reserve_motion(struct neighbours *n, const struct particles *p)
-{
-    if (!n->motion)
-        n->motion = memory_allocate(sizeof *n->motion);
-    if (!n->motion)
-        return motion_out_of_memory();
-    n->motion->groups = 1;
-    for (int axis = 0; axis < p->dimension; axis++)
-        n->motion->groups *= groups_along(p->dimension);
-    return NULL;
-}
-
-static struct error *reserve(struct neighbours *n, const struct particles *p)
-{
-    int64_t capacity = n->reference_capacity;
-    if (!memory_reserve((void **)&n->origin, &capacity, p->count, 0, sizeof *n->origin))
-        return motion_out_of_memory();
-    capacity = n->reference_capacity;
-    if (!memory_reserve((void **)&n->origin_reach, &capacity, p->count, 0, sizeof *n->origin_reach))
-        return motion_out_of_memory();
-    n->reference_capacity = capacity;
-    struct block_motion *m = n->motion;
-    const int64_t blocks = (int64_t)p->blocks + m->exchange.comes;
-    const size_t group_bytes = (size_t)m->groups * sizeof *m->group;
-    TRY(exchange_reserve(&m->exchange, group_bytes));
-    if (!memory_reserve((void **)&m->block, &m->block_capacity, blocks, 0, sizeof *m->block) ||
-        !memory_reserve((void **)&m->group, &m->group_capacity, blocks, 0, group_bytes) ||
-        !memory_reserve((void **)&m->touching, &m->touching_capacity, p->blocks, 0,
-                        sizeof *m->touching) ||
-        !memory_reserve((void **)&m->group_of, &m->group_of_capacity, p->count, 0, 1))
-        return motion_out_of_memory();
-    return NULL;
-}
-
-/* The group of a particle within its block at AT. */
-static int group_of_place(const struct particles *p, const int64_t at[3], const double x[3])
-{
-    int64_t along = groups_along(p->dimension), group = 0;
-    for (int axis = 0; axis < p->dimension; axis++) {
-        int64_t index = cell_index(x[axis], group_edge(p), along * BLOCK_MIDDLE);
-        group = group * along + (index - at[axis] * along);
-    }
-    return (int)group;
-}
-
-static void start_at_walls(struct moved *m, const struct mirrors *mirrors, double distance)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        m->low[axis] -= mirrors->low[axis];
-        m->high[axis] = mirrors->high[axis] - m->high[axis];
-        m->walls |= (unsigned)(m->low[axis] < distance) << (2 * axis);
-        m->walls |= (unsigned)(m->high[axis] < distance) << (2 * axis + 1);
-    }
-}
-
-static struct moved nothing_moved(void)
-{
-    struct moved m = {.smallest_reach = (double)INFINITY};
-    for (int axis = 0; axis < 3; axis++) {
-        m.low[axis] = (double)INFINITY;
-        m.high[axis] = -(double)INFINITY;
-    }
-    return m;
-}
-
-static void start_block(struct neighbours *n, const struct particles *p, struct reach reach,
-                        const struct mirrors *mirrors, int32_t b)
-{
-    struct block_motion *motion = n->motion;
-    struct moved *group = motion->group + (int64_t)b * motion->groups;
-    int64_t at[3];
-    block_coordinates(p->block[b].key, at);
-    for (int g = 0; g < motion->groups; g++)
-        group[g] = nothing_moved();
-    motion->block[b] = nothing_moved();
-    for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++) {
-        motion->group_of[i] = (uint8_t)group_of_place(p, at, p->position[i]);
-        n->origin_reach[i] = reach.smoothing * reach.diameter[i];
-        struct moved *both[] = {&group[motion->group_of[i]], &motion->block[b]};
-        for (int k = 0; k < 2; k++) {
-            both[k]->any = true;
-            both[k]->smallest_reach = minimum(both[k]->smallest_reach, n->origin_reach[i]);
-            for (int axis = 0; axis < 3; axis++) {
-                n->origin[i][axis] = p->position[i][axis];
-                both[k]->low[axis] = minimum(both[k]->low[axis], p->position[i][axis]);
-                both[k]->high[axis] = maximum(both[k]->high[axis], p->position[i][axis]);
-            }
-        }
-    }
-    for (int g = 0; g < motion->groups; g++)
-        start_at_walls(&group[g], mirrors, motion->distance);
-    start_at_walls(&motion->block[b], mirrors, motion->distance);
-}
-
-static int compare_keys(const void *a, const void *b)
-{
-    uint64_t x = *(const uint64_t *)a, y = ((const struct block *)b)->key;
-    return x < y ? -1 : x > y;
-}
-
-/* The blocks that touch block B, found by key: blocks are sorted by it, those of other ranks too. */
-static void list_touching(struct block_motion *motion, const struct particles *p, int32_t b)
-{
-    int64_t own[3];
-    uint64_t key;
-    block_coordinates(p->block[b].key, own);
-    for (int k = 0; k < TOUCHING_MAX; k++) {
-        motion->touching[b][k] = -1;
-        if (!motion_key_beside(p->dimension, own, k, &key))
-            continue;
-        const struct block *found =
-            bsearch(&key, p->block, (size_t)p->blocks, sizeof *p->block, compare_keys);
-        const uint64_t *far = !found && motion->far_key
-                                  ? bsearch(&key, motion->far_key, (size_t)motion->exchange.comes,
-                                            sizeof key, motion_compare_key)
-                                  : NULL;
-        if (found)
-            motion->touching[b][k] = (int32_t)(found - p->block);
-        else if (far)
-            motion->touching[b][k] = p->blocks + (int32_t)(far - motion->far_key);
-    }
-}
-
-struct error *motion_start(struct neighbours *n, const struct particles *p, struct reach reach,
-                           const struct mirrors *mirrors, double distance, const struct halo *halo,
-                           int threads)
-{
-    TRY(ranks_agree(p->ranks, reserve_motion(n, p)));
-    if (p->ranks->joined)
-        TRY(motion_meet(n->motion, p, halo));
-    TRY(ranks_agree(p->ranks, reserve(n, p)));
-    struct block_motion *motion = n->motion;
-    motion->distance = distance;
-    double largest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : largest)
-    for (int32_t b = 0; b < p->blocks; b++) {
-        start_block(n, p, reach, mirrors, b);
-        list_touching(motion, p, b);
-        for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++)
-            largest = maximum(largest, n->origin_reach[i]);
-    }
-    double support = 2.0 * (1.0 + n->skin) * ranks_maximum(p->ranks, largest);
-    motion->judged = support < group_edge(p)   ? BY_GROUPS
-                     : support < block_edge(p) ? BY_BLOCKS
-                                               : BY_ALL;
-    n->order = p->order;
-    return NULL;
-}
-
-void motion_free(struct neighbours *neighbours)
-{
-    free(neighbours->origin);
-    free(neighbours->origin_reach);
-    if (neighbours->motion) {
-        free(neighbours->motion->block);
-        free(neighbours->motion->group);
-        free(neighbours->motion->touching);
-        free(neighbours->motion->group_of);
-        free(neighbours->motion->far_key);
-        exchange_free(&neighbours->motion->exchange);
-    }
-    free(neighbours->motion);
-}
+enum {
+    NEAR_LIFE = 3, /* steps that near rows must hold to be worth finding them */
+    NEAR_REST = 24 /* steps without, where they are not */
+};
 
 /* The box of displacements of a group, then of a block. */
 struct box {
@@ -201,9 +32,30 @@ static void take_box(struct moved *m, const struct box *box)
     m->spread = sqrt(spread);
 }
 
+/* What is judged: whether the rows hold all pairs within MARGIN times their support, or whether near rows hold those
+ * within support. */
+struct question {
+    bool near;
+    double margin,
+        skin; /* of the moment ORIGIN was taken, what pairs may approach by, in supports */
+    const double (*origin)[3], *origin_reach;
+};
+
+static struct question of_rows(const struct neighbours *n, double beyond)
+{
+    return (struct question){false, 1.0 + beyond, n->skin - beyond, (const double(*)[3])n->origin,
+                             n->origin_reach};
+}
+
+static struct question of_near_rows(const struct neighbours *n)
+{
+    return (struct question){true, 1.0, n->near_skin, (const double(*)[3])n->near_origin,
+                             n->near_reach};
+}
+
 /* Brings the motion of a block and its groups up to date. */
 static void follow_block(struct neighbours *n, const struct particles *p, struct reach reach,
-                         int32_t b)
+                         const struct question *question, int32_t b)
 {
     struct block_motion *motion = n->motion;
     struct moved *group = motion->group + (int64_t)b * motion->groups, *block = &motion->block[b];
@@ -215,11 +67,12 @@ static void follow_block(struct neighbours *n, const struct particles *p, struct
     }
     for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++) {
         int g = motion->group_of[i];
-        double now = reach.smoothing * reach.diameter[i];
-        group[g].growth = maximum(group[g].growth, now - n->origin_reach[i]);
+        double now = question->margin * reach.smoothing * reach.diameter[i];
+        group[g].growth =
+            maximum(group[g].growth, now - question->margin * question->origin_reach[i]);
         group[g].largest_reach = maximum(group[g].largest_reach, now);
         for (int axis = 0; axis < 3; axis++) {
-            double moved = p->position[i][axis] - n->origin[i][axis];
+            double moved = p->position[i][axis] - question->origin[i][axis];
             box[g].low[axis] = minimum(box[g].low[axis], moved);
             box[g].high[axis] = maximum(box[g].high[axis], moved);
         }
@@ -269,8 +122,17 @@ static double pair_approach(const struct moved *a, const struct moved *b)
     return largest;
 }
 
+/* By how much the two may have approached each other. */
+static double slack_of(const struct question *question, const struct moved *a,
+                       const struct moved *b)
+{
+    return question->skin * (question->near ? a->smallest_near + b->smallest_near
+                                            : a->smallest_reach + b->smallest_reach);
+}
+
 /* Group G of block B against the groups that touch it. */
-static bool group_holds(const struct neighbours *n, int dimension, int32_t b, int g)
+static bool group_holds(const struct neighbours *n, const struct question *question, int dimension,
+                        int32_t b, int g)
 {
     const struct block_motion *motion = n->motion;
     const struct moved *own = motion->group + (int64_t)b * motion->groups + g;
@@ -292,14 +154,13 @@ static bool group_holds(const struct neighbours *n, int dimension, int32_t b, in
         if (c < 0)
             continue;
         const struct moved *other = motion->group + (int64_t)c * motion->groups + group;
-        double slack = n->skin * (own->smallest_reach + other->smallest_reach);
-        if (other->any && pair_approach(own, other) > slack)
+        if (other->any && pair_approach(own, other) > slack_of(question, own, other))
             return false;
     }
     return true;
 }
 
-/* The largest of what blocks have done since the rows were built; where the smallest counts, of its negative. */
+/* The largest of what blocks have done since then; where the smallest counts, of its negative. */
 enum {
     REACH,
     MOTION, /* of all against all, */
@@ -316,7 +177,8 @@ static void raise_to(double *most, double value) { *most = maximum(*most, value)
 
 /* Block B against the blocks that touch it, itself included. Where groups are judged, what blocks may approach by is
  * the room that groups which do not touch have between them. */
-static void judge_touching(const struct neighbours *n, int dimension, int32_t b, double *most)
+static void judge_touching(const struct neighbours *n, const struct question *question,
+                           int dimension, int32_t b, double *most)
 {
     const struct block_motion *motion = n->motion;
     const struct moved *own = &motion->block[b];
@@ -326,22 +188,23 @@ static void judge_touching(const struct neighbours *n, int dimension, int32_t b,
             continue;
         const struct moved *other = &motion->block[c];
         double near = pair_approach(own, other);
-        double slack = n->skin * (own->smallest_reach + other->smallest_reach);
         raise_to(&most[APPROACH], near);
-        raise_to(&most[BROKEN], motion->judged == BY_BLOCKS && near > slack);
+        raise_to(&most[BROKEN],
+                 motion->judged == BY_BLOCKS && near > slack_of(question, own, other));
     }
     for (int g = 0; motion->judged == BY_GROUPS && g < motion->groups; g++)
         if (motion->group[(int64_t)b * motion->groups + g].any)
-            raise_to(&most[BROKEN], !group_holds(n, dimension, b, g));
+            raise_to(&most[BROKEN], !group_holds(n, question, dimension, b, g));
 }
 
-static void judge_block(const struct neighbours *n, int dimension, int32_t b, double *most)
+static void judge_block(const struct neighbours *n, const struct question *question, int dimension,
+                        int32_t b, double *most)
 {
     const struct moved *m = &n->motion->block[b];
     double mean = sqrt(square(m->mean[0]) + square(m->mean[1]) + square(m->mean[2]));
     raise_to(&most[REACH], m->largest_reach);
     raise_to(&most[MOTION], mean + m->spread + m->growth);
-    raise_to(&most[SLACK], -n->skin * m->smallest_reach);
+    raise_to(&most[SLACK], -0.5 * slack_of(question, m, m));
     for (int axis = 0; axis < 3; axis++) {
         double low = maximum(m->low[axis], n->motion->distance) + m->mean[axis] - m->spread;
         double high = maximum(m->high[axis], n->motion->distance) - m->mean[axis] - m->spread;
@@ -350,39 +213,70 @@ static void judge_block(const struct neighbours *n, int dimension, int32_t b, do
         raise_to(&most[RISE + axis], m->mean[axis] + m->spread);
         raise_to(&most[FALL + axis], m->spread - m->mean[axis]);
     }
-    judge_touching(n, dimension, b, most);
+    judge_touching(n, question, dimension, b, most);
 }
 
-/* Blocks that do not touch have come no nearer to each other than supports reach. */
-static bool apart_hold(const struct particles *p, const double *most)
+/* Approach of blocks that do not touch. */
+static double approach_apart(const double *most)
 {
     double sum = 0.0;
     for (int axis = 0; axis < 3; axis++)
         sum += square(most[RISE + axis] + most[FALL + axis]);
-    return sqrt(sum) + 2.0 * most[REACH] <= block_edge(p);
+    return sqrt(sum);
+}
+
+/* Collective: the answer, and in MOST what it follows from. */
+static bool answer(struct neighbours *n, const struct particles *p, struct reach reach,
+                   const struct question *question, int threads, double *most)
+{
+    struct block_motion *motion = n->motion;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t b = 0; b < p->blocks; b++)
+        follow_block(n, p, reach, question, b);
+    motion_meet_again(motion, p);
+    for (int k = 0; k < JUDGED; k++)
+        most[k] = -INFINITY;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : most[:JUDGED])
+    for (int32_t b = 0; b < p->blocks; b++)
+        judge_block(n, question, p->dimension, b, most);
+    ranks_maximum_of(p->ranks, most, JUDGED);
+    double support = 2.0 * most[REACH], apart = approach_apart(most), near = most[APPROACH],
+           wall = -most[WALL];
+    if (question->near) {
+        wall = -motion->taken_wall - most[MOTION];
+        apart += motion->taken_apart;
+        near += motion->taken_approach;
+    }
+    if (most[BROKEN] > 0.0 || wall < support)
+        return false;
+    /* Where supports outgrow groups, the motion of all against all is judged. */
+    if (motion->judged == BY_ALL)
+        return most[MOTION] <= -most[SLACK];
+    return apart + support <= block_edge(p) &&
+           (motion->judged != BY_GROUPS || near + support <= group_edge(p));
 }
 
 bool neighbours_hold(struct neighbours *n, const struct particles *p, struct reach reach,
                      int threads)
 {
+    double most[JUDGED];
+    struct question question = of_near_rows(n);
     if (n->builds == 0 || n->order != p->order)
         return false;
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int32_t b = 0; b < p->blocks; b++)
-        follow_block(n, p, reach, b);
-    motion_meet_again(n->motion, p);
-    double most[JUDGED];
-    for (int k = 0; k < JUDGED; k++)
-        most[k] = -INFINITY;
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : most[:JUDGED])
-    for (int32_t b = 0; b < p->blocks; b++)
-        judge_block(n, p->dimension, b, most);
-    ranks_maximum_of(p->ranks, most, JUDGED);
-    if (most[BROKEN] > 0.0 || -most[WALL] < 2.0 * most[REACH])
+    n->rest -= n->rest > 0;
+    if (n->near && answer(n, p, reach, &question, threads, most)) {
+        n->near_steps++;
+        return true;
+    }
+    if (n->near && n->near_steps < NEAR_LIFE)
+        n->rest = NEAR_REST;
+    n->near = n->prune = false;
+    question = of_rows(n, near_wanted(n) ? n->near_skin : 0.0);
+    if (!answer(n, p, reach, &question, threads, most))
         return false;
-    /* Where supports outgrow groups, the motion of all against all is judged. */
-    if (n->motion->judged == BY_ALL)
-        return most[MOTION] <= -most[SLACK];
-    return apart_hold(p, most) &&
-           (n->motion->judged != BY_GROUPS || most[APPROACH] <= group_edge(p) - 2.0 * most[REACH]);
+    n->motion->taken_approach = most[APPROACH];
+    n->motion->taken_apart = approach_apart(most);
+    n->motion->taken_wall = most[WALL];
+    motion_start_near(n, p, reach, threads);
+    return true;
 }

@@ -2,12 +2,14 @@
 #ifndef BOLIDE_NEIGHBOURS_HOLD_H
 #define BOLIDE_NEIGHBOURS_HOLD_H
 
+#include "particle/block.h"
 #include "particle/halo.h"
 
 /* A group or a block since the rows were built. */
 struct moved {
     bool any;              /* it has particles */
-    double smallest_reach; /* at building */
+    double smallest_reach; /* at building, */
+    double smallest_near;  /* and when the near rows were found */
     double low[3];         /* nearest to each low wall, at building; NAN without wall */
     double high[3];
     unsigned walls; /* bit 2 axis + side: had images behind this wall */
@@ -26,9 +28,20 @@ struct block_motion {
     int32_t (
         *touching)[TOUCHING_MAX]; /* blocks that touch, by offset, itself included; -1 for none */
     uint8_t *group_of;            /* group of each particle within its block */
-    double distance;              /* of the plan of images */
+    /* What the motion up to the finding of near rows has taken of the room that those have who are no neighbours: the
+     * approach of blocks that touch, of others, and the negative of the distance left from a wall. */
+    double taken_approach, taken_apart, taken_wall;
+    double distance;                              /* of the plan of images */
     enum { BY_GROUPS, BY_BLOCKS, BY_ALL } judged; /* by the smallest that supports fit into */
 };
+
+/* Groups along each axis of a block; the edges of both. */
+BOLIDE_INLINE int groups_along(int dimension) { return block_cells(dimension) / 2; }
+BOLIDE_INLINE double group_edge(const struct particles *p) { return 2.0 * p->cell; }
+BOLIDE_INLINE double block_edge(const struct particles *p)
+{
+    return p->cell * block_cells(p->dimension);
+}
 
 struct error *motion_out_of_memory(void);
 
@@ -49,5 +62,13 @@ struct error *motion_start(struct neighbours *neighbours, const struct particles
                            struct reach reach, const struct mirrors *mirrors, double distance,
                            const struct halo *halo, int threads);
 void motion_free(struct neighbours *neighbours);
+
+/* Asks for near rows and takes down places and reaches, if they are wanted now. */
+void motion_start_near(struct neighbours *neighbours, const struct particles *particles,
+                       struct reach reach, int threads);
+BOLIDE_INLINE bool near_wanted(const struct neighbours *n)
+{
+    return n->near_skin > 0.0 && n->rest == 0;
+}
 
 #endif

@@ -18,17 +18,38 @@ struct contact_weights {
     double left, right, compliance, impedance;
 };
 
-/* Two states without impedance (fluids in shear) carry no stress and meet at their mean velocity. */
-BOLIDE_INLINE struct contact_weights riemann_acoustic_weights(double left, double right)
+/* Two states without impedance (fluids in shear) carry no stress and meet at their mean velocity. INVERSE is that of the
+ * sum, or of one where the sum is zero. */
+BOLIDE_INLINE struct contact_weights contact_weights_of(double left, double right, double inverse)
 {
     struct contact_weights w;
     double sum = left + right;
-    double inverse = 1.0 / (sum > 0.0 ? sum : 1.0);
     w.left = sum > 0.0 ? left * inverse : 0.5;
     w.right = sum > 0.0 ? right * inverse : 0.5;
     w.compliance = sum > 0.0 ? inverse : 0.0;
     w.impedance = left * w.right;
     return w;
+}
+
+BOLIDE_INLINE struct contact_weights riemann_acoustic_weights(double left, double right)
+{
+    double sum = left + right;
+    return contact_weights_of(left, right, 1.0 / (sum > 0.0 ? sum : 1.0));
+}
+
+/* The inverses that contact_weights_of wants for the sums of two pairs of impedances, with one division. */
+struct two_inverses {
+    double first, second;
+};
+BOLIDE_INLINE struct two_inverses inverses_of_sums(double left, double right, double left_across,
+                                                   double right_across)
+{
+    double sum = left + right, sum_across = left_across + right_across;
+    sum = sum > 0.0 ? sum : 1.0;
+    sum_across = sum_across > 0.0 ? sum_across : 1.0;
+    double inverse = 1.0 / (sum * sum_across);
+    struct two_inverses both = {inverse * sum_across, inverse * sum};
+    return both;
 }
 
 /* The arithmetic means of the two states, which turn the contact form of the SPH equations into the standard

@@ -26,11 +26,6 @@ struct forces {
     double force[3], power, mass, hoop;
 };
 
-INLINE struct vec3 vector_from(int dimension, const double *v, int step)
-{
-    return vec3_make(v[0], dimension > 1 ? v[step] : 0.0, dimension > 2 ? v[2 * step] : 0.0);
-}
-
 INLINE struct vec3 velocity_of(int dimension, const double *own, const double (*field)[LANES],
                                int k)
 {

@@ -110,14 +110,14 @@ struct lane_records {
 };
 
 /* Finds the records of the eight neighbours of LIST. */
-INLINE void lanes_rows(struct lane_records records, const int32_t *list, const double *row[LANES])
+INLINE void lanes_rows(struct lane_records records, const uint32_t *list, const double *row[LANES])
 {
     for (int k = 0; k < LANES; k++) /* NOLINTNEXTLINE(clang-analyzer-core.*): it is filled up */
         row[k] = records.record + (size_t)list[k] * (size_t)records.stride;
 }
 
 /* Turns the records of the eight neighbours of LIST into lanes, stride fields. */
-INLINE void lanes_stage(struct lane_records records, const int32_t *list, double (*field)[LANES])
+INLINE void lanes_stage(struct lane_records records, const uint32_t *list, double (*field)[LANES])
 {
     const double *row[LANES];
     lanes_rows(records, list, row);
@@ -125,9 +125,9 @@ INLINE void lanes_stage(struct lane_records records, const int32_t *list, double
         transpose(row, offset, field + offset);
 }
 
-/* Appends to LIST the neighbours of ENTRY within support of the particle, and returns how many. */
+/* Writes to LIST what bits BITS hold of the entries within support of the particle, and returns how many. */
 INLINE int lanes_compress(struct lane_records records, const double *own, const uint32_t *entry,
-                          int count, int32_t *list)
+                          int count, uint32_t bits, uint32_t *list)
 {
     const double *place = records.place ? records.place : records.record;
     const size_t stride = records.place ? PLACE_STRIDE : (size_t)records.stride;
@@ -140,7 +140,7 @@ INLINE int lanes_compress(struct lane_records records, const double *own, const 
             sum += square(other[1] - own[1]);
         if (records.dimension > 2)
             sum += square(other[2] - own[2]);
-        list[kept] = j;
+        list[kept] = entry[q] & bits;
         kept +=
             sum < square(records.smoothing * (own[records.dimension] + other[records.dimension]));
     }
@@ -150,21 +150,26 @@ INLINE int lanes_compress(struct lane_records records, const double *own, const 
 #if defined(__AVX512F__)
 /* The same, eight at once; rows of a line are too short for it. */
 INLINE int lanes_compress_wide(struct lane_records records, const double *own,
-                               const uint32_t *entry, int count, int32_t *list)
+                               const uint32_t *entry, int count, uint32_t bits, uint32_t *list)
 {
     const double *place = records.place ? records.place : records.record;
     const size_t stride = records.place ? PLACE_STRIDE : (size_t)records.stride;
     int kept = 0;
     for (int q = 0; q < count; q += LANES) {
         const __mmask8 all = (__mmask8)(count - q < LANES ? (1 << (count - q)) - 1 : 0xff);
-        const __m256i index = _mm256_and_si256(_mm256_maskz_loadu_epi32(all, entry + q),
-                                               _mm256_set1_epi32(ENTRY_INDEX));
-        int32_t at[LANES];
+        const __m256i entries = _mm256_maskz_loadu_epi32(all, entry + q);
+        const __m256i held = _mm256_and_si256(entries, _mm256_set1_epi32((int)bits));
+        uint32_t last[LANES];
+        const uint32_t *at =
+            entry + q; /* loaded one by one: cheaper than to take a register apart */
         const double *row[LANES];
         vector8 column[4];
-        memcpy(at, &index, sizeof at);
+        if (count - q < LANES) {
+            _mm256_storeu_si256((__m256i *)last, entries);
+            at = last;
+        }
         for (int k = 0; k < LANES; k++)
-            row[k] = place + (size_t)at[k] * stride;
+            row[k] = place + (size_t)(at[k] & ENTRY_INDEX) * stride;
         transpose_four(row, 0, column);
         vector8 apart = column[0] - own[0], sum = apart * apart;
         for (int axis = 1; axis < records.dimension; axis++) {
@@ -174,12 +179,23 @@ INLINE int lanes_compress_wide(struct lane_records records, const double *own,
         const vector8 support =
             records.smoothing * (own[records.dimension] + column[records.dimension]);
         const __mmask8 near = _mm512_mask_cmp_pd_mask(all, sum, support * support, _CMP_LT_OQ);
-        _mm256_storeu_si256((__m256i *)(list + kept), _mm256_maskz_compress_epi32(near, index));
+        _mm256_storeu_si256((__m256i *)(list + kept), _mm256_maskz_compress_epi32(near, held));
         kept += __builtin_popcount(near);
     }
     return kept;
 }
 #endif
+
+/* The better of both; LIST has room for COUNT + LANES. */
+INLINE int lanes_keep(struct lane_records records, const double *own, const uint32_t *entry,
+                      int count, uint32_t bits, uint32_t *list)
+{
+#if defined(__AVX512F__)
+    if (records.dimension > 1)
+        return lanes_compress_wide(records, own, entry, count, bits, list);
+#endif
+    return lanes_compress(records, own, entry, count, bits, list);
+}
 
 /* Where the part PART of a row ends that begins at BEGIN; most rows have but one. */
 INLINE int lanes_part(const uint32_t *entry, int begin, int count, unsigned part)
@@ -194,7 +210,7 @@ INLINE int lanes_part(const uint32_t *entry, int begin, int count, unsigned part
 /* The neighbours in support of one part of a row, chunk by chunk, in groups of eight that begin in lane zero:
  * the first neighbour of a part in support always stands in lane zero. */
 struct lane_walk {
-    int32_t list[LANES_CHUNK + 2 * LANES];
+    uint32_t list[LANES_CHUNK + 2 * LANES];
     int looked_at, ready, waiting;
 };
 
@@ -208,17 +224,12 @@ INLINE bool lanes_walk(struct lane_walk *walk, struct lane_records records, cons
     memmove(walk->list, walk->list + walk->ready, (size_t)walk->waiting * sizeof *walk->list);
     int left = count - walk->looked_at, length = left < LANES_CHUNK ? left : LANES_CHUNK;
     const uint32_t *part = entry + walk->looked_at;
-    int32_t *end = walk->list + walk->waiting;
-#if defined(__AVX512F__)
-    if (records.dimension > 1)
-        walk->waiting += lanes_compress_wide(records, own, part, length, end);
-    else
-#endif
-        walk->waiting += lanes_compress(records, own, part, length, end);
+    uint32_t *end = walk->list + walk->waiting;
+    walk->waiting += lanes_keep(records, own, part, length, ENTRY_INDEX, end);
     walk->looked_at += length;
     if (walk->looked_at == count) { /* filled up without a branch that the length decides */
         for (int k = 0; k < LANES; k++)
-            walk->list[walk->waiting + k] = records.empty;
+            walk->list[walk->waiting + k] = (uint32_t)records.empty;
         walk->waiting = (walk->waiting + LANES - 1) / LANES * LANES;
     }
     walk->ready = walk->waiting / LANES * LANES;

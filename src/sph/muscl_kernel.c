@@ -338,7 +338,7 @@ INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool
         for (int first = 0; first < walk.ready; first += GROUPS * LANES) {
             int left = (walk.ready - first) / LANES, groups = left < GROUPS ? left : GROUPS;
             for (int m = 0; m < groups; m++) {
-                const int32_t *list = walk.list + first + m * LANES;
+                const uint32_t *list = walk.list + first + m * LANES;
                 lanes_rows(records, list, lanes[m].record);
                 for (int f = 0; f < muscl_fields(kind); f += 4)
                     transpose(lanes[m].record, f, lanes[m].field + f);
@@ -363,9 +363,8 @@ INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool
 /* Adds the entries from BEGIN on of the row's parts FIRST and FIRST + 1 (the same under a contact law); returns where
  * the next part begins. */
 INLINE int add_parts(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                     const uint32_t *entry, int begin, unsigned first, struct sums *sums)
+                     const uint32_t *entry, int count, int begin, unsigned first, struct sums *sums)
 {
-    int count = (int)loop->neighbours->row[i].count;
     int middle = lanes_part(entry, begin, count, first);
     int end = lanes_part(entry, middle, count, first | PART_LAW);
     if (middle > begin)
@@ -378,7 +377,8 @@ INLINE int add_parts(const struct muscl_loop *loop, struct muscl_kind kind, int3
 INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i)
 {
     const struct layout at = layout_of(kind);
-    const uint32_t *entry = neighbours_row(loop->neighbours, i);
+    int count;
+    const uint32_t *entry = neighbours_walk(loop->neighbours, i, &count);
     const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
     double factor =
         -2.0 / (kind.depth ? loop->density[i] * own[muscl_depth(kind)] : loop->density[i]);
@@ -387,11 +387,11 @@ INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, int
     struct sums sums = nothing;
     double all[TOTALS], images[TOTALS];
     const double *of_images = none;
-    int done = add_parts(loop, kind, i, entry, 0, 0, &sums);
+    int done = add_parts(loop, kind, i, entry, count, 0, 0, &sums);
     sums_totals(kind, &sums, all);
-    if (done < (int)loop->neighbours->row[i].count) {
+    if (done < count) {
         sums = nothing;
-        add_parts(loop, kind, i, entry, done, PART_IMAGE, &sums);
+        add_parts(loop, kind, i, entry, count, done, PART_IMAGE, &sums);
         sums_totals(kind, &sums, images);
         for (int a = 0; a < at.count; a++)
             all[a] += images[a];

@@ -59,12 +59,6 @@ INLINE void sums_totals(struct muscl_kind kind, struct sums *sums, double *all)
                 f < wide ? sums->row[b][f] : all[at.narrow + b * narrow + f - wide];
 }
 
-/* The vector that stands STEP doubles apart from V on. */
-INLINE struct vec3 vector_from(int dimension, const double *v, int step)
-{
-    return vec3_make(v[0], dimension > 1 ? v[step] : 0.0, dimension > 2 ? v[2 * step] : 0.0);
-}
-
 /* The inverse of the second moment M, 1 on a complete lattice. Where neighbours lie to one side or in a plane M is
  * nearly singular, and its inverse gives way to the unit tensor as its norm grows from 16 to 32; the corner of a cubic
  * lattice has 5, of a distorted one up to 16. */

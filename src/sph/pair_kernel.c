@@ -8,12 +8,22 @@
 #include "sph/kernel.h"
 #include "sph/record.h"
 
-enum { FIELDS = 24 };
+enum {
+    FIELDS = 24,
+    GROUPS = 4 /* of eight neighbours: most rows in space fit */
+};
 
 /* Eight neighbours, field by field, and for each whether a contact law cuts shear or tension. */
 struct lanes {
     double field[FIELDS][LANES] ALIGNED;
     double slip[LANES] ALIGNED, open[LANES] ALIGNED;
+};
+
+/* Eight pairs between the two parts of the kernel. Each part runs over all groups before the next begins: what one group
+ * waits for, another fills. */
+struct pairs {
+    double x[LANES] ALIGNED, r[LANES] ALIGNED, e[3][LANES] ALIGNED;
+    double weight[LANES] ALIGNED; /* V W' */
 };
 
 /* Sums of V W' t*, V W' (U* - U)^a e^b and V W' t*.(U* - U), by lane. */
@@ -36,33 +46,45 @@ INLINE struct vec3 spin_from(int dimension, const double *s, int step)
     return dimension == 2 ? vec3_make(0.0, 0.0, s[0]) : vec3_make(s[0], s[step], s[2 * step]);
 }
 
-/* One own particle against eight neighbours. */
-INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, const double *own,
-                      const struct lanes *lanes, struct sums *sums)
+/* One own particle against eight neighbours: where they are, and how much they count. */
+INLINE void find_places(struct pair_kind kind, double smoothing, const double *own,
+                        const struct lanes *lanes, struct pairs *pairs)
+{
+    const int dimension = kind.dimension;
+    const int d = record_diameter(dimension), v = record_volume(dimension);
+#pragma omp simd simdlen(8)
+    for (int k = 0; k < LANES; k++) {
+        const struct vec3 x = vec3_sub(vector_from(dimension, &lanes->field[0][k], LANES),
+                                       vector_from(dimension, own, 1));
+        double r = sqrt(maximum(vec3_dot(x, x), 1e-200));
+        double two_h = smoothing * (own[d] + lanes->field[d][k]);
+        double inverse = 1.0 / (r * two_h); /* one division serves two */
+        const struct vec3 e = vec3_scale(inverse * two_h, x);
+        pairs->x[k] = x.x;
+        pairs->r[k] = r;
+        pairs->e[0][k] = e.x;
+        pairs->e[1][k] = e.y;
+        pairs->e[2][k] = e.z;
+        pairs->weight[k] = lanes->field[v][k] * kernel_slope(r, 2.0 * (inverse * r), dimension);
+    }
+}
+
+/* Solves their contact problems and adds up what they give. */
+INLINE void add_contacts(struct pair_kind kind, bool with_law, const double *own,
+                         const struct lanes *lanes, const struct pairs *pairs, struct sums *sums)
 {
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
-    const int d = record_diameter(dimension), v = record_volume(dimension);
+    const int d = record_diameter(dimension);
     const int u = record_velocity(dimension), s = record_stress(dimension);
     const int z = record_impedance(dimension, shear);
     const int depth = record_depth(kind), spin = record_spin(kind);
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
-        struct vec3 x = vec3_make(lanes->field[0][k] - own[0], 0.0, 0.0);
-        struct vec3 du = vec3_make(lanes->field[u][k] - own[u], 0.0, 0.0);
-        if (dimension > 1) {
-            x.y = lanes->field[1][k] - own[1];
-            du.y = lanes->field[u + 1][k] - own[u + 1];
-        }
-        if (dimension > 2) {
-            x.z = lanes->field[2][k] - own[2];
-            du.z = lanes->field[u + 2][k] - own[u + 2];
-        }
-        double r = sqrt(maximum(vec3_dot(x, x), 1e-200));
-        struct vec3 e = vec3_scale(1.0 / r, x);
-        double inverse_h = 2.0 / (smoothing * (own[d] + lanes->field[d][k]));
-        double weight = lanes->field[v][k] * kernel_slope(r, inverse_h, dimension);
-
+        const double r = pairs->r[k], weight = pairs->weight[k];
+        const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
+        const struct vec3 du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
+                                        vector_from(dimension, own + u, 1));
         struct vec3 ti = {0.0, 0.0, 0.0}, tj = {0.0, 0.0, 0.0};
         if (shear) {
             ti = traction_of(dimension, stress_from(dimension, own + s, 1), e);
@@ -73,6 +95,9 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
         double along_u = vec3_dot(du, e);
 
         double stress, jump;
+        const int across_z = shear ? z + 1 : z;
+        const struct two_inverses inverse =
+            inverses_of_sums(own[z], lanes->field[z][k], own[across_z], lanes->field[across_z][k]);
         if (record_has_bend(kind)) {
             const int q = record_bend(dimension, shear);
             struct side left = {own[z], 0.0, along_i, own[q], own[q + 1]};
@@ -84,8 +109,9 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
             jump = contact.velocity;
         } else {
             struct contact_weights along =
-                kind.star == STAR_MEAN ? riemann_mean_weights()
-                                       : riemann_acoustic_weights(own[z], lanes->field[z][k]);
+                kind.star == STAR_MEAN
+                    ? riemann_mean_weights()
+                    : contact_weights_of(own[z], lanes->field[z][k], inverse.first);
             stress = contact_stress(along, along_i, along_j, along_u);
             jump = contact_velocity_jump(along, along_u, along_j - along_i);
         }
@@ -109,13 +135,13 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
                     vec3_add(own_turn, vec3_scale((1.0 - share) * r, vec3_cross(spin_j, e))));
             }
             if (shear) {
-                struct contact_weights across =
-                    kind.star == STAR_MEAN
-                        ? riemann_mean_weights()
-                        : riemann_acoustic_weights(own[z + 1], lanes->field[z + 1][k]);
                 struct vec3 ai = vec3_sub(ti, vec3_scale(along_i, e));
                 struct vec3 aj = vec3_sub(tj, vec3_scale(along_j, e));
                 struct vec3 da = vec3_sub(aj, ai);
+                struct contact_weights across =
+                    kind.star == STAR_MEAN
+                        ? riemann_mean_weights()
+                        : contact_weights_of(own[z + 1], lanes->field[z + 1][k], inverse.second);
                 struct vec3 ta =
                     vec3_add(vec3_add(vec3_scale(across.left, aj), vec3_scale(across.right, ai)),
                              vec3_scale(across.impedance, across_u));
@@ -142,8 +168,8 @@ INLINE void add_lanes(struct pair_kind kind, bool with_law, double smoothing, co
             double pair_depth = 0.5 * fabs(own[depth] + lanes->field[depth][k]);
             force_weight = weight * pair_depth;
             sums->hoop[0][k] += weight * (pair_depth - own[depth]) * e.x;
-            sums->hoop[1][k] += weight * x.x * e.x;
-            sums->hoop[2][k] += weight * x.x * fabs(e.x);
+            sums->hoop[1][k] += weight * pairs->x[k] * e.x;
+            sums->hoop[2][k] += weight * pairs->x[k] * fabs(e.x);
         }
         double power = force_weight * vec3_dot(t, w);
         t = vec3_scale(force_weight, t);
@@ -200,15 +226,22 @@ INLINE void add_part(const struct pair_loop *loop, struct pair_kind kind, bool w
                                          loop->empty,  loop->smoothing,     NULL};
     const double *own = loop->record + (size_t)i * (size_t)records.stride;
     struct lane_walk walk;
-    struct lanes lanes;
+    struct lanes lanes[GROUPS];
+    struct pairs pairs[GROUPS];
     walk.looked_at = walk.ready = walk.waiting = 0;
     while (lanes_walk(&walk, records, own, entry, count))
-        for (int k = 0; k < walk.ready; k += LANES) {
-            lanes_stage(records, walk.list + k, lanes.field);
-            if (with_law)
-                stage_laws(loop->neighbours, loop->groups, loop->body, i, walk.list + k, lanes.slip,
-                           lanes.open);
-            add_lanes(kind, with_law, loop->smoothing, own, &lanes, sums);
+        for (int first = 0; first < walk.ready; first += GROUPS * LANES) {
+            int left = (walk.ready - first) / LANES, groups = left < GROUPS ? left : GROUPS;
+            for (int m = 0; m < groups; m++) {
+                const uint32_t *list = walk.list + first + m * LANES;
+                lanes_stage(records, list, lanes[m].field);
+                if (with_law)
+                    stage_laws(loop->neighbours, loop->groups, loop->body, i, list, lanes[m].slip,
+                               lanes[m].open);
+                find_places(kind, loop->smoothing, own, &lanes[m], &pairs[m]);
+            }
+            for (int m = 0; m < groups; m++)
+                add_contacts(kind, with_law, own, &lanes[m], &pairs[m], sums);
         }
 }
 
@@ -245,11 +278,11 @@ INLINE void write_rates(const struct pair_rates *rates, int32_t i, double factor
 
 INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32_t i)
 {
-    const uint32_t *entry = neighbours_row(loop->neighbours, i);
+    int count, done = 0;
+    const uint32_t *entry = neighbours_walk(loop->neighbours, i, &count);
     const double *own = loop->record + (size_t)i * (size_t)record_stride(kind);
     double factor =
         -2.0 / (kind.depth ? loop->density[i] * own[record_depth(kind)] : loop->density[i]);
-    int count = (int)loop->neighbours->row[i].count, done = 0;
     struct sums sums = {0};
     static const struct totals_of_row none;
     struct totals_of_row all, images;

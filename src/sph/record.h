@@ -7,6 +7,12 @@
 #include "base/vector.h"
 #include "sph/lanes.h"
 
+/* The vector that stands STEP doubles apart from V on. */
+INLINE struct vec3 vector_from(int dimension, const double *v, int step)
+{
+    return vec3_make(v[0], dimension > 1 ? v[step] : 0.0, dimension > 2 ? v[2 * step] : 0.0);
+}
+
 /* The stress that stands STEP doubles apart from S on, in the order of the record. */
 INLINE struct sym3 stress_from(int dimension, const double *s, int step)
 {
@@ -36,12 +42,12 @@ INLINE struct vec3 traction_of(int dimension, struct sym3 s, struct vec3 e)
 
 /* The contact laws between the body of particle I and the eight neighbours of LIST: which cut shear, which tension. */
 INLINE void stage_laws(const struct neighbours *n, const struct contact_groups *groups,
-                       const uint16_t *body, int32_t i, const int32_t *list, double *slip,
+                       const uint16_t *body, int32_t i, const uint32_t *list, double *slip,
                        double *open)
 {
     const uint8_t *law = groups->law + (size_t)groups->of_body[body[i]] * (size_t)groups->groups;
     for (int k = 0; k < LANES; k++) {
-        int32_t j = list[k];
+        int32_t j = (int32_t)list[k];
         if (j >= n->count && j < n->count + n->ghosts.count)
             j = n->ghosts.source[j - n->count];
         unsigned bits = j < n->count ? law[groups->of_body[body[j]]]

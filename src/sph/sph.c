@@ -12,6 +12,7 @@
 #include "riemann/bend.h"
 #include "sph/heat_kernel.h"
 #include "sph/lanes.h"
+#include "sph/prune.h"
 #include "sph/sph_internal.h"
 
 /* A field without unit is not shown: it belongs to the middle of a step. */
@@ -178,11 +179,17 @@ static struct error *check_walls(const struct simulation *simulation, double rea
     return NULL;
 }
 
+/* Of the skin: a smaller share leaves less to walk, and must be found more often. */
+static const double near_share = 0.3;
+
 static struct error *sph_create(void *solver, struct simulation *simulation, const void *parameters)
 {
     struct sph *sph = solver;
     sph->parameters = sph_settled(parameters);
     sph->neighbours.skin = sph->parameters.skin;
+    /* The rows of a line are short; Heun's step moves particles between two walks. */
+    if (simulation->dimension > 1 && !sph_corrected(sph) && !sph_still(sph))
+        sph->neighbours.near_skin = near_share * sph->parameters.skin;
     TRY(choose_kind(sph, simulation));
     sph->groups = (struct contact_groups){simulation->group_of_body, &simulation->law[0][0],
                                           has_laws(simulation) ? CONTACT_GROUPS : 1};
@@ -260,14 +267,21 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
                              .body = p->body,
                              .density = p->density,
                              .rates = fields->rates};
+    const struct prune_loop prune = {loop.record, record_stride(loop.kind), p->dimension,
+                                     NULL,        loop.smoothing,           &sph->neighbours};
     for (int rest = 0; rest < 2; rest++) {
         if (rest)
             sph_pack_rest(sph, simulation);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
-        for (int32_t b = 0; b < p->blocks; b++)
-            if (neighbours_inner(&sph->neighbours, b) != rest)
-                pair_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
+        for (int32_t b = 0; b < p->blocks; b++) {
+            const int32_t first = p->block[b].first, end = first + p->block[b].count;
+            if (neighbours_inner(&sph->neighbours, b) == rest)
+                continue;
+            prune_loop_run(&prune, p->block, b);
+            pair_loop_run(&loop, first, end);
+        }
     }
+    sph->neighbours.prune = false;
     if (sph_axisymmetric(simulation))
         sph_add_hoop(sph, simulation, fields);
 }
@@ -295,14 +309,21 @@ static void sum_pairs_ahead(struct sph *sph, struct simulation *simulation,
                               .rates = {fields->rates, fields->correction,
                                         fields->velocity_gradient, fields->stress_gradient,
                                         fields->force, fields->packing}};
+    const struct prune_loop prune = {loop.record, muscl_stride(loop.kind), p->dimension,
+                                     loop.place,  loop.smoothing,          &sph->neighbours};
     for (int rest = 0; rest < 2; rest++) {
         if (rest)
             muscl_pack_rest(sph, simulation);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
-        for (int32_t b = 0; b < p->blocks; b++)
-            if (neighbours_inner(&sph->neighbours, b) != rest)
-                muscl_loop_run(&loop, p->block[b].first, p->block[b].first + p->block[b].count);
+        for (int32_t b = 0; b < p->blocks; b++) {
+            const int32_t first = p->block[b].first, end = first + p->block[b].count;
+            if (neighbours_inner(&sph->neighbours, b) == rest)
+                continue;
+            prune_loop_run(&prune, p->block, b);
+            muscl_loop_run(&loop, first, end);
+        }
     }
+    sph->neighbours.prune = false;
     if (sph_axisymmetric(simulation))
         sph_add_hoop(sph, simulation, fields);
     simulation_spend(simulation, "pairs", clock_seconds() - begin);

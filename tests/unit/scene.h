@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "particle/neighbours.h"
+#include "sph/prune.h"
 
 enum { SCENE_BODIES = 3 };
 
@@ -79,12 +80,38 @@ static inline void scene_build(struct scene *scene)
                                     &scene->mirrors, &scene->groups, scene->threads));
 }
 
+/* Finds the near rows from records of places and diameters. */
+static inline void scene_prune(struct scene *scene)
+{
+    enum { STRIDE = 8 };
+    const struct particles *p = &scene->particles;
+    struct neighbours *n = &scene->neighbours;
+    const int32_t count = p->count + n->ghosts.count;
+    double *record = calloc((size_t)count, STRIDE * sizeof *record);
+    for (int32_t i = 0; i < count; i++) {
+        const int32_t j = i < p->count ? i : n->ghosts.source[i - p->count];
+        const image_code image = i < p->count ? 0 : n->ghosts.image[i - p->count];
+        const double *x = p->position[j];
+        const struct vec3 at = image_position(&scene->mirrors, image, vec3_make(x[0], x[1], x[2]));
+        const double place[3] = {at.x, at.y, at.z};
+        memcpy(record + (size_t)i * STRIDE, place, (size_t)p->dimension * sizeof *place);
+        record[i * STRIDE + p->dimension] = scene->reach.diameter[j];
+    }
+    const struct prune_loop loop = {record, STRIDE, p->dimension, NULL, scene->reach.smoothing, n};
+    for (int32_t b = 0; b < p->blocks; b++)
+        prune_loop_run(&loop, p->block, b);
+    n->prune = false;
+    free(record);
+}
+
 /* What the solver does every step. */
 static inline void scene_refresh(struct scene *scene)
 {
     scene->reach.diameter = scene_diameter(scene);
     if (!neighbours_hold(&scene->neighbours, &scene->particles, scene->reach, scene->threads))
         scene_build(scene);
+    if (scene->neighbours.prune)
+        scene_prune(scene);
 }
 
 static inline bool scene_has_image(const struct scene *scene, int image)
@@ -104,16 +131,17 @@ static inline double scene_distance2(const struct scene *scene, int32_t i, int32
     return square(other.x - a[0]) + square(other.y - a[1]) + square(other.z - a[2]);
 }
 
-/* Marks in SEEN (count x 27) the neighbours of row I, checking order, parts and that none comes twice. */
+/* Marks in SEEN (count x 27) the neighbours that a loop walks for I, checking order, parts and that none comes twice. */
 static inline void scene_mark_row(const struct scene *scene, int32_t i, uint8_t *seen)
 {
     const struct particles *p = &scene->particles;
     const struct neighbours *n = &scene->neighbours;
-    const uint32_t *entry = neighbours_row(n, i);
+    int count;
+    const uint32_t *entry = neighbours_walk(n, i, &count);
     uint64_t last_part = 0, last_id = 0;
     int last_image = -1;
     memset(seen, 0, (size_t)p->count * IMAGE_CODES);
-    for (uint32_t k = 0; k < n->row[i].count; k++) {
+    for (int k = 0; k < count; k++) {
         int32_t j = (int32_t)(entry[k] & ENTRY_INDEX);
         uint64_t part = entry[k] >> ENTRY_PART_SHIFT;
         int image = 0;

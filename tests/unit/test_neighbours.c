@@ -2,6 +2,9 @@
  * thousandfold, bodies in flight, walls and corners. */
 #include "scene.h"
 
+/* Of the near rows, where the skin is 0.15. */
+static const double NEAR_SKIN = 0.05;
+
 static void scatter(struct scene *scene, double size, double diameter, double spread,
                     struct dice *dice)
 {
@@ -135,6 +138,7 @@ static void a_case_far_from_the_origin_is_searched_alike(void **state)
 static int expand(struct scene *scene, double factor, int steps, struct dice *dice)
 {
     struct particles *p = &scene->particles;
+    scene->neighbours.near_skin = NEAR_SKIN;
     for (int step = 0; step < steps; step++) {
         double *d = scene_diameter(scene);
         for (int32_t i = 0; i < p->count; i++) {
@@ -196,6 +200,7 @@ static void rows_hold_while_particles_swell_in_place(void **state)
         scene_create(&scene, dimension, 150, 2.4 * 1.15, 0.15);
         scatter(&scene, 2.0 * pow(150, 1.0 / dimension), 0.5, 2.0, &dice);
         scene.mirrors.low[0] = -pow(150, 1.0 / dimension) - 0.3;
+        scene.neighbours.near_skin = NEAR_SKIN;
         for (int step = 0; step < 150; step++) {
             double *d = scene_diameter(&scene);
             for (int32_t i = 0; i < scene.particles.count; i++)
@@ -208,10 +213,50 @@ static void rows_hold_while_particles_swell_in_place(void **state)
     }
 }
 
+/* A lattice that shivers slowly: near rows outlive several steps, and are shorter than the rows. */
+static void near_rows_are_found_from_the_rows_and_hold_like_these(void **state)
+{
+    (void)state;
+    struct dice dice = {12};
+    struct scene scene;
+    scene_create(&scene, 3, 216, 2.4 * 1.3, 0.3);
+    scene.neighbours.near_skin = NEAR_SKIN;
+    struct particles *p = &scene.particles;
+    for (int32_t i = 0; i < p->count; i++) {
+        const int at[3] = {i % 6, i / 6 % 6, i / 36};
+        for (int axis = 0; axis < 3; axis++)
+            p->position[i][axis] = at[axis] + dice_between(&dice, -0.1, 0.1);
+        scene_diameter(&scene)[i] = 1.0;
+    }
+    scene.mirrors.high[1] = 6.0;
+    int64_t rows = 0, near_rows = 0;
+    int found = 0;
+    for (int step = 0; step < 60; step++) {
+        for (int32_t i = 0; i < p->count; i++)
+            for (int axis = 0; axis < 3; axis++)
+                p->position[i][axis] += 0.01 * dice_between(&dice, -1.0, 1.0);
+        scene_refresh(&scene);
+        scene_judge(&scene, false);
+        assert_true(scene.neighbours.near);
+        found += scene.neighbours.near_steps == 1;
+        for (int32_t i = 0; i < p->count; i++) {
+            int count;
+            neighbours_walk(&scene.neighbours, i, &count);
+            rows += scene.neighbours.row[i].count;
+            near_rows += count;
+        }
+    }
+    print_message("%d near rows of %d builds in 60 steps\n", found, (int)scene.neighbours.builds);
+    assert_true(near_rows < rows - rows / 8);
+    assert_true(scene.neighbours.builds < found && found < 25);
+    scene_destroy(&scene);
+}
+
 /* Two blocks of particles at speeds of SPEED; returns builds over STEPS steps of 1. */
 static int64_t fly(struct scene *scene, const double speed[2], int steps)
 {
     struct particles *p = &scene->particles;
+    scene->neighbours.near_skin = NEAR_SKIN;
     for (int step = 0; step < steps; step++) {
         for (int32_t i = 0; i < p->count; i++)
             p->position[i][0] += speed[p->body[i] % 2];
@@ -284,6 +329,7 @@ static void bounce(int dimension, int count, int steps, unsigned walls, struct d
     const double size = 6.0;
     scene_create(&scene, dimension, count, 2.4 * 1.15 * 0.6, 0.15);
     scatter(&scene, size, 0.2, 3.0, dice);
+    scene.neighbours.near_skin = NEAR_SKIN;
     struct particles *p = &scene.particles;
     for (int axis = 0; axis < dimension; axis++) {
         if (walls >> (2 * axis) & 1)
@@ -390,6 +436,7 @@ int main(void)
         cmocka_unit_test(rows_hold_while_a_gas_expands_a_thousandfold),
         cmocka_unit_test(rows_hold_while_a_gas_collapses),
         cmocka_unit_test(rows_hold_while_particles_swell_in_place),
+        cmocka_unit_test(near_rows_are_found_from_the_rows_and_hold_like_these),
         cmocka_unit_test(common_motion_costs_no_build),
         cmocka_unit_test(bodies_far_apart_that_fly_at_each_other_cost_few_builds),
         cmocka_unit_test(rows_hold_while_bodies_meet_and_pass_through_each_other),
