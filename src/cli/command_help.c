@@ -129,6 +129,12 @@ static struct error *print_fields(void)
         views_of_particles(&views, empty);
         for (int i = 0; i < views.count; i++)
             print_view(&views.view[i]);
+        printf("where a material has it:\n");
+        for (int slot = 1; slot < POINT_HISTORY; slot++) /* the first is the core's */
+            print_view(&(struct view){.name = history_slots[slot].name,
+                                      .unit = history_slots[slot].unit,
+                                      .help = history_slots[slot].help,
+                                      .components = 1});
         for (int i = 0; i < solvers->count; i++) {
             const struct solver_class *class = solvers->choices[i].thing;
             const struct field_declaration *field;

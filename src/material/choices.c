@@ -7,10 +7,11 @@
 
 const struct choice eos_choices[EOS_KINDS] = {EOS_LIST(EOS_CHOICE)};
 
+#define STRENGTH_CHOICE(identifier)                                                        \
+    [STRENGTH_##identifier] = {strength_##identifier##_name, strength_##identifier##_help, \
+                               strength_##identifier##_parameters,                         \
+                               sizeof(struct strength_##identifier), NULL},
+
 const struct choice strength_choices[STRENGTH_KINDS] = {
     [STRENGTH_NONE] = {"none", "no shear strength: a fluid", NULL, 0, NULL},
-    [STRENGTH_PERFECT_PLASTIC] = {"perfect-plastic",
-                                  "elastic up to a constant von Mises yield stress",
-                                  strength_perfect_plastic_parameters,
-                                  sizeof(struct strength_perfect_plastic), NULL},
-};
+    STRENGTH_LIST(STRENGTH_CHOICE)};

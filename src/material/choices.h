@@ -17,7 +17,13 @@
 EOS_LIST(EOS_TABLE)
 #undef EOS_TABLE
 
-extern const struct parameter strength_perfect_plastic_parameters[];
+/* The same of a strength model in strength/<identifier>.c. */
+#define STRENGTH_TABLE(identifier)                    \
+    extern const char strength_##identifier##_name[]; \
+    extern const char strength_##identifier##_help[]; \
+    extern const struct parameter strength_##identifier##_parameters[];
+STRENGTH_LIST(STRENGTH_TABLE)
+#undef STRENGTH_TABLE
 
 /* By enum eos_kind and by enum strength_kind. */
 extern const struct choice eos_choices[EOS_KINDS];

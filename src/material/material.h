@@ -12,23 +12,6 @@
 #include "material/heat.h"
 #include "material/strength.h"
 
-enum { POINT_HISTORY = 1 };
-
-/* One point of a material at one time level. history[0]: equivalent plastic strain. */
-struct point {
-    double density, energy, pressure;
-    struct sym3 deviator;
-    double history[POINT_HISTORY];
-};
-
-/* What a step does to a point: its density and specific internal energy after the step, the symmetric
- * velocity gradient (with its trace) and half the curl of velocity during it. */
-struct motion {
-    double dt, density, energy;
-    struct sym3 strain_rate;
-    struct vec3 spin;
-};
-
 /* What the contact problem and the time step need of a point: longitudinal and shear sound speed (m/s),
  * (dp/drho)_e, (dp/de)_rho, shear modulus and yield stress. */
 struct response {
@@ -82,7 +65,7 @@ BOLIDE_INLINE struct response material_evaluate(const struct material *material,
         eos_evaluate(&material->eos, point->density, point->energy, point->history);
     point->pressure = value.pressure;
     return material_response(&value, point->density, strength_shear_modulus(&material->strength),
-                             strength_yield(&material->strength, point->history));
+                             strength_yield(&material->strength, point));
 }
 
 /* Advances a point by one step (section 7.3 of the source, steps 4 to 7): elastic trial deviator, its
@@ -93,9 +76,14 @@ BOLIDE_INLINE struct response material_step(const struct material *material, str
     point->density = motion->density;
     point->energy = motion->energy;
     if (material_has_strength(material))
-        strength_step(&material->strength, motion->dt, motion->strain_rate, motion->spin,
-                      &point->deviator, point->history);
+        strength_step(&material->strength, motion, 0.0, point);
     return material_evaluate(material, point);
+}
+
+/* The slots of history that it needs beside the plastic strain. */
+BOLIDE_INLINE unsigned material_history(const struct material *material)
+{
+    return strength_history(&material->strength);
 }
 
 #endif

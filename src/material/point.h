@@ -1,8 +1,9 @@
-/* What the parts of a material give back. */
+/* A point of a material, what a step does to it, and what the parts of a material give back. */
 #ifndef BOLIDE_POINT_H
 #define BOLIDE_POINT_H
 
 #include "base/vector.h"
+#include "material/history.h"
 
 /* Status bits of point physics. */
 enum {
@@ -13,6 +14,21 @@ enum {
 struct eos_value {
     double pressure, dp_drho, dp_de;
     unsigned status;
+};
+
+/* One point of a material at one time level. */
+struct point {
+    double density, energy, pressure;
+    struct sym3 deviator;
+    double history[POINT_HISTORY];
+};
+
+/* What a step does to a point: its density and specific internal energy after the step, the symmetric
+ * velocity gradient (with its trace) and half the curl of velocity during it. */
+struct motion {
+    double dt, density, energy;
+    struct sym3 strain_rate;
+    struct vec3 spin;
 };
 
 #endif

@@ -93,6 +93,20 @@ void case_fill_material(struct material_input *material)
     }
 }
 
+static void check_material(struct checking *checking, int index)
+{
+    struct material_input *material = case_material(checking->input, index);
+    char path[PATH_TEXT];
+    const char *key, *text;
+    if (!material->eos.value)
+        return;
+    case_fill_material(material);
+    if ((text = strength_wrong(&material->material.strength, &key))) {
+        snprintf(path, sizeof path, "strength.%s.%s", material->strength.choice->name, key);
+        wrong(checking, path, "%s", text);
+    }
+}
+
 static void check_replaces(struct checking *checking, const struct body_input *body, int index)
 {
     for (int i = 0; i < body->replaces.count; i++) {
@@ -411,9 +425,7 @@ static void check_map(struct checking *checking, const char *key, const struct n
 struct error *case_check_meaning(struct simulation_case *input)
 {
     struct checking checking = {.input = input};
-    for (int i = 0; i < input->materials.count; i++)
-        if (case_material(input, i)->eos.value)
-            case_fill_material(case_material(input, i));
+    check_map(&checking, "materials", &input->materials, check_material);
     if (input->bodies.count == 0 && !document_is_wrong(input->document, "")) {
         checking.map = "bodies";
         wrong(&checking, "", "one body at least is wanted");

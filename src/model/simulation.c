@@ -190,6 +190,23 @@ struct error *simulation_create(const struct simulation_case *input, const struc
     return error;
 }
 
+int simulation_history(const struct simulation *simulation, struct field_declaration *fields)
+{
+    unsigned needed = 0;
+    int count = 0;
+    for (int m = 0; m < simulation->materials; m++)
+        needed |= material_history(&simulation->material[m]);
+    for (int slot = 0; slot < POINT_HISTORY; slot++)
+        if (needed & 1u << slot)
+            fields[count++] = (struct field_declaration){history_slots[slot].name,
+                                                         history_slots[slot].unit,
+                                                         history_slots[slot].help,
+                                                         NUMBER_DOUBLE,
+                                                         1,
+                                                         FIELD_STATE};
+    return count;
+}
+
 void simulation_destroy(struct simulation *simulation)
 {
     particles_destroy(&simulation->particles);

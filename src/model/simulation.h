@@ -51,6 +51,10 @@ struct error *simulation_create(const struct simulation_case *input, const struc
                                 int threads, struct simulation *simulation);
 void simulation_destroy(struct simulation *simulation);
 
+/* The fields for what the case's materials remember beyond the core's, POINT_HISTORY at most: the solver adds them to its
+ * store. Returns how many. */
+int simulation_history(const struct simulation *simulation, struct field_declaration *fields);
+
 /* Adds SECONDS to phase NAME. */
 void simulation_spend(struct simulation *simulation, const char *name, double seconds);
 

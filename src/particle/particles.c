@@ -38,6 +38,10 @@ static void bind_core(struct particles *p)
     static_assert(COUNT_OF(member) == COUNT_OF(core_fields), "one member for each core field");
     for (size_t k = 0; k < COUNT_OF(member); k++)
         *member[k] = p->field[k].data;
+    for (int slot = 0; slot < POINT_HISTORY; slot++)
+        for (int k = 0; k < p->fields; k++)
+            if (!strcmp(p->field[k].declaration.name, history_slots[slot].name))
+                p->history[slot] = p->field[k].data;
 }
 
 struct error *particles_create(int dimension, double cell, const struct field_declaration *more,

@@ -9,6 +9,7 @@
 
 #include "base/vector.h"
 #include "base/visitor.h"
+#include "material/history.h"
 #include "parallel/ranks.h"
 
 enum field_kind {
@@ -57,7 +58,24 @@ struct particles {
     double *mass, *density, *energy, *pressure;
     double (*position)[3], (*velocity)[3], (*deviator)[6];
     double *plastic_strain;
+    double *history[POINT_HISTORY]; /* by slot, NULL where no material of the case needs it */
 };
+
+/* HISTORY of particle I, zero where the store has none; and back. */
+BOLIDE_INLINE void particle_load_history(const struct particles *particles, int32_t i,
+                                         double history[POINT_HISTORY])
+{
+    for (int slot = 0; slot < POINT_HISTORY; slot++)
+        history[slot] = particles->history[slot] ? particles->history[slot][i] : 0.0;
+}
+
+BOLIDE_INLINE void particle_keep_history(const struct particles *particles, int32_t i,
+                                         const double history[POINT_HISTORY])
+{
+    for (int slot = 0; slot < POINT_HISTORY; slot++)
+        if (particles->history[slot])
+            particles->history[slot][i] = history[slot];
+}
 
 /* An empty store of a run in DIMENSION dimensions, with the core's fields and COUNT more. CELL is the
  * edge of a grid cell in metres. */

@@ -62,12 +62,16 @@ static bool step_from_level(const struct simulation *simulation, const struct hl
                             .spin = {rate->spin[0], rate->spin[1], rate->spin[2]}};
     memcpy(&motion.strain_rate, rate->strain_rate, sizeof motion.strain_rate);
     struct point point = {.density = n->density, .history = {n->plastic_strain}};
+    if (f->level_history)
+        memcpy(point.history, f->level_history[i], sizeof point.history);
     memcpy(&point.deviator, n->deviator, sizeof point.deviator);
     struct response r = material_step(&simulation->material[p->material[i]], &point, &motion);
     p->density[i] = point.density;
     p->energy[i] = point.energy;
     p->pressure[i] = point.pressure;
-    p->plastic_strain[i] = point.history[0];
+    p->plastic_strain[i] = point.history[HISTORY_plastic_strain];
+    if (f->level_history)
+        particle_keep_history(p, i, point.history);
     memcpy(p->deviator[i], &point.deviator, sizeof point.deviator);
     f->sph.sound_long[i] = r.sound_long;
     f->sph.sound_shear[i] = r.sound_shear;
@@ -95,6 +99,8 @@ static struct error *take_stage(struct simulation *simulation, const struct hllc
         double velocity[3];
         if (!second) {
             keep_level(p, level, i);
+            if (f->level_history)
+                particle_load_history(p, i, f->level_history[i]);
             level->rate = rate;
         }
         rate = mean_of(level->rate, rate);

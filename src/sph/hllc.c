@@ -83,6 +83,9 @@ struct hllc_fields hllc_fields_of(const struct sph *sph, const struct simulation
                             .dp_de = particles_field(p, "dp_de"),
                             .level = particles_field(p, "level")};
     f.sph.density_rate = particles_field(p, "density_rate");
+    for (int slot = 1; slot < POINT_HISTORY; slot++)
+        if (p->history[slot])
+            f.level_history = particles_field(p, "level_history");
     return f;
 }
 
@@ -163,11 +166,13 @@ static void pack_for_forces(const struct sph *sph, const struct simulation *simu
     if (sph->hllc.viscous) {
         *next++ = f->sph.sound_long[i];
     } else {
+        struct point point = {.density = p->density[i], .pressure = p->pressure[i]};
+        particle_load_history(p, i, point.history);
         *next++ = p->pressure[i];
         *next++ = f->dp_drho[i];
         *next++ = f->dp_de[i];
         *next++ = strength_shear_modulus(&material->strength);
-        *next++ = strength_yield(&material->strength, &p->plastic_strain[i]);
+        *next++ = strength_yield(&material->strength, &point);
     }
     if (sph->hllc.depth)
         *next++ = p->position[i][0];

@@ -22,6 +22,7 @@ struct hllc_fields {
     double (*slopes)[3]; /* NULL unless all is reconstructed */
     double *dp_drho, *dp_de;
     struct hllc_level *level;
+    double (*level_history)[POINT_HISTORY]; /* with it; NULL where the plastic strain is all */
 };
 struct hllc_fields hllc_fields_of(const struct sph *sph, const struct simulation *simulation);
 

@@ -106,11 +106,14 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
     double shear_square = square(f->sound_shear[i]), sound_square = square(f->sound_long[i]);
     if (f->thickness) /* no stress rate across the plate */
         strain.zz = -(strain.xx + strain.yy) * (1.0 - 2.0 * shear_square / sound_square);
+    const double bulk = p->density[i] * (sound_square - 4.0 / 3.0 * shear_square);
     if (strength->kind != STRENGTH_NONE) {
-        double history[POINT_HISTORY] = {p->plastic_strain[i]};
-        strength_step(strength, ahead, strain, spin, &stress, history);
+        struct motion motion = {ahead, p->density[i], p->energy[i], strain, spin};
+        struct point point = {p->density[i], p->energy[i], p->pressure[i], start, {0.0}};
+        particle_load_history(p, i, point.history);
+        strength_step(strength, &motion, bulk, &point);
+        stress = point.deviator;
     }
-    double bulk = p->density[i] * (sound_square - 4.0 / 3.0 * shear_square);
     double pressure = ahead * bulk * sym3_trace(strain);
     stress = sym3_add(stress, sym3_scale(-1.0, start));
     stress.xx += pressure;

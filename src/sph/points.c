@@ -226,8 +226,9 @@ BOLIDE_INLINE double packing_rate(const struct material *material, const struct 
     return room * minimum(f->packing[i][1], 0.1) * f->sound_long[i] / f->diameter[i];
 }
 
-/* A run of particles of one material. MATERIAL's kinds are constants where this is inlined. */
-BOLIDE_INLINE void update_run(const struct material *material, struct particles *p,
+/* A run of particles of one material. MATERIAL's kinds are constants where this is inlined; PLAIN: it remembers no more
+ * than its plastic strain. */
+BOLIDE_INLINE void update_run(const struct material *material, bool plain, struct particles *p,
                               const struct sph_fields *f, int dimension, bool total, double dt,
                               int32_t begin, int32_t end, struct failure *failure)
 {
@@ -264,6 +265,8 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
         struct point point = {.density = p->density[i],
                               .deviator = {s[0], s[1], s[2], s[3], s[4], s[5]},
                               .history = {p->plastic_strain[i]}};
+        if (!plain)
+            particle_load_history(p, i, point.history);
         struct response r;
         if (f->thickness) { /* by copies: the other branch keeps its values in registers */
             struct material own = *material;
@@ -277,7 +280,10 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
         p->density[i] = point.density;
         p->energy[i] = point.energy;
         p->pressure[i] = point.pressure;
-        p->plastic_strain[i] = point.history[0];
+        if (plain)
+            p->plastic_strain[i] = point.history[HISTORY_plastic_strain];
+        else
+            particle_keep_history(p, i, point.history);
         s[0] = point.deviator.xx;
         s[1] = point.deviator.yy;
         s[2] = point.deviator.zz;
@@ -296,6 +302,14 @@ BOLIDE_INLINE void update_run(const struct material *material, struct particles 
     }
 }
 
+/* Materials of the rarer kinds, one switch a particle. */
+static void update_rare(const struct material *material, struct particles *p,
+                        const struct sph_fields *f, int dimension, bool total, double dt,
+                        int32_t begin, int32_t end, struct failure *failure)
+{
+    update_run(material, false, p, f, dimension, total, dt, begin, end, failure);
+}
+
 /* One switch a run: in each branch the kinds of the material are constants. */
 static void update_batch(const struct material *material, struct particles *p,
                          const struct sph_fields *f, int dimension, bool total, double dt,
@@ -303,17 +317,22 @@ static void update_batch(const struct material *material, struct particles *p,
 {
     struct material m = *material;
     bool solid = material_has_strength(material);
+    if ((solid && material->strength.kind != STRENGTH_perfect_plastic) ||
+        material_history(material)) {
+        update_rare(material, p, f, dimension, total, dt, begin, end, failure);
+        return;
+    }
     switch (material->eos.kind) {
-#define UPDATE_CASE(name)                                                    \
-    case EOS_##name:                                                         \
-        m.eos.kind = EOS_##name;                                             \
-        if (solid) {                                                         \
-            m.strength.kind = STRENGTH_PERFECT_PLASTIC;                      \
-            update_run(&m, p, f, dimension, total, dt, begin, end, failure); \
-        } else {                                                             \
-            m.strength.kind = STRENGTH_NONE;                                 \
-            update_run(&m, p, f, dimension, total, dt, begin, end, failure); \
-        }                                                                    \
+#define UPDATE_CASE(name)                                                          \
+    case EOS_##name:                                                               \
+        m.eos.kind = EOS_##name;                                                   \
+        if (solid) {                                                               \
+            m.strength.kind = STRENGTH_perfect_plastic;                            \
+            update_run(&m, true, p, f, dimension, total, dt, begin, end, failure); \
+        } else {                                                                   \
+            m.strength.kind = STRENGTH_NONE;                                       \
+            update_run(&m, true, p, f, dimension, total, dt, begin, end, failure); \
+        }                                                                          \
         break;
         EOS_LIST(UPDATE_CASE)
 #undef UPDATE_CASE

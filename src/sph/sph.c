@@ -48,6 +48,8 @@ static const struct field_declaration packing_field = {
     NUMBER_DOUBLE, 2,    FIELD_STATE};
 static const struct field_declaration heat_field = {
     "heat_rate", NULL, "specific power of conduction", NUMBER_DOUBLE, 1, FIELD_DERIVED};
+static const struct field_declaration level_history_field = {
+    "level_history", NULL, "history of level n", NUMBER_DOUBLE, POINT_HISTORY, FIELD_DERIVED};
 static const struct field_declaration viscosity_field = {
     "viscosity", "Pa", "artificial viscous pressure", NUMBER_DOUBLE, 1, FIELD_DERIVED};
 
@@ -193,12 +195,14 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     TRY(choose_kind(sph, simulation));
     sph->groups = (struct contact_groups){simulation->group_of_body, &simulation->law[0][0],
                                           has_laws(simulation) ? CONTACT_GROUPS : 1};
-    struct field_declaration fields[COUNT_OF(sph_field_table) + 11 + HLLC_FIELDS];
-    int count = 0;
+    struct field_declaration fields[COUNT_OF(sph_field_table) + 12 + HLLC_FIELDS + POINT_HISTORY];
+    int count = simulation_history(simulation, fields);
+    const bool history = count > 0;
+    struct field_declaration *own = fields + count;
     for (size_t k = 0; k < COUNT_OF(sph_field_table); k++)
         fields[count++] = sph_field_table[k];
     if (sph->kind.turn) /* the spins of the step before enter the next */
-        fields[SPIN_FIELD].kind = FIELD_STATE;
+        own[SPIN_FIELD].kind = FIELD_STATE;
     if (sph_second_order(sph)) {
         const struct muscl_kind kind = muscl_kind_of(sph);
         fields[count] = correction_field;
@@ -212,8 +216,10 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
             fields[count++] = packing_field;
     }
     if (sph_corrected(sph)) { /* supports are those of the start */
-        fields[DIAMETER_FIELD].kind = FIELD_STATE;
+        own[DIAMETER_FIELD].kind = FIELD_STATE;
         count += hllc_declare(sph, fields + count);
+        if (history)
+            fields[count++] = level_history_field;
     }
     if (has_walls(simulation))
         fields[count++] = wall_field;

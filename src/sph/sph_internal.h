@@ -157,7 +157,7 @@ BOLIDE_INLINE struct response sph_evaluate_point(struct simulation *simulation,
 {
     struct particles *p = &simulation->particles;
     struct point point = {.density = p->density[i], .energy = p->energy[i]};
-    point.history[0] = p->plastic_strain[i];
+    particle_load_history(p, i, point.history);
     struct response r = material_evaluate(&simulation->material[p->material[i]], &point);
     p->pressure[i] = point.pressure;
     f->sound_long[i] = r.sound_long;

@@ -9,7 +9,7 @@ static const struct material liquid = {.eos = {EOS_barotropic, {.barotropic = {2
 static const struct eos_mie_grueneisen aluminium_eos = {2700.0, 5350.0, 1.35, 2.17, 73e9};
 static const struct material aluminium = {
     .eos = {EOS_mie_grueneisen, {.mie_grueneisen = {2700.0, 5350.0, 1.35, 2.17, 73e9}}},
-    .strength = {STRENGTH_PERFECT_PLASTIC, {.perfect_plastic = {23e9, 0.4e9}}}};
+    .strength = {STRENGTH_perfect_plastic, {.perfect_plastic = {23e9, 0.4e9}}}};
 static const struct strength_perfect_plastic aluminium_strength = {23e9, 0.4e9};
 
 static double pressure(const struct material *material, double density, double energy)
@@ -248,12 +248,13 @@ static void radial_return_puts_the_stress_on_yield(void **state)
 {
     (void)state;
     struct dice dice = {3};
-    const struct sym3 still = {0};
+    const struct motion still = {.dt = 1e-9};
     for (int k = 0; k < 1000; k++) {
         struct sym3 trial = random_deviator(&dice, 1e9);
-        double plastic = 0.125;
-        struct sym3 s = strength_perfect_plastic(&aluminium_strength, 1e-9, still,
-                                                 vec3_make(0.0, 0.0, 0.0), trial, &plastic);
+        struct point point = {.deviator = trial, .history = {0.125}};
+        strength_perfect_plastic(&aluminium_strength, &still, 0.0, &point);
+        const struct sym3 s = point.deviator;
+        const double plastic = point.history[HISTORY_plastic_strain];
         double mises = sym3_mises(trial);
         if (mises <= 0.4e9) {
             assert_true(plastic == 0.125 && s.xx == trial.xx && s.zx == trial.zx);
@@ -274,11 +275,12 @@ static void plastic_work_is_positive(void **state)
     struct dice dice = {4};
     for (int k = 0; k < 1000; k++) {
         struct sym3 start = random_deviator(&dice, 0.15e9), rate = random_deviator(&dice, 1e6);
-        double plastic = 0.0;
-        struct vec3 none = {0.0, 0.0, 0.0};
         const double dt = 1e-8;
-        struct sym3 s =
-            strength_perfect_plastic(&aluminium_strength, dt, rate, none, start, &plastic);
+        const struct motion motion = {.dt = dt, .strain_rate = rate};
+        struct point point = {.deviator = start};
+        strength_perfect_plastic(&aluminium_strength, &motion, 0.0, &point);
+        const struct sym3 s = point.deviator;
+        const double plastic = point.history[HISTORY_plastic_strain];
         assert_true(plastic >= 0.0);
         /* Plastic strain: the strain of the step less the elastic strain (S - start)/(2 G). */
         struct sym3 elastic = sym3_scale(1.0 / 46e9, sym3_add(s, sym3_scale(-1.0, start)));

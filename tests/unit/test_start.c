@@ -15,7 +15,7 @@ static const struct start_given nothing = {
 static struct material aluminium(void)
 {
     struct material material = {
-        .strength = {.kind = STRENGTH_PERFECT_PLASTIC,
+        .strength = {.kind = STRENGTH_perfect_plastic,
                      .of.perfect_plastic = {.shear_modulus = 23e9, .yield = 0.3e9}},
         .heat = {.capacity = 880.0, .temperature = 293.0}};
     material.eos.kind = EOS_mie_grueneisen;

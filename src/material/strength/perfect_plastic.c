@@ -1,6 +1,9 @@
 /* What a case says of perfect plasticity; the physics is in perfect_plastic.h. */
 #include "material/choices.h"
 
+const char strength_perfect_plastic_name[] = "perfect-plastic";
+const char strength_perfect_plastic_help[] = "elastic up to a constant von Mises yield stress";
+
 const struct parameter strength_perfect_plastic_parameters[] = {
     {.key = "shear_modulus",
      .kind = PARAMETER_NUMBER,

@@ -1,73 +1,34 @@
-/* Hypoelastic solid with perfect von Mises plasticity.
- *
- *   dS/dt = 2 G (strain rate - trace/3)   (1.54)-(1.56)
- *   rotation of S by the spin             (1.59), (1.60), by the exact rotation matrix
- *   radial return to sqrt(3/2 S:S) = Y    (1.61), (1.62)
- *
- * Source: Parshikov (2013), sections 1.3 and 1.5. The source's rotation matrix is linear in dt and not
- * quite orthogonal; the exact one differs from it in second order. */
+/* Perfect von Mises plasticity: radial return to sqrt(3/2 S:S) = Y, (1.61), (1.62).
+ * Source: Parshikov (2013), sections 1.3 and 1.5. */
 #ifndef BOLIDE_STRENGTH_PERFECT_PLASTIC_H
 #define BOLIDE_STRENGTH_PERFECT_PLASTIC_H
 
-#include "base/vector.h"
+#include "material/strength/elastic.h"
 
 struct strength_perfect_plastic {
     double shear_modulus; /* G, Pa */
     double yield;         /* Y_0, Pa, in simple tension */
 };
 
-/* The tensor S turned by the angle |angle| about the axis ANGLE (radians): R S R^T, by Rodrigues'
- * formula applied to the columns of S, then to the rows. */
-BOLIDE_INLINE struct sym3 sym3_rotate(struct sym3 s, struct vec3 angle)
+BOLIDE_INLINE double strength_perfect_plastic_yield(const struct strength_perfect_plastic *solid,
+                                                    const struct point *point)
 {
-    double turn2 = vec3_dot(angle, angle);
-    /* sin(t)/t and (1 - cos t)/t^2 by series: a step turns by far less than half a radian. */
-    double a = 1.0 - turn2 / 6.0 * (1.0 - turn2 / 20.0 * (1.0 - turn2 / 42.0));
-    double b = 0.5 * (1.0 - turn2 / 12.0 * (1.0 - turn2 / 30.0 * (1.0 - turn2 / 56.0)));
-    /* R = I + a [angle]x + b [angle]x^2 */
-    double x = angle.x, y = angle.y, z = angle.z;
-    double r11 = 1.0 - b * (y * y + z * z), r12 = b * x * y - a * z, r13 = b * x * z + a * y;
-    double r21 = b * x * y + a * z, r22 = 1.0 - b * (x * x + z * z), r23 = b * y * z - a * x;
-    double r31 = b * x * z - a * y, r32 = b * y * z + a * x, r33 = 1.0 - b * (x * x + y * y);
-    /* M = R S, then M R^T. */
-    double m11 = r11 * s.xx + r12 * s.xy + r13 * s.zx, m12 = r11 * s.xy + r12 * s.yy + r13 * s.yz,
-           m13 = r11 * s.zx + r12 * s.yz + r13 * s.zz;
-    double m21 = r21 * s.xx + r22 * s.xy + r23 * s.zx, m22 = r21 * s.xy + r22 * s.yy + r23 * s.yz,
-           m23 = r21 * s.zx + r22 * s.yz + r23 * s.zz;
-    double m31 = r31 * s.xx + r32 * s.xy + r33 * s.zx, m32 = r31 * s.xy + r32 * s.yy + r33 * s.yz,
-           m33 = r31 * s.zx + r32 * s.yz + r33 * s.zz;
-    struct sym3 turned;
-    turned.xx = m11 * r11 + m12 * r12 + m13 * r13;
-    turned.yy = m21 * r21 + m22 * r22 + m23 * r23;
-    turned.zz = m31 * r31 + m32 * r32 + m33 * r33;
-    turned.xy = m11 * r21 + m12 * r22 + m13 * r23;
-    turned.yz = m21 * r31 + m22 * r32 + m23 * r33;
-    turned.zx = m31 * r11 + m32 * r12 + m33 * r13;
-    return turned;
+    (void)point;
+    return solid->yield;
 }
 
-/* The deviator after a step of DT under STRAIN_RATE (1/s, with its trace) and SPIN (rad/s);
- * *plastic_strain grows by the equivalent plastic strain of the return. */
-BOLIDE_INLINE struct sym3 strength_perfect_plastic(const struct strength_perfect_plastic *solid,
-                                                   double dt, struct sym3 strain_rate,
-                                                   struct vec3 spin, struct sym3 deviator,
-                                                   double *plastic_strain)
+BOLIDE_INLINE void strength_perfect_plastic(const struct strength_perfect_plastic *solid,
+                                            const struct motion *motion, double bulk_modulus,
+                                            struct point *point)
 {
-    double twice = 2.0 * solid->shear_modulus * dt;
-    double third = sym3_trace(strain_rate) / 3.0;
-    struct sym3 s = deviator;
-    s.xx += twice * (strain_rate.xx - third);
-    s.yy += twice * (strain_rate.yy - third);
-    s.zz += twice * (strain_rate.zz - third);
-    s.xy += twice * strain_rate.xy;
-    s.yz += twice * strain_rate.yz;
-    s.zx += twice * strain_rate.zx;
-    s = sym3_rotate(s, vec3_scale(dt, spin));
+    (void)bulk_modulus;
+    struct sym3 s = strength_elastic(solid->shear_modulus, motion, point->deviator);
     double mises = sym3_mises(s);
     double over = mises - solid->yield;
     double keep = over > 0.0 ? solid->yield / mises : 1.0;
-    *plastic_strain += over > 0.0 ? over / (3.0 * solid->shear_modulus) : 0.0;
-    return sym3_scale(keep, s);
+    point->history[HISTORY_plastic_strain] +=
+        over > 0.0 ? over / (3.0 * solid->shear_modulus) : 0.0;
+    point->deviator = sym3_scale(keep, s);
 }
 
 #endif

@@ -1,0 +1,23 @@
+/* What a point remembers beyond density, energy and deviator. A slot means the same in every material; a store has
+ * fields for the slots that the materials of its case need. All begin at zero. */
+#ifndef BOLIDE_MATERIAL_HISTORY_H
+#define BOLIDE_MATERIAL_HISTORY_H
+
+/* X(slot, unit, help): HISTORY_<slot> is its index, <slot> the name of its field. The first is in every store. */
+#define HISTORY_LIST(X)                                \
+    X(plastic_strain, "", "equivalent plastic strain") \
+    X(plastic_heating, "K", "rise of temperature by plastic work")
+
+#define HISTORY_ENUM(slot, unit, help) HISTORY_##slot,
+enum { HISTORY_LIST(HISTORY_ENUM) POINT_HISTORY };
+#undef HISTORY_ENUM
+
+/* A set of slots. */
+#define HISTORY_BIT(slot) (1u << HISTORY_##slot)
+
+struct history_slot {
+    const char *name, *unit, *help;
+};
+extern const struct history_slot history_slots[POINT_HISTORY];
+
+#endif
