@@ -68,15 +68,47 @@ BOLIDE_INLINE struct response material_evaluate(const struct material *material,
                              strength_yield(&material->strength, point));
 }
 
-/* Advances a point by one step (section 7.3 of the source, steps 4 to 7): elastic trial deviator, its
- * rotation, plastic return, then pressure from the new density and energy. */
+/* Takes deviator and history of a point to its new density: elastic trial, rotation, plastic return. */
+BOLIDE_INLINE void material_flow(const struct material *material, struct point *point,
+                                 const struct motion *motion)
+{
+    point->density = motion->density;
+    if (material_has_strength(material))
+        strength_step(&material->strength, motion, 0.0, point);
+}
+
+/* Advances a point by one step after which its energy is MOTION->energy (section 7.3 of the source, steps 4 to 7). */
 BOLIDE_INLINE struct response material_step(const struct material *material, struct point *point,
                                             const struct motion *motion)
 {
-    point->density = motion->density;
     point->energy = motion->energy;
-    if (material_has_strength(material))
-        strength_step(&material->strength, motion, 0.0, point);
+    material_flow(material, point, motion);
+    return material_evaluate(material, point);
+}
+
+/* Advances a point by one step whose energy comes from the power of its stress; MOTION->energy is not used:
+ *
+ *   e' = e + (v + v')/2 (S + S')/2 : d eps - (v' - v) [(p + p')/2 + q],   p' = p(rho', e')
+ *
+ * with v = 1/rho and q the mean viscous pressure. It is solved for a pressure that is linear in energy, as nearly all
+ * are; others are taken along their slope. Source: the energy bookkeeping of MPM3D, Zhang, Chen and Liu, The material
+ * point method (2017), with p = A + B e. */
+BOLIDE_INLINE struct response material_step_by_work(const struct material *material,
+                                                    struct point *point,
+                                                    const struct motion *motion)
+{
+    const struct sym3 start = point->deviator, rate = motion->strain_rate;
+    double volume = 1.0 / point->density, pressure = point->pressure;
+    material_flow(material, point, motion);
+    const struct sym3 mean = sym3_scale(0.5, sym3_add(start, point->deviator));
+    double change = 1.0 / point->density - volume;
+    double shear = mean.xx * rate.xx + mean.yy * rate.yy + mean.zz * rate.zz +
+                   2.0 * (mean.xy * rate.xy + mean.yz * rate.yz + mean.zx * rate.zx);
+    point->energy += (volume + 0.5 * change) * shear * motion->dt -
+                     change * (0.5 * pressure + motion->viscous_pressure);
+    struct eos_value value =
+        eos_evaluate(&material->eos, point->density, point->energy, point->history);
+    point->energy -= 0.5 * change * value.pressure / (1.0 + 0.5 * change * value.dp_de);
     return material_evaluate(material, point);
 }
 

@@ -23,12 +23,14 @@ struct point {
     double history[POINT_HISTORY];
 };
 
-/* What a step does to a point: its density and specific internal energy after the step, the symmetric
- * velocity gradient (with its trace) and half the curl of velocity during it. */
+/* What a step does to a point: its density after the step, the symmetric velocity gradient (with its trace) and half
+ * the curl of velocity during it; and the specific internal energy after it, or what follows from work (see material.h):
+ * the mean artificial viscous pressure. */
 struct motion {
     double dt, density, energy;
     struct sym3 strain_rate;
     struct vec3 spin;
+    double viscous_pressure;
 };
 
 #endif

@@ -108,7 +108,8 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
         strain.zz = -(strain.xx + strain.yy) * (1.0 - 2.0 * shear_square / sound_square);
     const double bulk = p->density[i] * (sound_square - 4.0 / 3.0 * shear_square);
     if (strength->kind != STRENGTH_NONE) {
-        struct motion motion = {ahead, p->density[i], p->energy[i], strain, spin};
+        struct motion motion = {
+            .dt = ahead, .density = p->density[i], .strain_rate = strain, .spin = spin};
         struct point point = {p->density[i], p->energy[i], p->pressure[i], start, {0.0}};
         particle_load_history(p, i, point.history);
         strength_step(strength, &motion, bulk, &point);
