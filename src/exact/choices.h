@@ -19,6 +19,8 @@
     X(sedov, "sedov", "a strong blast in a gas from a point, a line or a plane")       \
     X(gas_expansion, "gas-expansion",                                                  \
       "a slab, cylinder or ball of gas that expands evenly into a vacuum")             \
+    X(slab_detonation, "slab-detonation",                                              \
+      "a slab of explosive lit at a rigid wall: the front and the wave behind it")     \
     X(verney, "verney", "a thick plastic cylinder that runs inward until it stops")    \
     X(temperature_jump, "temperature-jump",                                            \
       "heat between two bodies of different temperature, in an infinite or an insulated rod")

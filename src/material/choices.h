@@ -1,10 +1,11 @@
-/* What a case may name for a material: the equations of state and the strength models, each with its
+/* What a case may name for a material: the equations of state, strength and burn models, each with its
  * parameter table. The index in an array is the enum of the model, so that a choice read from a case
  * becomes plain data by a copy. */
 #ifndef BOLIDE_CHOICES_H
 #define BOLIDE_CHOICES_H
 
 #include "base/parameter.h"
+#include "material/burn.h"
 #include "material/eos.h"
 #include "material/strength.h"
 
@@ -25,8 +26,9 @@ EOS_LIST(EOS_TABLE)
 STRENGTH_LIST(STRENGTH_TABLE)
 #undef STRENGTH_TABLE
 
-/* By enum eos_kind and by enum strength_kind. */
+/* By enum eos_kind, strength_kind and burn_kind. */
 extern const struct choice eos_choices[EOS_KINDS];
 extern const struct choice strength_choices[STRENGTH_KINDS];
+extern const struct choice burn_choices[BURN_KINDS];
 
 #endif

@@ -1,4 +1,4 @@
-/* The physics of one point: a material owns the order of equation of state and strength.
+/* The physics of one point: a material owns the order of burning, strength and equation of state.
  *
  * Every function here is pure, takes small structs by value or pointer and touches nothing else, so that
  * particle methods, exact solutions, unit tests and a GPU call the same code. SI units throughout;
@@ -8,6 +8,7 @@
 #define BOLIDE_MATERIAL_H
 
 #include "base/vector.h"
+#include "material/burn.h"
 #include "material/eos.h"
 #include "material/heat.h"
 #include "material/strength.h"
@@ -23,6 +24,7 @@ struct response {
 struct material {
     struct eos eos;
     struct strength strength;
+    struct burn burn;
     struct heat heat;
 };
 
@@ -35,6 +37,22 @@ BOLIDE_INLINE double material_density(const struct material *material)
 BOLIDE_INLINE bool material_has_strength(const struct material *material)
 {
     return material->strength.kind != STRENGTH_NONE;
+}
+
+BOLIDE_INLINE bool material_burns(const struct material *material)
+{
+    return material->burn.kind != BURN_INSTANT;
+}
+
+/* Pressure and its derivatives of a point as it stands. */
+BOLIDE_INLINE struct eos_value material_pressure(const struct material *material,
+                                                 const struct point *point)
+{
+    struct eos_value value =
+        eos_evaluate(&material->eos, point->density, point->energy, point->history);
+    if (material_burns(material))
+        burn_mix(&material->burn, point->history[HISTORY_burnt], &value);
+    return value;
 }
 
 /* Sound speeds of a point from its equation of state and shear modulus:
@@ -61,18 +79,23 @@ BOLIDE_INLINE struct response material_response(const struct eos_value *eos, dou
 BOLIDE_INLINE struct response material_evaluate(const struct material *material,
                                                 struct point *point)
 {
-    struct eos_value value =
-        eos_evaluate(&material->eos, point->density, point->energy, point->history);
+    struct eos_value value = material_pressure(material, point);
     point->pressure = value.pressure;
     return material_response(&value, point->density, strength_shear_modulus(&material->strength),
                              strength_yield(&material->strength, point));
 }
 
-/* Takes deviator and history of a point to its new density: elastic trial, rotation, plastic return. */
+/* Takes deviator and history of a point to its new density: burning; elastic trial, rotation, plastic return. */
 BOLIDE_INLINE void material_flow(const struct material *material, struct point *point,
                                  const struct motion *motion)
 {
     point->density = motion->density;
+    if (material_burns(material)) {
+        double rest = material_density(material);
+        point->history[HISTORY_burnt] = burn_share(
+            &material->burn, point->history[HISTORY_burnt], point->history[HISTORY_lighting_time],
+            motion->time, motion->length, rest / point->density, rest);
+    }
     if (material_has_strength(material))
         strength_step(&material->strength, motion, 0.0, point);
 }
@@ -106,8 +129,7 @@ BOLIDE_INLINE struct response material_step_by_work(const struct material *mater
                    2.0 * (mean.xy * rate.xy + mean.yz * rate.yz + mean.zx * rate.zx);
     point->energy += (volume + 0.5 * change) * shear * motion->dt -
                      change * (0.5 * pressure + motion->viscous_pressure);
-    struct eos_value value =
-        eos_evaluate(&material->eos, point->density, point->energy, point->history);
+    struct eos_value value = material_pressure(material, point);
     point->energy -= 0.5 * change * value.pressure / (1.0 + 0.5 * change * value.dp_de);
     return material_evaluate(material, point);
 }
@@ -115,7 +137,8 @@ BOLIDE_INLINE struct response material_step_by_work(const struct material *mater
 /* The slots of history that it needs beside the plastic strain. */
 BOLIDE_INLINE unsigned material_history(const struct material *material)
 {
-    return strength_history(&material->strength);
+    unsigned burning = HISTORY_BIT(lighting_time) | HISTORY_BIT(burnt);
+    return strength_history(&material->strength) | (material_burns(material) ? burning : 0);
 }
 
 #endif

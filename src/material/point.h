@@ -31,6 +31,7 @@ struct motion {
     struct sym3 strain_rate;
     struct vec3 spin;
     double viscous_pressure;
+    double time, length; /* at the end of the step, s; of the point, its diameter or spacing, m */
 };
 
 #endif

@@ -14,6 +14,7 @@ struct material_input {
     char *description, *source; /* for people; NULL: not given */
     struct one_of eos;          /* "eos" */
     struct one_of strength;     /* "strength"; not given: a fluid */
+    struct one_of burn;         /* "burn"; not given: instant */
     struct material material;   /* filled by case_read from the above */
 };
 
@@ -52,6 +53,14 @@ struct contact_input {
     struct name_list between; /* two bodies */
     int shear, tension;
     int body[2]; /* filled by case_read */
+};
+
+/* detonations: NAME: {at: [0 mm, 0 mm], of: charge}: where and when explosives are lit. */
+struct detonation_input {
+    struct vector_value at, to; /* to.count 0: a point */
+    double time;
+    char *of; /* a body; NULL: all that burn */
+    int body; /* filled by case_read; -1: all */
 };
 
 /* probes: NAME: {a probe, of: body, fields: [...], every: ...}: what is recorded while the case runs. */
@@ -144,11 +153,12 @@ struct simulation_case {
     int64_t dimension;
     int geometry; /* enum case_geometry; plane strain unless the dimension is 2 */
     double resolution;
-    struct one_of solver;       /* "solver" */
-    struct named_map materials; /* struct material_input */
-    struct named_map bodies;    /* struct body_input */
-    struct named_map walls;     /* struct wall_input */
-    struct named_map contacts;  /* struct contact_input */
+    struct one_of solver;         /* "solver" */
+    struct named_map materials;   /* struct material_input */
+    struct named_map bodies;      /* struct body_input */
+    struct named_map walls;       /* struct wall_input */
+    struct named_map contacts;    /* struct contact_input */
+    struct named_map detonations; /* struct detonation_input */
     struct run_input run;
     struct output_input output;
     struct named_map probes;   /* struct probe_input */
@@ -195,6 +205,12 @@ struct error *case_write(const struct simulation_case *input, FILE *file);
 /* The index of the body called NAME; -1 when there is none, or NAME is NULL. */
 int case_find_body(const struct simulation_case *input, const char *name);
 
+/* Whether detonation INDEX lights BODY. */
+bool detonation_lights(const struct simulation_case *input, int index, int body);
+
+/* When the first of the detonations that light BODY arrives at PLACE, s; zero where nothing does. */
+double detonation_arrival(const struct simulation_case *input, int body, struct vec3 place);
+
 /* The items of a case's maps. */
 static inline struct material_input *case_material(const struct simulation_case *c, int index)
 {
@@ -211,6 +227,10 @@ static inline struct wall_input *case_wall(const struct simulation_case *c, int 
 static inline struct contact_input *case_contact(const struct simulation_case *c, int index)
 {
     return (struct contact_input *)c->contacts.items + index;
+}
+static inline struct detonation_input *case_detonation(const struct simulation_case *c, int index)
+{
+    return (struct detonation_input *)c->detonations.items + index;
 }
 static inline struct probe_input *case_probe(const struct simulation_case *c, int index)
 {

@@ -86,10 +86,15 @@ void case_fill_material(struct material_input *material)
     memset(&plain->strength, 0, sizeof plain->strength);
     plain->eos.kind = (enum eos_kind)material->eos.index;
     memcpy(&plain->eos.of, material->eos.value, material->eos.choice->size);
+    memset(&plain->burn, 0, sizeof plain->burn);
     plain->strength.kind = STRENGTH_NONE;
     if (material->strength.value) {
         plain->strength.kind = (enum strength_kind)material->strength.index;
         memcpy(&plain->strength.of, material->strength.value, material->strength.choice->size);
+    }
+    if (material->burn.value) {
+        plain->burn.kind = (enum burn_kind)material->burn.index;
+        memcpy(&plain->burn.of, material->burn.value, material->burn.choice->size);
     }
 }
 
@@ -239,6 +244,45 @@ static void check_body(struct checking *checking, int index)
         wrong(checking, "frozen", "a frozen body keeps its velocity: leave `%s` out",
               body->driven ? "driven" : "stop");
     check_replaces(checking, body, index);
+}
+
+static void check_detonation(struct checking *checking, int index)
+{
+    const struct simulation_case *input = checking->input;
+    struct detonation_input *detonation = case_detonation(input, index);
+    const struct vector_value *ends[] = {&detonation->at, &detonation->to};
+    const char *const keys[] = {"at", "to"};
+    bool same = detonation->to.count == detonation->at.count;
+    for (int end = 0; end < 2 && dimension_known(checking); end++)
+        if (ends[end]->count && ends[end]->count != input->dimension)
+            wrong(checking, keys[end], "%d component%s wanted, one a dimension; found %d",
+                  (int)input->dimension, input->dimension == 1 ? " is" : "s are", ends[end]->count);
+    for (int k = 0; k < detonation->at.count; k++)
+        same = same && detonation->to.at[k] == detonation->at.at[k];
+    if (same && !is_wrong(checking, ""))
+        wrong(checking, "to", "both ends are the same place: leave this out");
+    detonation->body = -1;
+    if (!detonation->of)
+        return;
+    detonation->body = find_name(checking, &input->bodies, "body", detonation->of, "of");
+    if (detonation->body >= 0 && !is_wrong(checking, "of") &&
+        case_body(input, detonation->body)->material_index >= 0 &&
+        !detonation_lights(input, index, detonation->body))
+        wrong(checking, "of", "the material of this body has no `burn` that waits to be lit");
+}
+
+/* Every body that burns is lit by something. */
+static void check_lit(struct checking *checking, int body)
+{
+    const struct simulation_case *input = checking->input;
+    const int material = case_body(input, body)->material_index;
+    if (material < 0 || !material_burns(&case_material(input, material)->material) ||
+        document_is_wrong(input->document, "detonations"))
+        return;
+    for (int i = 0; i < input->detonations.count; i++)
+        if (detonation_lights(input, i, body))
+            return;
+    wrong(checking, "", "nothing lights this explosive: name a place in `detonations`");
 }
 
 static void check_contact(struct checking *checking, int index)
@@ -433,6 +477,8 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "bodies", &input->bodies, check_body);
     check_map(&checking, "walls", &input->walls, check_wall);
     check_map(&checking, "contacts", &input->contacts, check_contact);
+    check_map(&checking, "detonations", &input->detonations, check_detonation);
+    check_map(&checking, "bodies", &input->bodies, check_lit);
     check_map(&checking, "probes", &input->probes, check_probe);
     check_map(&checking, "profiles", &input->profiles, check_profile);
     check_map(&checking, "checks", &input->checks, check_check);

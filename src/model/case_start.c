@@ -158,6 +158,9 @@ const char *body_start_wrong(const struct body_input *body, const struct materia
         return "a fluid bears no stress but its pressure: give `pressure`";
     if (stress && pressure)
         return "its mean is the pressure: `pressure` cannot be given beside it";
+    *key = "pressure";
+    if (pressure && material_burns(material))
+        return "an explosive that has yet to burn bears no pressure: leave this out";
     *key = "temperature";
     if (energy && temperature)
         return "energy follows from it: `energy` cannot be given beside it";

@@ -359,6 +359,8 @@ static struct error *fill_body(struct simulation *simulation, int body, int32_t 
         particles->energy[i] = start.energy;
         particles->pressure[i] = start.pressure;
         memcpy(particles->deviator[i], &start.deviator, sizeof start.deviator);
+        if (particles->history[HISTORY_lighting_time])
+            particles->history[HISTORY_lighting_time][i] = detonation_arrival(input, body, place);
         particles->position[i][0] = place.x;
         particles->position[i][1] = place.y;
         particles->position[i][2] = place.z;

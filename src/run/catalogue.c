@@ -16,6 +16,7 @@ static const struct choice_list lists[] = {
     {"solver", "the method of solution", &sph_choice, 1},
     {"eos", "the equation of state of a material", eos_choices, EOS_KINDS},
     {"strength", "what a material does with shear", strength_choices, STRENGTH_KINDS},
+    {"burn", "how an explosive becomes its products", burn_choices, BURN_KINDS},
     {"shape", "where a body is", shape_choices, SHAPES},
     {"lattice", "how the particles of a body stand at the start", lattice_choices, LATTICE_KINDS},
     {"exact", "an exact solution that results are measured against", exact_choices,

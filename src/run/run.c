@@ -181,6 +181,7 @@ static double released_energy(const struct run *run)
     for (int32_t i = 0; i < p->count; i++) {
         struct point point = {.density = p->density[i], .energy = p->energy[i]};
         memcpy(&point.deviator, p->deviator[i], sizeof point.deviator);
+        point.history[HISTORY_burnt] = 1.0; /* what explosives set free when they burn */
         struct response response =
             material_evaluate(&run->simulation.material[p->material[i]], &point);
         exact_sum_add(&sum, 0.5 * p->mass[i] *

@@ -59,7 +59,9 @@ static bool step_from_level(const struct simulation *simulation, const struct hl
     struct motion motion = {.dt = dt,
                             .density = n->density + dt * rate->density,
                             .energy = n->energy + dt * rate->power,
-                            .spin = {rate->spin[0], rate->spin[1], rate->spin[2]}};
+                            .spin = {rate->spin[0], rate->spin[1], rate->spin[2]},
+                            .time = simulation->time + dt,
+                            .length = f->sph.diameter[i]};
     memcpy(&motion.strain_rate, rate->strain_rate, sizeof motion.strain_rate);
     struct point point = {.density = n->density, .history = {n->plastic_strain}};
     if (f->level_history)

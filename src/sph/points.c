@@ -226,12 +226,21 @@ BOLIDE_INLINE double packing_rate(const struct material *material, const struct 
     return room * minimum(f->packing[i][1], 0.1) * f->sound_long[i] / f->diameter[i];
 }
 
+/* A step of DT that ends at TIME; TOTAL: the rates' power is that of E + U^2/2. */
+struct advance {
+    int dimension;
+    bool total;
+    double dt, time;
+};
+
 /* A run of particles of one material. MATERIAL's kinds are constants where this is inlined; PLAIN: it remembers no more
  * than its plastic strain. */
 BOLIDE_INLINE void update_run(const struct material *material, bool plain, struct particles *p,
-                              const struct sph_fields *f, int dimension, bool total, double dt,
-                              int32_t begin, int32_t end, struct failure *failure)
+                              const struct sph_fields *f, struct advance step, int32_t begin,
+                              int32_t end, struct failure *failure)
 {
+    const int dimension = step.dimension;
+    const double dt = step.dt;
     for (int32_t i = begin; i < end; i++) {
         const double *a = f->rates.acceleration[i], *rate = f->rates.strain_rate[i];
         double *u = p->velocity[i], *x = p->position[i], *s = p->deviator[i];
@@ -249,6 +258,8 @@ BOLIDE_INLINE void update_run(const struct material *material, bool plain, struc
         }
         struct motion motion;
         motion.dt = dt;
+        motion.time = step.time;
+        motion.length = f->diameter[i];
         motion.density =
             p->density[i] * (2.0 - divergence * dt) / (2.0 + divergence * dt); /* (1.82) */
         motion.strain_rate = (struct sym3){rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]};
@@ -259,7 +270,7 @@ BOLIDE_INLINE void update_run(const struct material *material, bool plain, struc
             motion.density *= 1.0 + dt * packing_rate(material, p, f, i);
         /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2, without taking differences. */
         motion.energy =
-            p->energy[i] + dt * f->rates.power[i] - (total ? 0.5 * square(dt) * a2 : 0.0);
+            p->energy[i] + dt * f->rates.power[i] - (step.total ? 0.5 * square(dt) * a2 : 0.0);
         if (f->heat_rate)
             motion.energy += dt * f->heat_rate[i];
         struct point point = {.density = p->density[i],
@@ -304,35 +315,35 @@ BOLIDE_INLINE void update_run(const struct material *material, bool plain, struc
 
 /* Materials of the rarer kinds, one switch a particle. */
 static void update_rare(const struct material *material, struct particles *p,
-                        const struct sph_fields *f, int dimension, bool total, double dt,
-                        int32_t begin, int32_t end, struct failure *failure)
+                        const struct sph_fields *f, struct advance step, int32_t begin, int32_t end,
+                        struct failure *failure)
 {
-    update_run(material, false, p, f, dimension, total, dt, begin, end, failure);
+    update_run(material, false, p, f, step, begin, end, failure);
 }
 
 /* One switch a run: in each branch the kinds of the material are constants. */
 static void update_batch(const struct material *material, struct particles *p,
-                         const struct sph_fields *f, int dimension, bool total, double dt,
-                         int32_t begin, int32_t end, struct failure *failure)
+                         const struct sph_fields *f, struct advance step, int32_t begin,
+                         int32_t end, struct failure *failure)
 {
     struct material m = *material;
     bool solid = material_has_strength(material);
     if ((solid && material->strength.kind != STRENGTH_perfect_plastic) ||
         material_history(material)) {
-        update_rare(material, p, f, dimension, total, dt, begin, end, failure);
+        update_rare(material, p, f, step, begin, end, failure);
         return;
     }
     switch (material->eos.kind) {
-#define UPDATE_CASE(name)                                                          \
-    case EOS_##name:                                                               \
-        m.eos.kind = EOS_##name;                                                   \
-        if (solid) {                                                               \
-            m.strength.kind = STRENGTH_perfect_plastic;                            \
-            update_run(&m, true, p, f, dimension, total, dt, begin, end, failure); \
-        } else {                                                                   \
-            m.strength.kind = STRENGTH_NONE;                                       \
-            update_run(&m, true, p, f, dimension, total, dt, begin, end, failure); \
-        }                                                                          \
+#define UPDATE_CASE(name)                                          \
+    case EOS_##name:                                               \
+        m.eos.kind = EOS_##name;                                   \
+        if (solid) {                                               \
+            m.strength.kind = STRENGTH_perfect_plastic;            \
+            update_run(&m, true, p, f, step, begin, end, failure); \
+        } else {                                                   \
+            m.strength.kind = STRENGTH_NONE;                       \
+            update_run(&m, true, p, f, step, begin, end, failure); \
+        }                                                          \
         break;
         EOS_LIST(UPDATE_CASE)
 #undef UPDATE_CASE
@@ -346,14 +357,14 @@ static void update_block(const struct sph *sph, struct simulation *simulation,
                          struct failure *failure)
 {
     struct particles *p = &simulation->particles;
-    bool total = sph->parameters.energy == SPH_ENERGY_TOTAL;
+    const struct advance step = {simulation->dimension, sph->parameters.energy == SPH_ENERGY_TOTAL,
+                                 dt, simulation->time + dt};
     int32_t end = block->first + block->count;
     for (int32_t begin = block->first, next; begin < end; begin = next) {
         uint16_t material = p->material[begin];
         for (next = begin + 1; next < end && p->material[next] == material;)
             next++;
-        update_batch(&simulation->material[material], p, f, simulation->dimension, total, dt, begin,
-                     next, failure);
+        update_batch(&simulation->material[material], p, f, step, begin, next, failure);
     }
 }
 
