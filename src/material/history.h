@@ -4,10 +4,11 @@
 #define BOLIDE_MATERIAL_HISTORY_H
 
 /* X(slot, unit, help): HISTORY_<slot> is its index, <slot> the name of its field. The first is in every store. */
-#define HISTORY_LIST(X)                                            \
-    X(plastic_strain, "", "equivalent plastic strain")             \
-    X(plastic_heating, "K", "rise of temperature by plastic work") \
-    X(lighting_time, "s", "when the detonation arrives")           \
+#define HISTORY_LIST(X)                                                              \
+    X(plastic_strain, "", "equivalent plastic strain")                               \
+    X(dilation, "", "volume gained by flow and tearing, against the elastic volume") \
+    X(plastic_heating, "K", "rise of temperature by plastic work")                   \
+    X(lighting_time, "s", "when the detonation arrives")                             \
     X(burnt, "", "share of the explosive that has burnt")
 
 #define HISTORY_ENUM(slot, unit, help) HISTORY_##slot,

@@ -44,12 +44,23 @@ BOLIDE_INLINE bool material_burns(const struct material *material)
     return material->burn.kind != BURN_INSTANT;
 }
 
+/* The density that the equation of state is to see: soil that has gained volume by flow and tearing is dense again once
+ * that volume is gone. rho_e = rho (1 + dilation). */
+BOLIDE_INLINE double material_elastic_share(const struct material *material,
+                                            const struct point *point)
+{
+    return strength_bounds_pressure(&material->strength) ? 1.0 + point->history[HISTORY_dilation]
+                                                         : 1.0;
+}
+
 /* Pressure and its derivatives of a point as it stands. */
 BOLIDE_INLINE struct eos_value material_pressure(const struct material *material,
                                                  const struct point *point)
 {
+    double share = material_elastic_share(material, point);
     struct eos_value value =
-        eos_evaluate(&material->eos, point->density, point->energy, point->history);
+        eos_evaluate(&material->eos, point->density * share, point->energy, point->history);
+    value.dp_drho *= share;
     if (material_burns(material))
         burn_mix(&material->burn, point->history[HISTORY_burnt], &value);
     return value;
@@ -85,6 +96,20 @@ BOLIDE_INLINE struct response material_evaluate(const struct material *material,
                              strength_yield(&material->strength, point));
 }
 
+/* Finds the dilation at which the equation of state gives the pressure that POINT has, by Newton's method. */
+BOLIDE_INLINE void material_dilate(const struct material *material, struct point *point)
+{
+    for (int round = 0; round < 20; round++) {
+        struct eos_value value = material_pressure(material, point);
+        double modulus = point->density * value.dp_drho;
+        double share = material_elastic_share(material, point);
+        double missing = point->pressure - value.pressure;
+        if (!(fabs(missing) > 1e-14 * modulus))
+            break;
+        point->history[HISTORY_dilation] += share * missing / modulus;
+    }
+}
+
 /* Takes deviator and history of a point to its new density: burning; elastic trial, rotation, plastic return. */
 BOLIDE_INLINE void material_flow(const struct material *material, struct point *point,
                                  const struct motion *motion)
@@ -96,8 +121,17 @@ BOLIDE_INLINE void material_flow(const struct material *material, struct point *
             &material->burn, point->history[HISTORY_burnt], point->history[HISTORY_lighting_time],
             motion->time, motion->length, rest / point->density, rest);
     }
-    if (material_has_strength(material))
+    if (strength_bounds_pressure(&material->strength)) {
+        struct eos_value trial = material_pressure(material, point);
+        double bulk =
+            point->density * trial.dp_drho + trial.dp_de * trial.pressure / point->density;
+        point->pressure = trial.pressure;
+        strength_step(&material->strength, motion, bulk, point);
+        if (point->pressure != trial.pressure)
+            material_dilate(material, point);
+    } else if (material_has_strength(material)) {
         strength_step(&material->strength, motion, 0.0, point);
+    }
 }
 
 /* Advances a point by one step after which its energy is MOTION->energy (section 7.3 of the source, steps 4 to 7). */

@@ -6,6 +6,7 @@
 #ifndef BOLIDE_STRENGTH_H
 #define BOLIDE_STRENGTH_H
 
+#include "material/strength/drucker_prager.h"
 #include "material/strength/johnson_cook.h"
 #include "material/strength/perfect_plastic.h"
 
@@ -13,7 +14,8 @@
  * strength/<identifier>.h, its table in strength/<identifier>.c (see choices.h). */
 #define STRENGTH_LIST(X) \
     X(perfect_plastic)   \
-    X(johnson_cook)
+    X(johnson_cook)      \
+    X(drucker_prager)
 
 #define STRENGTH_ENUM(name) STRENGTH_##name,
 enum strength_kind { STRENGTH_NONE, STRENGTH_LIST(STRENGTH_ENUM) STRENGTH_KINDS };
@@ -49,7 +51,14 @@ BOLIDE_INLINE double strength_yield(const struct strength *strength, const struc
     }
 }
 
-/* Takes the deviator and history of POINT through a step. BULK_MODULUS is that of the equation of state, Pa. */
+/* Whether its step takes the pressure of the elastic trial, and may change it. */
+BOLIDE_INLINE bool strength_bounds_pressure(const struct strength *strength)
+{
+    return strength->kind == STRENGTH_drucker_prager;
+}
+
+/* Takes the deviator and history of POINT through a step, and its pressure where strength_bounds_pressure says so.
+ * BULK_MODULUS is that of the equation of state, Pa. */
 BOLIDE_INLINE void strength_step(const struct strength *strength, const struct motion *motion,
                                  double bulk_modulus, struct point *point)
 {
@@ -70,7 +79,7 @@ BOLIDE_INLINE unsigned strength_history(const struct strength *strength)
 {
     if (strength->kind == STRENGTH_johnson_cook && johnson_cook_softens(&strength->of.johnson_cook))
         return HISTORY_BIT(plastic_heating);
-    return 0;
+    return strength->kind == STRENGTH_drucker_prager ? HISTORY_BIT(dilation) : 0;
 }
 
 /* Why its parameters do not go together, *KEY is that it is about; NULL when they do. */

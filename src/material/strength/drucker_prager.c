@@ -1,0 +1,50 @@
+/* What a case says of Drucker and Prager's soil; the physics is in drucker_prager.h. */
+#include "material/choices.h"
+
+const char strength_drucker_prager_name[] = "drucker-prager";
+const char strength_drucker_prager_help[] =
+    "soil and rubble: shear strength that grows with pressure, and a tension cut-off";
+
+const struct parameter strength_drucker_prager_parameters[] = {
+    {.key = "shear_modulus",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct strength_drucker_prager, shear_modulus),
+     .unit = "Pa",
+     .standard = PARAMETER_REQUIRED,
+     .above = 0.0,
+     .below = INFINITY,
+     .help = "shear modulus"},
+    {.key = "friction",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct strength_drucker_prager, friction),
+     .standard = PARAMETER_REQUIRED,
+     .above = 0.0,
+     .below = INFINITY,
+     .help = "q_phi: slope of the shear strength; 6 sin(phi)/(sqrt(3) (3 + sin(phi)))"},
+    {.key = "cohesion",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct strength_drucker_prager, cohesion),
+     .unit = "Pa",
+     .standard = PARAMETER_REQUIRED,
+     .above = 0.0,
+     .below = INFINITY,
+     .help = "k_phi: shear strength without pressure; 6 c cos(phi)/(sqrt(3) (3 + sin(phi)))"},
+    {.key = "dilatancy",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct strength_drucker_prager, dilatancy),
+     .standard = "0",
+     .above = 0.0,
+     .below = INFINITY,
+     .closed = true,
+     .help = "q_psi: volume gained by flow in shear"},
+    {.key = "tension",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct strength_drucker_prager, tension),
+     .unit = "Pa",
+     .standard = "0 Pa",
+     .above = 0.0,
+     .below = INFINITY,
+     .closed = true,
+     .help = "sigma^t: mean stress at which it tears; cohesion/friction at most"},
+    PARAMETER_END,
+};
