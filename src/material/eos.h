@@ -9,6 +9,7 @@
 #include "material/eos/barotropic.h"
 #include "material/eos/grueneisen_eta.h"
 #include "material/eos/grueneisen_polynomial.h"
+#include "material/eos/hjc.h"
 #include "material/eos/ideal_gas.h"
 #include "material/eos/jwl.h"
 #include "material/eos/mie_grueneisen.h"
@@ -29,7 +30,8 @@
     X(grueneisen_eta)        \
     X(grueneisen_polynomial) \
     X(tillotson)             \
-    X(jwl)
+    X(jwl)                   \
+    X(hjc)
 
 #define EOS_ENUM(name) EOS_##name,
 enum eos_kind { EOS_LIST(EOS_ENUM) EOS_KINDS };
@@ -64,6 +66,18 @@ BOLIDE_INLINE struct eos_value eos_evaluate(const struct eos *eos, double densit
     default:
         return none;
     }
+}
+
+/* The slots of history that it needs. */
+BOLIDE_INLINE unsigned eos_history(const struct eos *eos)
+{
+    return eos->kind == EOS_hjc ? HISTORY_BIT(largest_compression) : 0;
+}
+
+/* Why its parameters do not go together, *KEY is that it is about; NULL when they do. */
+BOLIDE_INLINE const char *eos_wrong(const struct eos *eos, const char **key)
+{
+    return eos->kind == EOS_hjc ? eos_hjc_wrong(&eos->of.hjc, key) : NULL;
 }
 
 #endif

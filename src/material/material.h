@@ -49,8 +49,9 @@ BOLIDE_INLINE bool material_burns(const struct material *material)
 BOLIDE_INLINE double material_elastic_share(const struct material *material,
                                             const struct point *point)
 {
-    return strength_bounds_pressure(&material->strength) ? 1.0 + point->history[HISTORY_dilation]
-                                                         : 1.0;
+    return material->strength.kind == STRENGTH_drucker_prager
+               ? 1.0 + point->history[HISTORY_dilation]
+               : 1.0;
 }
 
 /* Pressure and its derivatives of a point as it stands. */
@@ -63,6 +64,8 @@ BOLIDE_INLINE struct eos_value material_pressure(const struct material *material
     value.dp_drho *= share;
     if (material_burns(material))
         burn_mix(&material->burn, point->history[HISTORY_burnt], &value);
+    if (material->strength.kind == STRENGTH_hjc)
+        hjc_cut(&material->strength.of.hjc, point->history, &value);
     return value;
 }
 
@@ -110,7 +113,8 @@ BOLIDE_INLINE void material_dilate(const struct material *material, struct point
     }
 }
 
-/* Takes deviator and history of a point to its new density: burning; elastic trial, rotation, plastic return. */
+/* Takes deviator and history of a point to its new density: burning, compaction, then elastic trial, rotation and plastic
+ * return, with the damage that they do. */
 BOLIDE_INLINE void material_flow(const struct material *material, struct point *point,
                                  const struct motion *motion)
 {
@@ -121,11 +125,16 @@ BOLIDE_INLINE void material_flow(const struct material *material, struct point *
             &material->burn, point->history[HISTORY_burnt], point->history[HISTORY_lighting_time],
             motion->time, motion->length, rest / point->density, rest);
     }
-    if (strength_bounds_pressure(&material->strength)) {
+    double crushed = material->eos.kind == EOS_hjc
+                         ? hjc_compact(&material->eos.of.hjc, point->density, point->history)
+                         : 0.0;
+    if (strength_takes_pressure(&material->strength)) {
         struct eos_value trial = material_pressure(material, point);
         double bulk =
             point->density * trial.dp_drho + trial.dp_de * trial.pressure / point->density;
         point->pressure = trial.pressure;
+        if (material->strength.kind == STRENGTH_hjc && crushed > 0.0)
+            hjc_crush(&material->strength.of.hjc, crushed, point);
         strength_step(&material->strength, motion, bulk, point);
         if (point->pressure != trial.pressure)
             material_dilate(material, point);
@@ -172,7 +181,8 @@ BOLIDE_INLINE struct response material_step_by_work(const struct material *mater
 BOLIDE_INLINE unsigned material_history(const struct material *material)
 {
     unsigned burning = HISTORY_BIT(lighting_time) | HISTORY_BIT(burnt);
-    return strength_history(&material->strength) | (material_burns(material) ? burning : 0);
+    return eos_history(&material->eos) | strength_history(&material->strength) |
+           (material_burns(material) ? burning : 0);
 }
 
 #endif

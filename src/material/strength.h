@@ -7,6 +7,7 @@
 #define BOLIDE_STRENGTH_H
 
 #include "material/strength/drucker_prager.h"
+#include "material/strength/hjc.h"
 #include "material/strength/johnson_cook.h"
 #include "material/strength/perfect_plastic.h"
 
@@ -15,7 +16,8 @@
 #define STRENGTH_LIST(X) \
     X(perfect_plastic)   \
     X(johnson_cook)      \
-    X(drucker_prager)
+    X(drucker_prager)    \
+    X(hjc)
 
 #define STRENGTH_ENUM(name) STRENGTH_##name,
 enum strength_kind { STRENGTH_NONE, STRENGTH_LIST(STRENGTH_ENUM) STRENGTH_KINDS };
@@ -51,14 +53,14 @@ BOLIDE_INLINE double strength_yield(const struct strength *strength, const struc
     }
 }
 
-/* Whether its step takes the pressure of the elastic trial, and may change it. */
-BOLIDE_INLINE bool strength_bounds_pressure(const struct strength *strength)
+/* Whether its step takes the pressure of the elastic trial. */
+BOLIDE_INLINE bool strength_takes_pressure(const struct strength *strength)
 {
-    return strength->kind == STRENGTH_drucker_prager;
+    return strength->kind == STRENGTH_drucker_prager || strength->kind == STRENGTH_hjc;
 }
 
-/* Takes the deviator and history of POINT through a step, and its pressure where strength_bounds_pressure says so.
- * BULK_MODULUS is that of the equation of state, Pa. */
+/* Takes the deviator and history of POINT through a step, and its pressure where that returns too. BULK_MODULUS is that of
+ * the equation of state, Pa. */
 BOLIDE_INLINE void strength_step(const struct strength *strength, const struct motion *motion,
                                  double bulk_modulus, struct point *point)
 {
@@ -79,6 +81,9 @@ BOLIDE_INLINE unsigned strength_history(const struct strength *strength)
 {
     if (strength->kind == STRENGTH_johnson_cook && johnson_cook_softens(&strength->of.johnson_cook))
         return HISTORY_BIT(plastic_heating);
+    if (strength->kind == STRENGTH_hjc)
+        return HISTORY_BIT(damage) |
+               (strength->of.hjc.tensile_growth > 0.0 ? HISTORY_BIT(tensile_damage) : 0);
     return strength->kind == STRENGTH_drucker_prager ? HISTORY_BIT(dilation) : 0;
 }
 

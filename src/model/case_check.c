@@ -106,6 +106,10 @@ static void check_material(struct checking *checking, int index)
     if (!material->eos.value)
         return;
     case_fill_material(material);
+    if ((text = eos_wrong(&material->material.eos, &key))) {
+        snprintf(path, sizeof path, "eos.%s.%s", material->eos.choice->name, key);
+        wrong(checking, path, "%s", text);
+    }
     if ((text = strength_wrong(&material->material.strength, &key))) {
         snprintf(path, sizeof path, "strength.%s.%s", material->strength.choice->name, key);
         wrong(checking, path, "%s", text);

@@ -56,6 +56,18 @@ BOLIDE_INLINE struct sym3 strength_elastic(double shear_modulus, const struct mo
     return sym3_rotate(s, vec3_scale(motion->dt, motion->spin));
 }
 
+/* The largest eigenvalue of a deviator (Smith, Commun. ACM 4 (1961) 168). */
+BOLIDE_INLINE double sym3_largest(struct sym3 s)
+{
+    double radius = sqrt(sym3_square(s) / 6.0);
+    if (!(radius > 0.0))
+        return 0.0;
+    double determinant = s.xx * (s.yy * s.zz - s.yz * s.yz) - s.xy * (s.xy * s.zz - s.yz * s.zx) +
+                         s.zx * (s.xy * s.yz - s.yy * s.zx);
+    double half = 0.5 * determinant / (radius * square(radius));
+    return 2.0 * radius * cos(acos(maximum(-1.0, minimum(1.0, half))) / 3.0);
+}
+
 /* The equivalent strain rate of a deviator, sqrt(2/3 e:e), of STRAIN_RATE with its trace. */
 BOLIDE_INLINE double strength_strain_rate(struct sym3 strain_rate)
 {
