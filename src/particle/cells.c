@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "particle/block.h"
+#include "parallel/block.h"
 
 /* A key: five bits of level on top, the coordinates share the rest. */
 static int axis_bits(int dimension) { return dimension == 1 ? 57 : dimension == 2 ? 28 : 19; }

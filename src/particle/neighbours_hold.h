@@ -2,7 +2,7 @@
 #ifndef BOLIDE_NEIGHBOURS_HOLD_H
 #define BOLIDE_NEIGHBOURS_HOLD_H
 
-#include "particle/block.h"
+#include "parallel/block.h"
 #include "particle/halo.h"
 
 /* A group or a block since the rows were built. */

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "particle/block.h"
+#include "parallel/block.h"
 #include "particle/neighbours_hold.h"
 
 struct error *motion_out_of_memory(void)

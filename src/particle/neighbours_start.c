@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "particle/block.h"
+#include "parallel/block.h"
 #include "particle/neighbours_hold.h"
 
 static struct error *reserve_motion(struct neighbours *n, const struct particles *p)

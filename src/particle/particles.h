@@ -10,6 +10,7 @@
 #include "base/vector.h"
 #include "base/visitor.h"
 #include "material/history.h"
+#include "parallel/block.h"
 #include "parallel/ranks.h"
 
 enum field_kind {
@@ -27,12 +28,6 @@ struct field_declaration {
 struct field {
     struct field_declaration declaration;
     void *data;
-};
-
-/* The particles first .. first + count - 1 lie in the block of this key (see particles_sort). */
-struct block {
-    uint64_t key;
-    int32_t first, count;
 };
 
 enum { PARTICLES_FIELDS = 48 };

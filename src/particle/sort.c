@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "particle/block.h"
+#include "parallel/block.h"
 #include "particle/particles.h"
 #include "particle/radix.h"
 
@@ -30,7 +30,7 @@ static uint64_t locate(const struct particles *p, const double x[3], uint64_t *c
     *cell = 0;
     for (int axis = 0; axis < p->dimension; axis++) {
         int64_t index = cell_index(x[axis], p->cell, cells * BLOCK_MIDDLE);
-        at[axis] = index >= 0 ? index / cells : (index + 1) / cells - 1;
+        at[axis] = block_of_cell(index, cells);
         *cell = *cell * (uint64_t)cells + (uint64_t)(index - at[axis] * cells);
     }
     return block_key(at);

@@ -5,6 +5,7 @@
 #include "material/choices.h"
 #include "model/lattice.h"
 #include "model/shape_kinds.h"
+#include "mpm/mpm.h"
 #include "run/measure.h"
 #include "run/probes.h"
 #include "sph/sph.h"
@@ -12,8 +13,15 @@
 #define COUNT_SHAPE(identifier, help) +1
 enum { SHAPES = 0 SHAPE_LIST(COUNT_SHAPE) };
 
+static const struct choice solver_choices[] = {
+    {"sph", "smoothed particle hydrodynamics, contact or standard", sph_table,
+     sizeof(struct sph_parameters), &sph_class},
+    {"mpm", "the material point method: particles on a grid that is made anew each step", mpm_table,
+     sizeof(struct mpm_parameters), &mpm_class},
+};
+
 static const struct choice_list lists[] = {
-    {"solver", "the method of solution", &sph_choice, 1},
+    {"solver", "the method of solution", solver_choices, COUNT_OF(solver_choices)},
     {"eos", "the equation of state of a material", eos_choices, EOS_KINDS},
     {"strength", "what a material does with shear", strength_choices, STRENGTH_KINDS},
     {"burn", "how an explosive becomes its products", burn_choices, BURN_KINDS},

@@ -474,17 +474,14 @@ static const struct field_declaration *sph_field(int index)
     return index < always + (int)COUNT_OF(at_times) ? at_times[index - always] : NULL;
 }
 
-static const struct solver_class sph_class = {.size = sizeof(struct sph),
-                                              .create = sph_create,
-                                              .start = sph_start,
-                                              .prepare = sph_prepare,
-                                              .advance = sph_advance,
-                                              .state = sph_state,
-                                              .observe = sph_observe,
-                                              .destroy = sph_destroy,
-                                              .bytes = sph_bytes,
-                                              .step = sph_step,
-                                              .field = sph_field};
-
-const struct choice sph_choice = {"sph", "smoothed particle hydrodynamics, contact or standard",
-                                  sph_table, sizeof(struct sph_parameters), &sph_class};
+const struct solver_class sph_class = {.size = sizeof(struct sph),
+                                       .create = sph_create,
+                                       .start = sph_start,
+                                       .prepare = sph_prepare,
+                                       .advance = sph_advance,
+                                       .state = sph_state,
+                                       .observe = sph_observe,
+                                       .destroy = sph_destroy,
+                                       .bytes = sph_bytes,
+                                       .step = sph_step,
+                                       .field = sph_field};

@@ -36,7 +36,8 @@ struct sph_parameters {
     int64_t rebuild;
 };
 
-/* `solver: {sph: {...}}`; its thing is the solver_class. */
-extern const struct choice sph_choice;
+/* `solver: {sph: {...}}`. */
+extern const struct parameter sph_table[];
+extern const struct solver_class sph_class;
 
 #endif

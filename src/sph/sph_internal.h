@@ -39,9 +39,6 @@ struct sph {
     struct conduction conduction;
 };
 
-/* `solver: {sph: {...}}`. */
-extern const struct parameter sph_table[];
-
 struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *simulation);
 
 BOLIDE_INLINE bool sph_axisymmetric(const struct simulation *simulation)

@@ -1,4 +1,4 @@
-/* A case given as text, run by the SPH solver step by step in the hands of a test. */
+/* A case given as text, run step by step in the hands of a test. */
 #ifndef BOLIDE_TEST_RUNNING_H
 #define BOLIDE_TEST_RUNNING_H
 
@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "model/generate.h"
+#include "mpm/mpm_internal.h"
 #include "output/checkpoint.h"
 #include "run/catalogue.h"
 #include "sph/sph_internal.h"
@@ -44,7 +45,10 @@ struct running {
     struct ranks ranks;
     struct simulation simulation;
     const struct solver_class *solver;
-    struct sph sph;
+    union { /* the solver's state */
+        struct sph sph;
+        struct mpm mpm;
+    };
     struct limit limit;
 };
 
@@ -64,7 +68,7 @@ static inline struct running *open_case(const char *text, const struct variant *
     assert_success(case_read(path, &options, &bolide_catalogue, &run->input));
     assert_success(simulation_create(run->input, &run->ranks, variant->threads, &run->simulation));
     run->solver = run->input->solver.choice->thing;
-    assert_int_equal(run->solver->size, sizeof run->sph);
+    assert_true(run->solver->size == sizeof run->sph || run->solver->size == sizeof run->mpm);
     return run;
 }
 

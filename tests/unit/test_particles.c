@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "particle/block.h"
+#include "parallel/block.h"
 #include "particle/particles.h"
 
 static const struct field_declaration more[] = {

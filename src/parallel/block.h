@@ -3,9 +3,15 @@
 #ifndef BOLIDE_BLOCK_H
 #define BOLIDE_BLOCK_H
 
-#include "particle/particles.h"
+#include "base/base.h"
 
-enum { BLOCK_AXIS_BITS = 21, BLOCK_MIDDLE = 1 << (BLOCK_AXIS_BITS - 1) };
+enum { BLOCK_AXIS_BITS = 21, BLOCK_MIDDLE = 1 << (BLOCK_AXIS_BITS - 1), BLOCK_CELLS = 64 };
+
+/* The particles first .. first + count - 1 lie in the block of this key (see particles_sort). */
+struct block {
+    uint64_t key;
+    int32_t first, count;
+};
 
 /* Cells of a block along each axis: 64, 8 x 8, 4 x 4 x 4. */
 BOLIDE_INLINE int block_cells(int dimension)
@@ -20,6 +26,12 @@ BOLIDE_INLINE int64_t cell_index(double x, double cell, int64_t limit)
     if (!(index > (double)-limit))
         return -limit;
     return index < (double)limit ? (int64_t)index : limit - 1;
+}
+
+/* The block, along one axis, of a cell of index INDEX where a block has CELLS of them. */
+BOLIDE_INLINE int64_t block_of_cell(int64_t index, int64_t cells)
+{
+    return index >= 0 ? index / cells : (index + 1) / cells - 1;
 }
 
 /* Spreads the low 21 bits of V to every third bit. */

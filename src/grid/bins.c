@@ -1,0 +1,273 @@
+/* Particles into blocks and cells; see bins.h. Most still lie in the block they are stored in, and their cell there is
+ * all that must be found. The others, strays, are few and go by a hash table of blocks. */
+#include "grid/bins.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* The cell of a particle outside of the block that it is stored in. */
+enum { CELL_ELSEWHERE = 255 };
+
+struct stray {
+    int32_t candidate, index;
+    uint8_t cell;
+};
+
+/* A block that may have particles: one of storage, or one that strays have come to. */
+struct candidate {
+    uint64_t key;
+    int32_t block;           /* of storage, -1: none */
+    int32_t locals, leaving; /* stored there and lying there, or not */
+    int32_t first, strays;   /* that have come, once they are sorted */
+};
+
+static struct error *out_of_memory(const struct binned *p)
+{
+    return error_new(ERROR_SYSTEM, "out of memory for the cells of %d particles", p->count);
+}
+
+/* The index of the cell along AXIS. */
+static inline int64_t cell_along(const struct binned *p, int axis, double x)
+{
+    const int64_t limit = (int64_t)block_cells(p->dimension) * (BLOCK_MIDDLE - 2);
+    int64_t index = cell_index(x, p->edge, limit);
+    index = index < p->low[axis] ? p->low[axis] : index;
+    return index > p->high[axis] ? p->high[axis] : index;
+}
+
+/* The cell of particle I within the block at cells CORNER .. CORNER + cells - 1, CELL_ELSEWHERE when it is in none. */
+static inline uint8_t cell_within(const struct binned *p, int32_t i, int dimension,
+                                  const int64_t corner[3])
+{
+    const int64_t cells = block_cells(dimension);
+    int64_t cell = 0;
+    bool inside = true;
+    for (int axis = 0; axis < dimension; axis++) {
+        int64_t at = cell_along(p, axis, p->position[i][axis]) - corner[axis];
+        inside &= at >= 0 && at < cells;
+        cell = cell * cells + at;
+    }
+    return inside ? (uint8_t)cell : CELL_ELSEWHERE;
+}
+
+static void corner_of(int dimension, uint64_t key, int64_t corner[3])
+{
+    block_coordinates(key, corner);
+    for (int axis = 0; axis < 3; axis++)
+        corner[axis] *= block_cells(dimension);
+}
+
+static void find_cells(struct bins *bins, const struct binned *p, int32_t b)
+{
+    const struct block *block = &p->block[b];
+    struct candidate *candidate = &bins->candidate[b];
+    int64_t corner[3];
+    corner_of(p->dimension, block->key, corner);
+    int32_t leaving = 0;
+    for (int32_t i = block->first; i < block->first + block->count; i++) {
+        switch (p->dimension) {
+        case 1:
+            bins->cell[i] = cell_within(p, i, 1, corner);
+            break;
+        case 2:
+            bins->cell[i] = cell_within(p, i, 2, corner);
+            break;
+        default:
+            bins->cell[i] = cell_within(p, i, 3, corner);
+        }
+        leaving += bins->cell[i] == CELL_ELSEWHERE;
+    }
+    *candidate = (struct candidate){block->key, b, block->count - leaving, leaving, 0, 0};
+}
+
+/* How many particles have left the cell that they were stored by. */
+static int64_t count_moved(struct bins *bins, const struct binned *p, int threads)
+{
+    int64_t moved = 0;
+    if (bins->order != p->order) {
+        bins->order = p->order;
+        if (p->count > 0)
+            memcpy(bins->home, bins->cell, (size_t)p->count);
+        return 0;
+    }
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(+ : moved)
+    for (int32_t i = 0; i < p->count; i++)
+        moved += bins->cell[i] != bins->home[i];
+    return moved;
+}
+
+/* The block and cell of a particle that is not where it is stored. */
+static struct error *place_stray(struct bins *bins, const struct binned *p, int32_t i,
+                                 struct stray *stray)
+{
+    const int64_t cells = block_cells(p->dimension), limit = cells * (BLOCK_MIDDLE - 2) - 1;
+    int64_t at[3] = {0, 0, 0}, cell = 0;
+    for (int axis = 0; axis < p->dimension; axis++) {
+        int64_t index = cell_along(p, axis, p->position[i][axis]);
+        if (!(index > -limit) || index >= limit)
+            return error_new(ERROR_STATE,
+                             "particle %llu at (%.6g, %.6g, %.6g) m is too far away for the grid",
+                             (unsigned long long)p->id[i], p->position[i][0], p->position[i][1],
+                             p->position[i][2]);
+        at[axis] = block_of_cell(index, cells);
+        cell = cell * cells + index - at[axis] * cells;
+    }
+    *stray = (struct stray){block_table_add(&bins->table, block_key(at)), i, (uint8_t)cell};
+    return NULL;
+}
+
+/* Finds the strays, and the candidates that they come to. */
+static struct error *find_strays(struct bins *bins, const struct binned *p)
+{
+    int64_t strays = 0;
+    for (int32_t b = 0; b < p->blocks; b++)
+        strays += bins->candidate[b].leaving;
+    if (!memory_reserve((void **)&bins->stray, &bins->stray_capacity, strays, 0,
+                        sizeof *bins->stray) ||
+        !memory_reserve((void **)&bins->sorted, &bins->sorted_capacity, strays, 0,
+                        sizeof *bins->sorted) ||
+        !memory_reserve((void **)&bins->candidate, &bins->candidate_capacity, p->blocks + strays,
+                        p->blocks, sizeof *bins->candidate) ||
+        !block_table_clear(&bins->table, p->blocks + strays))
+        return out_of_memory(p);
+    bins->strays = 0;
+    for (int32_t b = 0; b < p->blocks; b++)
+        block_table_add(&bins->table, p->block[b].key);
+    for (int32_t b = 0; b < p->blocks; b++) {
+        const struct block *block = &p->block[b];
+        if (!bins->candidate[b].leaving)
+            continue;
+        for (int32_t i = block->first; i < block->first + block->count; i++)
+            if (bins->cell[i] == CELL_ELSEWHERE)
+                TRY(place_stray(bins, p, i, &bins->stray[bins->strays++]));
+    }
+    for (int32_t c = p->blocks; c < bins->table.count; c++)
+        bins->candidate[c] = (struct candidate){.block = -1};
+    for (uint64_t s = 0; s < bins->table.slots && bins->table.count > p->blocks; s++)
+        if (bins->table.slot[s].number > p->blocks)
+            bins->candidate[bins->table.slot[s].number - 1].key = bins->table.slot[s].key;
+    return NULL;
+}
+
+/* Strays by the candidate that they have come to. */
+static void sort_strays(struct bins *bins)
+{
+    int32_t before = 0;
+    for (int32_t k = 0; k < bins->strays; k++)
+        bins->candidate[bins->stray[k].candidate].strays++;
+    for (int32_t c = 0; c < bins->table.count; c++) {
+        bins->candidate[c].first = before;
+        before += bins->candidate[c].strays;
+        bins->candidate[c].strays = 0;
+    }
+    for (int32_t k = 0; k < bins->strays; k++) {
+        struct candidate *to = &bins->candidate[bins->stray[k].candidate];
+        bins->sorted[to->first + to->strays++] = bins->stray[k];
+    }
+}
+
+static int compare_candidates(const void *a, const void *b)
+{
+    uint64_t x = ((const struct candidate *)a)->key, y = ((const struct candidate *)b)->key;
+    return x < y ? -1 : x > y;
+}
+
+/* Candidates that have particles, by key, become bins. */
+static struct error *choose_bins(struct bins *bins, const struct binned *p)
+{
+    int32_t kept = 0, before = 0;
+    for (int32_t c = 0; c < bins->table.count; c++)
+        if (bins->candidate[c].locals + bins->candidate[c].strays > 0)
+            bins->candidate[kept++] = bins->candidate[c];
+    if (kept > 1)
+        qsort(bins->candidate, (size_t)kept, sizeof *bins->candidate, compare_candidates);
+    if (!memory_reserve((void **)&bins->bin, &bins->bin_capacity, kept, 0, sizeof *bins->bin))
+        return out_of_memory(p);
+    bins->count = kept;
+    for (int32_t b = 0; b < kept; b++) {
+        bins->bin[b].key = bins->candidate[b].key;
+        bins->bin[b].first = before;
+        before += bins->candidate[b].locals + bins->candidate[b].strays;
+    }
+    return NULL;
+}
+
+/* Few, and nearly in order. */
+static void order_by_id(int32_t *list, int32_t count, const uint64_t *id)
+{
+    for (int32_t i = 1; i < count; i++) {
+        int32_t moving = list[i], k = i;
+        while (k > 0 && id[list[k - 1]] > id[moving]) {
+            list[k] = list[k - 1];
+            k--;
+        }
+        list[k] = moving;
+    }
+}
+
+static void fill_bin(struct bins *bins, const struct binned *p, int32_t b)
+{
+    const struct candidate *from = &bins->candidate[b];
+    const struct stray *stray = bins->sorted + from->first;
+    struct bin *bin = &bins->bin[b];
+    int32_t *list = bins->list + bin->first, next[BLOCK_CELLS], begin = 0, end = 0;
+    if (from->block >= 0) {
+        begin = p->block[from->block].first;
+        end = begin + p->block[from->block].count;
+    }
+    memset(bin->cell, 0, sizeof bin->cell);
+    for (int32_t i = begin; i < end; i++)
+        if (bins->cell[i] != CELL_ELSEWHERE)
+            bin->cell[bins->cell[i] + 1]++;
+    for (int32_t k = 0; k < from->strays; k++)
+        bin->cell[stray[k].cell + 1]++;
+    for (int c = 0; c < BLOCK_CELLS; c++) {
+        next[c] = bin->cell[c];
+        bin->cell[c + 1] += bin->cell[c];
+    }
+    for (int32_t i = begin; i < end; i++)
+        if (bins->cell[i] != CELL_ELSEWHERE)
+            list[next[bins->cell[i]]++] = i;
+    for (int32_t k = 0; k < from->strays; k++)
+        list[next[stray[k].cell]++] = stray[k].index;
+    for (int c = 0; c < BLOCK_CELLS; c++)
+        order_by_id(list + bin->cell[c], bin->cell[c + 1] - bin->cell[c], p->id);
+}
+
+struct error *bins_make(struct bins *bins, const struct binned *p, int threads)
+{
+    if (!memory_reserve((void **)&bins->list, &bins->list_capacity, p->count, 0,
+                        sizeof *bins->list) ||
+        !memory_reserve((void **)&bins->cell, &bins->cell_capacity, p->count, 0, 1) ||
+        !memory_reserve((void **)&bins->home, &bins->home_capacity, p->count, bins->home_capacity,
+                        1) ||
+        !memory_reserve((void **)&bins->candidate, &bins->candidate_capacity, p->blocks, 0,
+                        sizeof *bins->candidate))
+        return out_of_memory(p);
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t b = 0; b < p->blocks; b++)
+        find_cells(bins, p, b);
+    bins->moved = count_moved(bins, p, threads);
+    TRY(find_strays(bins, p));
+    sort_strays(bins);
+    TRY(choose_bins(bins, p));
+#pragma omp parallel for schedule(dynamic, 8) num_threads(threads)
+    for (int32_t b = 0; b < bins->count; b++)
+        fill_bin(bins, p, b);
+    return NULL;
+}
+
+void bins_free(struct bins *bins)
+{
+    free(bins->list);
+    free(bins->bin);
+    free(bins->cell);
+    free(bins->home);
+    free(bins->stray);
+    free(bins->sorted);
+    free(bins->candidate);
+    block_table_free(&bins->table);
+    *bins = (struct bins){0};
+}

@@ -1,0 +1,64 @@
+/* Which particle lies in which cell of the grid, found anew each step: blocks of cells by key, in a block its cells, in a
+ * cell the particles by id. What is added up in this order does not depend on how the particles are stored; storage that
+ * is nearly in this order makes it quick. */
+#ifndef BOLIDE_BINS_H
+#define BOLIDE_BINS_H
+
+#include "base/error.h"
+#include "grid/block_table.h"
+#include "parallel/block.h"
+
+/* The particles of cell C of a block are list[first + cell[c]] .. list[first + cell[c + 1] - 1]. */
+struct bin {
+    uint64_t key;
+    int32_t first, cell[BLOCK_CELLS + 1];
+};
+
+/* The particles: COUNT of them at POSITION, stored in BLOCKS of cells of edge EDGE; an index means the same particle while
+ * ORDER stays. Cells below LOW and above HIGH do not exist: what rounding puts there is in the outermost. */
+struct binned {
+    int dimension;
+    double edge;
+    int32_t count, blocks;
+    const struct block *block;
+    const double (*position)[3];
+    const uint64_t *id;
+    uint64_t order;
+    int64_t low[3], high[3];
+};
+
+struct stray;
+struct candidate;
+
+struct bins {
+    int32_t count, *list;
+    struct bin *bin;
+    int64_t moved; /* particles that have left the cell they were stored by */
+
+    /* Kept from step to step. */
+    uint8_t *cell,
+        *home; /* of each particle: its cell within the block it is stored in; the same when last stored */
+    uint64_t order;
+    int64_t list_capacity, cell_capacity, home_capacity, bin_capacity;
+    int32_t strays;
+    struct stray *stray, *sorted;
+    int64_t stray_capacity, sorted_capacity;
+    struct candidate *candidate;
+    int64_t candidate_capacity;
+    struct block_table table;
+};
+
+/* ERROR_STATE when a particle lies beyond what blocks can count. */
+struct error *bins_make(struct bins *bins, const struct binned *particles, int threads);
+void bins_free(struct bins *bins);
+
+/* The cell of a block along each axis, from its number in the block. */
+BOLIDE_INLINE void bin_cell_place(int dimension, int cell, int place[3])
+{
+    const int cells = block_cells(dimension);
+    place[0] = place[1] = place[2] = 0;
+    for (int axis = dimension - 1; axis >= 0; axis--, cell /= cells)
+        place[axis] = cell % cells;
+}
+
+#endif

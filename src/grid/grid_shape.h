@@ -1,0 +1,51 @@
+/* Shape functions of the grid along one axis; those of a node in several dimensions are their products. R is the distance
+ * of a particle from the node and HALF half the size of a particle, both in cells; slopes are by r.
+ *
+ * Source: Cui, dissertation (2014), (2-7); Bardenhagen and Kober, CMES 5 (2004) 477, for gimp, whose particles keep
+ * their size; Steffen, Kirby and Berzins, IJNME 76 (2008) 922, for the B-splines. */
+#ifndef BOLIDE_GRID_SHAPE_H
+#define BOLIDE_GRID_SHAPE_H
+
+#include "base/base.h"
+
+enum grid_shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_QUADRATIC, SHAPE_CUBIC };
+
+/* How many nodes beyond the corners of its cell a particle may reach. */
+BOLIDE_INLINE int shape_reach(enum grid_shape shape) { return shape == SHAPE_LINEAR ? 0 : 1; }
+
+BOLIDE_INLINE double shape_value(enum grid_shape shape, double r, double half)
+{
+    const double a = fabs(r);
+    if (shape == SHAPE_GIMP) {
+        const double inner = 1.0 - (r * r + half * half) / (2.0 * half), middle = 1.0 - a,
+                     tail = maximum(1.0 + half - a, 0.0), outer = tail * tail / (4.0 * half);
+        return a < half ? inner : a < 1.0 - half ? middle : outer;
+    }
+    if (shape == SHAPE_QUADRATIC) {
+        const double tail = maximum(1.5 - a, 0.0);
+        return a < 0.5 ? 0.75 - r * r : 0.5 * tail * tail;
+    }
+    if (shape == SHAPE_CUBIC) {
+        const double tail = maximum(2.0 - a, 0.0);
+        return a < 1.0 ? 2.0 / 3.0 - r * r * (1.0 - 0.5 * a) : tail * tail * tail / 6.0;
+    }
+    return maximum(1.0 - a, 0.0);
+}
+
+BOLIDE_INLINE double shape_slope(enum grid_shape shape, double r, double half)
+{
+    const double a = fabs(r), sign = r < 0.0 ? -1.0 : 1.0;
+    if (shape == SHAPE_GIMP) {
+        const double outer = -sign * maximum(1.0 + half - a, 0.0) / (2.0 * half);
+        return a < half ? -r / half : a < 1.0 - half ? -sign : outer;
+    }
+    if (shape == SHAPE_QUADRATIC)
+        return a < 0.5 ? -2.0 * r : -sign * maximum(1.5 - a, 0.0);
+    if (shape == SHAPE_CUBIC) {
+        const double tail = maximum(2.0 - a, 0.0);
+        return a < 1.0 ? -r * (2.0 - 1.5 * a) : -0.5 * sign * tail * tail;
+    }
+    return a < 1.0 ? -sign : 0.0;
+}
+
+#endif

@@ -1,0 +1,455 @@
+/* The material point method as the run loop sees it: its fields, and the order of a step.
+ *
+ * prepare: particles into cells, mass, momentum and force to nodes, step limit; advance: nodes, then particles in the order
+ * of the scheme. Source: Cui, dissertation (2014), section 2.3. */
+#include "mpm/mpm.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "model/generate.h"
+#include "mpm/mpm_internal.h"
+
+static const struct field_declaration mpm_field_table[] = {
+    {"sound_long", "m/s", "longitudinal sound speed", NUMBER_DOUBLE, 1, FIELD_DERIVED},
+    {"viscosity", "Pa", "artificial viscous pressure", NUMBER_DOUBLE, 1, FIELD_STATE},
+};
+/* A field without unit is not shown. */
+static const struct field_declaration gradient_field = {
+    "velocity_gradient", NULL, "gradient of velocity", NUMBER_DOUBLE, 9, FIELD_STATE};
+
+/* The store is sorted again when so much of it has left the cells that it was stored by. */
+static const double moved_limit = 0.25;
+
+static bool is_affine(const struct mpm *mpm) { return mpm->parameters.transfer != MPM_FLIP; }
+
+/* What the method cannot do. */
+static struct error *refuse(const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    struct error *error = NULL;
+    if (simulation->geometry == GEOMETRY_PLANE_STRESS)
+        error = input_error(input, "geometry", NULL, "the solver mpm knows no plane stress");
+    if (simulation->ranks->size > 1)
+        error = error_join(error, input_error(input, "solver", "mpm",
+                                              "runs on one rank only: start it without mpirun"));
+    if (input->contacts.count > 0)
+        error = error_join(error, input_error(input, "contacts", NULL,
+                                              "the solver mpm has no contact laws: bodies that "
+                                              "share a node stick to each other"));
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct body_input *body = case_body(input, b);
+        if (body->driven || body->frozen || !isnan(body->stop))
+            error = error_join(
+                error, input_error(input, "bodies", input->bodies.names[b],
+                                   "the solver mpm moves all bodies by their forces: driven, "
+                                   "frozen and stop are for sph"));
+    }
+    return error;
+}
+
+/* The density that decides from which mass on a node's velocity counts. */
+static double least_density(const struct simulation *simulation)
+{
+    double least = INFINITY;
+    for (int b = 0; b < simulation->input->bodies.count; b++) {
+        const struct body_input *body = case_body(simulation->input, b);
+        least = minimum(least, body->varies
+                                   ? material_density(&simulation->material[body->material_index])
+                                   : body->start.density);
+    }
+    return least;
+}
+
+/* What the particles of each body and material are to the grid. */
+static struct error *note_bodies(struct mpm *mpm, const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    mpm->half_size = memory_allocate((size_t)input->bodies.count * sizeof *mpm->half_size);
+    mpm->gauge = memory_allocate((size_t)simulation->materials * sizeof *mpm->gauge);
+    if (!mpm->half_size || !mpm->gauge)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = NULL;
+    for (int m = 0; m < simulation->materials; m++)
+        if (!material_has_strength(&simulation->material[m]))
+            mpm->gauge[m] = mpm->parameters.gauge_pressure;
+    for (int b = 0; b < input->bodies.count; b++) {
+        const double size =
+            diameter_of_volume(body_lattice(input, b).volume, simulation->dimension);
+        mpm->half_size[b] = 0.5 * size / mpm->edge;
+        if (mpm->half_size[b] > 0.5 * (1.0 + 1e-6))
+            error = error_join(error,
+                               input_error(input, "bodies", input->bodies.names[b],
+                                           "particles of %.4g m are wider than a cell of %.4g m: "
+                                           "choose a larger `cell` of the solver mpm",
+                                           size, mpm->edge));
+        mpm->half_size[b] = minimum(mpm->half_size[b], 0.5);
+    }
+    return error;
+}
+
+static struct error *mpm_create(void *solver, struct simulation *simulation, const void *parameters)
+{
+    struct mpm *mpm = solver;
+    mpm->parameters = mpm_settled(parameters, simulation);
+    mpm->edge = mpm->parameters.cell;
+    TRY(error_join(refuse(simulation),
+                   error_join(note_bodies(mpm, simulation), mpm_find_planes(mpm, simulation))));
+    mpm->least_mass = 1e-6 * least_density(simulation) * pow(mpm->edge, simulation->dimension);
+    if (simulation->geometry == GEOMETRY_AXISYMMETRIC) /* a cell at the axis, per radian */
+        mpm->least_mass *= 0.5 * mpm->edge;
+    grid_start(&mpm->grid, simulation->dimension,
+               shape_reach((enum grid_shape)mpm->parameters.shape));
+    mpm->main.stride = NODE_STRIDE;
+    mpm->back.stride = BACK_STRIDE;
+    struct field_declaration fields[COUNT_OF(mpm_field_table) + 1];
+    int count = 0;
+    for (size_t k = 0; k < COUNT_OF(mpm_field_table); k++)
+        fields[count++] = mpm_field_table[k];
+    if (is_affine(mpm))
+        fields[count++] = gradient_field;
+    TRY(particles_create(simulation->dimension, mpm->edge, fields, count, &simulation->particles));
+    simulation->particles.ranks = simulation->ranks;
+    return NULL;
+}
+
+static struct error *mpm_start(void *solver, struct simulation *simulation)
+{
+    struct mpm *mpm = solver;
+    mpm->threads = simulation->threads;
+    mpm->rate = memory_allocate((size_t)mpm->threads * sizeof *mpm->rate);
+    if (!mpm->rate)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    if (!simulation->particles.blocks) /* as they are when loaded */
+        TRY(particles_sort(&simulation->particles));
+    mpm_evaluate(simulation);
+    return NULL;
+}
+
+struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simulation)
+{
+    const struct particles *p = &simulation->particles;
+    return (struct transfer){.dimension = simulation->dimension,
+                             .shape = (enum grid_shape)mpm->parameters.shape,
+                             .axisymmetric = simulation->geometry == GEOMETRY_AXISYMMETRIC,
+                             .affine = is_affine(mpm),
+                             .by_moments = mpm->parameters.transfer == MPM_APIC,
+                             .edge = mpm->edge,
+                             .bins = &mpm->bins,
+                             .grid = &mpm->grid,
+                             .main = &mpm->main,
+                             .back = &mpm->back,
+                             .flip = mpm->parameters.flip,
+                             .position = p->position,
+                             .velocity = p->velocity,
+                             .mass = p->mass,
+                             .density = p->density,
+                             .pressure = p->pressure,
+                             .viscosity = particles_field(p, "viscosity"),
+                             .deviator = (const double(*)[6])p->deviator,
+                             .material = p->material,
+                             .body = p->body,
+                             .gradient =
+                                 is_affine(mpm) ? particles_field(p, "velocity_gradient") : NULL,
+                             .half_size = mpm->half_size,
+                             .gauge = mpm->gauge};
+}
+
+static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
+{
+    const struct particles *p = &simulation->particles;
+    struct binned binned = {.dimension = simulation->dimension,
+                            .edge = mpm->edge,
+                            .count = p->count,
+                            .blocks = p->blocks,
+                            .block = p->block,
+                            .position = (const double(*)[3])p->position,
+                            .id = p->id,
+                            .order = p->order};
+    for (int axis = 0; axis < 3; axis++) {
+        binned.low[axis] = mpm->has_plane[axis][0] ? mpm->plane[axis][0] : INT64_MIN;
+        binned.high[axis] = mpm->has_plane[axis][1] ? mpm->plane[axis][1] - 1 : INT64_MAX;
+    }
+    return bins_make(&mpm->bins, &binned, simulation->threads);
+}
+
+/* Room for the rates of the largest bin, for each thread. */
+static struct error *reserve_rates(struct mpm *mpm)
+{
+    int64_t most = 0;
+    for (int32_t b = 0; b < mpm->bins.count; b++)
+        most =
+            mpm->bins.bin[b].cell[BLOCK_CELLS] > most ? mpm->bins.bin[b].cell[BLOCK_CELLS] : most;
+    if (most <= mpm->rate_capacity)
+        return NULL;
+    const int64_t wanted = most + most / 2;
+    for (int t = 0; t < mpm->threads; t++) {
+        free(mpm->rate[t]);
+        mpm->rate[t] = memory_allocate((size_t)wanted * RATE_STRIDE * sizeof(double));
+        if (!mpm->rate[t]) {
+            mpm->rate_capacity = 0;
+            return error_new(ERROR_SYSTEM, "out of memory for %lld particles of a block",
+                             (long long)wanted);
+        }
+    }
+    mpm->rate_capacity = wanted;
+    return NULL;
+}
+
+/* Particles into cells, and the blocks of nodes that these need. */
+static struct error *refresh_grid(struct mpm *mpm, struct simulation *simulation)
+{
+    struct particles *p = &simulation->particles;
+    TRY(find_bins(mpm, simulation));
+    if ((double)mpm->bins.moved > moved_limit * p->count) {
+        TRY(particles_sort(p));
+        TRY(find_bins(mpm, simulation));
+    }
+    TRY(grid_plan(&mpm->grid, &mpm->bins));
+    TRY(grid_field_reserve(&mpm->main, &mpm->grid));
+    TRY(grid_field_reserve(&mpm->back, &mpm->grid));
+    return reserve_rates(mpm);
+}
+
+/* Mass, momentum and force of all nodes. */
+static struct error *sum_particles(struct mpm *mpm, struct simulation *simulation)
+{
+    const struct transfer transfer = mpm_transfer_of(mpm, simulation);
+#pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
+    for (int32_t b = 0; b < mpm->bins.count; b++)
+        transfer_scatter(&transfer, b);
+    return mpm_sum_nodes(mpm, simulation);
+}
+
+/* dt = K min h/(c + max |u_i|) (2.7 of the notes), of equal ones that of the smallest id. */
+static struct limit limit_step(const struct mpm *mpm, const struct simulation *simulation)
+{
+    const struct particles *p = &simulation->particles;
+    const double *sound = particles_field(p, "sound_long");
+    struct limit smallest = {(double)INFINITY, "sound speed", 0};
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct limit own = smallest;
+#pragma omp for schedule(static)
+        for (int32_t i = 0; i < p->count; i++) {
+            const double *u = p->velocity[i];
+            const double fast = maximum(fabs(u[0]), maximum(fabs(u[1]), fabs(u[2])));
+            const double dt = mpm->parameters.courant * mpm->edge / (sound[i] + fast);
+            if (dt < own.dt || (dt == own.dt && p->id[i] < own.id) || isnan(dt)) {
+                own.dt = dt;
+                own.id = p->id[i];
+                own.why = fast > sound[i] ? "velocity" : "sound speed";
+            }
+        }
+#pragma omp critical(bolide_mpm_limit)
+        if (own.dt < smallest.dt || (own.dt == smallest.dt && own.id < smallest.id))
+            smallest = own;
+    }
+    return smallest;
+}
+
+static struct error *mpm_prepare(void *solver, struct simulation *simulation, struct limit *limit)
+{
+    struct mpm *mpm = solver;
+    double begin = clock_seconds();
+    TRY(refresh_grid(mpm, simulation));
+    simulation_spend(simulation, "cells", clock_seconds() - begin);
+    begin = clock_seconds();
+    TRY(sum_particles(mpm, simulation));
+    simulation_spend(simulation, "scatter", clock_seconds() - begin);
+    begin = clock_seconds();
+    *limit = limit_step(mpm, simulation);
+    simulation_spend(simulation, "limit", clock_seconds() - begin);
+    return NULL;
+}
+
+/* New velocities of all particles from their nodes; with SCATTER their momentum goes back to nodes. */
+static void find_velocities(struct mpm *mpm, struct simulation *simulation, double dt, bool scatter,
+                            bool move)
+{
+    const struct transfer transfer = mpm_transfer_of(mpm, simulation);
+    const double begin = clock_seconds();
+#pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
+    for (int32_t b = 0; b < mpm->bins.count; b++) {
+        grid_spread(&mpm->grid, &mpm->main, b);
+        transfer_velocity(&transfer, b, dt, scatter, move);
+    }
+    simulation_spend(simulation, "velocities", clock_seconds() - begin);
+}
+
+static struct error *impossible(const struct simulation *simulation, int32_t i)
+{
+    const struct particles *p = &simulation->particles;
+    return error_new(
+        ERROR_STATE,
+        "step %lld, t = %.6g s: the state of particle %llu (body %s, site %llu) at "
+        "(%.6g, %.6g, %.6g) m became impossible: density %.6g kg/m^3, energy %.6g J/kg, "
+        "pressure %.6g Pa, velocity (%.6g, %.6g, %.6g) m/s",
+        (long long)simulation->step + 1, simulation->time, (unsigned long long)p->id[i],
+        simulation->input->bodies.names[p->body[i]], (unsigned long long)(p->id[i] & PARTICLE_SITE),
+        p->position[i][0], p->position[i][1], p->position[i][2], p->density[i], p->energy[i],
+        p->pressure[i], p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
+}
+
+static int thread_number(void)
+{
+#ifdef _OPENMP
+    return omp_get_thread_num();
+#else
+    return 0;
+#endif
+}
+
+/* New states of all particles from nodal velocities: those of the second field or, with OF_MAIN, of the first. */
+static struct error *find_states(struct mpm *mpm, struct simulation *simulation, double dt,
+                                 bool of_main, bool move)
+{
+    const struct transfer transfer = mpm_transfer_of(mpm, simulation);
+    const struct particles *p = &simulation->particles;
+    const double begin = clock_seconds();
+    int32_t first = -1;
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        double *rate = mpm->rate[thread_number()];
+        int32_t own = -1;
+#pragma omp for schedule(dynamic, 4)
+        for (int32_t b = 0; b < mpm->bins.count; b++) {
+            const double *of = grid_patch(&mpm->grid, &mpm->main, b) + NODE_VELOCITY;
+            if (!of_main) {
+                grid_spread(&mpm->grid, &mpm->back, b);
+                of = grid_patch(&mpm->grid, &mpm->back, b);
+            }
+            transfer_gradient(&transfer, b, dt, of, of_main ? NODE_STRIDE : BACK_STRIDE, move,
+                              rate);
+            const int32_t found = mpm_update_points(mpm, simulation, b, dt, rate);
+            if (found >= 0 && (own < 0 || p->id[found] < p->id[own]))
+                own = found;
+        }
+#pragma omp critical(bolide_mpm_failure)
+        if (own >= 0 && (first < 0 || p->id[own] < p->id[first]))
+            first = own;
+    }
+    simulation_spend(simulation, "states", clock_seconds() - begin);
+    return first < 0 ? NULL : impossible(simulation, first);
+}
+
+static struct error *mpm_advance(void *solver, struct simulation *simulation, double dt)
+{
+    struct mpm *mpm = solver;
+    const int scheme = mpm->parameters.scheme;
+    if (scheme == MPM_USF) {
+        mpm_find_velocities(mpm, simulation, true);
+        TRY(find_states(mpm, simulation, dt, false, false));
+        TRY(sum_particles(mpm, simulation));
+    }
+    mpm_damp_shear(mpm, simulation, dt);
+    const double begin = clock_seconds();
+    mpm_advance_nodes(mpm, simulation, dt);
+    simulation_spend(simulation, "nodes", clock_seconds() - begin);
+    find_velocities(mpm, simulation, dt, scheme == MPM_MUSL, scheme == MPM_USF);
+    if (scheme == MPM_USF)
+        return NULL;
+    if (scheme == MPM_MUSL)
+        mpm_find_velocities(mpm, simulation, false);
+    return find_states(mpm, simulation, dt, scheme == MPM_USL, true);
+}
+
+static struct error *mpm_state(void *solver, struct visitor *visitor)
+{
+    (void)solver;
+    (void)visitor;
+    return NULL;
+}
+
+static void compute_diameter(const void *context, int64_t begin, int64_t end, double *out)
+{
+    const struct simulation *simulation = context;
+    const struct particles *p = &simulation->particles;
+    const bool turned = simulation->geometry == GEOMETRY_AXISYMMETRIC;
+    for (int64_t i = begin; i < end; i++) {
+        const double depth = turned ? p->position[i][0] : 1.0;
+        *out++ = diameter_of_volume(p->mass[i] / (p->density[i] * depth), p->dimension);
+    }
+}
+
+static void mpm_observe(const void *solver, const struct simulation *simulation,
+                        struct views *views)
+{
+    (void)solver;
+    views_of_particles(views, simulation);
+    views_add(views, (struct view){.name = "diameter",
+                                   .unit = "m",
+                                   .help = "particle diameter (m/rho)^(1/dimension)",
+                                   .components = 1,
+                                   .compute = compute_diameter,
+                                   .context = simulation});
+}
+
+static void mpm_destroy(void *solver)
+{
+    struct mpm *mpm = solver;
+    for (int t = 0; t < mpm->threads && mpm->rate; t++)
+        free(mpm->rate[t]);
+    free(mpm->rate);
+    free(mpm->half_size);
+    free(mpm->gauge);
+    free(mpm->wall);
+    bins_free(&mpm->bins);
+    grid_free(&mpm->grid);
+    grid_field_free(&mpm->main);
+    grid_field_free(&mpm->back);
+}
+
+static double mpm_bytes(const void *parameters, int dimension)
+{
+    const struct mpm_parameters *of = parameters;
+    struct particles store;
+    error_free(
+        particles_create(dimension, 1.0, mpm_field_table, COUNT_OF(mpm_field_table), &store));
+    double fields = (double)particles_bytes(&store);
+    particles_destroy(&store);
+    if (of->transfer != MPM_FLIP)
+        fields += 9 * sizeof(double);
+    /* Blocks full of cells of two particles an axis. */
+    struct grid grid;
+    grid_start(&grid, dimension, shape_reach((enum grid_shape)of->shape));
+    const double numbers = (NODE_STRIDE + BACK_STRIDE) * (double)(BLOCK_CELLS + grid.patch);
+    const double particles = BLOCK_CELLS * pow(2.0, dimension);
+    return fields + sizeof(int32_t) + 2.0 + numbers * sizeof(double) / particles;
+}
+
+static double mpm_step(const void *parameters, int dimension, const struct material *material,
+                       const struct point *point, double diameter)
+{
+    const struct mpm_parameters *of = parameters;
+    (void)dimension;
+    struct point at = *point;
+    const double edge = isnan(of->cell) ? 2.0 * diameter : of->cell;
+    const double courant = !isnan(of->courant)               ? of->courant
+                           : material_has_strength(material) ? 0.5
+                                                             : 0.2;
+    return courant * edge / material_evaluate(material, &at).sound_long;
+}
+
+static const struct field_declaration *mpm_field(int index)
+{
+    return index < (int)COUNT_OF(mpm_field_table) ? &mpm_field_table[index] : NULL;
+}
+
+const struct solver_class mpm_class = {.size = sizeof(struct mpm),
+                                       .create = mpm_create,
+                                       .start = mpm_start,
+                                       .prepare = mpm_prepare,
+                                       .advance = mpm_advance,
+                                       .state = mpm_state,
+                                       .observe = mpm_observe,
+                                       .destroy = mpm_destroy,
+                                       .bytes = mpm_bytes,
+                                       .step = mpm_step,
+                                       .field = mpm_field};

@@ -1,0 +1,30 @@
+/* The material point method: particles carry the material, a grid that is forgotten after each step carries the forces.
+ * Source: Cui, dissertation (2014), chapter 2, and the public practice of the codes of the same group. */
+#ifndef BOLIDE_MPM_H
+#define BOLIDE_MPM_H
+
+#include "model/solver.h"
+
+enum mpm_scheme { MPM_MUSL, MPM_USL, MPM_USF };
+enum mpm_transfer { MPM_FLIP, MPM_APIC, MPM_TPIC };
+enum mpm_rotation { MPM_EXACT, MPM_JAUMANN };
+enum mpm_damping { MPM_DAMPING_PLAIN, MPM_DAMPING_SYMMETRIC };
+
+struct mpm_parameters {
+    double cell; /* NAN: twice the spacing of particles */
+    int shape;   /* enum grid_shape */
+    int scheme, transfer;
+    double flip;
+    double courant; /* NAN: by the materials */
+    int rotation;
+    double viscosity_quadratic, viscosity_linear;
+    double shear_damping;
+    int damping;
+    double gauge_pressure;
+};
+
+/* `solver: {mpm: {...}}`. */
+extern const struct parameter mpm_table[];
+extern const struct solver_class mpm_class;
+
+#endif

@@ -1,0 +1,127 @@
+/* The parameters of the material point method, as a case names them. */
+#include "mpm/mpm_internal.h"
+
+static const char *const shape_names[] = {"linear", "gimp", "quadratic", "cubic", NULL};
+static const char *const scheme_names[] = {"musl", "usl", "usf", NULL};
+static const char *const transfer_names[] = {"flip", "apic", "tpic", NULL};
+static const char *const rotation_names[] = {"exact", "jaumann", NULL};
+static const char *const damping_names[] = {"plain", "symmetric", NULL};
+
+const struct parameter mpm_table[] = {
+    {.key = "cell",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct mpm_parameters, cell),
+     .unit = "m",
+     .standard = PARAMETER_OPTIONAL,
+     .above = 0.0,
+     .below = INFINITY,
+     .help = "edge of a cell of the grid, whose planes lie at its multiples; twice the resolution "
+             "when not given. Walls must lie on planes"},
+    {.key = "shape",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct mpm_parameters, shape),
+     .standard = "linear",
+     .names = shape_names,
+     .help = "shape functions of the grid; linear; gimp: linear, averaged over particles that keep "
+             "their size; quadratic, cubic: B-splines"},
+    {.key = "scheme",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct mpm_parameters, scheme),
+     .standard = "musl",
+     .names = scheme_names,
+     .help = "when stresses are found; musl: last, from velocities mapped to nodes once more; usl: "
+             "last; usf: first"},
+    {.key = "transfer",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct mpm_parameters, transfer),
+     .standard = "flip",
+     .names = transfer_names,
+     .help =
+         "what particles take from nodes; flip: accelerations, in the part that `flip` says, "
+         "else velocities; apic: velocities and their first moments; tpic: velocities and their "
+         "gradients"},
+    {.key = "flip",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct mpm_parameters, flip),
+     .standard = "1",
+     .above = 0.0,
+     .below = 1.0,
+     .closed = true,
+     .help = "part of accelerations in `transfer: flip`; less than 1 damps what the grid does not "
+             "resolve"},
+    {.key = "courant",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct mpm_parameters, courant),
+     .standard = PARAMETER_OPTIONAL,
+     .above = 0.0,
+     .below = 1.0,
+     .help = "K of dt = min K h/(c + max |u_i|), h the cell; when not given 0.2 where there are "
+             "fluids, else 0.5"},
+    {.key = "rotation",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct mpm_parameters, rotation),
+     .standard = "exact",
+     .names = rotation_names,
+     .help =
+         "how stress turns with the particle; exact: by a rotation; jaumann: by its linear part, "
+         "as in the source"},
+    {.key = "viscosity_quadratic",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct mpm_parameters, viscosity_quadratic),
+     .standard = "1.5",
+     .above = 0.0,
+     .below = 1e3,
+     .closed = true,
+     .help =
+         "b2 of the artificial viscosity q = rho h (b2 h d^2 - b1 c d) in compression, d < 0 the "
+         "rate of volume"},
+    {.key = "viscosity_linear",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct mpm_parameters, viscosity_linear),
+     .standard = "0.06",
+     .above = 0.0,
+     .below = 1e3,
+     .closed = true,
+     .help = "b1 of the artificial viscosity"},
+    {.key = "shear_damping",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct mpm_parameters, shear_damping),
+     .standard = "0",
+     .above = 0.0,
+     .below = 1.0,
+     .closed = true,
+     .help = "Q of the damping of shear modes in cells of fluid, as a viscosity 4 Q c h; at most "
+             "1/(8 K)"},
+    {.key = "damping",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct mpm_parameters, damping),
+     .standard = "plain",
+     .names = damping_names,
+     .help = "which shear is damped; plain: rotation too; symmetric: not"},
+    {.key = "gauge_pressure",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct mpm_parameters, gauge_pressure),
+     .unit = "Pa",
+     .standard = "0",
+     .below = INFINITY,
+     .above = -INFINITY,
+     .help =
+         "ambient pressure, which fluids do not push with: a uniform pressure makes particles on "
+         "a grid unstable"},
+    PARAMETER_END};
+
+struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
+                                  const struct simulation *simulation)
+{
+    struct mpm_parameters settled = *parameters;
+    bool fluid = false;
+    for (int m = 0; m < simulation->materials; m++)
+        fluid |= !material_has_strength(&simulation->material[m]);
+    if (isnan(settled.cell))
+        settled.cell = 2.0 * simulation->input->resolution;
+    if (isnan(settled.courant))
+        settled.courant = fluid ? 0.2 : 0.5;
+    if (settled.transfer != MPM_FLIP)
+        settled.flip = 0.0;
+    return settled;
+}

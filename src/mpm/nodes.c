@@ -1,0 +1,237 @@
+/* What happens at nodes: sums of patches, the step of momentum, and walls.
+ *
+ * A wall lies on a plane of nodes, where the normal velocity is zero. Shape functions that reach beyond it do as if the
+ * particles had images behind it: what a node behind the wall gets is added, mirrored, to the node that it is the image
+ * of, and both then have the same velocity, mirrored. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "mpm/mpm_internal.h"
+
+struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulation)
+{
+    struct error *error = NULL;
+    for (int axis = 0; axis < simulation->dimension; axis++)
+        for (int side = 0; side < 2; side++) {
+            const double at = side ? simulation->mirrors.high[axis] : simulation->mirrors.low[axis];
+            const double index = at / mpm->edge, plane = nearbyint(index);
+            mpm->has_plane[axis][side] = !isnan(at);
+            if (isnan(at))
+                continue;
+            mpm->plane[axis][side] = (int64_t)plane;
+            if (fabs(index - plane) > 1e-6)
+                error = error_join(
+                    error,
+                    input_error(
+                        simulation->input, "walls", NULL,
+                        "the wall at %c = %.9g m lies between planes of the grid: with cells "
+                        "of %.6g m they are at %.9g m and %.9g m; with cells of %.6g m (cell "
+                        "of the solver mpm) there is one at the wall",
+                        "xyz"[axis], at, mpm -> edge, floor(index) * mpm -> edge,
+                        ceil(index) * mpm -> edge, fabs(at) / ceil(fabs(index))));
+        }
+    return error;
+}
+
+/* Index of the node that AT is the image of behind the wall SIDE across AXIS; the node's own on the wall. */
+static int64_t mirrored(const struct mpm *mpm, int axis, int side, int64_t at)
+{
+    return 2 * mpm->plane[axis][side] - at;
+}
+
+/* How far behind the wall a node is, in cells: 0 on it, negative before it. */
+static int64_t behind(const struct mpm *mpm, int axis, int side, int64_t at)
+{
+    return side ? at - mpm->plane[axis][1] : mpm->plane[axis][0] - at;
+}
+
+static bool near_wall(const struct mpm *mpm, const int64_t at[3], int64_t within)
+{
+    for (int axis = 0; axis < mpm->grid.dimension; axis++)
+        for (int side = 0; side < 2; side++)
+            if (mpm->has_plane[axis][side] && behind(mpm, axis, side, at[axis]) >= -within)
+                return true;
+    return false;
+}
+
+/* Whether any node of a block may be at a wall. */
+static bool block_near_wall(const struct mpm *mpm, const int64_t corner[3], int64_t within)
+{
+    const int64_t last = block_cells(mpm->grid.dimension) - 1;
+    for (int axis = 0; axis < mpm->grid.dimension; axis++)
+        for (int side = 0; side < 2; side++)
+            if (mpm->has_plane[axis][side] &&
+                behind(mpm, axis, side, corner[axis] + (side ? last : 0)) >= -within)
+                return true;
+    return false;
+}
+
+static void node_index(int dimension, const int64_t corner[3], int k, int64_t at[3])
+{
+    int place[3];
+    bin_cell_place(dimension, k, place);
+    for (int axis = 0; axis < 3; axis++)
+        at[axis] = corner[axis] + place[axis];
+}
+
+/* Lists the nodes of a block that walls change. */
+static struct error *collect_block(struct mpm *mpm, int32_t block, const int64_t corner[3])
+{
+    const int64_t within = mpm->grid.reach;
+    if (!memory_reserve((void **)&mpm->wall, &mpm->wall_capacity, mpm->walls + BLOCK_CELLS,
+                        mpm->walls, sizeof *mpm->wall))
+        return error_new(ERROR_SYSTEM, "out of memory for %d nodes at walls", mpm->walls);
+    for (int k = 0; k < BLOCK_CELLS; k++) {
+        struct wall_node *wall = &mpm->wall[mpm->walls];
+        node_index(mpm->grid.dimension, corner, k, wall->at);
+        double *node = grid_node(&mpm->main, block, k);
+        if (node[NODE_MASS] <= 0.0 || !near_wall(mpm, wall->at, within))
+            continue;
+        wall->node = node;
+        wall->back = grid_node(&mpm->back, block, k);
+        memcpy(wall->sum, node, sizeof wall->sum);
+        mpm->walls++;
+    }
+    return NULL;
+}
+
+static struct error *collect_walls(struct mpm *mpm)
+{
+    mpm->walls = 0;
+    for (int32_t n = 0; n < mpm->grid.blocks; n++) {
+        int64_t corner[3];
+        grid_corner(&mpm->grid, n, corner);
+        if (block_near_wall(mpm, corner, mpm->grid.reach))
+            TRY(collect_block(mpm, n, corner));
+    }
+    return NULL;
+}
+
+/* Adds what a node behind a wall has to the one that it is the image of, and makes it that one's image. VECTORS, COUNT of
+ * them, are where the vectors begin; a scalar may come first. */
+static void fold_onto(double *node, double *onto, int axis, int count, const int *vectors,
+                      int scalars)
+{
+    for (int k = 0; k < scalars; k++)
+        node[k] = onto[k] += node[k];
+    for (int v = 0; v < count; v++)
+        for (int c = 0; c < 3; c++) {
+            const int k = vectors[v] + c;
+            const double sign = c == axis ? -1.0 : 1.0;
+            onto[k] += sign * node[k];
+            node[k] = sign * onto[k];
+        }
+}
+
+/* Walls in one of the fields. */
+static void fold(struct mpm *mpm, const struct grid_field *field)
+{
+    static const int main_vectors[] = {NODE_MOMENTUM, NODE_FORCE}, back_vectors[] = {0};
+    const bool is_main = field == &mpm->main;
+    const int count = is_main ? 2 : 1;
+    const int *vectors = is_main ? main_vectors : back_vectors;
+    for (int axis = 0; axis < mpm->grid.dimension; axis++)
+        for (int side = 0; side < 2 && mpm->walls; side++)
+            for (int32_t w = 0; w < mpm->walls && mpm->has_plane[axis][side]; w++) {
+                const struct wall_node *wall = &mpm->wall[w];
+                double *node = is_main ? wall->node : wall->back;
+                const int64_t far = behind(mpm, axis, side, wall->at[axis]);
+                if (far == 0)
+                    for (int v = 0; v < count; v++)
+                        node[vectors[v] + axis] = 0.0;
+                if (far <= 0)
+                    continue;
+                int64_t at[3] = {wall->at[0], wall->at[1], wall->at[2]};
+                at[axis] = mirrored(mpm, axis, side, at[axis]);
+                double *onto = grid_node_at(&mpm->grid, field, at);
+                assert(onto);
+                fold_onto(node, onto, axis, count, vectors, is_main);
+            }
+}
+
+struct error *mpm_sum_nodes(struct mpm *mpm, const struct simulation *simulation)
+{
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t n = 0; n < mpm->grid.blocks; n++)
+        grid_reduce(&mpm->grid, &mpm->main, n);
+    TRY(collect_walls(mpm));
+    fold(mpm, &mpm->main);
+    return NULL;
+}
+
+void mpm_add_forces(struct mpm *mpm, const struct simulation *simulation)
+{
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t n = 0; n < mpm->grid.blocks; n++)
+        grid_reduce(&mpm->grid, &mpm->back, n);
+    for (int32_t w = 0; w < mpm->walls; w++)
+        for (int c = 0; c < 3; c++)
+            mpm->wall[w].sum[NODE_FORCE + c] += mpm->wall[w].back[c];
+    fold(mpm, &mpm->back);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t n = 0; n < mpm->grid.blocks; n++)
+        for (int k = 0; k < BLOCK_CELLS; k++)
+            for (int c = 0; c < 3; c++)
+                grid_node(&mpm->main, n, k)[NODE_FORCE + c] += grid_node(&mpm->back, n, k)[c];
+}
+
+/* A wall changes the momentum of particles by what they get from a node in excess of what they have put into it. */
+static void book_walls(const struct mpm *mpm, struct simulation *simulation, double dt)
+{
+    const double flip = mpm->parameters.flip;
+    for (int32_t w = 0; w < mpm->walls; w++) {
+        const struct wall_node *wall = &mpm->wall[w];
+        const double *sum = wall->sum, *node = wall->node, mass = sum[NODE_MASS];
+        double push[3], place[3];
+        for (int k = 0; k < 3; k++) {
+            const double gain =
+                flip * dt * mass * node[NODE_ACCELERATION + k] +
+                (1.0 - flip) * (mass * node[NODE_VELOCITY + k] - sum[NODE_MOMENTUM + k]);
+            push[k] = gain - dt * sum[NODE_FORCE + k];
+            place[k] = (double)wall->at[k] * mpm->edge;
+        }
+        ledger_book(&simulation->ledger, LEDGER_WALLS, 0.0, vec3_make(push[0], push[1], push[2]),
+                    vec3_make(place[0], place[1], place[2]), 0.0);
+    }
+}
+
+void mpm_advance_nodes(struct mpm *mpm, struct simulation *simulation, double dt)
+{
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t n = 0; n < mpm->grid.blocks; n++)
+        for (int k = 0; k < BLOCK_CELLS; k++) {
+            double *node = grid_node(&mpm->main, n, k);
+            const double mass = node[NODE_MASS];
+            if (mass <= 0.0)
+                continue;
+            for (int c = 0; c < 3; c++) {
+                const double force = node[NODE_FORCE + c];
+                node[NODE_VELOCITY + c] = (node[NODE_MOMENTUM + c] + dt * force) / mass;
+                node[NODE_ACCELERATION + c] = force / mass;
+            }
+        }
+    book_walls(mpm, simulation, dt);
+}
+
+void mpm_find_velocities(struct mpm *mpm, const struct simulation *simulation, bool plain)
+{
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t n = 0; n < mpm->grid.blocks; n++) {
+        if (!plain)
+            grid_reduce(&mpm->grid, &mpm->back, n);
+        for (int k = 0; k < BLOCK_CELLS && plain; k++) {
+            const double *node = grid_node(&mpm->main, n, k);
+            memcpy(grid_node(&mpm->back, n, k), node + NODE_MOMENTUM, 3 * sizeof *node);
+        }
+    }
+    if (!plain)
+        fold(mpm, &mpm->back);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t n = 0; n < mpm->grid.blocks; n++)
+        for (int k = 0; k < BLOCK_CELLS; k++) {
+            const double mass = grid_node(&mpm->main, n, k)[NODE_MASS];
+            double *node = grid_node(&mpm->back, n, k);
+            for (int c = 0; c < 3; c++)
+                node[c] = mass < mpm->least_mass ? 0.0 : node[c] / mass;
+        }
+}

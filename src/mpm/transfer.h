@@ -1,0 +1,57 @@
+/* Sums from particles to nodes and back: the loops of the material point method. A block of cells at a time; particles in
+ * the order of bins. Compiled once an instruction set (transfer_kernel.c). */
+#ifndef BOLIDE_MPM_TRANSFER_H
+#define BOLIDE_MPM_TRANSFER_H
+
+#include "grid/grid.h"
+#include "grid/grid_shape.h"
+
+/* What a node has. The sums over particles are its mass, momentum and force; from the step on velocity (momentum at the
+ * end of the step over mass) and acceleration stand in the place of the last two. */
+enum { NODE_MASS = 0, NODE_MOMENTUM = 1, NODE_VELOCITY = 1, NODE_FORCE = 4, NODE_ACCELERATION = 4 };
+enum { NODE_STRIDE = 8 };
+/* What a node has of particles whose velocities are new: their momentum, then their velocity. */
+enum { BACK_STRIDE = 4 };
+
+/* Of a particle over the step: its velocity gradient's parts xx, yy, zz, xy, yz, zx, and half the curl. */
+enum { RATE_STRAIN = 0, RATE_SPIN = 6, RATE_STRIDE = 9 };
+
+struct transfer {
+    int dimension;
+    enum grid_shape shape;
+    bool axisymmetric; /* x is the radius, zz of tensors goes around */
+    bool affine;       /* particles carry a gradient of velocity */
+    bool by_moments; /* which is found from first moments of velocity, else from shape functions */
+    double edge;
+    const struct bins *bins;
+    const struct grid *grid;
+    struct grid_field *main, *back;
+    double
+        flip; /* of a particle's new velocity, how much is its old one and the nodes' acceleration */
+
+    /* of the particles */
+    double (*position)[3], (*velocity)[3];
+    const double *mass, *density, *pressure, *viscosity;
+    const double (*deviator)[6];
+    const uint16_t *material, *body;
+    double (*gradient)[9]; /* affine: d velocity_i / d x_j at 3 i + j */
+
+    const double *half_size; /* of the particles of each body, in cells */
+    const double *gauge;     /* pressure that does not count, of each material */
+};
+
+/* Fills the patch of BIN with the mass, momentum and force of its particles (2-9)-(2-12). */
+void transfer_scatter(const struct transfer *transfer, int32_t bin);
+
+/* New velocities of the particles of BIN from its patch, where nodes have velocity and acceleration (2-15), and with
+ * SCATTER their momentum in its patch of BACK (2-17); with MOVE they move (2-16). */
+void transfer_velocity(const struct transfer *transfer, int32_t bin, double dt, bool scatter,
+                       bool move);
+
+/* Rates of strain and spin of the particles of BIN (2-18), (2-19), RATE_STRIDE numbers each in the order of the bin, from
+ * nodal velocities at VELOCITY, STRIDE numbers a node in the order of the patch; with MOVE the particles move as
+ * the patch of the main field has it. */
+void transfer_gradient(const struct transfer *transfer, int32_t bin, double dt,
+                       const double *velocity, int stride, bool move, double *rate);
+
+#endif

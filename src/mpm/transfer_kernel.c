@@ -1,0 +1,429 @@
+/* The loops of transfer.h. Weights are found for eight particles of a cell at once, and what a particle takes from nodes
+ * is summed in the lanes of these; what it gives to a node is one record, summed in the lanes of that. */
+#include "mpm/transfer.h"
+
+#include <string.h>
+
+#define JOIN2(name, isa) name##_##isa
+#define JOIN1(name, isa) JOIN2(name, isa)
+#define NAMED(name) JOIN1(name, BOLIDE_ISA)
+
+#if defined(BOLIDE_SANITIZE)
+#define INLINE static __attribute__((unused))
+#else
+#define INLINE static inline __attribute__((always_inline))
+#endif
+#define ALIGNED __attribute__((aligned(64)))
+
+enum { LANES = 8, WINDOW_MAX = 4 };
+
+/* What is known when the loops are compiled. */
+struct kind {
+    int dimension, window; /* nodes along an axis that a particle of a cell reaches */
+};
+
+/* Up to eight particles of a cell, and their shape functions. What is behind the last particle is the last one again. */
+struct chunk {
+    int count;
+    int32_t index[LANES];
+    ALIGNED double value[3][WINDOW_MAX][LANES]; /* along an axis, at a node */
+    ALIGNED double slope[3][WINDOW_MAX][LANES]; /* 1/m */
+    ALIGNED double away[3][WINDOW_MAX][LANES];  /* of the node from the particle, m; affine only */
+};
+
+/* The cell of a bin that a loop is at. */
+struct cell_walk {
+    int64_t index[3]; /* in the global grid */
+    size_t base;      /* first node of its window, in the patch */
+    const int32_t *list;
+    int32_t count;
+};
+
+INLINE struct cell_walk cell_of(const struct transfer *t, struct kind kind, int32_t bin, int cell)
+{
+    const struct bin *b = &t->bins->bin[bin];
+    const int cells = block_cells(kind.dimension);
+    struct cell_walk walk = {.list = t->bins->list + b->first + b->cell[cell],
+                             .count = b->cell[cell + 1] - b->cell[cell]};
+    int place[3];
+    block_coordinates(b->key, walk.index);
+    bin_cell_place(kind.dimension, cell, place);
+    for (int axis = 0; axis < kind.dimension; axis++) {
+        walk.index[axis] = walk.index[axis] * cells + place[axis];
+        walk.base = walk.base * (size_t)t->grid->side + (size_t)place[axis];
+    }
+    return walk;
+}
+
+INLINE void weigh_axis(enum grid_shape shape, int window, const double *xi, const double *half,
+                       double (*value)[LANES], double (*slope)[LANES])
+{
+    for (int k = 0; k < window; k++)
+        for (int lane = 0; lane < LANES; lane++) {
+            const double r = xi[lane] - (double)(k - 1);
+            value[k][lane] = shape_value(shape, r, half[lane]);
+            slope[k][lane] = shape_slope(shape, r, half[lane]);
+        }
+}
+
+INLINE void weigh(const struct transfer *t, struct kind kind, const struct cell_walk *walk,
+                  int32_t begin, struct chunk *chunk)
+{
+    const double per_edge = 1.0 / t->edge;
+    ALIGNED double xi[LANES], half[LANES];
+    chunk->count = walk->count - begin < LANES ? walk->count - begin : LANES;
+    for (int lane = 0; lane < LANES; lane++)
+        chunk->index[lane] = walk->list[begin + (lane < chunk->count ? lane : chunk->count - 1)];
+    for (int lane = 0; lane < LANES && t->shape == SHAPE_GIMP; lane++)
+        half[lane] = t->half_size[t->body[chunk->index[lane]]];
+    for (int axis = 0; axis < kind.dimension; axis++) {
+        double(*value)[LANES] = chunk->value[axis], (*slope)[LANES] = chunk->slope[axis];
+        for (int lane = 0; lane < LANES; lane++)
+            xi[lane] = t->position[chunk->index[lane]][axis];
+        for (int lane = 0; lane < LANES; lane++)
+            xi[lane] = xi[lane] / t->edge - (double)walk->index[axis];
+        if (kind.window == 2)
+            for (int lane = 0; lane < LANES; lane++) {
+                value[0][lane] = 1.0 - xi[lane];
+                value[1][lane] = xi[lane];
+                slope[0][lane] = -1.0;
+                slope[1][lane] = 1.0;
+            }
+        else if (t->shape == SHAPE_GIMP)
+            weigh_axis(SHAPE_GIMP, kind.window, xi, half, value, slope);
+        else if (t->shape == SHAPE_QUADRATIC)
+            weigh_axis(SHAPE_QUADRATIC, kind.window, xi, half, value, slope);
+        else
+            weigh_axis(SHAPE_CUBIC, kind.window, xi, half, value, slope);
+        const double first = kind.window == 2 ? 0.0 : -1.0;
+        for (int k = 0; k < kind.window; k++)
+            for (int lane = 0; lane < LANES; lane++) {
+                slope[k][lane] *= per_edge;
+                chunk->away[axis][k][lane] = ((first + k) - xi[lane]) * t->edge;
+            }
+    }
+}
+
+/* The node at a, b, c of a window; nodes of axes that there are not count as one. */
+INLINE size_t node_of(const struct transfer *t, struct kind kind, size_t base, int a, int b, int c)
+{
+    const size_t side = (size_t)t->grid->side;
+    if (kind.dimension == 1)
+        return base + (size_t)a;
+    if (kind.dimension == 2)
+        return base + (size_t)a * side + (size_t)b;
+    return base + ((size_t)a * side + (size_t)b) * side + (size_t)c;
+}
+
+#define FOR_NODES(kind, a, b, c)                                             \
+    for (int a = 0; a < (kind).window; a++)                                  \
+        for (int b = 0; b < ((kind).dimension > 1 ? (kind).window : 1); b++) \
+            for (int c = 0; c < ((kind).dimension > 2 ? (kind).window : 1); c++)
+
+/* The shape function and its slopes of particle LANE at a node. */
+struct weight {
+    double value, slope[3];
+};
+
+INLINE struct weight weight_of(struct kind kind, const struct chunk *chunk, int lane, int a, int b,
+                               int c)
+{
+    double va = chunk->value[0][a][lane], sa = chunk->slope[0][a][lane];
+    double vb = 1.0, sb = 0.0, vc = 1.0, sc = 0.0;
+    if (kind.dimension > 1) {
+        vb = chunk->value[1][b][lane];
+        sb = chunk->slope[1][b][lane];
+    }
+    if (kind.dimension > 2) {
+        vc = chunk->value[2][c][lane];
+        sc = chunk->slope[2][c][lane];
+    }
+    return (struct weight){va * vb * vc, {sa * vb * vc, va * sb * vc, va * vb * sc}};
+}
+
+/* Where the nodes of a particle may have a velocity that changes over them: what its gradient adds at a node. */
+INLINE void add_affine(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                       int lane, int a, int b, int c, double factor, double *momentum)
+{
+    const double *g = t->gradient[chunk->index[lane]];
+    const int at[3] = {a, b, c};
+    for (int i = 0; i < kind.dimension; i++)
+        for (int j = 0; j < kind.dimension; j++)
+            momentum[i] += factor * g[3 * i + j] * chunk->away[j][at[j]][lane];
+}
+
+/* The record of a particle: PLAIN goes with the shape function, BY_SLOPE with its slopes. */
+struct record {
+    ALIGNED double plain[NODE_STRIDE];
+    ALIGNED double by_slope[3][NODE_STRIDE];
+};
+
+INLINE void record_of(const struct transfer *t, struct kind kind, int32_t i, struct record *record)
+{
+    const double mass = t->mass[i], volume = mass / t->density[i];
+    const double p = t->pressure[i] + t->viscosity[i] - t->gauge[t->material[i]];
+    const double *s = t->deviator[i], *u = t->velocity[i];
+    /* force = -V sigma grad N (2-10) */
+    const double stress[3][3] = {
+        {s[0] - p, s[3], s[5]}, {s[3], s[1] - p, s[4]}, {s[5], s[4], s[2] - p}};
+    *record = (struct record){{0}, {{0}}};
+    record->plain[NODE_MASS] = mass;
+    for (int axis = 0; axis < kind.dimension; axis++) {
+        record->plain[NODE_MOMENTUM + axis] = mass * u[axis];
+        for (int j = 0; j < kind.dimension; j++)
+            record->by_slope[j][NODE_FORCE + axis] = -volume * stress[axis][j];
+    }
+    if (t->axisymmetric)
+        record->plain[NODE_FORCE] -= volume * stress[2][2] / t->position[i][0];
+}
+
+INLINE void scatter(const struct transfer *t, struct kind kind, int32_t bin)
+{
+    double *patch = grid_patch(t->grid, t->main, bin);
+    memset(patch, 0, (size_t)(t->grid->patch * NODE_STRIDE) * sizeof *patch);
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        const struct cell_walk walk = cell_of(t, kind, bin, cell);
+        struct chunk chunk;
+        struct record record;
+        for (int32_t begin = 0; begin < walk.count; begin += LANES) {
+            weigh(t, kind, &walk, begin, &chunk);
+            for (int lane = 0; lane < chunk.count; lane++) {
+                record_of(t, kind, chunk.index[lane], &record);
+                FOR_NODES(kind, a, b, c)
+                {
+                    const struct weight w = weight_of(kind, &chunk, lane, a, b, c);
+                    double *node = patch + node_of(t, kind, walk.base, a, b, c) * NODE_STRIDE;
+                    for (int k = 0; k < NODE_STRIDE; k++) {
+                        double sum = w.value * record.plain[k];
+                        for (int j = 0; j < kind.dimension; j++)
+                            sum += w.slope[j] * record.by_slope[j][k];
+                        node[k] += sum;
+                    }
+                    if (t->affine)
+                        add_affine(t, kind, &chunk, lane, a, b, c,
+                                   w.value * record.plain[NODE_MASS], node + NODE_MOMENTUM);
+                }
+            }
+        }
+    }
+}
+
+/* For the lanes of a chunk: the sums over nodes of COUNT numbers at DATA, STRIDE a node. */
+INLINE void gather(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                   size_t base, const double *data, int stride, int count, double (*sum)[LANES])
+{
+    for (int k = 0; k < count; k++)
+        for (int lane = 0; lane < LANES; lane++)
+            sum[k][lane] = 0.0;
+    FOR_NODES(kind, a, b, c)
+    {
+        const double *node = data + node_of(t, kind, base, a, b, c) * (size_t)stride;
+        ALIGNED double w[LANES];
+        for (int lane = 0; lane < LANES; lane++) {
+            w[lane] = chunk->value[0][a][lane];
+            if (kind.dimension > 1)
+                w[lane] *= chunk->value[1][b][lane];
+            if (kind.dimension > 2)
+                w[lane] *= chunk->value[2][c][lane];
+        }
+        for (int k = 0; k < count; k++)
+            for (int lane = 0; lane < LANES; lane++)
+                sum[k][lane] += w[lane] * node[k];
+    }
+}
+
+/* The same of the sums with slopes: sum[i][j] is d data_i / d x_j. */
+INLINE void gather_slopes(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                          size_t base, const double *data, int stride, double (*sum)[3][LANES])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            for (int lane = 0; lane < LANES; lane++)
+                sum[i][j][lane] = 0.0;
+    FOR_NODES(kind, a, b, c)
+    {
+        const double *node = data + node_of(t, kind, base, a, b, c) * (size_t)stride;
+        ALIGNED double slope[3][LANES];
+        for (int lane = 0; lane < LANES; lane++) {
+            const struct weight w = weight_of(kind, chunk, lane, a, b, c);
+            for (int j = 0; j < kind.dimension; j++)
+                slope[j][lane] = w.slope[j];
+        }
+        for (int i = 0; i < kind.dimension; i++)
+            for (int j = 0; j < kind.dimension; j++)
+                for (int lane = 0; lane < LANES; lane++)
+                    sum[i][j][lane] += slope[j][lane] * node[i];
+    }
+}
+
+/* The gradient that a particle carries on: by slopes, or by first moments over the second one of the shape function,
+ * sum_I N u (x_I - x) / sum_I N (x_I - x)^2 (Jiang et al., ACM Trans. Graph. 34 (2015) 51). */
+INLINE void keep_gradient(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                          size_t base, const double *velocity)
+{
+    ALIGNED double sum[3][3][LANES];
+    gather_slopes(t, kind, chunk, base, velocity, NODE_STRIDE, sum);
+    if (t->by_moments && kind.window > 2) {
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                for (int lane = 0; lane < LANES; lane++)
+                    sum[i][j][lane] = 0.0;
+        FOR_NODES(kind, a, b, c)
+        {
+            const int at[3] = {a, b, c};
+            const double *node = velocity + node_of(t, kind, base, a, b, c) * NODE_STRIDE;
+            for (int lane = 0; lane < LANES; lane++) {
+                const double w = weight_of(kind, chunk, lane, a, b, c).value;
+                for (int i = 0; i < kind.dimension; i++)
+                    for (int j = 0; j < kind.dimension; j++)
+                        sum[i][j][lane] += w * node[i] * chunk->away[j][at[j]][lane];
+            }
+        }
+        for (int lane = 0; lane < LANES; lane++)
+            for (int j = 0; j < kind.dimension; j++) {
+                double second = 0.0;
+                for (int k = 0; k < kind.window; k++)
+                    second += chunk->value[j][k][lane] * square(chunk->away[j][k][lane]);
+                for (int i = 0; i < kind.dimension; i++)
+                    sum[i][j][lane] /= second;
+            }
+    }
+    for (int lane = 0; lane < chunk->count; lane++)
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                t->gradient[chunk->index[lane]][3 * i + j] = sum[i][j][lane];
+}
+
+INLINE void velocity(const struct transfer *t, struct kind kind, int32_t bin, double dt,
+                     bool scatter_back, bool move)
+{
+    const double *patch = grid_patch(t->grid, t->main, bin);
+    double *back = scatter_back ? grid_patch(t->grid, t->back, bin) : NULL;
+    const bool blend = t->flip < 1.0 || move;
+    if (back)
+        memset(back, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *back);
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        const struct cell_walk walk = cell_of(t, kind, bin, cell);
+        struct chunk chunk;
+        ALIGNED double push[3][LANES], flow[3][LANES];
+        for (int32_t begin = 0; begin < walk.count; begin += LANES) {
+            weigh(t, kind, &walk, begin, &chunk);
+            gather(t, kind, &chunk, walk.base, patch + NODE_ACCELERATION, NODE_STRIDE,
+                   kind.dimension, push);
+            if (blend)
+                gather(t, kind, &chunk, walk.base, patch + NODE_VELOCITY, NODE_STRIDE,
+                       kind.dimension, flow);
+            for (int lane = 0; lane < chunk.count; lane++) {
+                double *u = t->velocity[chunk.index[lane]], *x = t->position[chunk.index[lane]];
+                for (int k = 0; k < kind.dimension; k++) {
+                    u[k] += dt * push[k][lane];
+                    if (t->flip < 1.0)
+                        u[k] = t->flip * u[k] + (1.0 - t->flip) * flow[k][lane];
+                    if (move)
+                        x[k] += dt * flow[k][lane];
+                }
+            }
+            if (t->affine)
+                keep_gradient(t, kind, &chunk, walk.base, patch + NODE_VELOCITY);
+            for (int lane = 0; lane < chunk.count && back; lane++) {
+                const double *u = t->velocity[chunk.index[lane]], mass = t->mass[chunk.index[lane]];
+                FOR_NODES(kind, a, b, c)
+                {
+                    const double share = mass * weight_of(kind, &chunk, lane, a, b, c).value;
+                    double *node = back + node_of(t, kind, walk.base, a, b, c) * BACK_STRIDE;
+                    for (int k = 0; k < kind.dimension; k++)
+                        node[k] += share * u[k];
+                    if (t->affine)
+                        add_affine(t, kind, &chunk, lane, a, b, c, share, node);
+                }
+            }
+        }
+    }
+}
+
+INLINE void gradient(const struct transfer *t, struct kind kind, int32_t bin, double dt,
+                     const double *of, int stride, bool move, double *rate)
+{
+    const double *patch = grid_patch(t->grid, t->main, bin);
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        const struct cell_walk walk = cell_of(t, kind, bin, cell);
+        struct chunk chunk;
+        ALIGNED double sum[3][3][LANES], flow[3][LANES], around[1][LANES];
+        for (int32_t begin = 0; begin < walk.count; begin += LANES) {
+            weigh(t, kind, &walk, begin, &chunk);
+            gather_slopes(t, kind, &chunk, walk.base, of, stride, sum);
+            if (t->axisymmetric)
+                gather(t, kind, &chunk, walk.base, of, stride, 1, around);
+            if (move)
+                gather(t, kind, &chunk, walk.base, patch + NODE_VELOCITY, NODE_STRIDE,
+                       kind.dimension, flow);
+            for (int lane = 0; lane < chunk.count; lane++, rate += RATE_STRIDE) {
+                double *x = t->position[chunk.index[lane]];
+                rate[0] = sum[0][0][lane];
+                rate[1] = sum[1][1][lane];
+                rate[2] = t->axisymmetric ? around[0][lane] / x[0] : sum[2][2][lane];
+                rate[3] = 0.5 * (sum[0][1][lane] + sum[1][0][lane]);
+                rate[4] = 0.5 * (sum[1][2][lane] + sum[2][1][lane]);
+                rate[5] = 0.5 * (sum[2][0][lane] + sum[0][2][lane]);
+                rate[RATE_SPIN] = 0.5 * (sum[2][1][lane] - sum[1][2][lane]);
+                rate[RATE_SPIN + 1] = 0.5 * (sum[0][2][lane] - sum[2][0][lane]);
+                rate[RATE_SPIN + 2] = 0.5 * (sum[1][0][lane] - sum[0][1][lane]);
+                for (int k = 0; k < kind.dimension && move; k++)
+                    x[k] += dt * flow[k][lane];
+            }
+        }
+    }
+}
+
+/* One switch a block: in each branch dimension and window are constants. */
+#define BY_KIND(t, CALL)                                         \
+    switch ((t)->dimension * 2 + ((t)->shape != SHAPE_LINEAR)) { \
+    case 2:                                                      \
+        CALL(1, 2);                                              \
+        break;                                                   \
+    case 3:                                                      \
+        CALL(1, 4);                                              \
+        break;                                                   \
+    case 4:                                                      \
+        CALL(2, 2);                                              \
+        break;                                                   \
+    case 5:                                                      \
+        CALL(2, 4);                                              \
+        break;                                                   \
+    case 6:                                                      \
+        CALL(3, 2);                                              \
+        break;                                                   \
+    default:                                                     \
+        CALL(3, 4);                                              \
+    }
+
+void NAMED(transfer_scatter)(const struct transfer *t, int32_t bin);
+void NAMED(transfer_velocity)(const struct transfer *t, int32_t bin, double dt, bool scatter_back,
+                              bool move);
+void NAMED(transfer_gradient)(const struct transfer *t, int32_t bin, double dt, const double *of,
+                              int stride, bool move, double *rate);
+
+void NAMED(transfer_scatter)(const struct transfer *t, int32_t bin)
+{
+#define CALL(dimension, window) scatter(t, (struct kind){dimension, window}, bin)
+    BY_KIND(t, CALL)
+#undef CALL
+}
+
+void NAMED(transfer_velocity)(const struct transfer *t, int32_t bin, double dt, bool scatter_back,
+                              bool move)
+{
+#define CALL(dimension, window) \
+    velocity(t, (struct kind){dimension, window}, bin, dt, scatter_back, move)
+    BY_KIND(t, CALL)
+#undef CALL
+}
+
+void NAMED(transfer_gradient)(const struct transfer *t, int32_t bin, double dt, const double *of,
+                              int stride, bool move, double *rate)
+{
+#define CALL(dimension, window) \
+    gradient(t, (struct kind){dimension, window}, bin, dt, of, stride, move, rate)
+    BY_KIND(t, CALL)
+#undef CALL
+}

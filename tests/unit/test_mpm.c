@@ -1,0 +1,185 @@
+/* The material point method step by step: the same bits whatever the threads, the storage, and after a resume; what the
+ * steps keep; and what it refuses. */
+#include "running.h"
+
+#if defined(BOLIDE_SANITIZE)
+enum { STEPS = 16 };
+#else
+enum { STEPS = 60 };
+#endif
+
+#define MATERIALS                                                                            \
+    "materials:\n"                                                                           \
+    "  gas: {eos: {ideal-gas: {density: 1500 kg/m^3, gamma: 3}}}\n"                          \
+    "  aluminium:\n"                                                                         \
+    "    eos: {mie-grueneisen: {density: 2700 kg/m^3, sound: 5350 m/s, slope: 1.35, gamma: " \
+    "2.17, bulk_modulus: 73 GPa}}\n"                                                         \
+    "    strength: {perfect-plastic: {shear_modulus: 23 GPa, yield: 0.4 GPa}}\n"
+
+/* A hot gas beside a plate that flies into another, in a corner of walls. */
+static const char plane_case[] =
+    "format: 1\ntitle: A gas and two plates\ndimension: 2\nresolution: 1 mm\n"
+    "solver: {mpm: {cell: 2 mm}}\n" MATERIALS "bodies:\n"
+    "  charge: {material: gas, box: {from: [-20 mm, 0 mm], to: [0 mm, 22 mm]}, pressure: 5 GPa}\n"
+    "  flyer: {material: aluminium, box: {from: [0 mm, 0 mm], to: [7 mm, 22 mm]}, velocity: "
+    "[600 m/s, -300 m/s]}\n"
+    "  plate: {material: aluminium, box: {from: [9 mm, 0 mm], to: [31 mm, 30 mm]}}\n"
+    "walls:\n"
+    "  floor: {mirror: y, at: 0 mm, side: low}\n"
+    "  left: {mirror: x, at: -20 mm, side: low}\n"
+    "  right: {mirror: x, at: 32 mm, side: high}\n"
+    "run: {until: 1 s}\n";
+
+static const char space_case[] =
+    "format: 1\ntitle: Two blocks\ndimension: 3\nresolution: 1 mm\n"
+    "solver: {mpm: {cell: 2 mm}}\n" MATERIALS "bodies:\n"
+    "  flyer: {material: aluminium, box: {from: [-7 mm, 1 mm, 0 mm], to: [0 mm, 8 mm, 10 mm]}, "
+    "velocity: [900 m/s, -300 m/s, -200 m/s]}\n"
+    "  plate: {material: aluminium, box: {from: [1 mm, 0 mm, 0 mm], to: [9 mm, 13 mm, 13 mm]}}\n"
+    "walls:\n"
+    "  floor: {mirror: z, at: 0 mm, side: low}\n"
+    "run: {until: 1 s}\n";
+
+static const char line_case[] =
+    "format: 1\ntitle: Two gases\ndimension: 1\nresolution: 1 mm\n"
+    "solver: {mpm: {cell: 2 mm, courant: 0.1}}\n" MATERIALS "bodies:\n"
+    "  left: {material: gas, box: {from: [0 mm], to: [200 mm]}, pressure: 5 GPa}\n"
+    "  right: {material: gas, box: {from: [200 mm], to: [400 mm]}, density: 200 kg/m^3, pressure: "
+    "1 GPa}\n"
+    "walls:\n"
+    "  low: {mirror: x, at: 0 mm, side: low}\n"
+    "  high: {mirror: x, at: 400 mm, side: high}\n"
+    "run: {until: 1 s}\n";
+
+static void check_bits(const char *text, const char *const *settings, int count)
+{
+    for (int k = 0; k < count; k++) {
+        const struct variant variants[] = {{"one thread", 1, 1.0, settings[k], false},
+                                           {"three threads", 3, 1.0, settings[k], false},
+                                           {"other storage", 2, 1.7, settings[k], false},
+                                           {"resumed", 1, 1.0, settings[k], true}};
+        const uint64_t hash = hash_after(text, &variants[0], &variants[0], STEPS);
+        for (size_t v = 1; v < COUNT_OF(variants); v++)
+            if (hash_after(text, &variants[0], &variants[v], STEPS) != hash)
+                fail_msg("%s, %s: other bits", settings[k], variants[v].name);
+    }
+}
+
+static void bits_do_not_depend_on_threads_storage_or_a_resume(void **state)
+{
+    (void)state;
+    static const char *const settings[] = {
+        "solver.mpm.scheme=musl", "solver.mpm.scheme=usl",    "solver.mpm.scheme=usf",
+        "solver.mpm.shape=gimp",  "solver.mpm.transfer=apic", "solver.mpm.shear_damping=0.1"};
+    static const char *const few[] = {"solver.mpm.shape=linear", "solver.mpm.shape=cubic"};
+    check_bits(plane_case, settings, COUNT_OF(settings));
+    check_bits(space_case, few, COUNT_OF(few));
+}
+
+/* Mass, momentum and angular momentum less what the ledger booked, against their scales. */
+static void check_kept(struct running *run, const struct totals *start, double tolerance)
+{
+    const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    const struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
+    for (int e = LEDGER_MASS; e <= LEDGER_MOMENTUM_Z; e++) {
+        const double scale = e == LEDGER_MASS ? start->entry[e] : now.momentum_scale;
+        const double change = now.entry[e] - booked.entry[e] - start->entry[e];
+        if (fabs(change) > tolerance * scale)
+            fail_msg("entry %d: %g of %g", e, change, scale);
+    }
+}
+
+static void mass_and_momentum_stay_but_for_what_walls_push(void **state)
+{
+    (void)state;
+    static const char *const settings[] = {
+        "solver.mpm.shape=linear", "solver.mpm.shape=gimp",       "solver.mpm.shape=quadratic",
+        "solver.mpm.shape=cubic",  "solver.mpm.scheme=usl",       "solver.mpm.scheme=usf",
+        "solver.mpm.flip=0.5",     "solver.mpm.shear_damping=0.1"};
+    for (size_t k = 0; k < COUNT_OF(settings); k++) {
+        const struct variant variant = {"", 1, 1.0, settings[k], false};
+        struct running *run = begin_fresh(plane_case, &variant);
+        const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        step(run, STEPS);
+        check_kept(run, &start, 1e-13);
+        end(run);
+    }
+}
+
+/* Energy at the end over that at the start. */
+static double energy_after(const char *setting, int steps)
+{
+    const struct variant variant = {"", 1, 1.0, setting, false};
+    struct running *run = begin_fresh(line_case, &variant);
+    const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    step(run, steps);
+    const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    end(run);
+    return now.entry[LEDGER_ENERGY] / start.entry[LEDGER_ENERGY];
+}
+
+static void usf_gains_energy_and_usl_loses_more_than_musl(void **state)
+{
+    (void)state;
+    const double usf = energy_after("solver.mpm.scheme=usf", 800),
+                 musl = energy_after("solver.mpm.scheme=musl", 800),
+                 usl = energy_after("solver.mpm.scheme=usl", 800),
+                 smooth = energy_after("solver.mpm.shape=quadratic", 800);
+    assert_true(usf > 1.0 && 1.0 > musl && musl > usl);
+    assert_true(fabs(smooth - 1.0) < 0.2 * fabs(musl - 1.0));
+}
+
+static void a_gas_at_rest_between_walls_stays_at_rest(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "format: 1\ntitle: A gas at rest\ndimension: 2\nresolution: 1 mm\n"
+        "solver: {mpm: {cell: 2 mm}}\n" MATERIALS "bodies:\n"
+        "  gas: {material: gas, box: {from: [0 mm, 0 mm], to: [24 mm, 20 mm]}, pressure: 1 GPa}\n"
+        "walls:\n"
+        "  x0: {mirror: x, at: 0 mm, side: low}\n"
+        "  x1: {mirror: x, at: 24 mm, side: high}\n"
+        "  y0: {mirror: y, at: 0 mm, side: low}\n"
+        "  y1: {mirror: y, at: 20 mm, side: high}\n"
+        "run: {until: 1 s}\n";
+    static const char *const settings[] = {"solver.mpm.shape=linear", "solver.mpm.shape=gimp",
+                                           "solver.mpm.shape=quadratic", "solver.mpm.shape=cubic"};
+    for (size_t k = 0; k < COUNT_OF(settings); k++) {
+        const struct variant variant = {"", 1, 1.0, settings[k], false};
+        struct running *run = begin_fresh(text, &variant);
+        step(run, 10);
+        const struct particles *p = &run->simulation.particles;
+        for (int32_t i = 0; i < p->count; i++)
+            for (int a = 0; a < 2; a++)
+                if (fabs(p->velocity[i][a]) > 1e-8)
+                    fail_msg("%s: %g m/s", settings[k], p->velocity[i][a]);
+        end(run);
+    }
+}
+
+static void a_wall_between_planes_of_the_grid_is_a_mistake(void **state)
+{
+    (void)state;
+    const struct variant variant = {"", 1, 1.0, "walls.floor.at=-0.7 mm", false};
+    struct running *run = open_case(plane_case, &variant);
+    struct error *error =
+        run->solver->create(&run->mpm, &run->simulation, run->input->solver.value);
+    assert_non_null(error);
+    assert_int_equal(error_kind(error), ERROR_INPUT);
+    assert_non_null(strstr(error_message(error, 0), "walls"));
+    assert_non_null(strstr(error_message(error, 0), "-0.002 m and -0 m"));
+    error_free(error);
+    end(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bits_do_not_depend_on_threads_storage_or_a_resume),
+        cmocka_unit_test(mass_and_momentum_stay_but_for_what_walls_push),
+        cmocka_unit_test(usf_gains_energy_and_usl_loses_more_than_musl),
+        cmocka_unit_test(a_gas_at_rest_between_walls_stays_at_rest),
+        cmocka_unit_test(a_wall_between_planes_of_the_grid_is_a_mistake),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
