@@ -15,12 +15,15 @@ struct stray {
     uint8_t cell;
 };
 
-/* A block that may have particles: one of storage, or one that strays have come to. */
+/* A block that may have particles of a group: one of storage, or one that strays have come to. Those of a block stand side
+ * by side, one a group. */
 struct candidate {
     uint64_t key;
-    int32_t block;           /* of storage, -1: none */
-    int32_t locals, leaving; /* stored there and lying there, or not */
-    int32_t first, strays;   /* that have come, once they are sorted */
+    int32_t block; /* of storage, -1: none */
+    int32_t group;
+    int32_t locals,
+        leaving; /* stored there and lying there; of the block, lying elsewhere (in its first) */
+    int32_t first, strays; /* that have come, once they are sorted */
 };
 
 static struct error *out_of_memory(const struct binned *p)
@@ -52,6 +55,11 @@ static inline uint8_t cell_within(const struct binned *p, int32_t i, int dimensi
     return inside ? (uint8_t)cell : CELL_ELSEWHERE;
 }
 
+static inline int group_of(const struct binned *p, int32_t i)
+{
+    return p->groups > 1 ? p->group_of_body[p->body[i]] : 0;
+}
+
 static void corner_of(int dimension, uint64_t key, int64_t corner[3])
 {
     block_coordinates(key, corner);
@@ -62,10 +70,12 @@ static void corner_of(int dimension, uint64_t key, int64_t corner[3])
 static void find_cells(struct bins *bins, const struct binned *p, int32_t b)
 {
     const struct block *block = &p->block[b];
-    struct candidate *candidate = &bins->candidate[b];
+    struct candidate *candidate = &bins->candidate[(int64_t)b * p->groups];
     int64_t corner[3];
     corner_of(p->dimension, block->key, corner);
     int32_t leaving = 0;
+    for (int g = 0; g < p->groups; g++)
+        candidate[g] = (struct candidate){block->key, b, g, 0, 0, 0, 0};
     for (int32_t i = block->first; i < block->first + block->count; i++) {
         switch (p->dimension) {
         case 1:
@@ -77,9 +87,14 @@ static void find_cells(struct bins *bins, const struct binned *p, int32_t b)
         default:
             bins->cell[i] = cell_within(p, i, 3, corner);
         }
-        leaving += bins->cell[i] == CELL_ELSEWHERE;
+        const bool away = bins->cell[i] == CELL_ELSEWHERE;
+        leaving += away;
+        if (p->groups > 1)
+            candidate[group_of(p, i)].locals += !away;
     }
-    *candidate = (struct candidate){block->key, b, block->count - leaving, leaving, 0, 0};
+    candidate->leaving = leaving;
+    if (p->groups == 1)
+        candidate->locals = block->count - leaving;
 }
 
 /* How many particles have left the cell that they were stored by. */
@@ -114,7 +129,8 @@ static struct error *place_stray(struct bins *bins, const struct binned *p, int3
         at[axis] = block_of_cell(index, cells);
         cell = cell * cells + index - at[axis] * cells;
     }
-    *stray = (struct stray){block_table_add(&bins->table, block_key(at)), i, (uint8_t)cell};
+    const int32_t block = block_table_add(&bins->table, block_key(at));
+    *stray = (struct stray){block * p->groups + group_of(p, i), i, (uint8_t)cell};
     return NULL;
 }
 
@@ -123,13 +139,14 @@ static struct error *find_strays(struct bins *bins, const struct binned *p)
 {
     int64_t strays = 0;
     for (int32_t b = 0; b < p->blocks; b++)
-        strays += bins->candidate[b].leaving;
+        strays += bins->candidate[(int64_t)b * p->groups].leaving;
     if (!memory_reserve((void **)&bins->stray, &bins->stray_capacity, strays, 0,
                         sizeof *bins->stray) ||
         !memory_reserve((void **)&bins->sorted, &bins->sorted_capacity, strays, 0,
                         sizeof *bins->sorted) ||
-        !memory_reserve((void **)&bins->candidate, &bins->candidate_capacity, p->blocks + strays,
-                        p->blocks, sizeof *bins->candidate) ||
+        !memory_reserve((void **)&bins->candidate, &bins->candidate_capacity,
+                        (p->blocks + strays) * p->groups, (int64_t)p->blocks * p->groups,
+                        sizeof *bins->candidate) ||
         !block_table_clear(&bins->table, p->blocks + strays))
         return out_of_memory(p);
     bins->strays = 0;
@@ -137,27 +154,28 @@ static struct error *find_strays(struct bins *bins, const struct binned *p)
         block_table_add(&bins->table, p->block[b].key);
     for (int32_t b = 0; b < p->blocks; b++) {
         const struct block *block = &p->block[b];
-        if (!bins->candidate[b].leaving)
+        if (!bins->candidate[(int64_t)b * p->groups].leaving)
             continue;
         for (int32_t i = block->first; i < block->first + block->count; i++)
             if (bins->cell[i] == CELL_ELSEWHERE)
                 TRY(place_stray(bins, p, i, &bins->stray[bins->strays++]));
     }
-    for (int32_t c = p->blocks; c < bins->table.count; c++)
-        bins->candidate[c] = (struct candidate){.block = -1};
-    for (uint64_t s = 0; s < bins->table.slots && bins->table.count > p->blocks; s++)
-        if (bins->table.slot[s].number > p->blocks)
-            bins->candidate[bins->table.slot[s].number - 1].key = bins->table.slot[s].key;
+    for (uint64_t slot = 0; slot < bins->table.slots && bins->table.count > p->blocks; slot++) {
+        const struct block_slot *at = &bins->table.slot[slot];
+        for (int g = 0; g < p->groups && at->number > p->blocks; g++)
+            bins->candidate[(int64_t)(at->number - 1) * p->groups + g] =
+                (struct candidate){at->key, -1, g, 0, 0, 0, 0};
+    }
     return NULL;
 }
 
 /* Strays by the candidate that they have come to. */
-static void sort_strays(struct bins *bins)
+static void sort_strays(struct bins *bins, int groups)
 {
     int32_t before = 0;
     for (int32_t k = 0; k < bins->strays; k++)
         bins->candidate[bins->stray[k].candidate].strays++;
-    for (int32_t c = 0; c < bins->table.count; c++) {
+    for (int32_t c = 0; c < bins->table.count * groups; c++) {
         bins->candidate[c].first = before;
         before += bins->candidate[c].strays;
         bins->candidate[c].strays = 0;
@@ -170,15 +188,17 @@ static void sort_strays(struct bins *bins)
 
 static int compare_candidates(const void *a, const void *b)
 {
-    uint64_t x = ((const struct candidate *)a)->key, y = ((const struct candidate *)b)->key;
-    return x < y ? -1 : x > y;
+    const struct candidate *x = a, *y = b;
+    if (x->group != y->group)
+        return x->group < y->group ? -1 : 1;
+    return x->key < y->key ? -1 : x->key > y->key;
 }
 
-/* Candidates that have particles, by key, become bins. */
+/* Candidates that have particles, by group and key, become bins. */
 static struct error *choose_bins(struct bins *bins, const struct binned *p)
 {
     int32_t kept = 0, before = 0;
-    for (int32_t c = 0; c < bins->table.count; c++)
+    for (int32_t c = 0; c < bins->table.count * p->groups; c++)
         if (bins->candidate[c].locals + bins->candidate[c].strays > 0)
             bins->candidate[kept++] = bins->candidate[c];
     if (kept > 1)
@@ -186,6 +206,10 @@ static struct error *choose_bins(struct bins *bins, const struct binned *p)
     if (!memory_reserve((void **)&bins->bin, &bins->bin_capacity, kept, 0, sizeof *bins->bin))
         return out_of_memory(p);
     bins->count = kept;
+    memset(bins->begin, 0, sizeof bins->begin);
+    for (int32_t b = 0; b < kept; b++)
+        for (int g = bins->candidate[b].group; g < BIN_GROUPS; g++)
+            bins->begin[g + 1] = b + 1;
     for (int32_t b = 0; b < kept; b++) {
         bins->bin[b].key = bins->candidate[b].key;
         bins->bin[b].first = before;
@@ -219,7 +243,7 @@ static void fill_bin(struct bins *bins, const struct binned *p, int32_t b)
     }
     memset(bin->cell, 0, sizeof bin->cell);
     for (int32_t i = begin; i < end; i++)
-        if (bins->cell[i] != CELL_ELSEWHERE)
+        if (bins->cell[i] != CELL_ELSEWHERE && group_of(p, i) == from->group)
             bin->cell[bins->cell[i] + 1]++;
     for (int32_t k = 0; k < from->strays; k++)
         bin->cell[stray[k].cell + 1]++;
@@ -228,7 +252,7 @@ static void fill_bin(struct bins *bins, const struct binned *p, int32_t b)
         bin->cell[c + 1] += bin->cell[c];
     }
     for (int32_t i = begin; i < end; i++)
-        if (bins->cell[i] != CELL_ELSEWHERE)
+        if (bins->cell[i] != CELL_ELSEWHERE && group_of(p, i) == from->group)
             list[next[bins->cell[i]]++] = i;
     for (int32_t k = 0; k < from->strays; k++)
         list[next[stray[k].cell]++] = stray[k].index;
@@ -243,15 +267,15 @@ struct error *bins_make(struct bins *bins, const struct binned *p, int threads)
         !memory_reserve((void **)&bins->cell, &bins->cell_capacity, p->count, 0, 1) ||
         !memory_reserve((void **)&bins->home, &bins->home_capacity, p->count, bins->home_capacity,
                         1) ||
-        !memory_reserve((void **)&bins->candidate, &bins->candidate_capacity, p->blocks, 0,
-                        sizeof *bins->candidate))
+        !memory_reserve((void **)&bins->candidate, &bins->candidate_capacity,
+                        (int64_t)p->blocks * p->groups, 0, sizeof *bins->candidate))
         return out_of_memory(p);
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int32_t b = 0; b < p->blocks; b++)
         find_cells(bins, p, b);
     bins->moved = count_moved(bins, p, threads);
     TRY(find_strays(bins, p));
-    sort_strays(bins);
+    sort_strays(bins, p->groups);
     TRY(choose_bins(bins, p));
 #pragma omp parallel for schedule(dynamic, 8) num_threads(threads)
     for (int32_t b = 0; b < bins->count; b++)

@@ -1,6 +1,6 @@
-/* Which particle lies in which cell of the grid, found anew each step: blocks of cells by key, in a block its cells, in a
- * cell the particles by id. What is added up in this order does not depend on how the particles are stored; storage that
- * is nearly in this order makes it quick. */
+/* Which particle lies in which cell of the grid, found anew each step: groups of bodies that share nothing, in a group blocks
+ * of cells by key, in a block its cells, in a cell the particles by id. What is added up in this order does not depend on
+ * how the particles are stored; storage that is nearly in this order makes it quick. */
 #ifndef BOLIDE_BINS_H
 #define BOLIDE_BINS_H
 
@@ -8,14 +8,16 @@
 #include "grid/block_table.h"
 #include "parallel/block.h"
 
-/* The particles of cell C of a block are list[first + cell[c]] .. list[first + cell[c + 1] - 1]. */
+enum { BIN_GROUPS = 16 };
+
+/* A block of a group. The particles of cell C are list[first + cell[c]] .. list[first + cell[c + 1] - 1]. */
 struct bin {
     uint64_t key;
     int32_t first, cell[BLOCK_CELLS + 1];
 };
 
 /* The particles: COUNT of them at POSITION, stored in BLOCKS of cells of edge EDGE; an index means the same particle while
- * ORDER stays. Cells below LOW and above HIGH do not exist: what rounding puts there is in the outermost. */
+ * ORDER stays. Where there are several GROUPS, a body belongs to one of them. Cells below LOW and above HIGH do not exist: what rounding puts there is in the outermost. */
 struct binned {
     int dimension;
     double edge;
@@ -25,6 +27,9 @@ struct binned {
     const uint64_t *id;
     uint64_t order;
     int64_t low[3], high[3];
+    int groups;
+    const uint8_t *group_of_body;
+    const uint16_t *body;
 };
 
 struct stray;
@@ -33,7 +38,8 @@ struct candidate;
 struct bins {
     int32_t count, *list;
     struct bin *bin;
-    int64_t moved; /* particles that have left the cell they were stored by */
+    int32_t begin[BIN_GROUPS + 1]; /* bins of group g: begin[g] .. begin[g + 1] - 1 */
+    int64_t moved;                 /* particles that have left the cell they were stored by */
 
     /* Kept from step to step. */
     uint8_t *cell,

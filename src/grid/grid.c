@@ -11,25 +11,6 @@ static struct error *out_of_memory(const struct grid *grid)
     return error_new(ERROR_SYSTEM, "out of memory for a grid of %d blocks", grid->blocks);
 }
 
-void grid_start(struct grid *grid, int dimension, int reach)
-{
-    *grid = (struct grid){.dimension = dimension, .reach = reach};
-    grid->side = block_cells(dimension) + 1 + 2 * reach;
-    grid->patch = 1;
-    for (int axis = 0; axis < dimension; axis++)
-        grid->patch *= grid->side;
-}
-
-void grid_free(struct grid *grid)
-{
-    free(grid->key);
-    free(grid->around);
-    free(grid->touch);
-    free(grid->bin_key);
-    block_table_free(&grid->table);
-    *grid = (struct grid){0};
-}
-
 /* The offsets of CODE; false for one that patches do not reach. */
 static bool offsets_of(const struct grid *grid, int code, int offset[3])
 {
@@ -40,6 +21,44 @@ static bool offsets_of(const struct grid *grid, int code, int offset[3])
             offset[axis] == 0 || (axis < grid->dimension && (offset[axis] > 0 || grid->reach > 0));
     }
     return reached;
+}
+
+static struct grid_overlap overlap_of(const struct grid *grid, int code)
+{
+    const int cells = block_cells(grid->dimension);
+    struct grid_overlap o = {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}};
+    int offset[3];
+    if (!offsets_of(grid, code, offset))
+        return o;
+    for (int axis = 0; axis < grid->dimension; axis++) {
+        o.from[axis] = offset[axis] < 0 ? cells - grid->reach : 0;
+        o.count[axis] = offset[axis] == 0  ? cells
+                        : offset[axis] < 0 ? grid->reach
+                                           : 1 + grid->reach;
+        o.at[axis] = o.from[axis] + offset[axis] * cells + grid->reach;
+    }
+    return o;
+}
+
+void grid_start(struct grid *grid, int dimension, int reach)
+{
+    *grid = (struct grid){.dimension = dimension, .reach = reach};
+    grid->side = block_cells(dimension) + 1 + 2 * reach;
+    grid->patch = 1;
+    for (int axis = 0; axis < dimension; axis++)
+        grid->patch *= grid->side;
+    for (int code = 0; code < GRID_AROUND; code++)
+        grid->overlap[code] = overlap_of(grid, code);
+}
+
+void grid_free(struct grid *grid)
+{
+    free(grid->key);
+    free(grid->around);
+    free(grid->touch);
+    free(grid->bin_key);
+    block_table_free(&grid->table);
+    *grid = (struct grid){0};
 }
 
 static bool same_bins(const struct grid *grid, const struct bins *bins)
@@ -148,28 +167,6 @@ void grid_field_free(struct grid_field *field)
     *field = (struct grid_field){.stride = field->stride};
 }
 
-/* The part that a patch and a block of nodes share: COUNT nodes along each axis from FROM in the block and AT in the
- * patch on. */
-struct overlap {
-    int count[3], from[3], at[3];
-};
-
-static struct overlap overlap_of(const struct grid *grid, int code)
-{
-    const int cells = block_cells(grid->dimension);
-    struct overlap o = {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}};
-    int offset[3];
-    offsets_of(grid, code, offset);
-    for (int axis = 0; axis < grid->dimension; axis++) {
-        o.from[axis] = offset[axis] < 0 ? cells - grid->reach : 0;
-        o.count[axis] = offset[axis] == 0  ? cells
-                        : offset[axis] < 0 ? grid->reach
-                                           : 1 + grid->reach;
-        o.at[axis] = o.from[axis] + offset[axis] * cells + grid->reach;
-    }
-    return o;
-}
-
 /* Where the row of nodes along the last axis at A, B of an overlap begins, in a box of SIDE nodes along each axis. */
 static inline size_t row_at(int dimension, int side, const int from[3], int a, int b)
 {
@@ -185,7 +182,7 @@ static inline void meet(const struct grid *grid, int code, double *node, double 
                         bool spread)
 {
     const int dimension = grid->dimension, cells = block_cells(dimension);
-    const struct overlap o = overlap_of(grid, code);
+    const struct grid_overlap o = grid->overlap[code];
     /* rows run along the last axis; the axes before it are A and B */
     const int rows_a = dimension > 1 ? o.count[0] : 1, rows_b = dimension > 2 ? o.count[1] : 1;
     const int length = o.count[dimension - 1] * stride;

@@ -19,6 +19,11 @@ struct grid_touch {
     int32_t bin, code;
 };
 
+/* The part that a patch and a block of nodes share: so many nodes along each axis, the place of the first in either. */
+struct grid_overlap {
+    int count[3], from[3], at[3];
+};
+
 struct grid {
     int dimension;
     int reach;       /* nodes that a cell reaches beyond its own corners: 0 or 1 */
@@ -29,6 +34,7 @@ struct grid {
     struct grid_touch (
         *touch)[GRID_AROUND]; /* of each block of nodes, by bin; behind the last bin -1 */
 
+    struct grid_overlap overlap[GRID_AROUND];
     uint64_t *bin_key; /* that the plan was made for */
     int64_t bin_capacity, block_capacity, bin_key_capacity, touch_capacity;
     struct block_table table;

@@ -49,10 +49,13 @@ struct wall_input {
  * Pairs that no contact names stick in shear and carry tension. */
 enum contact_shear { SHEAR_STICK, SHEAR_SLIP };
 enum contact_tension { TENSION_CARRIED, TENSION_NONE };
+enum contact_normal { NORMAL_MEAN, NORMAL_FIRST, NORMAL_SECOND };
 struct contact_input {
     struct name_list between; /* two bodies */
     int shear, tension;
-    int body[2]; /* filled by case_read */
+    double friction; /* where they slip */
+    int normal;      /* whose surface it is taken from */
+    int body[2];     /* filled by case_read */
 };
 
 /* detonations: NAME: {at: [0 mm, 0 mm], of: charge}: where and when explosives are lit. */

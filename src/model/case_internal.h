@@ -10,6 +10,7 @@ enum { CASE_FORMAT = 1 };
 /* An entry of `materials`, and a file of the library. */
 extern const struct parameter case_material_table[];
 extern const struct parameter case_detonation_table[];  /* struct detonation_input */
+extern const struct parameter case_contact_table[];     /* struct contact_input */
 extern const struct parameter case_probe_table[];       /* struct probe_input */
 extern const struct parameter case_profile_table[];     /* struct profile_input */
 extern const struct parameter case_convergence_table[]; /* struct convergence_input */

@@ -4,8 +4,6 @@
 static const char *const axis_names[] = {"x", "y", "z", NULL};
 static const char *const geometry_names[] = {"plane-strain", "plane-stress", "axisymmetric", NULL};
 static const char *const side_names[] = {"low", "high", NULL};
-static const char *const shear_names[] = {"stick", "slip", NULL};
-static const char *const tension_names[] = {"carried", "none", NULL};
 
 static const struct parameter body_table[] = {
     {.key = "material",
@@ -117,27 +115,6 @@ static const struct parameter wall_table[] = {
      .standard = PARAMETER_REQUIRED,
      .names = side_names,
      .help = "which end of the matter the wall is: low or high"},
-    PARAMETER_END,
-};
-
-static const struct parameter contact_table[] = {
-    {.key = "between",
-     .kind = PARAMETER_NAMES,
-     .offset = offsetof(struct contact_input, between),
-     .standard = PARAMETER_REQUIRED,
-     .help = "two bodies"},
-    {.key = "shear",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct contact_input, shear),
-     .standard = "stick",
-     .names = shear_names,
-     .help = "whether they stick together or slip"},
-    {.key = "tension",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct contact_input, tension),
-     .standard = "carried",
-     .names = tension_names,
-     .help = "whether the contact carries tension, or none and opens"},
     PARAMETER_END,
 };
 
@@ -373,7 +350,7 @@ const struct parameter case_table[] = {
      .kind = PARAMETER_MAP,
      .offset = offsetof(struct simulation_case, contacts),
      .standard = PARAMETER_OPTIONAL,
-     .table = contact_table,
+     .table = case_contact_table,
      .size = sizeof(struct contact_input),
      .help = "laws of contact by name; bodies that none names stick and carry tension"},
     {.key = "detonations",

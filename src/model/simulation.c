@@ -75,8 +75,41 @@ static int law_of(const struct law_table *table, int first, int second)
     return entry ? entry - 1 : 0;
 }
 
-static struct error *law_table_make(const struct simulation_case *input, struct law_table *table)
+/* The number of the surface with these values, which becomes one if there is none yet; CONTACT_SURFACES when there are too
+ * many. */
+static int surface_of(struct simulation *simulation, double friction, int normal)
 {
+    int k = 0;
+    simulation->surfaces = simulation->surfaces ? simulation->surfaces : 1;
+    while (k < simulation->surfaces &&
+           (simulation->surface[k].friction != friction || simulation->surface[k].normal != normal))
+        k++;
+    if (k == simulation->surfaces && k < CONTACT_SURFACES)
+        simulation->surface[simulation->surfaces++] = (struct contact_surface){friction, normal};
+    return k;
+}
+
+/* The laws of a contact, of its first body towards the second and the other way; false when there are too many. */
+static bool laws_of(struct simulation *simulation, const struct contact_input *contact, int law[2])
+{
+    static const int turned[] = {[NORMAL_MEAN] = NORMAL_MEAN,
+                                 [NORMAL_FIRST] = NORMAL_SECOND,
+                                 [NORMAL_SECOND] = NORMAL_FIRST};
+    const int bits = (contact->shear == SHEAR_SLIP ? LAW_SLIP : 0) |
+                     (contact->tension == TENSION_NONE ? LAW_NO_TENSION : 0);
+    bool room = true;
+    for (int side = 0; side < 2; side++) {
+        const int normal = side ? turned[contact->normal] : contact->normal;
+        const int surface = surface_of(simulation, contact->friction, bits ? normal : NORMAL_MEAN);
+        law[side] = bits | LAW_SURFACE * surface;
+        room &= surface < CONTACT_SURFACES;
+    }
+    return room;
+}
+
+static struct error *law_table_make(struct simulation *simulation, struct law_table *table)
+{
+    const struct simulation_case *input = simulation->input;
     table->number = memory_allocate((size_t)input->bodies.count * sizeof *table->number);
     if (!table->number)
         return error_new(ERROR_SYSTEM, "out of memory");
@@ -95,16 +128,20 @@ static struct error *law_table_make(const struct simulation_case *input, struct 
         const struct contact_input *contact = case_contact(input, i);
         const char *name = input->contacts.names[i];
         const int first = table->number[contact->body[0]], second = table->number[contact->body[1]];
-        const int law = (contact->shear == SHEAR_SLIP ? LAW_SLIP : 0) |
-                        (contact->tension == TENSION_NONE ? LAW_NO_TENSION : 0);
+        int law[2];
         struct error *mistake = NULL;
         if (first == second)
             mistake = input_error(input, "contacts", name, "`between` wants two different bodies");
         else if (*law_entry(table, first, second))
             mistake =
                 input_error(input, "contacts", name, "another contact names the same two bodies");
+        if (!laws_of(simulation, contact, law))
+            mistake = error_join(mistake,
+                                 input_error(input, "contacts", name,
+                                             "more than %d different surfaces", CONTACT_SURFACES));
         error = error_join(error, mistake);
-        *law_entry(table, first, second) = *law_entry(table, second, first) = (uint8_t)(1 + law);
+        *law_entry(table, first, second) = (uint8_t)(1 + law[0]);
+        *law_entry(table, second, first) = (uint8_t)(1 + law[1]);
     }
     return error;
 }
@@ -151,7 +188,7 @@ static struct error *set_contacts(struct simulation *simulation)
     if (!simulation->group_of_body)
         return error_new(ERROR_SYSTEM, "out of memory");
     struct law_table table = {0};
-    struct error *error = law_table_make(input, &table);
+    struct error *error = law_table_make(simulation, &table);
     if (!error)
         error = group_bodies(&table, simulation);
     free(table.number);

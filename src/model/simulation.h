@@ -9,11 +9,19 @@
 
 enum { CONTACT_GROUPS = 16, MATERIALS_MAX = 256, PHASES_MAX = 16 };
 
-/* Bits of the law between two contact groups; zero is full contact. */
+/* The law between two contact groups: bits, and behind them which surface; zero is full contact. */
 enum contact_law {
-    LAW_SLIP = 1,       /* no shear traction */
+    LAW_SLIP = 1,       /* no shear traction but friction */
     LAW_NO_TENSION = 2, /* the contact opens instead of pulling */
+    LAW_SURFACE = 4,    /* times the index of the surface */
 };
+
+/* What else a law may say. Surface 0 has no friction and the mean normal. */
+struct contact_surface {
+    double friction;
+    int normal; /* enum contact_normal; the first is the group whose row of laws it is */
+};
+enum { CONTACT_SURFACES = 60 };
 
 /* Wall-clock seconds spent in a named part of the step. */
 struct phase {
@@ -31,7 +39,9 @@ struct simulation {
     struct material material[MATERIALS_MAX];
     struct mirrors mirrors;                      /* rigid slip walls */
     uint8_t *group_of_body;                      /* contact group of each body */
-    uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS]; /* symmetric */
+    uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS]; /* of the first towards the second */
+    int surfaces;
+    struct contact_surface surface[CONTACT_SURFACES];
     struct particles particles;
     struct ledger ledger;
     double time;

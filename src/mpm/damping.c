@@ -49,14 +49,13 @@ static double strength_of(const struct mpm *mpm, const struct simulation *simula
         sum += p->mass[i] * sound[i];
     }
     return sum * mpm->parameters.shear_damping / mpm->edge *
-           (mpm->grid.dimension == 3 ? 0.25 : 1.0);
+           (simulation->dimension == 3 ? 0.25 : 1.0);
 }
 
 /* Adds the forces of a cell to PATCH, and returns the power that they take. */
-static double damp_cell(const struct mpm *mpm, const struct corners *corners, double strength,
-                        const double *nodes, double *patch)
+static double damp_cell(const struct mpm *mpm, int dimension, const struct corners *corners,
+                        double strength, const double *nodes, double *patch)
 {
-    const int dimension = mpm->grid.dimension;
     double shear[3][3] = {{0}}, power = 0.0;
     for (int c = 0; c < corners->count; c++) {
         const double *node = nodes + corners->node[c] * NODE_STRIDE;
@@ -79,33 +78,54 @@ static double damp_cell(const struct mpm *mpm, const struct corners *corners, do
     return power;
 }
 
-static void damp_bin(struct mpm *mpm, struct simulation *simulation, int32_t b, double dt)
+static void damp_bin(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
+                     int32_t b, double dt)
 {
-    const struct bin *bin = &mpm->bins.bin[b];
+    const struct bin *bin = &layer->bins.bin[b];
     const double *sound = particles_field(&simulation->particles, "sound_long");
-    double *nodes = grid_patch(&mpm->grid, &mpm->main, b),
-           *patch = grid_patch(&mpm->grid, &mpm->back, b);
-    grid_spread(&mpm->grid, &mpm->main, b);
-    memset(patch, 0, (size_t)(mpm->grid.patch * BACK_STRIDE) * sizeof *patch);
+    double *nodes = grid_patch(&layer->grid, &layer->main, b),
+           *patch = grid_patch(&layer->grid, &layer->back, b);
+    grid_spread(&layer->grid, &layer->main, b);
+    memset(patch, 0, (size_t)(layer->grid.patch * BACK_STRIDE) * sizeof *patch);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
-        const int32_t *list = mpm->bins.list + bin->first + bin->cell[cell];
+        const int32_t *list = layer->bins.list + bin->first + bin->cell[cell];
         const int32_t count = bin->cell[cell + 1] - bin->cell[cell];
         double mass, strength = strength_of(mpm, simulation, sound, list, count, &mass);
         if (!(strength > 0.0))
             continue;
-        const struct corners corners = corners_of(&mpm->grid, cell);
-        const double heat = dt * damp_cell(mpm, &corners, strength, nodes, patch) / mass;
+        const struct corners corners = corners_of(&layer->grid, cell);
+        const double heat =
+            dt * damp_cell(mpm, layer->grid.dimension, &corners, strength, nodes, patch) / mass;
         for (int32_t k = 0; k < count; k++)
             simulation->particles.energy[list[k]] += heat;
     }
 }
 
-void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt)
+/* Adds to the forces at nodes those that stand in the patches of the second field. */
+static void add_forces(const struct mpm *mpm, const struct simulation *simulation,
+                       struct layer *layer)
 {
-    if (!(mpm->parameters.shear_damping > 0.0) || mpm->grid.dimension == 1)
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
+        grid_reduce(&layer->grid, &layer->back, n);
+    for (int32_t w = 0; w < layer->walls; w++)
+        for (int c = 0; c < 3; c++)
+            layer->wall[w].sum[NODE_FORCE + c] += layer->wall[w].back[c];
+    mpm_fold_vectors(mpm, layer, &layer->back);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
+        for (int k = 0; k < BLOCK_CELLS; k++)
+            for (int c = 0; c < 3; c++)
+                grid_node(&layer->main, n, k)[NODE_FORCE + c] += grid_node(&layer->back, n, k)[c];
+}
+
+void mpm_damp_shear(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
+                    double dt)
+{
+    if (!(mpm->parameters.shear_damping > 0.0) || simulation->dimension == 1)
         return;
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
-    for (int32_t b = 0; b < mpm->bins.count; b++)
-        damp_bin(mpm, simulation, b, dt);
-    mpm_add_forces(mpm, simulation);
+    for (int32_t b = 0; b < layer->bins.count; b++)
+        damp_bin(mpm, simulation, layer, b, dt);
+    add_forces(mpm, simulation, layer);
 }

@@ -29,69 +29,20 @@ static const double moved_limit = 0.25;
 
 static bool is_affine(const struct mpm *mpm) { return mpm->parameters.transfer != MPM_FLIP; }
 
-/* What the method cannot do. */
-static struct error *refuse(const struct simulation *simulation)
+static void start_layers(struct mpm *mpm, const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
-    struct error *error = NULL;
-    if (simulation->geometry == GEOMETRY_PLANE_STRESS)
-        error = input_error(input, "geometry", NULL, "the solver mpm knows no plane stress");
-    if (simulation->ranks->size > 1)
-        error = error_join(error, input_error(input, "solver", "mpm",
-                                              "runs on one rank only: start it without mpirun"));
-    if (input->contacts.count > 0)
-        error = error_join(error, input_error(input, "contacts", NULL,
-                                              "the solver mpm has no contact laws: bodies that "
-                                              "share a node stick to each other"));
-    for (int b = 0; b < input->bodies.count; b++) {
-        const struct body_input *body = case_body(input, b);
-        if (body->driven || body->frozen || !isnan(body->stop))
-            error = error_join(
-                error, input_error(input, "bodies", input->bodies.names[b],
-                                   "the solver mpm moves all bodies by their forces: driven, "
-                                   "frozen and stop are for sph"));
+    static_assert((int)CONTACT_GROUPS == (int)BIN_GROUPS, "a layer for each contact group");
+    mpm->layers = 1;
+    for (int b = 0; b < simulation->input->bodies.count; b++)
+        if (simulation->group_of_body[b] >= mpm->layers)
+            mpm->layers = simulation->group_of_body[b] + 1;
+    for (int g = 0; g < mpm->layers; g++) {
+        grid_start(&mpm->layer[g].grid, simulation->dimension,
+                   shape_reach((enum grid_shape)mpm->parameters.shape));
+        mpm->layer[g].main.stride = NODE_STRIDE;
+        mpm->layer[g].back.stride = BACK_STRIDE;
+        mpm->layer[g].normal.stride = BACK_STRIDE;
     }
-    return error;
-}
-
-/* The density that decides from which mass on a node's velocity counts. */
-static double least_density(const struct simulation *simulation)
-{
-    double least = INFINITY;
-    for (int b = 0; b < simulation->input->bodies.count; b++) {
-        const struct body_input *body = case_body(simulation->input, b);
-        least = minimum(least, body->varies
-                                   ? material_density(&simulation->material[body->material_index])
-                                   : body->start.density);
-    }
-    return least;
-}
-
-/* What the particles of each body and material are to the grid. */
-static struct error *note_bodies(struct mpm *mpm, const struct simulation *simulation)
-{
-    const struct simulation_case *input = simulation->input;
-    mpm->half_size = memory_allocate((size_t)input->bodies.count * sizeof *mpm->half_size);
-    mpm->gauge = memory_allocate((size_t)simulation->materials * sizeof *mpm->gauge);
-    if (!mpm->half_size || !mpm->gauge)
-        return error_new(ERROR_SYSTEM, "out of memory");
-    struct error *error = NULL;
-    for (int m = 0; m < simulation->materials; m++)
-        if (!material_has_strength(&simulation->material[m]))
-            mpm->gauge[m] = mpm->parameters.gauge_pressure;
-    for (int b = 0; b < input->bodies.count; b++) {
-        const double size =
-            diameter_of_volume(body_lattice(input, b).volume, simulation->dimension);
-        mpm->half_size[b] = 0.5 * size / mpm->edge;
-        if (mpm->half_size[b] > 0.5 * (1.0 + 1e-6))
-            error = error_join(error,
-                               input_error(input, "bodies", input->bodies.names[b],
-                                           "particles of %.4g m are wider than a cell of %.4g m: "
-                                           "choose a larger `cell` of the solver mpm",
-                                           size, mpm->edge));
-        mpm->half_size[b] = minimum(mpm->half_size[b], 0.5);
-    }
-    return error;
 }
 
 static struct error *mpm_create(void *solver, struct simulation *simulation, const void *parameters)
@@ -99,15 +50,9 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     struct mpm *mpm = solver;
     mpm->parameters = mpm_settled(parameters, simulation);
     mpm->edge = mpm->parameters.cell;
-    TRY(error_join(refuse(simulation),
-                   error_join(note_bodies(mpm, simulation), mpm_find_planes(mpm, simulation))));
-    mpm->least_mass = 1e-6 * least_density(simulation) * pow(mpm->edge, simulation->dimension);
-    if (simulation->geometry == GEOMETRY_AXISYMMETRIC) /* a cell at the axis, per radian */
-        mpm->least_mass *= 0.5 * mpm->edge;
-    grid_start(&mpm->grid, simulation->dimension,
-               shape_reach((enum grid_shape)mpm->parameters.shape));
-    mpm->main.stride = NODE_STRIDE;
-    mpm->back.stride = BACK_STRIDE;
+    TRY(error_join(mpm_refuse(simulation),
+                   error_join(mpm_note_bodies(mpm, simulation), mpm_find_planes(mpm, simulation))));
+    start_layers(mpm, simulation);
     struct field_declaration fields[COUNT_OF(mpm_field_table) + 1];
     int count = 0;
     for (size_t k = 0; k < COUNT_OF(mpm_field_table); k++)
@@ -132,7 +77,8 @@ static struct error *mpm_start(void *solver, struct simulation *simulation)
     return NULL;
 }
 
-struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simulation)
+struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simulation,
+                                struct layer *layer)
 {
     const struct particles *p = &simulation->particles;
     return (struct transfer){.dimension = simulation->dimension,
@@ -141,10 +87,11 @@ struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simula
                              .affine = is_affine(mpm),
                              .by_moments = mpm->parameters.transfer == MPM_APIC,
                              .edge = mpm->edge,
-                             .bins = &mpm->bins,
-                             .grid = &mpm->grid,
-                             .main = &mpm->main,
-                             .back = &mpm->back,
+                             .bins = &layer->bins,
+                             .grid = &layer->grid,
+                             .main = &layer->main,
+                             .back = &layer->back,
+                             .normal = &layer->normal,
                              .flip = mpm->parameters.flip,
                              .position = p->position,
                              .velocity = p->velocity,
@@ -171,7 +118,10 @@ static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
                             .block = p->block,
                             .position = (const double(*)[3])p->position,
                             .id = p->id,
-                            .order = p->order};
+                            .order = p->order,
+                            .groups = mpm->layers,
+                            .group_of_body = simulation->group_of_body,
+                            .body = p->body};
     for (int axis = 0; axis < 3; axis++) {
         binned.low[axis] = mpm->has_plane[axis][0] ? mpm->plane[axis][0] : INT64_MIN;
         binned.high[axis] = mpm->has_plane[axis][1] ? mpm->plane[axis][1] - 1 : INT64_MAX;
@@ -211,20 +161,35 @@ static struct error *refresh_grid(struct mpm *mpm, struct simulation *simulation
         TRY(particles_sort(p));
         TRY(find_bins(mpm, simulation));
     }
-    TRY(grid_plan(&mpm->grid, &mpm->bins));
-    TRY(grid_field_reserve(&mpm->main, &mpm->grid));
-    TRY(grid_field_reserve(&mpm->back, &mpm->grid));
+    for (int g = 0; g < mpm->layers; g++) {
+        struct layer *layer = &mpm->layer[g];
+        const int32_t begin = mpm->bins.begin[g];
+        layer->bins = (struct bins){.count = mpm->bins.begin[g + 1] - begin,
+                                    .list = mpm->bins.list,
+                                    .bin = mpm->bins.bin + begin};
+        TRY(grid_plan(&layer->grid, &layer->bins));
+        TRY(grid_field_reserve(&layer->main, &layer->grid));
+        TRY(grid_field_reserve(&layer->back, &layer->grid));
+        if (mpm->layers > 1)
+            TRY(grid_field_reserve(&layer->normal, &layer->grid));
+    }
+    if (mpm->layers > 1)
+        TRY(mpm_find_meetings(mpm));
     return reserve_rates(mpm);
 }
 
 /* Mass, momentum and force of all nodes. */
 static struct error *sum_particles(struct mpm *mpm, struct simulation *simulation)
 {
-    const struct transfer transfer = mpm_transfer_of(mpm, simulation);
+    for (int g = 0; g < mpm->layers; g++) {
+        struct layer *layer = &mpm->layer[g];
+        const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
-    for (int32_t b = 0; b < mpm->bins.count; b++)
-        transfer_scatter(&transfer, b);
-    return mpm_sum_nodes(mpm, simulation);
+        for (int32_t b = 0; b < layer->bins.count; b++)
+            transfer_scatter(&transfer, b);
+        TRY(mpm_sum_nodes(mpm, simulation, layer));
+    }
+    return NULL;
 }
 
 /* dt = K min h/(c + max |u_i|) (2.7 of the notes), of equal ones that of the smallest id. */
@@ -273,12 +238,15 @@ static struct error *mpm_prepare(void *solver, struct simulation *simulation, st
 static void find_velocities(struct mpm *mpm, struct simulation *simulation, double dt, bool scatter,
                             bool move)
 {
-    const struct transfer transfer = mpm_transfer_of(mpm, simulation);
     const double begin = clock_seconds();
+    for (int g = 0; g < mpm->layers; g++) {
+        struct layer *layer = &mpm->layer[g];
+        const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
-    for (int32_t b = 0; b < mpm->bins.count; b++) {
-        grid_spread(&mpm->grid, &mpm->main, b);
-        transfer_velocity(&transfer, b, dt, scatter, move);
+        for (int32_t b = 0; b < layer->bins.count; b++) {
+            grid_spread(&layer->grid, &layer->main, b);
+            transfer_velocity(&transfer, b, dt, scatter, move);
+        }
     }
     simulation_spend(simulation, "velocities", clock_seconds() - begin);
 }
@@ -306,37 +274,52 @@ static int thread_number(void)
 #endif
 }
 
-/* New states of all particles from nodal velocities: those of the second field or, with OF_MAIN, of the first. */
-static struct error *find_states(struct mpm *mpm, struct simulation *simulation, double dt,
-                                 bool of_main, bool move)
+/* New states of all particles of a layer from nodal velocities: those of the second field or, with OF_MAIN, of the first.
+ * *FAILED becomes the one with the smallest id whose state is impossible, if that is smaller than the one that was there. */
+static void find_states(struct mpm *mpm, struct simulation *simulation, struct layer *layer,
+                        double dt, bool of_main, bool move, int32_t *failed)
 {
-    const struct transfer transfer = mpm_transfer_of(mpm, simulation);
+    const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
     const struct particles *p = &simulation->particles;
-    const double begin = clock_seconds();
-    int32_t first = -1;
 #pragma omp parallel num_threads(simulation->threads)
     {
         double *rate = mpm->rate[thread_number()];
         int32_t own = -1;
 #pragma omp for schedule(dynamic, 4)
-        for (int32_t b = 0; b < mpm->bins.count; b++) {
-            const double *of = grid_patch(&mpm->grid, &mpm->main, b) + NODE_VELOCITY;
+        for (int32_t b = 0; b < layer->bins.count; b++) {
+            const double *of = grid_patch(&layer->grid, &layer->main, b) + NODE_VELOCITY;
             if (!of_main) {
-                grid_spread(&mpm->grid, &mpm->back, b);
-                of = grid_patch(&mpm->grid, &mpm->back, b);
+                grid_spread(&layer->grid, &layer->back, b);
+                of = grid_patch(&layer->grid, &layer->back, b);
             }
             transfer_gradient(&transfer, b, dt, of, of_main ? NODE_STRIDE : BACK_STRIDE, move,
                               rate);
-            const int32_t found = mpm_update_points(mpm, simulation, b, dt, rate);
+            const int32_t found = mpm_update_points(mpm, simulation, layer, b, dt, rate);
             if (found >= 0 && (own < 0 || p->id[found] < p->id[own]))
                 own = found;
         }
 #pragma omp critical(bolide_mpm_failure)
-        if (own >= 0 && (first < 0 || p->id[own] < p->id[first]))
-            first = own;
+        if (own >= 0 && (*failed < 0 || p->id[own] < p->id[*failed]))
+            *failed = own;
     }
+}
+
+/* The same of all layers, from velocities that particles have mapped back, from those at the end of the step, or with
+ * FIRST from those at its begin. */
+static struct error *update_states(struct mpm *mpm, struct simulation *simulation, double dt,
+                                   bool first)
+{
+    const double begin = clock_seconds();
+    const bool of_main = mpm->parameters.scheme == MPM_USL;
+    int32_t failed = -1;
+    for (int g = 0; g < mpm->layers && !of_main; g++)
+        mpm_find_velocities(mpm, simulation, &mpm->layer[g], first);
+    if (mpm->layers > 1 && !of_main)
+        mpm_join_velocities(mpm, simulation);
+    for (int g = 0; g < mpm->layers; g++)
+        find_states(mpm, simulation, &mpm->layer[g], dt, of_main, !first, &failed);
     simulation_spend(simulation, "states", clock_seconds() - begin);
-    return first < 0 ? NULL : impossible(simulation, first);
+    return failed < 0 ? NULL : impossible(simulation, failed);
 }
 
 static struct error *mpm_advance(void *solver, struct simulation *simulation, double dt)
@@ -344,20 +327,19 @@ static struct error *mpm_advance(void *solver, struct simulation *simulation, do
     struct mpm *mpm = solver;
     const int scheme = mpm->parameters.scheme;
     if (scheme == MPM_USF) {
-        mpm_find_velocities(mpm, simulation, true);
-        TRY(find_states(mpm, simulation, dt, false, false));
+        TRY(update_states(mpm, simulation, dt, true));
         TRY(sum_particles(mpm, simulation));
     }
-    mpm_damp_shear(mpm, simulation, dt);
     const double begin = clock_seconds();
-    mpm_advance_nodes(mpm, simulation, dt);
+    for (int g = 0; g < mpm->layers; g++)
+        mpm_damp_shear(mpm, simulation, &mpm->layer[g], dt);
+    if (mpm->layers > 1)
+        mpm_meet(mpm, simulation, dt);
+    for (int g = 0; g < mpm->layers; g++)
+        mpm_advance_nodes(mpm, simulation, &mpm->layer[g], dt);
     simulation_spend(simulation, "nodes", clock_seconds() - begin);
     find_velocities(mpm, simulation, dt, scheme == MPM_MUSL, scheme == MPM_USF);
-    if (scheme == MPM_USF)
-        return NULL;
-    if (scheme == MPM_MUSL)
-        mpm_find_velocities(mpm, simulation, false);
-    return find_states(mpm, simulation, dt, scheme == MPM_USL, true);
+    return scheme == MPM_USF ? NULL : update_states(mpm, simulation, dt, false);
 }
 
 static struct error *mpm_state(void *solver, struct visitor *visitor)
@@ -399,11 +381,16 @@ static void mpm_destroy(void *solver)
     free(mpm->rate);
     free(mpm->half_size);
     free(mpm->gauge);
-    free(mpm->wall);
     bins_free(&mpm->bins);
-    grid_free(&mpm->grid);
-    grid_field_free(&mpm->main);
-    grid_field_free(&mpm->back);
+    for (int g = 0; g < mpm->layers; g++) {
+        struct layer *layer = &mpm->layer[g];
+        free(layer->wall);
+        free(layer->meets);
+        grid_free(&layer->grid);
+        grid_field_free(&layer->main);
+        grid_field_free(&layer->back);
+        grid_field_free(&layer->normal);
+    }
 }
 
 static double mpm_bytes(const void *parameters, int dimension)

@@ -7,9 +7,24 @@
 
 /* A node on a wall or, where shape functions reach beyond walls, next to one. */
 struct wall_node {
-    double *node, *back; /* in the two fields */
+    double *node, *back, *normal; /* in the fields; normal: NULL where there is one layer */
     int64_t at[3];
     double sum[NODE_STRIDE]; /* of the particles alone, before what is behind the wall is added */
+};
+
+/* The nodes of bodies that share their velocities: of all bodies where the case names no contacts, else of each contact
+ * group. */
+struct layer {
+    struct bins bins; /* a part of all bins, not owned */
+    struct grid grid;
+    struct grid_field main, back;
+    struct grid_field
+        normal; /* gradient of mass, and how it touches other layers; of several layers only */
+    struct wall_node *wall;
+    int32_t walls;
+    int64_t wall_capacity;
+    bool *meets; /* of each block of nodes: another layer has it too */
+    int64_t meets_capacity;
 };
 
 struct mpm {
@@ -21,42 +36,55 @@ struct mpm {
     int64_t plane[3][2];
     bool has_plane[3][2]; /* node index of the low and the high wall across each axis */
     struct bins bins;
-    struct grid grid;
-    struct grid_field main, back;
-    struct wall_node *wall;
-    int32_t walls;
-    int64_t wall_capacity;
+    int layers;
+    struct layer layer[BIN_GROUPS];
     double **rate; /* of the particles of a bin, one a thread */
     int threads;
     int64_t rate_capacity;
-    double work; /* seconds that the particles had taken when they were last distributed */
 };
 
 /* What the case leaves to the method. */
 struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
                                   const struct simulation *simulation);
 
-struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simulation);
+/* What the method cannot do, located in the case. */
+struct error *mpm_refuse(const struct simulation *simulation);
+/* What the particles of each body and material are to the grid. */
+struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulation);
+
+struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simulation,
+                                struct layer *layer);
 
 /* Finds the planes of nodes that the walls lie on; a located error when they lie between. */
 struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulation);
 
-/* Sums of patches at all nodes; mass, momentum and force then know of walls. */
-struct error *mpm_sum_nodes(struct mpm *mpm, const struct simulation *simulation);
-/* Adds to the forces at nodes those that stand in the patches of the second field. */
-void mpm_add_forces(struct mpm *mpm, const struct simulation *simulation);
+/* Sums of patches at all nodes of a layer; mass, momentum and force then know of walls. */
+struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simulation,
+                            struct layer *layer);
+/* What walls do to the vectors of the second or third field. */
+void mpm_fold_vectors(const struct mpm *mpm, struct layer *layer, const struct grid_field *field);
 /* The step of the nodes (2-13), and what walls push in it. */
-void mpm_advance_nodes(struct mpm *mpm, struct simulation *simulation, double dt);
+void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
+                       double dt);
 /* Velocities of the second field: of momenta summed from its patches, or with PLAIN of those in the main field. */
-void mpm_find_velocities(struct mpm *mpm, const struct simulation *simulation, bool plain);
+void mpm_find_velocities(const struct mpm *mpm, const struct simulation *simulation,
+                         struct layer *layer, bool plain);
 
 /* Mean modes of shear in cells of fluid lose force (2-46)-(2-48), and what that takes in DT heats the particles. */
-void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt);
+void mpm_damp_shear(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
+                    double dt);
 
-/* Rates RATE of the particles of BIN bring their states to the next level in a step of DT. Returns the index of the one
- * with the smallest id whose new state is impossible, -1 for none. */
-int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation, int32_t bin,
-                          double dt, const double *rate);
+/* Contact between layers, see contact.c: which blocks of nodes they share; forces at nodes that both have, in a step of
+ * DT. */
+struct error *mpm_find_meetings(struct mpm *mpm);
+void mpm_meet(struct mpm *mpm, const struct simulation *simulation, double dt);
+/* The same for the velocities of the second field where layers touched, in the step or always. */
+void mpm_join_velocities(struct mpm *mpm, const struct simulation *simulation);
+
+/* Rates RATE of the particles of bin BIN of LAYER bring their states to the next level in a step of DT. Returns the index
+ * of the one with the smallest id whose new state is impossible, -1 for none. */
+int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
+                          const struct layer *layer, int32_t bin, double dt, const double *rate);
 
 /* Pressure and sound speeds of all particles as they stand. */
 void mpm_evaluate(struct simulation *simulation);

@@ -45,9 +45,10 @@ static int64_t behind(const struct mpm *mpm, int axis, int side, int64_t at)
     return side ? at - mpm->plane[axis][1] : mpm->plane[axis][0] - at;
 }
 
-static bool near_wall(const struct mpm *mpm, const int64_t at[3], int64_t within)
+static bool near_wall(const struct mpm *mpm, const struct layer *layer, const int64_t at[3],
+                      int64_t within)
 {
-    for (int axis = 0; axis < mpm->grid.dimension; axis++)
+    for (int axis = 0; axis < layer->grid.dimension; axis++)
         for (int side = 0; side < 2; side++)
             if (mpm->has_plane[axis][side] && behind(mpm, axis, side, at[axis]) >= -within)
                 return true;
@@ -55,10 +56,11 @@ static bool near_wall(const struct mpm *mpm, const int64_t at[3], int64_t within
 }
 
 /* Whether any node of a block may be at a wall. */
-static bool block_near_wall(const struct mpm *mpm, const int64_t corner[3], int64_t within)
+static bool block_near_wall(const struct mpm *mpm, const struct layer *layer,
+                            const int64_t corner[3], int64_t within)
 {
-    const int64_t last = block_cells(mpm->grid.dimension) - 1;
-    for (int axis = 0; axis < mpm->grid.dimension; axis++)
+    const int64_t last = block_cells(layer->grid.dimension) - 1;
+    for (int axis = 0; axis < layer->grid.dimension; axis++)
         for (int side = 0; side < 2; side++)
             if (mpm->has_plane[axis][side] &&
                 behind(mpm, axis, side, corner[axis] + (side ? last : 0)) >= -within)
@@ -75,34 +77,36 @@ static void node_index(int dimension, const int64_t corner[3], int k, int64_t at
 }
 
 /* Lists the nodes of a block that walls change. */
-static struct error *collect_block(struct mpm *mpm, int32_t block, const int64_t corner[3])
+static struct error *collect_block(const struct mpm *mpm, struct layer *layer, int32_t block,
+                                   const int64_t corner[3])
 {
-    const int64_t within = mpm->grid.reach;
-    if (!memory_reserve((void **)&mpm->wall, &mpm->wall_capacity, mpm->walls + BLOCK_CELLS,
-                        mpm->walls, sizeof *mpm->wall))
-        return error_new(ERROR_SYSTEM, "out of memory for %d nodes at walls", mpm->walls);
+    const int64_t within = layer->grid.reach;
+    if (!memory_reserve((void **)&layer->wall, &layer->wall_capacity, layer->walls + BLOCK_CELLS,
+                        layer->walls, sizeof *layer->wall))
+        return error_new(ERROR_SYSTEM, "out of memory for %d nodes at walls", layer->walls);
     for (int k = 0; k < BLOCK_CELLS; k++) {
-        struct wall_node *wall = &mpm->wall[mpm->walls];
-        node_index(mpm->grid.dimension, corner, k, wall->at);
-        double *node = grid_node(&mpm->main, block, k);
-        if (node[NODE_MASS] <= 0.0 || !near_wall(mpm, wall->at, within))
+        struct wall_node *wall = &layer->wall[layer->walls];
+        node_index(layer->grid.dimension, corner, k, wall->at);
+        double *node = grid_node(&layer->main, block, k);
+        if (node[NODE_MASS] <= 0.0 || !near_wall(mpm, layer, wall->at, within))
             continue;
         wall->node = node;
-        wall->back = grid_node(&mpm->back, block, k);
+        wall->back = grid_node(&layer->back, block, k);
+        wall->normal = layer->normal.node ? grid_node(&layer->normal, block, k) : NULL;
         memcpy(wall->sum, node, sizeof wall->sum);
-        mpm->walls++;
+        layer->walls++;
     }
     return NULL;
 }
 
-static struct error *collect_walls(struct mpm *mpm)
+static struct error *collect_walls(const struct mpm *mpm, struct layer *layer)
 {
-    mpm->walls = 0;
-    for (int32_t n = 0; n < mpm->grid.blocks; n++) {
+    layer->walls = 0;
+    for (int32_t n = 0; n < layer->grid.blocks; n++) {
         int64_t corner[3];
-        grid_corner(&mpm->grid, n, corner);
-        if (block_near_wall(mpm, corner, mpm->grid.reach))
-            TRY(collect_block(mpm, n, corner));
+        grid_corner(&layer->grid, n, corner);
+        if (block_near_wall(mpm, layer, corner, layer->grid.reach))
+            TRY(collect_block(mpm, layer, n, corner));
     }
     return NULL;
 }
@@ -124,17 +128,19 @@ static void fold_onto(double *node, double *onto, int axis, int count, const int
 }
 
 /* Walls in one of the fields. */
-static void fold(struct mpm *mpm, const struct grid_field *field)
+static void fold(const struct mpm *mpm, struct layer *layer, const struct grid_field *field)
 {
     static const int main_vectors[] = {NODE_MOMENTUM, NODE_FORCE}, back_vectors[] = {0};
-    const bool is_main = field == &mpm->main;
+    const bool is_main = field == &layer->main;
     const int count = is_main ? 2 : 1;
     const int *vectors = is_main ? main_vectors : back_vectors;
-    for (int axis = 0; axis < mpm->grid.dimension; axis++)
-        for (int side = 0; side < 2 && mpm->walls; side++)
-            for (int32_t w = 0; w < mpm->walls && mpm->has_plane[axis][side]; w++) {
-                const struct wall_node *wall = &mpm->wall[w];
-                double *node = is_main ? wall->node : wall->back;
+    for (int axis = 0; axis < layer->grid.dimension; axis++)
+        for (int side = 0; side < 2 && layer->walls; side++)
+            for (int32_t w = 0; w < layer->walls && mpm->has_plane[axis][side]; w++) {
+                const struct wall_node *wall = &layer->wall[w];
+                double *node = is_main                 ? wall->node
+                               : field == &layer->back ? wall->back
+                                                       : wall->normal;
                 const int64_t far = behind(mpm, axis, side, wall->at[axis]);
                 if (far == 0)
                     for (int v = 0; v < count; v++)
@@ -143,44 +149,35 @@ static void fold(struct mpm *mpm, const struct grid_field *field)
                     continue;
                 int64_t at[3] = {wall->at[0], wall->at[1], wall->at[2]};
                 at[axis] = mirrored(mpm, axis, side, at[axis]);
-                double *onto = grid_node_at(&mpm->grid, field, at);
+                double *onto = grid_node_at(&layer->grid, field, at);
                 assert(onto);
                 fold_onto(node, onto, axis, count, vectors, is_main);
             }
 }
 
-struct error *mpm_sum_nodes(struct mpm *mpm, const struct simulation *simulation)
+struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simulation,
+                            struct layer *layer)
 {
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t n = 0; n < mpm->grid.blocks; n++)
-        grid_reduce(&mpm->grid, &mpm->main, n);
-    TRY(collect_walls(mpm));
-    fold(mpm, &mpm->main);
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
+        grid_reduce(&layer->grid, &layer->main, n);
+    TRY(collect_walls(mpm, layer));
+    fold(mpm, layer, &layer->main);
     return NULL;
 }
 
-void mpm_add_forces(struct mpm *mpm, const struct simulation *simulation)
+void mpm_fold_vectors(const struct mpm *mpm, struct layer *layer, const struct grid_field *field)
 {
-#pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t n = 0; n < mpm->grid.blocks; n++)
-        grid_reduce(&mpm->grid, &mpm->back, n);
-    for (int32_t w = 0; w < mpm->walls; w++)
-        for (int c = 0; c < 3; c++)
-            mpm->wall[w].sum[NODE_FORCE + c] += mpm->wall[w].back[c];
-    fold(mpm, &mpm->back);
-#pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t n = 0; n < mpm->grid.blocks; n++)
-        for (int k = 0; k < BLOCK_CELLS; k++)
-            for (int c = 0; c < 3; c++)
-                grid_node(&mpm->main, n, k)[NODE_FORCE + c] += grid_node(&mpm->back, n, k)[c];
+    fold(mpm, layer, field);
 }
 
 /* A wall changes the momentum of particles by what they get from a node in excess of what they have put into it. */
-static void book_walls(const struct mpm *mpm, struct simulation *simulation, double dt)
+static void book_walls(const struct mpm *mpm, struct simulation *simulation,
+                       const struct layer *layer, double dt)
 {
     const double flip = mpm->parameters.flip;
-    for (int32_t w = 0; w < mpm->walls; w++) {
-        const struct wall_node *wall = &mpm->wall[w];
+    for (int32_t w = 0; w < layer->walls; w++) {
+        const struct wall_node *wall = &layer->wall[w];
         const double *sum = wall->sum, *node = wall->node, mass = sum[NODE_MASS];
         double push[3], place[3];
         for (int k = 0; k < 3; k++) {
@@ -195,12 +192,13 @@ static void book_walls(const struct mpm *mpm, struct simulation *simulation, dou
     }
 }
 
-void mpm_advance_nodes(struct mpm *mpm, struct simulation *simulation, double dt)
+void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
+                       double dt)
 {
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t n = 0; n < mpm->grid.blocks; n++)
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
         for (int k = 0; k < BLOCK_CELLS; k++) {
-            double *node = grid_node(&mpm->main, n, k);
+            double *node = grid_node(&layer->main, n, k);
             const double mass = node[NODE_MASS];
             if (mass <= 0.0)
                 continue;
@@ -210,27 +208,28 @@ void mpm_advance_nodes(struct mpm *mpm, struct simulation *simulation, double dt
                 node[NODE_ACCELERATION + c] = force / mass;
             }
         }
-    book_walls(mpm, simulation, dt);
+    book_walls(mpm, simulation, layer, dt);
 }
 
-void mpm_find_velocities(struct mpm *mpm, const struct simulation *simulation, bool plain)
+void mpm_find_velocities(const struct mpm *mpm, const struct simulation *simulation,
+                         struct layer *layer, bool plain)
 {
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t n = 0; n < mpm->grid.blocks; n++) {
+    for (int32_t n = 0; n < layer->grid.blocks; n++) {
         if (!plain)
-            grid_reduce(&mpm->grid, &mpm->back, n);
+            grid_reduce(&layer->grid, &layer->back, n);
         for (int k = 0; k < BLOCK_CELLS && plain; k++) {
-            const double *node = grid_node(&mpm->main, n, k);
-            memcpy(grid_node(&mpm->back, n, k), node + NODE_MOMENTUM, 3 * sizeof *node);
+            const double *node = grid_node(&layer->main, n, k);
+            memcpy(grid_node(&layer->back, n, k), node + NODE_MOMENTUM, 3 * sizeof *node);
         }
     }
     if (!plain)
-        fold(mpm, &mpm->back);
+        fold(mpm, layer, &layer->back);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t n = 0; n < mpm->grid.blocks; n++)
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
         for (int k = 0; k < BLOCK_CELLS; k++) {
-            const double mass = grid_node(&mpm->main, n, k)[NODE_MASS];
-            double *node = grid_node(&mpm->back, n, k);
+            const double mass = grid_node(&layer->main, n, k)[NODE_MASS];
+            double *node = grid_node(&layer->back, n, k);
             for (int c = 0; c < 3; c++)
                 node[c] = mass < mpm->least_mass ? 0.0 : node[c] / mass;
         }

@@ -107,14 +107,14 @@ static void keep_before_walls(const struct simulation *simulation, double x[3])
     }
 }
 
-int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation, int32_t bin,
-                          double dt, const double *rate)
+int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
+                          const struct layer *layer, int32_t bin, double dt, const double *rate)
 {
     struct particles *p = &simulation->particles;
     const struct point_fields f = {particles_field(p, "sound_long"),
                                    particles_field(p, "viscosity")};
-    const int32_t *list = mpm->bins.list + mpm->bins.bin[bin].first;
-    const int32_t count = mpm->bins.bin[bin].cell[BLOCK_CELLS];
+    const int32_t *list = layer->bins.list + layer->bins.bin[bin].first;
+    const int32_t count = layer->bins.bin[bin].cell[BLOCK_CELLS];
     int32_t impossible = -1;
     for (int32_t k = 0; k < count; k++) {
         const int32_t i = list[k];

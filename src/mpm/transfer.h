@@ -25,7 +25,7 @@ struct transfer {
     double edge;
     const struct bins *bins;
     const struct grid *grid;
-    struct grid_field *main, *back;
+    struct grid_field *main, *back, *normal;
     double
         flip; /* of a particle's new velocity, how much is its old one and the nodes' acceleration */
 
@@ -42,6 +42,9 @@ struct transfer {
 
 /* Fills the patch of BIN with the mass, momentum and force of its particles (2-9)-(2-12). */
 void transfer_scatter(const struct transfer *transfer, int32_t bin);
+
+/* Fills the patch of BIN in NORMAL with the gradient of mass, sum m grad N (2-23), which points out of the bodies. */
+void transfer_slopes(const struct transfer *transfer, int32_t bin);
 
 /* New velocities of the particles of BIN from its patch, where nodes have velocity and acceleration (2-15), and with
  * SCATTER their momentum in its patch of BACK (2-17); with MOVE they move (2-16). */

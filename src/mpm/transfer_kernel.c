@@ -208,6 +208,27 @@ INLINE void scatter(const struct transfer *t, struct kind kind, int32_t bin)
     }
 }
 
+INLINE void scatter_slopes(const struct transfer *t, struct kind kind, int32_t bin)
+{
+    double *patch = grid_patch(t->grid, t->normal, bin);
+    memset(patch, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *patch);
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        const struct cell_walk walk = cell_of(t, kind, bin, cell);
+        struct chunk chunk;
+        for (int32_t begin = 0; begin < walk.count; begin += LANES) {
+            weigh(t, kind, &walk, begin, &chunk);
+            for (int lane = 0; lane < chunk.count; lane++)
+                FOR_NODES(kind, a, b, c)
+                {
+                    const struct weight w = weight_of(kind, &chunk, lane, a, b, c);
+                    double *node = patch + node_of(t, kind, walk.base, a, b, c) * BACK_STRIDE;
+                    for (int k = 0; k < kind.dimension; k++)
+                        node[k] += t->mass[chunk.index[lane]] * w.slope[k];
+                }
+        }
+    }
+}
+
 /* For the lanes of a chunk: the sums over nodes of COUNT numbers at DATA, STRIDE a node. */
 INLINE void gather(const struct transfer *t, struct kind kind, const struct chunk *chunk,
                    size_t base, const double *data, int stride, int count, double (*sum)[LANES])
@@ -398,6 +419,7 @@ INLINE void gradient(const struct transfer *t, struct kind kind, int32_t bin, do
     }
 
 void NAMED(transfer_scatter)(const struct transfer *t, int32_t bin);
+void NAMED(transfer_slopes)(const struct transfer *t, int32_t bin);
 void NAMED(transfer_velocity)(const struct transfer *t, int32_t bin, double dt, bool scatter_back,
                               bool move);
 void NAMED(transfer_gradient)(const struct transfer *t, int32_t bin, double dt, const double *of,
@@ -406,6 +428,13 @@ void NAMED(transfer_gradient)(const struct transfer *t, int32_t bin, double dt, 
 void NAMED(transfer_scatter)(const struct transfer *t, int32_t bin)
 {
 #define CALL(dimension, window) scatter(t, (struct kind){dimension, window}, bin)
+    BY_KIND(t, CALL)
+#undef CALL
+}
+
+void NAMED(transfer_slopes)(const struct transfer *t, int32_t bin)
+{
+#define CALL(dimension, window) scatter_slopes(t, (struct kind){dimension, window}, bin)
     BY_KIND(t, CALL)
 #undef CALL
 }

@@ -59,6 +59,7 @@ static struct cloud *make_cloud(int dimension, enum grid_shape shape, bool affin
                                 .position = (const double(*)[3])c->position,
                                 .id = c->id,
                                 .order = 1,
+                                .groups = 1,
                                 .low = {INT64_MIN, INT64_MIN, INT64_MIN},
                                 .high = {INT64_MAX, INT64_MAX, INT64_MAX}};
     assert_success(bins_make(&c->bins, &c->binned, 2));

@@ -40,6 +40,25 @@ static const char space_case[] =
     "  floor: {mirror: z, at: 0 mm, side: low}\n"
     "run: {until: 1 s}\n";
 
+/* Two rods slip along each other while a third body sticks to one of them, and a fourth strikes; it has friction. */
+static const char contact_case[] =
+    "format: 1\ntitle: Contacts\ndimension: 2\nresolution: 1 mm\n"
+    "solver: {mpm: {cell: 2 mm, courant: 0.3}}\n" MATERIALS "bodies:\n"
+    "  rod: {material: aluminium, box: {from: [0 mm, 0 mm], to: [30 mm, 8 mm]}, velocity: [-300 "
+    "m/s, 0 m/s]}\n"
+    "  slab: {material: aluminium, box: {from: [0 mm, 8 mm], to: [30 mm, 15 mm]}, velocity: [300 "
+    "m/s, -100 m/s]}\n"
+    "  cap: {material: gas, box: {from: [30 mm, 8 mm], to: [36 mm, 15 mm]}, velocity: [300 m/s, "
+    "-100 m/s], density: 1500 kg/m^3, pressure: 0.5 GPa}\n"
+    "  ball: {material: aluminium, ball: {center: [14 mm, 22.6 mm], radius: 7 mm}, velocity: [0 "
+    "m/s, -400 m/s]}\n"
+    "contacts:\n"
+    "  slip: {between: [rod, slab], shear: slip, tension: none}\n"
+    "  rub: {between: [ball, slab], shear: slip, tension: none, friction: 0.3, normal: first}\n"
+    "walls:\n"
+    "  floor: {mirror: y, at: 0 mm, side: low}\n"
+    "run: {until: 1 s}\n";
+
 static const char line_case[] =
     "format: 1\ntitle: Two gases\ndimension: 1\nresolution: 1 mm\n"
     "solver: {mpm: {cell: 2 mm, courant: 0.1}}\n" MATERIALS "bodies:\n"
@@ -74,6 +93,7 @@ static void bits_do_not_depend_on_threads_storage_or_a_resume(void **state)
     static const char *const few[] = {"solver.mpm.shape=linear", "solver.mpm.shape=cubic"};
     check_bits(plane_case, settings, COUNT_OF(settings));
     check_bits(space_case, few, COUNT_OF(few));
+    check_bits(contact_case, few, COUNT_OF(few));
 }
 
 /* Mass, momentum and angular momentum less what the ledger booked, against their scales. */
@@ -86,6 +106,22 @@ static void check_kept(struct running *run, const struct totals *start, double t
         const double change = now.entry[e] - booked.entry[e] - start->entry[e];
         if (fabs(change) > tolerance * scale)
             fail_msg("entry %d: %g of %g", e, change, scale);
+    }
+}
+
+static void mass_and_momentum_stay_in_contacts(void **state)
+{
+    (void)state;
+    static const char *const settings[] = {"solver.mpm.shape=linear", "solver.mpm.shape=cubic",
+                                           "solver.mpm.scheme=usl", "solver.mpm.scheme=usf"};
+    for (size_t k = 0; k < COUNT_OF(settings); k++) {
+        const struct variant variant = {"", 1, 1.0, settings[k], false};
+        struct running *run = begin_fresh(contact_case, &variant);
+        assert_int_equal(run->mpm.layers, 4);
+        const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        step(run, STEPS);
+        check_kept(run, &start, 1e-13);
+        end(run);
     }
 }
 
@@ -176,6 +212,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_do_not_depend_on_threads_storage_or_a_resume),
+        cmocka_unit_test(mass_and_momentum_stay_in_contacts),
         cmocka_unit_test(mass_and_momentum_stay_but_for_what_walls_push),
         cmocka_unit_test(usf_gains_energy_and_usl_loses_more_than_musl),
         cmocka_unit_test(a_gas_at_rest_between_walls_stays_at_rest),
