@@ -47,6 +47,18 @@ static void compute_displacement(const void *context, int64_t begin, int64_t end
             moved[i - begin][k] = simulation->particles.position[i][k] - moved[i - begin][k];
 }
 
+/* (m/rho)^(1/dimension), of axisymmetry that of the section. */
+static void compute_diameter(const void *context, int64_t begin, int64_t end, double *out)
+{
+    const struct simulation *simulation = context;
+    const struct particles *p = &simulation->particles;
+    const bool round = simulation->geometry == GEOMETRY_AXISYMMETRIC;
+    for (int64_t i = begin; i < end; i++) {
+        const double depth = round ? p->position[i][0] : 1.0;
+        *out++ = diameter_of_volume(p->mass[i] / (p->density[i] * depth), p->dimension);
+    }
+}
+
 static void compute_temperature(const void *context, int64_t begin, int64_t end, double *out)
 {
     const struct simulation *simulation = context;
@@ -72,6 +84,13 @@ static const struct view temperature_view = {
     .help = "temperature, where all materials have a heat capacity",
     .components = 1,
     .compute = compute_temperature};
+
+/* Where a solver does not keep it. */
+static const struct view diameter_view = {.name = "diameter",
+                                          .unit = "m",
+                                          .help = "particle diameter (m/rho)^(1/dimension)",
+                                          .components = 1,
+                                          .compute = compute_diameter};
 
 static const struct view displacement_view = {.name = "displacement",
                                               .unit = "m",
@@ -120,6 +139,12 @@ void views_of_particles(struct views *views, const struct simulation *simulation
     for (size_t i = 0; i < COUNT_OF(computed_views); i++) {
         struct view view = computed_views[i];
         view.context = particles;
+        views_add(views, view);
+    }
+    int component;
+    if (simulation->input && !views_find(views, "diameter", &component)) {
+        struct view view = diameter_view;
+        view.context = simulation;
         views_add(views, view);
     }
     if (has_temperature(simulation)) {

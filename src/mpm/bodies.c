@@ -9,9 +9,6 @@ struct error *mpm_refuse(const struct simulation *simulation)
     struct error *error = NULL;
     if (simulation->geometry == GEOMETRY_PLANE_STRESS)
         error = input_error(input, "geometry", NULL, "the solver mpm knows no plane stress");
-    if (simulation->ranks->size > 1)
-        error = error_join(error, input_error(input, "solver", "mpm",
-                                              "runs on one rank only: start it without mpirun"));
     for (int b = 0; b < input->bodies.count; b++) {
         const struct body_input *body = case_body(input, b);
         if (body->driven || body->frozen || !isnan(body->stop))

@@ -24,18 +24,24 @@ static struct error *find_meetings(struct mpm *mpm, struct layer *layer)
     return NULL;
 }
 
-/* The gradient of mass, where the layer meets others. */
-static void find_normals(struct mpm *mpm, const struct simulation *simulation, struct layer *layer)
+/* Patches of the gradient of mass, where the layer meets others; of several ranks all, as another may need them. */
+static void find_slopes(struct mpm *mpm, const struct simulation *simulation, struct layer *layer)
 {
     const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
     for (int32_t b = 0; b < layer->bins.count; b++) {
-        bool near = false;
+        bool near = simulation->ranks->size > 1;
         for (int code = 0; code < GRID_AROUND && !near; code++)
             near = layer->grid.around[b][code] >= 0 && layer->meets[layer->grid.around[b][code]];
-        if (near)
+        if (near && !mpm_is_far(mpm, layer, b))
             transfer_slopes(&transfer, b);
     }
+}
+
+/* Their sums at nodes. */
+static void find_normals(const struct mpm *mpm, const struct simulation *simulation,
+                         struct layer *layer)
+{
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++)
         if (layer->meets[n])
@@ -195,7 +201,12 @@ struct error *mpm_find_meetings(struct mpm *mpm)
 
 void mpm_meet(struct mpm *mpm, const struct simulation *simulation, double dt)
 {
-    for (int g = 0; g < mpm->layers && any_law(mpm, simulation); g++)
+    const bool laws = any_law(mpm, simulation);
+    for (int g = 0; g < mpm->layers && laws; g++)
+        find_slopes(mpm, simulation, &mpm->layer[g]);
+    if (laws)
+        mpm_exchange(mpm, simulation, offsetof(struct layer, normal));
+    for (int g = 0; g < mpm->layers && laws; g++)
         find_normals(mpm, simulation, &mpm->layer[g]);
     meet_pairs(mpm, simulation, dt);
 }

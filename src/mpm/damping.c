@@ -119,13 +119,18 @@ static void add_forces(const struct mpm *mpm, const struct simulation *simulatio
                 grid_node(&layer->main, n, k)[NODE_FORCE + c] += grid_node(&layer->back, n, k)[c];
 }
 
-void mpm_damp_shear(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
-                    double dt)
+void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt)
 {
     if (!(mpm->parameters.shear_damping > 0.0) || simulation->dimension == 1)
         return;
+    for (int g = 0; g < mpm->layers; g++) {
+        struct layer *layer = &mpm->layer[g];
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
-    for (int32_t b = 0; b < layer->bins.count; b++)
-        damp_bin(mpm, simulation, layer, b, dt);
-    add_forces(mpm, simulation, layer);
+        for (int32_t b = 0; b < layer->bins.count; b++)
+            if (!mpm_is_far(mpm, layer, b))
+                damp_bin(mpm, simulation, layer, b, dt);
+    }
+    mpm_exchange(mpm, simulation, offsetof(struct layer, back));
+    for (int g = 0; g < mpm->layers; g++)
+        add_forces(mpm, simulation, &mpm->layer[g]);
 }

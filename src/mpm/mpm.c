@@ -53,8 +53,8 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     TRY(error_join(mpm_refuse(simulation),
                    error_join(mpm_note_bodies(mpm, simulation), mpm_find_planes(mpm, simulation))));
     start_layers(mpm, simulation);
-    struct field_declaration fields[COUNT_OF(mpm_field_table) + 1];
-    int count = 0;
+    struct field_declaration fields[COUNT_OF(mpm_field_table) + 1 + POINT_HISTORY];
+    int count = simulation_history(simulation, fields);
     for (size_t k = 0; k < COUNT_OF(mpm_field_table); k++)
         fields[count++] = mpm_field_table[k];
     if (is_affine(mpm))
@@ -152,21 +152,51 @@ static struct error *reserve_rates(struct mpm *mpm)
     return NULL;
 }
 
-/* Particles into cells, and the blocks of nodes that these need. */
-static struct error *refresh_grid(struct mpm *mpm, struct simulation *simulation)
+/* Collective: true when a particle has come to a block of another rank, or the case has space divided anew. */
+static bool must_go(const struct mpm *mpm, const struct simulation *simulation, bool recut)
+{
+    const struct particles *p = &simulation->particles;
+    bool away = recut;
+    for (int32_t b = 0; b < mpm->bins.count && !away; b++)
+        away = particles_owner(p, mpm->bins.bin[b].key) != simulation->ranks->rank;
+    return ranks_maximum(simulation->ranks, away) > 0.0;
+}
+
+/* Particles into cells, on the ranks that own these. */
+static struct error *place_particles(struct mpm *mpm, struct simulation *simulation)
 {
     struct particles *p = &simulation->particles;
-    TRY(find_bins(mpm, simulation));
-    if ((double)mpm->bins.moved > moved_limit * p->count) {
+    const int64_t every = simulation->input->run.rebalance;
+    const bool several = simulation->ranks->size > 1,
+               recut = several && every > 0 && simulation->step % every == 0;
+    TRY(ranks_agree(simulation->ranks, find_bins(mpm, simulation)));
+    const bool goes = several && must_go(mpm, simulation, recut);
+    if (goes) {
+        TRY(particles_distribute(p, mpm->work, recut));
+        mpm->work = 0.0;
+    } else if ((double)mpm->bins.moved > moved_limit * p->count) {
         TRY(particles_sort(p));
-        TRY(find_bins(mpm, simulation));
+    } else {
+        return NULL;
     }
+    return find_bins(mpm, simulation);
+}
+
+/* Gives each layer its part of the bins. */
+static void share_bins(struct mpm *mpm)
+{
+    for (int g = 0; g < mpm->layers; g++) {
+        const int32_t begin = mpm->bins.begin[g];
+        mpm->layer[g].bins = (struct bins){.count = mpm->bins.begin[g + 1] - begin,
+                                           .list = mpm->bins.list,
+                                           .bin = mpm->bins.bin + begin};
+    }
+}
+
+static struct error *reserve_fields(struct mpm *mpm)
+{
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];
-        const int32_t begin = mpm->bins.begin[g];
-        layer->bins = (struct bins){.count = mpm->bins.begin[g + 1] - begin,
-                                    .list = mpm->bins.list,
-                                    .bin = mpm->bins.bin + begin};
         TRY(grid_plan(&layer->grid, &layer->bins));
         TRY(grid_field_reserve(&layer->main, &layer->grid));
         TRY(grid_field_reserve(&layer->back, &layer->grid));
@@ -178,21 +208,40 @@ static struct error *refresh_grid(struct mpm *mpm, struct simulation *simulation
     return reserve_rates(mpm);
 }
 
-/* Mass, momentum and force of all nodes. */
+/* Collective: particles into cells, and the blocks of nodes that these need. */
+static struct error *refresh_grid(struct mpm *mpm, struct simulation *simulation)
+{
+    const bool several = simulation->ranks->size > 1;
+    TRY(ranks_agree(simulation->ranks, place_particles(mpm, simulation)));
+    if (several)
+        TRY(mpm_find_halo(mpm, simulation));
+    else
+        share_bins(mpm);
+    TRY(ranks_agree(simulation->ranks, reserve_fields(mpm)));
+    return several ? mpm_reserve_halo(mpm, simulation) : NULL;
+}
+
+/* Collective: mass, momentum and force of all nodes. */
 static struct error *sum_particles(struct mpm *mpm, struct simulation *simulation)
 {
+    const double begin = clock_seconds();
+    struct error *error = NULL;
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];
         const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
         for (int32_t b = 0; b < layer->bins.count; b++)
-            transfer_scatter(&transfer, b);
-        TRY(mpm_sum_nodes(mpm, simulation, layer));
+            if (!mpm_is_far(mpm, layer, b))
+                transfer_scatter(&transfer, b);
     }
-    return NULL;
+    mpm->work += clock_seconds() - begin;
+    mpm_exchange(mpm, simulation, offsetof(struct layer, main));
+    for (int g = 0; g < mpm->layers && !error; g++)
+        error = mpm_sum_nodes(mpm, simulation, &mpm->layer[g]);
+    return ranks_agree(simulation->ranks, error);
 }
 
-/* dt = K min h/(c + max |u_i|) (2.7 of the notes), of equal ones that of the smallest id. */
+/* Collective: dt = K min h/(c + max |u_i|), of equal ones that of the smallest id. */
 static struct limit limit_step(const struct mpm *mpm, const struct simulation *simulation)
 {
     const struct particles *p = &simulation->particles;
@@ -216,7 +265,8 @@ static struct limit limit_step(const struct mpm *mpm, const struct simulation *s
         if (own.dt < smallest.dt || (own.dt == smallest.dt && own.id < smallest.id))
             smallest = own;
     }
-    return smallest;
+    const double dt = ranks_minimum(simulation->ranks, smallest.dt);
+    return smallest.dt > dt ? (struct limit){dt, "another rank", UINT64_MAX} : smallest;
 }
 
 static struct error *mpm_prepare(void *solver, struct simulation *simulation, struct limit *limit)
@@ -244,10 +294,15 @@ static void find_velocities(struct mpm *mpm, struct simulation *simulation, doub
         const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
         for (int32_t b = 0; b < layer->bins.count; b++) {
+            if (mpm_is_far(mpm, layer, b))
+                continue;
             grid_spread(&layer->grid, &layer->main, b);
             transfer_velocity(&transfer, b, dt, scatter, move);
         }
     }
+    mpm->work += clock_seconds() - begin;
+    if (scatter)
+        mpm_exchange(mpm, simulation, offsetof(struct layer, back));
     simulation_spend(simulation, "velocities", clock_seconds() - begin);
 }
 
@@ -288,6 +343,8 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
 #pragma omp for schedule(dynamic, 4)
         for (int32_t b = 0; b < layer->bins.count; b++) {
             const double *of = grid_patch(&layer->grid, &layer->main, b) + NODE_VELOCITY;
+            if (mpm_is_far(mpm, layer, b))
+                continue;
             if (!of_main) {
                 grid_spread(&layer->grid, &layer->back, b);
                 of = grid_patch(&layer->grid, &layer->back, b);
@@ -316,8 +373,10 @@ static struct error *update_states(struct mpm *mpm, struct simulation *simulatio
         mpm_find_velocities(mpm, simulation, &mpm->layer[g], first);
     if (mpm->layers > 1 && !of_main)
         mpm_join_velocities(mpm, simulation);
+    const double started = clock_seconds();
     for (int g = 0; g < mpm->layers; g++)
         find_states(mpm, simulation, &mpm->layer[g], dt, of_main, !first, &failed);
+    mpm->work += clock_seconds() - started;
     simulation_spend(simulation, "states", clock_seconds() - begin);
     return failed < 0 ? NULL : impossible(simulation, failed);
 }
@@ -327,12 +386,11 @@ static struct error *mpm_advance(void *solver, struct simulation *simulation, do
     struct mpm *mpm = solver;
     const int scheme = mpm->parameters.scheme;
     if (scheme == MPM_USF) {
-        TRY(update_states(mpm, simulation, dt, true));
+        TRY(ranks_agree(simulation->ranks, update_states(mpm, simulation, dt, true)));
         TRY(sum_particles(mpm, simulation));
     }
     const double begin = clock_seconds();
-    for (int g = 0; g < mpm->layers; g++)
-        mpm_damp_shear(mpm, simulation, &mpm->layer[g], dt);
+    mpm_damp_shear(mpm, simulation, dt);
     if (mpm->layers > 1)
         mpm_meet(mpm, simulation, dt);
     for (int g = 0; g < mpm->layers; g++)
@@ -349,28 +407,11 @@ static struct error *mpm_state(void *solver, struct visitor *visitor)
     return NULL;
 }
 
-static void compute_diameter(const void *context, int64_t begin, int64_t end, double *out)
-{
-    const struct simulation *simulation = context;
-    const struct particles *p = &simulation->particles;
-    const bool turned = simulation->geometry == GEOMETRY_AXISYMMETRIC;
-    for (int64_t i = begin; i < end; i++) {
-        const double depth = turned ? p->position[i][0] : 1.0;
-        *out++ = diameter_of_volume(p->mass[i] / (p->density[i] * depth), p->dimension);
-    }
-}
-
 static void mpm_observe(const void *solver, const struct simulation *simulation,
                         struct views *views)
 {
     (void)solver;
     views_of_particles(views, simulation);
-    views_add(views, (struct view){.name = "diameter",
-                                   .unit = "m",
-                                   .help = "particle diameter (m/rho)^(1/dimension)",
-                                   .components = 1,
-                                   .compute = compute_diameter,
-                                   .context = simulation});
 }
 
 static void mpm_destroy(void *solver)
@@ -382,6 +423,7 @@ static void mpm_destroy(void *solver)
     free(mpm->half_size);
     free(mpm->gauge);
     bins_free(&mpm->bins);
+    mpm_free_halo(mpm);
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];
         free(layer->wall);

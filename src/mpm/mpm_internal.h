@@ -4,18 +4,21 @@
 
 #include "mpm/mpm.h"
 #include "mpm/transfer.h"
+#include "parallel/exchange.h"
 
 /* A node on a wall or, where shape functions reach beyond walls, next to one. */
 struct wall_node {
     double *node, *back, *normal; /* in the fields; normal: NULL where there is one layer */
     int64_t at[3];
+    bool booked;             /* by this rank: the first patch that covers it is its own */
     double sum[NODE_STRIDE]; /* of the particles alone, before what is behind the wall is added */
 };
 
 /* The nodes of bodies that share their velocities: of all bodies where the case names no contacts, else of each contact
  * group. */
 struct layer {
-    struct bins bins; /* a part of all bins, not owned */
+    struct bins
+        bins; /* a part of all bins, or own ones and, without particles, those of other ranks; not owned */
     struct grid grid;
     struct grid_field main, back;
     struct grid_field
@@ -25,6 +28,19 @@ struct layer {
     int64_t wall_capacity;
     bool *meets; /* of each block of nodes: another layer has it too */
     int64_t meets_capacity;
+};
+
+/* Bins of other ranks whose patches this rank needs, and own ones that others need. */
+struct halo {
+    struct bin *bin; /* own and others', by layer and key */
+    bool *far;       /* of each: another rank's */
+    int64_t bin_capacity, far_capacity;
+    int32_t begin[BIN_GROUPS + 1]; /* of the layers */
+    int32_t *goes, *comes; /* bins whose patches go, in the order of the errands, and come */
+    int64_t goes_capacity, comes_capacity;
+    struct exchange exchange;
+    double *received;
+    int64_t received_capacity;
 };
 
 struct mpm {
@@ -41,7 +57,22 @@ struct mpm {
     double **rate; /* of the particles of a bin, one a thread */
     int threads;
     int64_t rate_capacity;
+    struct halo halo; /* of several ranks only */
+    double work; /* seconds that this rank's particles have taken since they were distributed */
 };
+
+/* Whether a bin belongs to another rank, which has its particles. */
+BOLIDE_INLINE bool mpm_is_far(const struct mpm *mpm, const struct layer *layer, int32_t bin)
+{
+    return mpm->halo.far && mpm->halo.far[layer->bins.bin - mpm->halo.bin + bin];
+}
+
+/* Collective: finds the bins of other ranks that own ones meet, and gives the layers all of them. */
+struct error *mpm_find_halo(struct mpm *mpm, const struct simulation *simulation);
+/* Collective: room to exchange patches once the layers' fields have it; the patches of a field. */
+struct error *mpm_reserve_halo(struct mpm *mpm, const struct simulation *simulation);
+void mpm_exchange(struct mpm *mpm, const struct simulation *simulation, size_t field);
+void mpm_free_halo(struct mpm *mpm);
 
 /* What the case leaves to the method. */
 struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
@@ -71,8 +102,7 @@ void mpm_find_velocities(const struct mpm *mpm, const struct simulation *simulat
                          struct layer *layer, bool plain);
 
 /* Mean modes of shear in cells of fluid lose force (2-46)-(2-48), and what that takes in DT heats the particles. */
-void mpm_damp_shear(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
-                    double dt);
+void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt);
 
 /* Contact between layers, see contact.c: which blocks of nodes they share; forces at nodes that both have, in a step of
  * DT. */

@@ -91,6 +91,7 @@ static struct error *collect_block(const struct mpm *mpm, struct layer *layer, i
         if (node[NODE_MASS] <= 0.0 || !near_wall(mpm, layer, wall->at, within))
             continue;
         wall->node = node;
+        wall->booked = !mpm_is_far(mpm, layer, layer->grid.touch[block][0].bin);
         wall->back = grid_node(&layer->back, block, k);
         wall->normal = layer->normal.node ? grid_node(&layer->normal, block, k) : NULL;
         memcpy(wall->sum, node, sizeof wall->sum);
@@ -179,6 +180,8 @@ static void book_walls(const struct mpm *mpm, struct simulation *simulation,
     for (int32_t w = 0; w < layer->walls; w++) {
         const struct wall_node *wall = &layer->wall[w];
         const double *sum = wall->sum, *node = wall->node, mass = sum[NODE_MASS];
+        if (!wall->booked)
+            continue;
         double push[3], place[3];
         for (int k = 0; k < 3; k++) {
             const double gain =

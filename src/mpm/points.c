@@ -13,7 +13,7 @@ void mpm_evaluate(struct simulation *simulation)
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
         struct point point = {.density = p->density[i], .energy = p->energy[i]};
-        point.history[0] = p->plastic_strain[i];
+        particle_load_history(p, i, point.history);
         struct response r = material_evaluate(&simulation->material[p->material[i]], &point);
         p->pressure[i] = point.pressure;
         sound[i] = r.sound_long;
@@ -35,12 +35,6 @@ BOLIDE_INLINE struct sym3 jaumann_turn(struct sym3 s, struct vec3 angle)
     return r;
 }
 
-static double contract(struct sym3 a, struct sym3 b)
-{
-    return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz +
-           2.0 * (a.xy * b.xy + a.yz * b.yz + a.zx * b.zx);
-}
-
 /* Brings particle I to the next level; false when its new state is impossible. */
 static bool update_point(const struct mpm *mpm, struct particles *p,
                          const struct material *material, const struct point_fields *f, int32_t i,
@@ -48,39 +42,33 @@ static bool update_point(const struct mpm *mpm, struct particles *p,
 {
     const struct mpm_parameters *parameters = &mpm->parameters;
     double *s = p->deviator[i];
-    const struct sym3 strain = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]};
-    struct vec3 spin = vec3_make(rate[RATE_SPIN], rate[RATE_SPIN + 1], rate[RATE_SPIN + 2]);
-    const double divergence = sym3_trace(strain);
-    const double density = p->density[i] / (1.0 + dt * divergence);
-    const struct sym3 before = {s[0], s[1], s[2], s[3], s[4], s[5]};
-    struct point point = {
-        .density = density, .deviator = before, .history = {p->plastic_strain[i]}};
-    /* in compression only (2.8 of the source's companion codes) */
-    const double edge = mpm->edge,
-                 viscosity =
-                     divergence < 0.0
-                         ? density * edge *
-                               (parameters->viscosity_quadratic * edge * square(divergence) -
-                                parameters->viscosity_linear * f->sound[i] * divergence)
-                         : 0.0;
-    const double v0 = 1.0 / p->density[i], v1 = 1.0 / density, swelling = v1 - v0;
-    double energy = p->energy[i] - 0.5 * swelling * (p->pressure[i] + f->viscosity[i] + viscosity);
-    if (material_has_strength(material)) {
-        if (parameters->rotation == MPM_JAUMANN) {
-            point.deviator = jaumann_turn(before, vec3_scale(dt, spin));
-            spin = vec3_make(0.0, 0.0, 0.0);
-        }
-        strength_step(&material->strength, dt, strain, spin, &point.deviator, point.history);
-        energy += 0.25 * dt * (v0 + v1) * contract(sym3_add(before, point.deviator), strain);
+    struct motion motion = {
+        .dt = dt,
+        .strain_rate = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]},
+        .spin = vec3_make(rate[RATE_SPIN], rate[RATE_SPIN + 1], rate[RATE_SPIN + 2])};
+    const double divergence = sym3_trace(motion.strain_rate), edge = mpm->edge;
+    motion.density = p->density[i] / (1.0 + dt * divergence); /* (2-20) */
+    struct point point = {.density = p->density[i],
+                          .energy = p->energy[i],
+                          .pressure = p->pressure[i],
+                          .deviator = {s[0], s[1], s[2], s[3], s[4], s[5]}};
+    particle_load_history(p, i, point.history);
+    /* q = rho h (b2 h d^2 - b1 c d) in compression */
+    double viscosity = 0.0;
+    if (divergence < 0.0)
+        viscosity = motion.density * edge *
+                    (parameters->viscosity_quadratic * edge * square(divergence) -
+                     parameters->viscosity_linear * f->sound[i] * divergence);
+    motion.viscous_pressure = 0.5 * (f->viscosity[i] + viscosity);
+    if (parameters->rotation == MPM_JAUMANN) {
+        point.deviator = jaumann_turn(point.deviator, vec3_scale(dt, motion.spin));
+        motion.spin = vec3_make(0.0, 0.0, 0.0);
     }
-    /* p = p* + p_e (e - e*), e = e* - dv p/2 */
-    const struct eos_value value = eos_evaluate(&material->eos, density, energy, point.history);
-    point.energy = energy - 0.5 * swelling * value.pressure / (1.0 + 0.5 * swelling * value.dp_de);
-    const struct response r = material_evaluate(material, &point);
+    const struct response r = material_step_by_work(material, &point, &motion);
     p->density[i] = point.density;
     p->energy[i] = point.energy;
     p->pressure[i] = point.pressure;
-    p->plastic_strain[i] = point.history[0];
+    particle_keep_history(p, i, point.history);
     f->viscosity[i] = viscosity;
     f->sound[i] = r.sound_long;
     s[0] = point.deviator.xx;

@@ -71,8 +71,10 @@ static struct error *divide(struct particles *p)
     return error;
 }
 
-static int owner_of(const struct particles *p, uint64_t key)
+int particles_owner(const struct particles *p, uint64_t key)
 {
+    if (!p->cut)
+        return p->ranks->rank;
     int low = 0, high = p->ranks->size; /* cut[low] <= key < cut[high] */
     while (high - low > 1) {
         int middle = (low + high) / 2;
@@ -118,7 +120,7 @@ struct leaving {
 static struct error *find_leaving(struct particles *p, struct leaving *leaving)
 {
     for (int32_t i = 0; i < p->count; i++) {
-        int32_t owner = owner_of(p, particles_block_key(p, p->position[i]));
+        int32_t owner = particles_owner(p, particles_block_key(p, p->position[i]));
         if (owner == p->ranks->rank)
             continue;
         if (!memory_reserve((void **)&leaving->errand, &leaving->capacity, leaving->count + 1,

@@ -103,6 +103,9 @@ struct error *particles_distribute(struct particles *particles, double seconds, 
 /* The key of the block that X lies in. */
 uint64_t particles_block_key(const struct particles *particles, const double x[3]);
 
+/* The rank that owns the block of KEY, once the particles are distributed. */
+int particles_owner(const struct particles *particles, uint64_t key);
+
 /* Loads or saves: count first, then every STATE field, as "particles/NAME". */
 struct error *particles_visit(struct particles *particles, struct visitor *visitor);
 

@@ -1,0 +1,251 @@
+/* Blocks of other ranks: each rank finds the sums at all nodes that its particles reach, from its own patches and from those
+ * of other ranks that cover the same nodes. These come as they are, and are added in the order of block keys with the
+ * others, so that all ranks find the same bits. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "mpm/mpm_internal.h"
+
+/* A bin as the other ranks hear of it. */
+struct far_bin {
+    uint64_t key;
+    int32_t layer, rank;
+};
+
+static struct error *out_of_memory(void)
+{
+    return error_new(ERROR_SYSTEM, "out of memory for blocks of other ranks");
+}
+
+/* All bins of all ranks, by rank, layer and key. */
+static struct error *gather_bins(const struct mpm *mpm, const struct simulation *simulation,
+                                 struct far_bin **all, int64_t *count)
+{
+    const struct bins *bins = &mpm->bins;
+    struct far_bin *own = memory_allocate((size_t)bins->count * sizeof *own);
+    TRY(ranks_agree(simulation->ranks, own ? NULL : out_of_memory()));
+    for (int g = 0; g < mpm->layers; g++)
+        for (int32_t b = bins->begin[g]; b < bins->begin[g + 1]; b++)
+            own[b] = (struct far_bin){bins->bin[b].key, g, simulation->ranks->rank};
+    struct error *error =
+        ranks_gather(simulation->ranks, -1, own, bins->count, sizeof *own, (void **)all, count);
+    free(own);
+    return error;
+}
+
+/* What one walk over the bins of all ranks finds. */
+struct meeting {
+    struct block_table table; /* of the keys of own bins */
+    int32_t *first;           /* of each key, the first own bin of it; -1 ends a list */
+    int32_t *next;            /* of each own bin, the next one of its key */
+    int32_t *told;            /* of each own bin, the last rank that needs it */
+    struct errand *errand;
+    int64_t errand_capacity, far_capacity;
+    int32_t errands, fars;
+    struct far_bin *far;
+};
+
+static bool index_own(const struct mpm *mpm, struct meeting *m)
+{
+    const int32_t count = mpm->bins.count;
+    m->first = memory_allocate((size_t)count * sizeof *m->first);
+    m->next = memory_allocate((size_t)count * sizeof *m->next);
+    m->told = memory_allocate((size_t)count * sizeof *m->told);
+    if (!m->first || !m->next || !m->told || !block_table_clear(&m->table, count))
+        return false;
+    for (int32_t b = 0; b < count; b++) {
+        const int32_t before = m->table.count,
+                      key = block_table_add(&m->table, mpm->bins.bin[b].key);
+        m->next[b] = m->table.count > before ? -1 : m->first[key];
+        m->first[key] = b;
+        m->told[b] = -1;
+    }
+    return true;
+}
+
+/* Takes down that a bin of another rank and the own ones about it need each other; RANGE is how far apart in blocks. */
+static bool meet_bin(const struct mpm *mpm, struct meeting *m, const struct far_bin *far,
+                     int64_t range)
+{
+    const int dimension = mpm->layer[0].grid.dimension;
+    const int64_t ry = dimension > 1 ? range : 0, rz = dimension > 2 ? range : 0;
+    int64_t own[3];
+    bool met = false;
+    block_coordinates(far->key, own);
+    for (int64_t x = -range; x <= range; x++)
+        for (int64_t y = -ry; y <= ry; y++)
+            for (int64_t z = -rz; z <= rz; z++) {
+                const int64_t at[3] = {own[0] + x, own[1] + y, own[2] + z};
+                const int32_t key = block_table_find(&m->table, block_key(at));
+                for (int32_t b = key < 0 ? -1 : m->first[key]; b >= 0; b = m->next[b]) {
+                    met = true;
+                    if (m->told[b] == far->rank)
+                        continue;
+                    m->told[b] = far->rank;
+                    if (!memory_reserve((void **)&m->errand, &m->errand_capacity, m->errands + 1,
+                                        m->errands, sizeof *m->errand))
+                        return false;
+                    m->errand[m->errands++] = (struct errand){far->rank, b};
+                }
+            }
+    if (!met)
+        return true;
+    if (!memory_reserve((void **)&m->far, &m->far_capacity, m->fars + 1, m->fars, sizeof *m->far))
+        return false;
+    m->far[m->fars++] = *far;
+    return true;
+}
+
+static int compare_errands(const void *a, const void *b)
+{
+    const struct errand *x = a, *y = b;
+    if (x->rank != y->rank)
+        return x->rank < y->rank ? -1 : 1;
+    return x->item < y->item ? -1 : x->item > y->item;
+}
+
+static int compare_bins(const void *a, const void *b)
+{
+    const struct far_bin *x = a, *y = b;
+    if (x->layer != y->layer)
+        return x->layer < y->layer ? -1 : 1;
+    return x->key < y->key ? -1 : x->key > y->key;
+}
+
+/* Puts own bins and those of other ranks in the order of layers and keys. */
+static bool merge(struct mpm *mpm, const struct meeting *m)
+{
+    struct halo *halo = &mpm->halo;
+    const struct bins *own = &mpm->bins;
+    const int64_t count = (int64_t)own->count + m->fars;
+    struct far_bin *far = memory_allocate((size_t)m->fars * sizeof *far);
+    int32_t *place = memory_allocate((size_t)own->count * sizeof *place);
+    if (far && m->fars)
+        memcpy(far, m->far, (size_t)m->fars * sizeof *far);
+    if (far && m->fars > 1)
+        qsort(far, (size_t)m->fars, sizeof *far, compare_bins);
+    bool done =
+        far && place &&
+        memory_reserve((void **)&halo->bin, &halo->bin_capacity, count + 1, 0, sizeof *halo->bin) &&
+        memory_reserve((void **)&halo->far, &halo->far_capacity, count + 1, 0, sizeof *halo->far) &&
+        memory_reserve((void **)&halo->goes, &halo->goes_capacity, m->errands, 0,
+                       sizeof *halo->goes) &&
+        memory_reserve((void **)&halo->comes, &halo->comes_capacity, m->fars, 0,
+                       sizeof *halo->comes);
+    int32_t b = 0, f = 0, to = 0;
+    for (int g = 0; g < mpm->layers && done; g++) {
+        halo->begin[g] = to;
+        while (b < own->begin[g + 1] || (f < m->fars && far[f].layer == g)) {
+            const bool is_far = f < m->fars && far[f].layer == g &&
+                                (b == own->begin[g + 1] || far[f].key < own->bin[b].key);
+            halo->far[to] = is_far;
+            if (is_far) {
+                halo->bin[to] = (struct bin){.key = far[f++].key};
+            } else {
+                place[b] = to;
+                halo->bin[to] = own->bin[b++];
+            }
+            to++;
+        }
+        halo->begin[g + 1] = to;
+    }
+    for (int32_t k = 0; k < m->errands && done; k++)
+        halo->goes[k] = place[m->errand[k].item];
+    for (int32_t k = 0; k < m->fars && done; k++) {
+        int32_t at = halo->begin[m->far[k].layer];
+        while (!halo->far[at] || halo->bin[at].key != m->far[k].key)
+            at++;
+        halo->comes[k] = at;
+    }
+    free(far);
+    free(place);
+    return done;
+}
+
+static void meeting_free(struct meeting *m)
+{
+    free(m->first);
+    free(m->next);
+    free(m->told);
+    free(m->errand);
+    free(m->far);
+    block_table_free(&m->table);
+}
+
+struct error *mpm_find_halo(struct mpm *mpm, const struct simulation *simulation)
+{
+    struct meeting m = {0};
+    struct far_bin *all = NULL;
+    int64_t count = 0;
+    const int64_t range = mpm->layer[0].grid.reach > 0 ? 2 : 1;
+    TRY(gather_bins(mpm, simulation, &all, &count));
+    bool done = index_own(mpm, &m);
+    for (int64_t k = 0; k < count && done; k++)
+        if (all[k].rank != simulation->ranks->rank)
+            done = meet_bin(mpm, &m, &all[k], range);
+    free(all);
+    if (done && m.errands > 1)
+        qsort(m.errand, (size_t)m.errands, sizeof *m.errand, compare_errands);
+    done = done && merge(mpm, &m);
+    struct error *error = ranks_agree(simulation->ranks, done ? NULL : out_of_memory());
+    if (!error)
+        error = exchange_plan(&mpm->halo.exchange, simulation->ranks, m.errand, m.errands);
+    assert(error || mpm->halo.exchange.comes == m.fars);
+    meeting_free(&m);
+    for (int g = 0; g < mpm->layers && !error; g++)
+        mpm->layer[g].bins = (struct bins){.count = mpm->halo.begin[g + 1] - mpm->halo.begin[g],
+                                           .list = mpm->bins.list,
+                                           .bin = mpm->halo.bin + mpm->halo.begin[g]};
+    return error;
+}
+
+struct error *mpm_reserve_halo(struct mpm *mpm, const struct simulation *simulation)
+{
+    struct halo *halo = &mpm->halo;
+    const size_t bytes = (size_t)(mpm->layer[0].grid.patch * NODE_STRIDE) * sizeof(double);
+    struct error *error = exchange_reserve(&halo->exchange, bytes);
+    if (!error && !memory_reserve((void **)&halo->received, &halo->received_capacity,
+                                  halo->exchange.comes, 0, bytes))
+        error = out_of_memory();
+    return ranks_agree(simulation->ranks, error);
+}
+
+/* The patch of bin BIN of the halo, in the field at byte FIELD of its layer. */
+static double *patch_of(struct mpm *mpm, int32_t bin, size_t field)
+{
+    int g = 0;
+    while (bin >= mpm->halo.begin[g + 1])
+        g++;
+    struct layer *layer = &mpm->layer[g];
+    return grid_patch(&layer->grid, (struct grid_field *)((char *)layer + field),
+                      bin - mpm->halo.begin[g]);
+}
+
+void mpm_exchange(struct mpm *mpm, const struct simulation *simulation, size_t field)
+{
+    struct halo *halo = &mpm->halo;
+    if (simulation->ranks->size < 2)
+        return;
+    const struct grid_field *first = (const struct grid_field *)((char *)&mpm->layer[0] + field);
+    const size_t bytes = (size_t)(mpm->layer[0].grid.patch * first->stride) * sizeof(double);
+    for (int32_t k = 0; k < halo->exchange.goes; k++)
+        memcpy((char *)halo->exchange.buffer + (size_t)k * bytes,
+               patch_of(mpm, halo->goes[k], field), bytes);
+    exchange_start(&halo->exchange, NULL, bytes, halo->received);
+    exchange_finish(&halo->exchange);
+    for (int32_t k = 0; k < halo->exchange.comes; k++)
+        memcpy(patch_of(mpm, halo->comes[k], field), (char *)halo->received + (size_t)k * bytes,
+               bytes);
+}
+
+void mpm_free_halo(struct mpm *mpm)
+{
+    struct halo *halo = &mpm->halo;
+    free(halo->bin);
+    free(halo->far);
+    free(halo->goes);
+    free(halo->comes);
+    free(halo->received);
+    exchange_free(&halo->exchange);
+}
