@@ -39,17 +39,30 @@ struct cell_walk {
     int32_t count;
 };
 
-INLINE struct cell_walk cell_of(const struct transfer *t, struct kind kind, int32_t bin, int cell)
+/* The first cell of a bin. */
+struct corner {
+    int64_t index[3];
+};
+
+INLINE struct corner corner_of(const struct transfer *t, struct kind kind, int32_t bin)
+{
+    struct corner corner;
+    block_coordinates(t->bins->bin[bin].key, corner.index);
+    for (int axis = 0; axis < 3; axis++)
+        corner.index[axis] *= block_cells(kind.dimension);
+    return corner;
+}
+
+INLINE struct cell_walk cell_of(const struct transfer *t, struct kind kind,
+                                const struct corner *corner, int32_t bin, int cell)
 {
     const struct bin *b = &t->bins->bin[bin];
-    const int cells = block_cells(kind.dimension);
     struct cell_walk walk = {.list = t->bins->list + b->first + b->cell[cell],
                              .count = b->cell[cell + 1] - b->cell[cell]};
     int place[3];
-    block_coordinates(b->key, walk.index);
     bin_cell_place(kind.dimension, cell, place);
     for (int axis = 0; axis < kind.dimension; axis++) {
-        walk.index[axis] = walk.index[axis] * cells + place[axis];
+        walk.index[axis] = corner->index[axis] + place[axis];
         walk.base = walk.base * (size_t)t->grid->side + (size_t)place[axis];
     }
     return walk;
@@ -181,8 +194,9 @@ INLINE void scatter(const struct transfer *t, struct kind kind, int32_t bin)
 {
     double *patch = grid_patch(t->grid, t->main, bin);
     memset(patch, 0, (size_t)(t->grid->patch * NODE_STRIDE) * sizeof *patch);
+    const struct corner corner = corner_of(t, kind, bin);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
-        const struct cell_walk walk = cell_of(t, kind, bin, cell);
+        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
         struct record record;
         for (int32_t begin = 0; begin < walk.count; begin += LANES) {
@@ -212,8 +226,9 @@ INLINE void scatter_slopes(const struct transfer *t, struct kind kind, int32_t b
 {
     double *patch = grid_patch(t->grid, t->normal, bin);
     memset(patch, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *patch);
+    const struct corner corner = corner_of(t, kind, bin);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
-        const struct cell_walk walk = cell_of(t, kind, bin, cell);
+        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
         for (int32_t begin = 0; begin < walk.count; begin += LANES) {
             weigh(t, kind, &walk, begin, &chunk);
@@ -323,8 +338,9 @@ INLINE void velocity(const struct transfer *t, struct kind kind, int32_t bin, do
     const bool blend = t->flip < 1.0 || move;
     if (back)
         memset(back, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *back);
+    const struct corner corner = corner_of(t, kind, bin);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
-        const struct cell_walk walk = cell_of(t, kind, bin, cell);
+        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
         ALIGNED double push[3][LANES], flow[3][LANES];
         for (int32_t begin = 0; begin < walk.count; begin += LANES) {
@@ -366,8 +382,9 @@ INLINE void gradient(const struct transfer *t, struct kind kind, int32_t bin, do
                      const double *of, int stride, bool move, double *rate)
 {
     const double *patch = grid_patch(t->grid, t->main, bin);
+    const struct corner corner = corner_of(t, kind, bin);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
-        const struct cell_walk walk = cell_of(t, kind, bin, cell);
+        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
         ALIGNED double sum[3][3][LANES], flow[3][LANES], around[1][LANES];
         for (int32_t begin = 0; begin < walk.count; begin += LANES) {
