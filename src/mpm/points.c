@@ -6,6 +6,11 @@ struct point_fields {
     double *sound, *viscosity;
 };
 
+/* What a step is for a particle; LENGTH is its size at the start. */
+struct advance {
+    double dt, time, length; /* time at the end */
+};
+
 void mpm_evaluate(struct simulation *simulation)
 {
     struct particles *p = &simulation->particles;
@@ -53,9 +58,10 @@ static bool update_point(const struct mpm *mpm, struct particles *p,
                           .pressure = p->pressure[i],
                           .deviator = {s[0], s[1], s[2], s[3], s[4], s[5]}};
     particle_load_history(p, i, point.history);
-    /* q = rho h (b2 h d^2 - b1 c d) in compression */
+    /* q = rho h (b2 h d^2 - b1 c d) in compression, but not of an explosive that has yet to burn */
     double viscosity = 0.0;
-    if (divergence < 0.0)
+    const bool inert = material_burns(material) && point.history[HISTORY_burnt] == 0.0;
+    if (divergence < 0.0 && !inert)
         viscosity = motion.density * edge *
                     (parameters->viscosity_quadratic * edge * square(divergence) -
                      parameters->viscosity_linear * f->sound[i] * divergence);
@@ -107,7 +113,9 @@ int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
     for (int32_t k = 0; k < count; k++) {
         const int32_t i = list[k];
         keep_before_walls(simulation, p->position[i]);
-        if (!update_point(mpm, p, &simulation->material[p->material[i]], &f, i, dt,
+        const struct advance step = {dt, simulation->time + dt,
+                                     2.0 * mpm->half_size[p->body[i]] * mpm->edge};
+        if (!update_point(mpm, p, &simulation->material[p->material[i]], &f, i, step,
                           rate + (size_t)k * RATE_STRIDE) &&
             (impossible < 0 || p->id[i] < p->id[impossible]))
             impossible = i;
