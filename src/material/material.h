@@ -185,4 +185,13 @@ BOLIDE_INLINE unsigned material_history(const struct material *material)
            (material_burns(material) ? burning : 0);
 }
 
+/* Whether it remembers no more than its plastic strain and is a fluid or perfectly plastic, as most are: where that is known,
+ * a compiler leaves the rest out. */
+BOLIDE_INLINE bool material_is_plain(const struct material *material)
+{
+    return (material->strength.kind == STRENGTH_NONE ||
+            material->strength.kind == STRENGTH_perfect_plastic) &&
+           material->eos.kind != EOS_hjc && !material_burns(material);
+}
+
 #endif

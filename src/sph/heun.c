@@ -45,10 +45,11 @@ static void keep_level(const struct particles *p, struct hllc_level *level, int3
     memcpy(level->deviator, p->deviator[i], sizeof level->deviator);
 }
 
-/* Particle I from level n by RATE, moved with VELOCITY; false when its new state is impossible. */
-static bool step_from_level(const struct simulation *simulation, const struct hllc_fields *f,
-                            const struct hllc_derivative *rate, const double *velocity, double dt,
-                            int32_t i)
+/* Particle I of a MATERIAL from level n by RATE, moved with VELOCITY; false when its new state is impossible. */
+BOLIDE_INLINE bool step_from_level(const struct simulation *simulation,
+                                   const struct material *material, bool plain,
+                                   const struct hllc_fields *f, const struct hllc_derivative *rate,
+                                   const double *velocity, double dt, int32_t i)
 {
     const struct particles *p = &simulation->particles;
     const struct hllc_level *n = &f->level[i];
@@ -64,15 +65,15 @@ static bool step_from_level(const struct simulation *simulation, const struct hl
                             .length = f->sph.diameter[i]};
     memcpy(&motion.strain_rate, rate->strain_rate, sizeof motion.strain_rate);
     struct point point = {.density = n->density, .history = {n->plastic_strain}};
-    if (f->level_history)
+    if (!plain && f->level_history)
         memcpy(point.history, f->level_history[i], sizeof point.history);
     memcpy(&point.deviator, n->deviator, sizeof point.deviator);
-    struct response r = material_step(&simulation->material[p->material[i]], &point, &motion);
+    struct response r = material_step(material, &point, &motion);
     p->density[i] = point.density;
     p->energy[i] = point.energy;
     p->pressure[i] = point.pressure;
     p->plastic_strain[i] = point.history[HISTORY_plastic_strain];
-    if (f->level_history)
+    if (!plain && f->level_history)
         particle_keep_history(p, i, point.history);
     memcpy(p->deviator[i], &point.deviator, sizeof point.deviator);
     f->sph.sound_long[i] = r.sound_long;
@@ -82,6 +83,25 @@ static bool step_from_level(const struct simulation *simulation, const struct hl
     double speed = fabs(p->velocity[i][0]) + fabs(p->velocity[i][1]) + fabs(p->velocity[i][2]);
     return point.density > 0.0 && isfinite(point.density) && isfinite(point.pressure) &&
            isfinite(point.energy) && isfinite(speed) && !(r.status & POINT_NO_SOUND);
+}
+
+/* Materials of the rarer kinds, whose physics would be in the way of the others'. */
+static __attribute__((noinline)) bool step_rare(const struct simulation *simulation,
+                                                const struct material *material,
+                                                const struct hllc_fields *f,
+                                                const struct hllc_derivative *rate,
+                                                const double *velocity, double dt, int32_t i)
+{
+    return step_from_level(simulation, material, false, f, rate, velocity, dt, i);
+}
+
+static bool step_particle(const struct simulation *simulation, const struct material *material,
+                          const struct hllc_fields *f, const struct hllc_derivative *rate,
+                          const double *velocity, double dt, int32_t i)
+{
+    if (!material_is_plain(material))
+        return step_rare(simulation, material, f, rate, velocity, dt, i);
+    return step_from_level(simulation, material, true, f, rate, velocity, dt, i);
 }
 
 /* One stage of a step of DT: what pushes from outside acts for half of it with the rates of each. */
@@ -108,7 +128,8 @@ static struct error *take_stage(struct simulation *simulation, const struct hllc
         rate = mean_of(level->rate, rate);
         for (int axis = 0; axis < 3; axis++)
             velocity[axis] = 0.5 * (level->velocity[axis] + p->velocity[i][axis]);
-        if (!step_from_level(simulation, f, &rate, velocity, dt, i)) {
+        if (!step_particle(simulation, &simulation->material[p->material[i]], f, &rate, velocity,
+                           dt, i)) {
 #pragma omp critical(bolide_hllc_failure)
             if (failed < 0 || p->id[i] < p->id[failed])
                 failed = i;

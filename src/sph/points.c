@@ -313,10 +313,11 @@ BOLIDE_INLINE void update_run(const struct material *material, bool plain, struc
     }
 }
 
-/* Materials of the rarer kinds, one switch a particle. */
-static void update_rare(const struct material *material, struct particles *p,
-                        const struct sph_fields *f, struct advance step, int32_t begin, int32_t end,
-                        struct failure *failure)
+/* Materials of the rarer kinds, one switch a particle; apart, so that their physics is not in the way of the others'. */
+static __attribute__((noinline)) void update_rare(const struct material *material,
+                                                  struct particles *p, const struct sph_fields *f,
+                                                  struct advance step, int32_t begin, int32_t end,
+                                                  struct failure *failure)
 {
     update_run(material, false, p, f, step, begin, end, failure);
 }
@@ -328,8 +329,7 @@ static void update_batch(const struct material *material, struct particles *p,
 {
     struct material m = *material;
     bool solid = material_has_strength(material);
-    if ((solid && material->strength.kind != STRENGTH_perfect_plastic) ||
-        material_history(material)) {
+    if (!material_is_plain(material)) {
         update_rare(material, p, f, step, begin, end, failure);
         return;
     }
