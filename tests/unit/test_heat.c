@@ -97,7 +97,7 @@ static void curves_agree_with_their_pressure(void **state)
     (void)state;
     for (size_t k = 0; k < COUNT_OF(eos) - 1; k++)
         for (double ratio = 0.8; ratio < 1.5; ratio += 0.1) {
-            const double none[1] = {0.0};
+            const double none[POINT_HISTORY] = {0.0};
             double density = ratio * eos[k].of.reference_density, d = 1e-4 * density, t = 700.0;
             double energy = heat_energy(&aluminium_heat, &eos[k], density, t);
             double slope = (heat_energy(&aluminium_heat, &eos[k], density + d, t) -

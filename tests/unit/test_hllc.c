@@ -38,7 +38,7 @@ static struct solid copper(void)
 static struct elastic_side side_of(struct solid solid, double density, double velocity,
                                    double energy, double deviator)
 {
-    double history[1] = {0.0};
+    double history[POINT_HISTORY] = {0.0};
     struct eos_value value = eos_evaluate(&solid.eos, density, energy, history);
     struct elastic_side side = {density,       velocity,    deviator - value.pressure, deviator,
                                 value.dp_drho, value.dp_de, solid.shear_modulus,       solid.yield};
@@ -49,7 +49,7 @@ static struct elastic_side side_of(struct solid solid, double density, double ve
 static struct elastic_side side_at(struct solid solid, double density, double velocity,
                                    double pressure, double deviator)
 {
-    double history[1] = {0.0};
+    double history[POINT_HISTORY] = {0.0};
     struct eos_value value = eos_evaluate(&solid.eos, density, 0.0, history);
     return side_of(solid, density, velocity, (pressure - value.pressure) / value.dp_de, deviator);
 }
