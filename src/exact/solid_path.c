@@ -90,7 +90,7 @@ static struct error *find_limits(struct solid_path *path, double flow, const cha
 struct error *solid_path_of(const struct exact_solid *solid, const char *side,
                             struct solid_path *path)
 {
-    static const double fresh[1] = {0.0};
+    static const double fresh[POINT_HISTORY] = {0.0};
     *path = (struct solid_path){.free = solid->free, .velocity = solid->velocity};
     if (solid->free)
         return NULL;

@@ -8,7 +8,7 @@
 
 static struct eos_value value_at(const struct solid_base *base, double volume, double energy)
 {
-    static const double fresh[1] = {0.0};
+    static const double fresh[POINT_HISTORY] = {0.0};
     return eos_evaluate(base->eos, 1.0 / volume, energy, fresh);
 }
 
