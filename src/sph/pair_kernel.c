@@ -286,13 +286,8 @@ INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32
     struct sums sums = {0};
     static const struct totals_of_row none;
     struct totals_of_row all, images;
-    if (count == 0 || entry[count - 1] >> ENTRY_PART_SHIFT == 0) {
-        add_part(loop, kind, false, i, entry, count, &sums);
-        all = totals_of_sums(kind, &sums);
-        write_rates(&loop->rates, i, factor, &all, &none);
-        return;
-    }
-    for (unsigned part = 0; part < 4; part++) {
+    const bool seen = count > 0 && entry[count - 1] >> ENTRY_PART_SHIFT >= PART_IMAGE;
+    for (unsigned part = 0; part < (seen ? 4 : PART_IMAGE); part++) {
         int begin = done;
         done = lanes_part(entry, begin, count, part);
         if (part == PART_IMAGE) {
@@ -303,6 +298,11 @@ INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32
             add_part(loop, kind, true, i, entry + begin, done - begin, &sums);
         else if (done > begin)
             add_part(loop, kind, false, i, entry + begin, done - begin, &sums);
+    }
+    if (!seen) {
+        all = totals_of_sums(kind, &sums);
+        write_rates(&loop->rates, i, factor, &all, &none);
+        return;
     }
     images = totals_of_sums(kind, &sums);
     for (int a = 0; a < 3; a++)
