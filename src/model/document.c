@@ -174,7 +174,8 @@ static bool share_a_key(const struct node *a, const struct node *b)
     return false;
 }
 
-static struct error *fill_in(struct node *map, struct node *library)
+/* Two models of a kind share no key: the own one then replaces the library's. WITHIN a model all its keys go together. */
+static struct error *fill_in(struct node *map, struct node *library, bool within)
 {
     while (library->count > 0) {
         struct node *entry = node_take(library, 0);
@@ -183,8 +184,9 @@ static struct error *fill_in(struct node *map, struct node *library)
         if (!own) {
             error = node_append(map, entry) ? NULL : out_of_memory();
         } else {
-            if (own->kind == NODE_MAP && entry->kind == NODE_MAP && share_a_key(own, entry))
-                error = fill_in(own, entry);
+            if (own->kind == NODE_MAP && entry->kind == NODE_MAP &&
+                (within || share_a_key(own, entry)))
+                error = fill_in(own, entry, true);
             node_free(entry);
         }
         TRY(error);
@@ -199,7 +201,7 @@ struct error *document_include(struct document *document, struct node *map,
         if (!document_keep(document, library->origins[--library->origin_count]))
             return out_of_memory();
     }
-    return fill_in(map, library->root);
+    return fill_in(map, library->root, false);
 }
 
 /* The wanted one is merged when all are taken, so that none of them can bring another. */

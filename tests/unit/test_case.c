@@ -325,6 +325,57 @@ static void fields_are_written_with_their_names_filled_in(void **state)
     case_free(input);
 }
 
+static void a_key_that_the_library_leaves_out_joins_those_of_its_file(void **state)
+{
+    (void)state;
+    struct simulation_case *input = good_case(
+        "format: 1\ndimension: 1\nresolution: 1 mm\nsolver: sph\nrun: {until: 1 s}\n"
+        "materials:\n"
+        "  a: {library: steel-1006-johnson-cook, strength: {johnson-cook: {rate: 2 1/s}}}\n"
+        "  b: {library: steel-1006-johnson-cook, strength: {perfect-plastic: "
+        "{shear_modulus: 80 GPa, yield: 1 GPa}}}\n"
+        "bodies: {b: {material: a, ball: 1 m}}\n",
+        NULL, 0, false);
+    const struct strength *joined = &case_material(input, 0)->material.strength;
+    assert_true(joined->of.johnson_cook.a == 350e6 && joined->of.johnson_cook.rate == 2.0);
+    assert_int_equal(case_material(input, 1)->material.strength.kind, STRENGTH_perfect_plastic);
+    case_free(input);
+}
+
+static void wrong_materials_and_detonations_are_told(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *setting, *words;
+    } wrong[] = {{"materials.a.strength.johnson-cook.m=1", "melt: m needs this beside it"},
+                 {"materials.t.eos.jwl.a=1 GPa", ""},
+                 {"detonations.middle.of=b", "no `burn` that waits to be lit"},
+                 {"detonations.middle.to=[0 m]", "both ends are the same place"},
+                 {"detonations.middle.at=[0 m, 0 m]", "1 component is wanted"},
+                 {"materials.b.eos.hjc.lock_pressure=10 MPa", "not above `crush_pressure`"},
+                 {"bodies.c.pressure=1 GPa", "has yet to burn"}};
+    for (size_t k = 0; k < COUNT_OF(wrong); k++) {
+        struct simulation_case *input = NULL;
+        static const char text[] =
+            "format: 1\ndimension: 1\nresolution: 1 mm\nsolver: sph\nrun: {until: 1 s}\n"
+            "materials:\n"
+            "  a: {library: steel-1006-johnson-cook}\n"
+            "  b: {library: concrete-hjc}\n"
+            "  t: {library: tnt}\n"
+            "bodies: {b: {material: a, ball: 1 m}, c: {material: t, ball: {center: [5 m], radius: "
+            "1 m}}}\n"
+            "detonations: {middle: {at: [0 m]}}\n";
+        write_file("input.yaml", text, strlen(text));
+        struct error *error = read_case("input.yaml", &wrong[k].setting, 1, false, &input);
+        char *told = messages(error);
+        if (!strstr(told, wrong[k].words) || (error != NULL) != (wrong[k].words[0] != '\0'))
+            fail_msg("%s: %s", wrong[k].setting, told);
+        free(told);
+        error_free(error);
+        case_free(input);
+    }
+}
+
 static void a_case_is_called_as_its_folder_or_file(void **state)
 {
     (void)state;
@@ -427,6 +478,8 @@ int main(void)
         cmocka_unit_test(a_library_that_is_not_there_is_told),
         cmocka_unit_test(a_written_case_reads_back_to_the_same_bits),
         cmocka_unit_test(fields_are_written_with_their_names_filled_in),
+        cmocka_unit_test(a_key_that_the_library_leaves_out_joins_those_of_its_file),
+        cmocka_unit_test(wrong_materials_and_detonations_are_told),
         cmocka_unit_test(a_case_is_called_as_its_folder_or_file),
         cmocka_unit_test(every_material_of_the_library_can_be_used),
         cmocka_unit_test(cut_off_cases_do_no_harm),

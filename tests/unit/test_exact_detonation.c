@@ -21,8 +21,8 @@ static void the_front_is_that_of_chapman_and_jouguet(void **state)
     static const struct row rows[] = {
         {"detonation speed", 1.0, "6927.81"},  {"front pressure", 1e9, "20.98374"},
         {"front density", 1.0, "2227.47"},     {"front velocity", 1.0, "1858.23"},
-        {"front sound speed", 1.0, "5069.58"}, {"pressure at rest", 1e9, "5.6343"},
-        {"density at rest", 1.0, "1460.54"},   {NULL, 0.0, NULL}};
+        {"front sound speed", 1.0, "5069.58"}, {"pressure at rest", 1e9, "5.634"},
+        {"density at rest", 1.0, "1460.5"},    {NULL, 0.0, NULL}};
     assert_rows(&slab, rows);
     assert_printed("edge", number(&slab, "edge of rest") / number(&slab, "front"), 1.0, "0.5220");
     release(&slab);
