@@ -362,8 +362,7 @@ static void wrong_materials_and_detonations_are_told(void **state)
             "  a: {library: steel-1006-johnson-cook}\n"
             "  b: {library: concrete-hjc}\n"
             "  t: {library: tnt}\n"
-            "bodies: {b: {material: a, ball: 1 m}, c: {material: t, ball: {center: [5 m], radius: "
-            "1 m}}}\n"
+            "bodies: {b: {material: a, ball: 1 m}, c: {material: t, ball: 1 m}}\n"
             "detonations: {middle: {at: [0 m]}}\n";
         write_file("input.yaml", text, strlen(text));
         struct error *error = read_case("input.yaml", &wrong[k].setting, 1, false, &input);
