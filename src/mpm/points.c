@@ -43,12 +43,15 @@ BOLIDE_INLINE struct sym3 jaumann_turn(struct sym3 s, struct vec3 angle)
 /* Brings particle I to the next level; false when its new state is impossible. */
 static bool update_point(const struct mpm *mpm, struct particles *p,
                          const struct material *material, const struct point_fields *f, int32_t i,
-                         double dt, const double *rate)
+                         struct advance step, const double *rate)
 {
     const struct mpm_parameters *parameters = &mpm->parameters;
+    const double dt = step.dt;
     double *s = p->deviator[i];
     struct motion motion = {
         .dt = dt,
+        .time = step.time,
+        .length = step.length,
         .strain_rate = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]},
         .spin = vec3_make(rate[RATE_SPIN], rate[RATE_SPIN + 1], rate[RATE_SPIN + 2])};
     const double divergence = sym3_trace(motion.strain_rate), edge = mpm->edge;

@@ -17,6 +17,10 @@
 
 enum { LANES = 8, WINDOW_MAX = 4 };
 
+/* All that a node has, as the compiler may keep it in a register. */
+typedef double vector8 __attribute__((vector_size(64), may_alias));
+typedef double vector4 __attribute__((vector_size(32), may_alias)); /* of the second field */
+
 /* What is known when the loops are compiled. */
 struct kind {
     int dimension, window; /* nodes along an axis that a particle of a cell reaches */
@@ -167,8 +171,7 @@ INLINE void add_affine(const struct transfer *t, struct kind kind, const struct 
 
 /* The record of a particle: PLAIN goes with the shape function, BY_SLOPE with its slopes. */
 struct record {
-    ALIGNED double plain[NODE_STRIDE];
-    ALIGNED double by_slope[3][NODE_STRIDE];
+    vector8 plain, by_slope[3];
 };
 
 INLINE void record_of(const struct transfer *t, struct kind kind, int32_t i, struct record *record)
@@ -176,18 +179,56 @@ INLINE void record_of(const struct transfer *t, struct kind kind, int32_t i, str
     const double mass = t->mass[i], volume = mass / t->density[i];
     const double p = t->pressure[i] + t->viscosity[i] - t->gauge[t->material[i]];
     const double *s = t->deviator[i], *u = t->velocity[i];
-    /* force = -V sigma grad N (2-10) */
-    const double stress[3][3] = {
-        {s[0] - p, s[3], s[5]}, {s[3], s[1] - p, s[4]}, {s[5], s[4], s[2] - p}};
-    *record = (struct record){{0}, {{0}}};
-    record->plain[NODE_MASS] = mass;
-    for (int axis = 0; axis < kind.dimension; axis++) {
-        record->plain[NODE_MOMENTUM + axis] = mass * u[axis];
-        for (int j = 0; j < kind.dimension; j++)
-            record->by_slope[j][NODE_FORCE + axis] = -volume * stress[axis][j];
+    /* force = -V sigma grad N (2-10); what an axis that there is not would get is zero */
+    const bool y = kind.dimension > 1, z = kind.dimension > 2;
+    const double v = -volume, vy = y ? v : 0.0, vz = z ? v : 0.0;
+    const double around = t->axisymmetric ? v * (s[2] - p) / t->position[i][0] : 0.0;
+    record->plain = (vector8){mass, mass * u[0], mass * u[1], mass * u[2], around, 0.0, 0.0, 0.0};
+    record->by_slope[0] = (vector8){0.0, 0.0, 0.0, 0.0, v * (s[0] - p), vy * s[3], vz * s[5], 0.0};
+    if (y)
+        record->by_slope[1] =
+            (vector8){0.0, 0.0, 0.0, 0.0, v * s[3], v * (s[1] - p), vz * s[4], 0.0};
+    if (z)
+        record->by_slope[2] =
+            (vector8){0.0, 0.0, 0.0, 0.0, v * s[5], v * s[4], v * (s[2] - p), 0.0};
+}
+
+/* Adds a particle's record to the nodes of a row along the last axis: those share all but that axis' factor. LEVEL goes
+ * with the shape function along it, TILT with its slope. */
+INLINE void add_row(const struct chunk *chunk, struct kind kind, int lane, const vector8 *level,
+                    const vector8 *tilt, double *node)
+{
+    const int last = kind.dimension - 1;
+    vector8 *at = (vector8 *)node;
+    for (int c = 0; c < kind.window; c++)
+        at[c] += chunk->value[last][c][lane] * *level + chunk->slope[last][c][lane] * *tilt;
+}
+
+INLINE void add_record(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                       int lane, size_t base, const struct record *record, double *patch)
+{
+    if (kind.dimension == 1) {
+        add_row(chunk, kind, lane, &record->plain, &record->by_slope[0],
+                patch + base * NODE_STRIDE);
+        return;
     }
-    if (t->axisymmetric)
-        record->plain[NODE_FORCE] -= volume * stress[2][2] / t->position[i][0];
+    for (int a = 0; a < kind.window; a++)
+        for (int b = 0; b < (kind.dimension > 2 ? kind.window : 1); b++) {
+            double value = chunk->value[0][a][lane], along_a = chunk->slope[0][a][lane];
+            double along_b = 0.0;
+            if (kind.dimension > 2) {
+                along_b = value * chunk->slope[1][b][lane];
+                along_a *= chunk->value[1][b][lane];
+                value *= chunk->value[1][b][lane];
+            }
+            vector8 level = value * record->plain + along_a * record->by_slope[0];
+            if (kind.dimension > 2)
+                level += along_b * record->by_slope[1];
+            const vector8 tilt = value * record->by_slope[kind.dimension - 1];
+            const size_t row = kind.dimension > 2 ? node_of(t, kind, base, a, b, 0)
+                                                  : node_of(t, kind, base, a, 0, 0);
+            add_row(chunk, kind, lane, &level, &tilt, patch + row * NODE_STRIDE);
+        }
 }
 
 INLINE void scatter(const struct transfer *t, struct kind kind, int32_t bin)
@@ -203,19 +244,15 @@ INLINE void scatter(const struct transfer *t, struct kind kind, int32_t bin)
             weigh(t, kind, &walk, begin, &chunk);
             for (int lane = 0; lane < chunk.count; lane++) {
                 record_of(t, kind, chunk.index[lane], &record);
+                add_record(t, kind, &chunk, lane, walk.base, &record, patch);
+                if (!t->affine)
+                    continue;
                 FOR_NODES(kind, a, b, c)
                 {
-                    const struct weight w = weight_of(kind, &chunk, lane, a, b, c);
+                    const double value = weight_of(kind, &chunk, lane, a, b, c).value;
                     double *node = patch + node_of(t, kind, walk.base, a, b, c) * NODE_STRIDE;
-                    for (int k = 0; k < NODE_STRIDE; k++) {
-                        double sum = w.value * record.plain[k];
-                        for (int j = 0; j < kind.dimension; j++)
-                            sum += w.slope[j] * record.by_slope[j][k];
-                        node[k] += sum;
-                    }
-                    if (t->affine)
-                        add_affine(t, kind, &chunk, lane, a, b, c,
-                                   w.value * record.plain[NODE_MASS], node + NODE_MOMENTUM);
+                    add_affine(t, kind, &chunk, lane, a, b, c, value * t->mass[chunk.index[lane]],
+                               node + NODE_MOMENTUM);
                 }
             }
         }
@@ -364,14 +401,14 @@ INLINE void velocity(const struct transfer *t, struct kind kind, int32_t bin, do
                 keep_gradient(t, kind, &chunk, walk.base, patch + NODE_VELOCITY);
             for (int lane = 0; lane < chunk.count && back; lane++) {
                 const double *u = t->velocity[chunk.index[lane]], mass = t->mass[chunk.index[lane]];
+                const vector4 momentum = {mass * u[0], mass * u[1], mass * u[2], 0.0};
                 FOR_NODES(kind, a, b, c)
                 {
-                    const double share = mass * weight_of(kind, &chunk, lane, a, b, c).value;
+                    const double value = weight_of(kind, &chunk, lane, a, b, c).value;
                     double *node = back + node_of(t, kind, walk.base, a, b, c) * BACK_STRIDE;
-                    for (int k = 0; k < kind.dimension; k++)
-                        node[k] += share * u[k];
+                    *(vector4 *)node += value * momentum;
                     if (t->affine)
-                        add_affine(t, kind, &chunk, lane, a, b, c, share, node);
+                        add_affine(t, kind, &chunk, lane, a, b, c, mass * value, node);
                 }
             }
         }
