@@ -1,4 +1,4 @@
-/* The loops of transfer.h. Weights are found for eight particles of a cell at once, and what a particle takes from nodes
+/* The loops of transfer.h. Weights are found for two, four or eight particles of a cell at once, and what a particle takes from nodes
  * is summed in the lanes of these; what it gives to a node is one record, summed in the lanes of that. */
 #include "mpm/transfer.h"
 
@@ -24,6 +24,7 @@ typedef double vector4 __attribute__((vector_size(32), may_alias)); /* of the se
 /* What is known when the loops are compiled. */
 struct kind {
     int dimension, window; /* nodes along an axis that a particle of a cell reaches */
+    int lanes;             /* particles at once: those of a cell at the start */
 };
 
 /* Up to eight particles of a cell, and their shape functions. What is behind the last particle is the last one again. */
@@ -72,11 +73,11 @@ INLINE struct cell_walk cell_of(const struct transfer *t, struct kind kind,
     return walk;
 }
 
-INLINE void weigh_axis(enum grid_shape shape, int window, const double *xi, const double *half,
-                       double (*value)[LANES], double (*slope)[LANES])
+INLINE void weigh_axis(struct kind kind, enum grid_shape shape, const double *xi,
+                       const double *half, double (*value)[LANES], double (*slope)[LANES])
 {
-    for (int k = 0; k < window; k++)
-        for (int lane = 0; lane < LANES; lane++) {
+    for (int k = 0; k < kind.window; k++)
+        for (int lane = 0; lane < kind.lanes; lane++) {
             const double r = xi[lane] - (double)(k - 1);
             value[k][lane] = shape_value(shape, r, half[lane]);
             slope[k][lane] = shape_slope(shape, r, half[lane]);
@@ -88,33 +89,33 @@ INLINE void weigh(const struct transfer *t, struct kind kind, const struct cell_
 {
     const double per_edge = 1.0 / t->edge;
     ALIGNED double xi[LANES], half[LANES];
-    chunk->count = walk->count - begin < LANES ? walk->count - begin : LANES;
-    for (int lane = 0; lane < LANES; lane++)
+    chunk->count = walk->count - begin < kind.lanes ? walk->count - begin : kind.lanes;
+    for (int lane = 0; lane < kind.lanes; lane++)
         chunk->index[lane] = walk->list[begin + (lane < chunk->count ? lane : chunk->count - 1)];
-    for (int lane = 0; lane < LANES && t->shape == SHAPE_GIMP; lane++)
-        half[lane] = t->half_size[t->body[chunk->index[lane]]];
+    for (int lane = 0; lane < kind.lanes; lane++)
+        half[lane] = t->shape == SHAPE_GIMP ? t->half_size[t->body[chunk->index[lane]]] : 0.5;
     for (int axis = 0; axis < kind.dimension; axis++) {
         double(*value)[LANES] = chunk->value[axis], (*slope)[LANES] = chunk->slope[axis];
-        for (int lane = 0; lane < LANES; lane++)
+        for (int lane = 0; lane < kind.lanes; lane++)
             xi[lane] = t->position[chunk->index[lane]][axis];
-        for (int lane = 0; lane < LANES; lane++)
+        for (int lane = 0; lane < kind.lanes; lane++)
             xi[lane] = xi[lane] / t->edge - (double)walk->index[axis];
         if (kind.window == 2)
-            for (int lane = 0; lane < LANES; lane++) {
+            for (int lane = 0; lane < kind.lanes; lane++) {
                 value[0][lane] = 1.0 - xi[lane];
                 value[1][lane] = xi[lane];
                 slope[0][lane] = -1.0;
                 slope[1][lane] = 1.0;
             }
         else if (t->shape == SHAPE_GIMP)
-            weigh_axis(SHAPE_GIMP, kind.window, xi, half, value, slope);
+            weigh_axis(kind, SHAPE_GIMP, xi, half, value, slope);
         else if (t->shape == SHAPE_QUADRATIC)
-            weigh_axis(SHAPE_QUADRATIC, kind.window, xi, half, value, slope);
+            weigh_axis(kind, SHAPE_QUADRATIC, xi, half, value, slope);
         else
-            weigh_axis(SHAPE_CUBIC, kind.window, xi, half, value, slope);
+            weigh_axis(kind, SHAPE_CUBIC, xi, half, value, slope);
         const double first = kind.window == 2 ? 0.0 : -1.0;
         for (int k = 0; k < kind.window; k++)
-            for (int lane = 0; lane < LANES; lane++) {
+            for (int lane = 0; lane < kind.lanes; lane++) {
                 slope[k][lane] *= per_edge;
                 chunk->away[axis][k][lane] = ((first + k) - xi[lane]) * t->edge;
             }
@@ -240,7 +241,7 @@ INLINE void scatter(const struct transfer *t, struct kind kind, int32_t bin)
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
         struct record record;
-        for (int32_t begin = 0; begin < walk.count; begin += LANES) {
+        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             for (int lane = 0; lane < chunk.count; lane++) {
                 record_of(t, kind, chunk.index[lane], &record);
@@ -267,7 +268,7 @@ INLINE void scatter_slopes(const struct transfer *t, struct kind kind, int32_t b
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
-        for (int32_t begin = 0; begin < walk.count; begin += LANES) {
+        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             for (int lane = 0; lane < chunk.count; lane++)
                 FOR_NODES(kind, a, b, c)
@@ -286,13 +287,13 @@ INLINE void gather(const struct transfer *t, struct kind kind, const struct chun
                    size_t base, const double *data, int stride, int count, double (*sum)[LANES])
 {
     for (int k = 0; k < count; k++)
-        for (int lane = 0; lane < LANES; lane++)
+        for (int lane = 0; lane < kind.lanes; lane++)
             sum[k][lane] = 0.0;
     FOR_NODES(kind, a, b, c)
     {
         const double *node = data + node_of(t, kind, base, a, b, c) * (size_t)stride;
         ALIGNED double w[LANES];
-        for (int lane = 0; lane < LANES; lane++) {
+        for (int lane = 0; lane < kind.lanes; lane++) {
             w[lane] = chunk->value[0][a][lane];
             if (kind.dimension > 1)
                 w[lane] *= chunk->value[1][b][lane];
@@ -300,7 +301,7 @@ INLINE void gather(const struct transfer *t, struct kind kind, const struct chun
                 w[lane] *= chunk->value[2][c][lane];
         }
         for (int k = 0; k < count; k++)
-            for (int lane = 0; lane < LANES; lane++)
+            for (int lane = 0; lane < kind.lanes; lane++)
                 sum[k][lane] += w[lane] * node[k];
     }
 }
@@ -311,20 +312,20 @@ INLINE void gather_slopes(const struct transfer *t, struct kind kind, const stru
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            for (int lane = 0; lane < LANES; lane++)
+            for (int lane = 0; lane < kind.lanes; lane++)
                 sum[i][j][lane] = 0.0;
     FOR_NODES(kind, a, b, c)
     {
         const double *node = data + node_of(t, kind, base, a, b, c) * (size_t)stride;
         ALIGNED double slope[3][LANES];
-        for (int lane = 0; lane < LANES; lane++) {
+        for (int lane = 0; lane < kind.lanes; lane++) {
             const struct weight w = weight_of(kind, chunk, lane, a, b, c);
             for (int j = 0; j < kind.dimension; j++)
                 slope[j][lane] = w.slope[j];
         }
         for (int i = 0; i < kind.dimension; i++)
             for (int j = 0; j < kind.dimension; j++)
-                for (int lane = 0; lane < LANES; lane++)
+                for (int lane = 0; lane < kind.lanes; lane++)
                     sum[i][j][lane] += slope[j][lane] * node[i];
     }
 }
@@ -339,20 +340,20 @@ INLINE void keep_gradient(const struct transfer *t, struct kind kind, const stru
     if (t->by_moments && kind.window > 2) {
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
-                for (int lane = 0; lane < LANES; lane++)
+                for (int lane = 0; lane < kind.lanes; lane++)
                     sum[i][j][lane] = 0.0;
         FOR_NODES(kind, a, b, c)
         {
             const int at[3] = {a, b, c};
             const double *node = velocity + node_of(t, kind, base, a, b, c) * NODE_STRIDE;
-            for (int lane = 0; lane < LANES; lane++) {
+            for (int lane = 0; lane < kind.lanes; lane++) {
                 const double w = weight_of(kind, chunk, lane, a, b, c).value;
                 for (int i = 0; i < kind.dimension; i++)
                     for (int j = 0; j < kind.dimension; j++)
                         sum[i][j][lane] += w * node[i] * chunk->away[j][at[j]][lane];
             }
         }
-        for (int lane = 0; lane < LANES; lane++)
+        for (int lane = 0; lane < kind.lanes; lane++)
             for (int j = 0; j < kind.dimension; j++) {
                 double second = 0.0;
                 for (int k = 0; k < kind.window; k++)
@@ -380,7 +381,7 @@ INLINE void velocity(const struct transfer *t, struct kind kind, int32_t bin, do
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
         ALIGNED double push[3][LANES], flow[3][LANES];
-        for (int32_t begin = 0; begin < walk.count; begin += LANES) {
+        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             gather(t, kind, &chunk, walk.base, patch + NODE_ACCELERATION, NODE_STRIDE,
                    kind.dimension, push);
@@ -424,7 +425,7 @@ INLINE void gradient(const struct transfer *t, struct kind kind, int32_t bin, do
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
         ALIGNED double sum[3][3][LANES], flow[3][LANES], around[1][LANES];
-        for (int32_t begin = 0; begin < walk.count; begin += LANES) {
+        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             gather_slopes(t, kind, &chunk, walk.base, of, stride, sum);
             if (t->axisymmetric)
@@ -481,14 +482,15 @@ void NAMED(transfer_gradient)(const struct transfer *t, int32_t bin, double dt, 
 
 void NAMED(transfer_scatter)(const struct transfer *t, int32_t bin)
 {
-#define CALL(dimension, window) scatter(t, (struct kind){dimension, window}, bin)
+#define CALL(dimension, window) scatter(t, (struct kind){dimension, window, 1 << dimension}, bin)
     BY_KIND(t, CALL)
 #undef CALL
 }
 
 void NAMED(transfer_slopes)(const struct transfer *t, int32_t bin)
 {
-#define CALL(dimension, window) scatter_slopes(t, (struct kind){dimension, window}, bin)
+#define CALL(dimension, window) \
+    scatter_slopes(t, (struct kind){dimension, window, 1 << dimension}, bin)
     BY_KIND(t, CALL)
 #undef CALL
 }
@@ -497,7 +499,7 @@ void NAMED(transfer_velocity)(const struct transfer *t, int32_t bin, double dt, 
                               bool move)
 {
 #define CALL(dimension, window) \
-    velocity(t, (struct kind){dimension, window}, bin, dt, scatter_back, move)
+    velocity(t, (struct kind){dimension, window, 1 << dimension}, bin, dt, scatter_back, move)
     BY_KIND(t, CALL)
 #undef CALL
 }
@@ -506,7 +508,7 @@ void NAMED(transfer_gradient)(const struct transfer *t, int32_t bin, double dt, 
                               int stride, bool move, double *rate)
 {
 #define CALL(dimension, window) \
-    gradient(t, (struct kind){dimension, window}, bin, dt, of, stride, move, rate)
+    gradient(t, (struct kind){dimension, window, 1 << dimension}, bin, dt, of, stride, move, rate)
     BY_KIND(t, CALL)
 #undef CALL
 }
