@@ -1,163 +1,16 @@
-/* The loops of transfer.h. Weights are found for two, four or eight particles of a cell at once, and what a particle takes from nodes
+/* The loops of transfer.h. Weights are found for two, four or eight particles of a cell at once; what a particle takes from nodes
  * is summed in the lanes of these; what it gives to a node is one record, summed in the lanes of that. */
-#include "mpm/transfer.h"
-
 #include <string.h>
+
+#include "mpm/transfer_weights.h"
 
 #define JOIN2(name, isa) name##_##isa
 #define JOIN1(name, isa) JOIN2(name, isa)
 #define NAMED(name) JOIN1(name, BOLIDE_ISA)
 
-#if defined(BOLIDE_SANITIZE)
-#define INLINE static __attribute__((unused))
-#else
-#define INLINE static inline __attribute__((always_inline))
-#endif
-#define ALIGNED __attribute__((aligned(64)))
-
-enum { LANES = 8, WINDOW_MAX = 4 };
-
 /* All that a node has, as the compiler may keep it in a register. */
 typedef double vector8 __attribute__((vector_size(64), may_alias));
 typedef double vector4 __attribute__((vector_size(32), may_alias)); /* of the second field */
-
-/* What is known when the loops are compiled. */
-struct kind {
-    int dimension, window; /* nodes along an axis that a particle of a cell reaches */
-    int lanes;             /* particles at once: those of a cell at the start */
-};
-
-/* Up to eight particles of a cell, and their shape functions. What is behind the last particle is the last one again. */
-struct chunk {
-    int count;
-    int32_t index[LANES];
-    ALIGNED double value[3][WINDOW_MAX][LANES]; /* along an axis, at a node */
-    ALIGNED double slope[3][WINDOW_MAX][LANES]; /* 1/m */
-    ALIGNED double away[3][WINDOW_MAX][LANES];  /* of the node from the particle, m; affine only */
-};
-
-/* The cell of a bin that a loop is at. */
-struct cell_walk {
-    int64_t index[3]; /* in the global grid */
-    size_t base;      /* first node of its window, in the patch */
-    const int32_t *list;
-    int32_t count;
-};
-
-/* The first cell of a bin. */
-struct corner {
-    int64_t index[3];
-};
-
-INLINE struct corner corner_of(const struct transfer *t, struct kind kind, int32_t bin)
-{
-    struct corner corner;
-    block_coordinates(t->bins->bin[bin].key, corner.index);
-    for (int axis = 0; axis < 3; axis++)
-        corner.index[axis] *= block_cells(kind.dimension);
-    return corner;
-}
-
-INLINE struct cell_walk cell_of(const struct transfer *t, struct kind kind,
-                                const struct corner *corner, int32_t bin, int cell)
-{
-    const struct bin *b = &t->bins->bin[bin];
-    struct cell_walk walk = {.list = t->bins->list + b->first + b->cell[cell],
-                             .count = b->cell[cell + 1] - b->cell[cell]};
-    int place[3];
-    bin_cell_place(kind.dimension, cell, place);
-    for (int axis = 0; axis < kind.dimension; axis++) {
-        walk.index[axis] = corner->index[axis] + place[axis];
-        walk.base = walk.base * (size_t)t->grid->side + (size_t)place[axis];
-    }
-    return walk;
-}
-
-INLINE void weigh_axis(struct kind kind, enum grid_shape shape, const double *xi,
-                       const double *half, double (*value)[LANES], double (*slope)[LANES])
-{
-    for (int k = 0; k < kind.window; k++)
-        for (int lane = 0; lane < kind.lanes; lane++) {
-            const double r = xi[lane] - (double)(k - 1);
-            value[k][lane] = shape_value(shape, r, half[lane]);
-            slope[k][lane] = shape_slope(shape, r, half[lane]);
-        }
-}
-
-INLINE void weigh(const struct transfer *t, struct kind kind, const struct cell_walk *walk,
-                  int32_t begin, struct chunk *chunk)
-{
-    const double per_edge = 1.0 / t->edge;
-    ALIGNED double xi[LANES], half[LANES];
-    chunk->count = walk->count - begin < kind.lanes ? walk->count - begin : kind.lanes;
-    for (int lane = 0; lane < kind.lanes; lane++)
-        chunk->index[lane] = walk->list[begin + (lane < chunk->count ? lane : chunk->count - 1)];
-    for (int lane = 0; lane < kind.lanes; lane++)
-        half[lane] = t->shape == SHAPE_GIMP ? t->half_size[t->body[chunk->index[lane]]] : 0.5;
-    for (int axis = 0; axis < kind.dimension; axis++) {
-        double(*value)[LANES] = chunk->value[axis], (*slope)[LANES] = chunk->slope[axis];
-        for (int lane = 0; lane < kind.lanes; lane++)
-            xi[lane] = t->position[chunk->index[lane]][axis];
-        for (int lane = 0; lane < kind.lanes; lane++)
-            xi[lane] = xi[lane] / t->edge - (double)walk->index[axis];
-        if (kind.window == 2)
-            for (int lane = 0; lane < kind.lanes; lane++) {
-                value[0][lane] = 1.0 - xi[lane];
-                value[1][lane] = xi[lane];
-                slope[0][lane] = -1.0;
-                slope[1][lane] = 1.0;
-            }
-        else if (t->shape == SHAPE_GIMP)
-            weigh_axis(kind, SHAPE_GIMP, xi, half, value, slope);
-        else if (t->shape == SHAPE_QUADRATIC)
-            weigh_axis(kind, SHAPE_QUADRATIC, xi, half, value, slope);
-        else
-            weigh_axis(kind, SHAPE_CUBIC, xi, half, value, slope);
-        const double first = kind.window == 2 ? 0.0 : -1.0;
-        for (int k = 0; k < kind.window; k++)
-            for (int lane = 0; lane < kind.lanes; lane++) {
-                slope[k][lane] *= per_edge;
-                chunk->away[axis][k][lane] = ((first + k) - xi[lane]) * t->edge;
-            }
-    }
-}
-
-/* The node at a, b, c of a window; nodes of axes that there are not count as one. */
-INLINE size_t node_of(const struct transfer *t, struct kind kind, size_t base, int a, int b, int c)
-{
-    const size_t side = (size_t)t->grid->side;
-    if (kind.dimension == 1)
-        return base + (size_t)a;
-    if (kind.dimension == 2)
-        return base + (size_t)a * side + (size_t)b;
-    return base + ((size_t)a * side + (size_t)b) * side + (size_t)c;
-}
-
-#define FOR_NODES(kind, a, b, c)                                             \
-    for (int a = 0; a < (kind).window; a++)                                  \
-        for (int b = 0; b < ((kind).dimension > 1 ? (kind).window : 1); b++) \
-            for (int c = 0; c < ((kind).dimension > 2 ? (kind).window : 1); c++)
-
-/* The shape function and its slopes of particle LANE at a node. */
-struct weight {
-    double value, slope[3];
-};
-
-INLINE struct weight weight_of(struct kind kind, const struct chunk *chunk, int lane, int a, int b,
-                               int c)
-{
-    double va = chunk->value[0][a][lane], sa = chunk->slope[0][a][lane];
-    double vb = 1.0, sb = 0.0, vc = 1.0, sc = 0.0;
-    if (kind.dimension > 1) {
-        vb = chunk->value[1][b][lane];
-        sb = chunk->slope[1][b][lane];
-    }
-    if (kind.dimension > 2) {
-        vc = chunk->value[2][c][lane];
-        sc = chunk->slope[2][c][lane];
-    }
-    return (struct weight){va * vb * vc, {sa * vb * vc, va * sb * vc, va * vb * sc}};
-}
 
 /* Where the nodes of a particle may have a velocity that changes over them: what its gradient adds at a node. */
 INLINE void add_affine(const struct transfer *t, struct kind kind, const struct chunk *chunk,
