@@ -1,5 +1,6 @@
-/* The loops of transfer.h. Weights are found for two, four or eight particles of a cell at once; what a particle takes from nodes
- * is summed in the lanes of these; what it gives to a node is one record, summed in the lanes of that. */
+/* The loops of transfer.h. Weights are found for two, four or eight particles of a cell at once;
+ * what a particle takes from nodes is summed in the lanes of these, and what it gives to a node is
+ * one record, summed in the lanes of that. */
 #include <string.h>
 
 #include "mpm/transfer_weights.h"
