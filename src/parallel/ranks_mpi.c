@@ -3,6 +3,7 @@
 #include <mpi.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/memory.h"
 #include "parallel/ranks.h"
@@ -243,6 +244,21 @@ static struct error *share_error(const struct ranks *ranks, int first, struct er
     return error_known_to_all(error);
 }
 
+/* The largest VALUE, which others may only have once they have written files: after a millisecond, who waits leaves its
+ * core to them, which they need where ranks are more than cores. */
+static double maximum_in_time(double value)
+{
+    const double at_once = 1e-3; /* s */
+    const struct timespec pause = {.tv_nsec = 200000};
+    MPI_Request request;
+    int done = 0;
+    MPI_Iallreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD, &request);
+    for (double began = MPI_Wtime(); MPI_Test(&request, &done, MPI_STATUS_IGNORE), !done;)
+        if (MPI_Wtime() - began > at_once)
+            nanosleep(&pause, NULL);
+    return value;
+}
+
 struct error *ranks_agree_on(const struct ranks *ranks, struct error *error, double *values,
                              int count)
 {
@@ -251,11 +267,13 @@ struct error *ranks_agree_on(const struct ranks *ranks, struct error *error, dou
     assert(count <= AT_MOST);
     if (!ranks->joined)
         return error;
-    if (count)
+    if (count) {
         memcpy(numbers + 1, values, (size_t)count * sizeof *values);
-    ranks_maximum_of(ranks, numbers, 1 + count);
-    if (count)
+        ranks_maximum_of(ranks, numbers, 1 + count);
         memcpy(values, numbers + 1, (size_t)count * sizeof *values);
+    } else {
+        numbers[0] = maximum_in_time(numbers[0]);
+    }
     int first = -(int)numbers[0];
     return first == ranks->size ? NULL : share_error(ranks, first, error);
 }
