@@ -19,7 +19,7 @@ struct contact_weights {
 };
 
 /* Two states without impedance (fluids in shear) carry no stress and meet at their mean velocity. INVERSE is that of the
- * sum, or of one where the sum is zero. */
+ * sum where that is not zero. */
 BOLIDE_INLINE struct contact_weights contact_weights_of(double left, double right, double inverse)
 {
     struct contact_weights w;
@@ -33,20 +33,21 @@ BOLIDE_INLINE struct contact_weights contact_weights_of(double left, double righ
 
 BOLIDE_INLINE struct contact_weights riemann_acoustic_weights(double left, double right)
 {
-    double sum = left + right;
-    return contact_weights_of(left, right, 1.0 / (sum > 0.0 ? sum : 1.0));
+    const double tiny = 1e-100;
+    return contact_weights_of(left, right, 1.0 / maximum(left + right, tiny));
 }
 
-/* The inverses that contact_weights_of wants for the sums of two pairs of impedances, with one division. */
+/* The inverses that contact_weights_of wants for the sums of two pairs of impedances, with one division. A sum of zero
+ * becomes a tiny one: were it chosen by a condition, compilers would divide once a branch. */
 struct two_inverses {
     double first, second;
 };
 BOLIDE_INLINE struct two_inverses inverses_of_sums(double left, double right, double left_across,
                                                    double right_across)
 {
-    double sum = left + right, sum_across = left_across + right_across;
-    sum = sum > 0.0 ? sum : 1.0;
-    sum_across = sum_across > 0.0 ? sum_across : 1.0;
+    const double tiny = 1e-100;
+    double sum = maximum(left + right, tiny),
+           sum_across = maximum(left_across + right_across, tiny);
     double inverse = 1.0 / (sum * sum_across);
     struct two_inverses both = {inverse * sum_across, inverse * sum};
     return both;
