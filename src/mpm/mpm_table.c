@@ -20,7 +20,7 @@ const struct parameter mpm_table[] = {
     {.key = "shape",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, shape),
-     .standard = "linear",
+     .standard = "quadratic",
      .names = shape_names,
      .help = "shape functions of the grid; linear; gimp: linear, averaged over particles that keep "
              "their size; quadratic, cubic: B-splines"},

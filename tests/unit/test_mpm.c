@@ -61,7 +61,7 @@ static const char contact_case[] =
 
 static const char line_case[] =
     "format: 1\ntitle: Two gases\ndimension: 1\nresolution: 1 mm\n"
-    "solver: {mpm: {cell: 2 mm, courant: 0.1}}\n" MATERIALS "bodies:\n"
+    "solver: {mpm: {shape: linear, cell: 2 mm, courant: 0.1}}\n" MATERIALS "bodies:\n"
     "  left: {material: gas, box: {from: [0 mm], to: [200 mm]}, pressure: 5 GPa}\n"
     "  right: {material: gas, box: {from: [200 mm], to: [400 mm]}, density: 200 kg/m^3, pressure: "
     "1 GPa}\n"
