@@ -262,6 +262,20 @@ void simulation_spend(struct simulation *simulation, const char *name, double se
     simulation->phase[i].seconds += seconds;
 }
 
+struct error *simulation_impossible(const struct simulation *simulation, int32_t i)
+{
+    const struct particles *p = &simulation->particles;
+    return error_new(
+        ERROR_STATE,
+        "step %lld, t = %.6g s: the state of particle %llu (body %s, site %llu) at "
+        "(%.6g, %.6g, %.6g) m became impossible: density %.6g kg/m^3, energy %.6g J/kg, "
+        "pressure %.6g Pa, velocity (%.6g, %.6g, %.6g) m/s",
+        (long long)simulation->step + 1, simulation->time, (unsigned long long)p->id[i],
+        simulation->input->bodies.names[p->body[i]], (unsigned long long)(p->id[i] & PARTICLE_SITE),
+        p->position[i][0], p->position[i][1], p->position[i][2], p->density[i], p->energy[i],
+        p->pressure[i], p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
+}
+
 struct error *simulation_visit(struct simulation *simulation, struct visitor *visitor)
 {
     TRY(visitor->visit(visitor, "time", NUMBER_DOUBLE, &simulation->time, 1, 1));

@@ -68,6 +68,9 @@ int simulation_history(const struct simulation *simulation, struct field_declara
 /* Adds SECONDS to phase NAME. */
 void simulation_spend(struct simulation *simulation, const char *name, double seconds);
 
+/* The error that names particle INDEX, whose new state is impossible. */
+struct error *simulation_impossible(const struct simulation *simulation, int32_t index);
+
 /* Time, step, ledger and particles. */
 struct error *simulation_visit(struct simulation *simulation, struct visitor *visitor);
 

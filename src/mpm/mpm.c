@@ -306,20 +306,6 @@ static void find_velocities(struct mpm *mpm, struct simulation *simulation, doub
     simulation_spend(simulation, "velocities", clock_seconds() - begin);
 }
 
-static struct error *impossible(const struct simulation *simulation, int32_t i)
-{
-    const struct particles *p = &simulation->particles;
-    return error_new(
-        ERROR_STATE,
-        "step %lld, t = %.6g s: the state of particle %llu (body %s, site %llu) at "
-        "(%.6g, %.6g, %.6g) m became impossible: density %.6g kg/m^3, energy %.6g J/kg, "
-        "pressure %.6g Pa, velocity (%.6g, %.6g, %.6g) m/s",
-        (long long)simulation->step + 1, simulation->time, (unsigned long long)p->id[i],
-        simulation->input->bodies.names[p->body[i]], (unsigned long long)(p->id[i] & PARTICLE_SITE),
-        p->position[i][0], p->position[i][1], p->position[i][2], p->density[i], p->energy[i],
-        p->pressure[i], p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
-}
-
 static int thread_number(void)
 {
 #ifdef _OPENMP
@@ -378,7 +364,7 @@ static struct error *update_states(struct mpm *mpm, struct simulation *simulatio
         find_states(mpm, simulation, &mpm->layer[g], dt, of_main, !first, &failed);
     mpm->work += clock_seconds() - started;
     simulation_spend(simulation, "states", clock_seconds() - begin);
-    return failed < 0 ? NULL : impossible(simulation, failed);
+    return failed < 0 ? NULL : simulation_impossible(simulation, failed);
 }
 
 static struct error *mpm_advance(void *solver, struct simulation *simulation, double dt)

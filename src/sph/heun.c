@@ -136,7 +136,7 @@ static struct error *take_stage(struct simulation *simulation, const struct hllc
         }
     }
     simulation_spend(simulation, "points", clock_seconds() - begin);
-    return failed < 0 ? NULL : sph_impossible(simulation, failed);
+    return failed < 0 ? NULL : simulation_impossible(simulation, failed);
 }
 
 struct error *hllc_advance(struct sph *sph, struct simulation *simulation, double dt)

@@ -368,20 +368,6 @@ static void update_block(const struct sph *sph, struct simulation *simulation,
     }
 }
 
-struct error *sph_impossible(const struct simulation *simulation, int32_t i)
-{
-    const struct particles *p = &simulation->particles;
-    return error_new(
-        ERROR_STATE,
-        "step %lld, t = %.6g s: the state of particle %llu (body %s, site %llu) at "
-        "(%.6g, %.6g, %.6g) m became impossible: density %.6g kg/m^3, energy %.6g J/kg, "
-        "pressure %.6g Pa, velocity (%.6g, %.6g, %.6g) m/s",
-        (long long)simulation->step + 1, simulation->time, (unsigned long long)p->id[i],
-        simulation->input->bodies.names[p->body[i]], (unsigned long long)(p->id[i] & PARTICLE_SITE),
-        p->position[i][0], p->position[i][1], p->position[i][2], p->density[i], p->energy[i],
-        p->pressure[i], p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
-}
-
 /* Heat alone: density and deviator stay. */
 static void update_heat(const struct sph *sph, struct simulation *simulation,
                         const struct sph_fields *f, double dt, struct failure *failure)
@@ -405,7 +391,7 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation, d
     struct failure failure = {false, 0, 0};
     if (sph_still(sph)) {
         update_heat(sph, simulation, &f, dt, &failure);
-        return failure.any ? sph_impossible(simulation, failure.index) : NULL;
+        return failure.any ? simulation_impossible(simulation, failure.index) : NULL;
     }
 #pragma omp parallel num_threads(simulation->threads)
     {
@@ -419,5 +405,5 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation, d
     }
     if (sph_axisymmetric(simulation))
         sph_cross_axis(simulation);
-    return failure.any ? sph_impossible(simulation, failure.index) : NULL;
+    return failure.any ? simulation_impossible(simulation, failure.index) : NULL;
 }

@@ -142,9 +142,6 @@ struct error *hllc_advance(struct sph *sph, struct simulation *simulation, doubl
  * longer hold. */
 struct error *sph_refresh_rows(struct sph *sph, struct simulation *simulation);
 
-/* The error that names particle INDEX, whose new state is impossible. */
-struct error *sph_impossible(const struct simulation *simulation, int32_t index);
-
 /* What the case leaves to the method. */
 struct sph_parameters sph_settled(const struct sph_parameters *parameters);
 
