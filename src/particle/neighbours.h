@@ -54,7 +54,7 @@ struct block_motion;
 struct neighbours {
     double skin, near_skin; /* relative to the support; no near rows when the latter is zero */
     bool near;              /* near rows are walked; */
-    bool prune;             /* but they must be found first, by neighbours_prune of each block */
+    bool prune;             /* but who walks them must find them first, block by block */
     int near_steps, rest;   /* steps that near rows have held; that none are wanted */
     int32_t count;
     int64_t row_capacity;
