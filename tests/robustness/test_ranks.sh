@@ -39,7 +39,7 @@ for name in $names; do
 done
 
 everything=$BOLIDE_SOURCE_DIR/tests/data/everything.yaml
-rm -rf whole killed
+rm -rf whole killed few fewer
 "$BOLIDE" run "$everything" --output whole >whole.log 2>&1 || fail "the whole run: $(cat whole.log)"
 
 # One rank is killed when the first checkpoint is there; others go on, in another number.
