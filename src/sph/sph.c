@@ -191,17 +191,12 @@ static struct error *check_walls(const struct simulation *simulation, double rea
     return NULL;
 }
 
-/* Of the skin: a smaller share leaves less to walk, and must be found more often. */
-static const double near_share = 0.3;
-
 static struct error *sph_create(void *solver, struct simulation *simulation, const void *parameters)
 {
     struct sph *sph = solver;
     sph->parameters = sph_settled(parameters);
     sph->neighbours.skin = sph->parameters.skin;
-    /* The rows of a line are short; Heun's step moves particles between two walks. */
-    if (simulation->dimension > 1 && !sph_corrected(sph) && !sph_still(sph))
-        sph->neighbours.near_skin = near_share * sph->parameters.skin;
+    sph->neighbours.near_skin = sph_near_skin(&sph->parameters, simulation->dimension);
     TRY(choose_kind(sph, simulation));
     TRY(check_contacts(simulation));
     sph->groups = (struct contact_groups){simulation->group_of_body, &simulation->law[0][0],
@@ -459,8 +454,13 @@ static double sph_bytes(const void *parameters, int dimension)
         fields += (slopes + 5) * sizeof(double);
         record = (muscl_stride(kind) + PLACE_STRIDE) * sizeof(double);
     }
-    return fields + heat + record + 4 * sizeof(double) + sizeof(struct row) +
-           1.25 * neighbours * sizeof(uint32_t);
+    double rows = sizeof(struct row) + 1.25 * neighbours * sizeof(uint32_t);
+    const double near_skin = sph_near_skin(sph, dimension);
+    if (near_skin > 0.0)
+        rows +=
+            4 * sizeof(double) + sizeof(struct near_row) +
+            neighbours * pow((1.0 + near_skin) / (1.0 + sph->skin), dimension) * sizeof(uint32_t);
+    return fields + heat + record + 4 * sizeof(double) + rows;
 }
 
 static double sph_step(const void *parameters, int dimension, const struct material *material,

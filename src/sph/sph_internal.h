@@ -144,6 +144,9 @@ struct error *sph_refresh_rows(struct sph *sph, struct simulation *simulation);
 
 /* What the case leaves to the method. */
 struct sph_parameters sph_settled(const struct sph_parameters *parameters);
+/* Of near rows. None are kept on a line, where rows are short, nor where Heun's step moves particles between two walks or
+ * nothing moves. */
+double sph_near_skin(const struct sph_parameters *settled, int dimension);
 
 /* Pressure and sound speeds of particle I as it stands; what its material says of them. */
 BOLIDE_INLINE struct response sph_evaluate_point(struct simulation *simulation,

@@ -184,3 +184,11 @@ struct sph_parameters sph_settled(const struct sph_parameters *parameters)
         settled.courant = corrected ? 0.3 : 0.4;
     return settled;
 }
+
+double sph_near_skin(const struct sph_parameters *settled, int dimension)
+{
+    const double share = 0.3; /* a smaller one leaves less to walk, and must be found more often */
+    bool heun = settled->method == SPH_HLLC || settled->method == SPH_MONAGHAN;
+    return dimension > 1 && !heun && settled->motion != SPH_MOTION_NONE ? share * settled->skin
+                                                                        : 0.0;
+}
