@@ -162,6 +162,7 @@ struct simulation_case {
     struct named_map walls;       /* struct wall_input */
     struct named_map contacts;    /* struct contact_input */
     struct named_map detonations; /* struct detonation_input */
+    struct vector_value gravity;  /* m/s^2; count 0: none */
     struct run_input run;
     struct output_input output;
     struct named_map probes;   /* struct probe_input */

@@ -2,18 +2,10 @@
  * start, limits of checks; and what follows from them. */
 #include <string.h>
 
-#include "model/case_internal.h"
+#include "model/case_checking.h"
 #include "model/document_internal.h"
 #include "model/lattice.h"
 
-/* Where a check stands: a path, to which a key may be added. */
-struct checking {
-    struct simulation_case *input;
-    struct error *error;
-    const char *map, *name; /* "bodies", "flyer" */
-};
-
-enum { PATH_TEXT = 512 };
 static const char *path_of(const struct checking *checking, const char *key, char *path)
 {
     snprintf(path, PATH_TEXT, "%s%s%s%s%s", checking->map, checking->name ? "." : "",
@@ -21,22 +13,17 @@ static const char *path_of(const struct checking *checking, const char *key, cha
     return path;
 }
 
-/* True when the reader complained about KEY or something in it: what it means is not known. */
-static bool is_wrong(const struct checking *checking, const char *key)
+bool case_is_wrong(const struct checking *checking, const char *key)
 {
     char path[PATH_TEXT];
     return document_is_wrong(checking->input->document, path_of(checking, key, path));
 }
 
-static void wrong(struct checking *checking, const char *key, const char *format, ...)
-    BOLIDE_PRINTF(3, 4);
-
-/* A complaint about KEY, unless the reader had one already. */
-static void wrong(struct checking *checking, const char *key, const char *format, ...)
+void case_wrong(struct checking *checking, const char *key, const char *format, ...)
 {
     char path[PATH_TEXT], message[1024];
     path_of(checking, key, path);
-    if (key[0] && is_wrong(checking, key))
+    if (key[0] && case_is_wrong(checking, key))
         return;
     va_list arguments;
     va_start(arguments, format);
@@ -46,9 +33,8 @@ static void wrong(struct checking *checking, const char *key, const char *format
         error_join(checking->error, document_error(checking->input->document, path, "%s", message));
 }
 
-/* The index of NAME in MAP; -1 after a complaint. WHAT is `body` or `material`. */
-static int find_name(struct checking *checking, const struct named_map *map, const char *what,
-                     const char *name, const char *key)
+int case_find_name(struct checking *checking, const struct named_map *map, const char *what,
+                   const char *name, const char *key)
 {
     for (int i = 0; i < map->count; i++)
         if (!strcmp(map->names[i], name))
@@ -59,23 +45,23 @@ static int find_name(struct checking *checking, const struct named_map *map, con
     char known[512];
     list_text((const char *const *)map->names, map->count, known, sizeof known);
     if (near)
-        wrong(checking, key, "there is no %s \"%s\" (did you mean \"%s\"?)", what, name, near);
+        case_wrong(checking, key, "there is no %s \"%s\" (did you mean \"%s\"?)", what, name, near);
     else
-        wrong(checking, key, "there is no %s \"%s\" (known: %s)", what, name, known);
+        case_wrong(checking, key, "there is no %s \"%s\" (known: %s)", what, name, known);
     return -1;
 }
 
-static bool dimension_known(const struct checking *checking)
+bool case_dimension_known(const struct checking *checking)
 {
     return checking->input->dimension > 0 &&
            !document_is_wrong(checking->input->document, "dimension");
 }
 
-static void check_axis(struct checking *checking, const char *key, int axis)
+void case_check_axis(struct checking *checking, const char *key, int axis)
 {
-    if (dimension_known(checking) && axis >= checking->input->dimension)
-        wrong(checking, key, "the case has %d dimension%s", (int)checking->input->dimension,
-              checking->input->dimension == 1 ? "" : "s");
+    if (case_dimension_known(checking) && axis >= checking->input->dimension)
+        case_wrong(checking, key, "the case has %d dimension%s", (int)checking->input->dimension,
+                   checking->input->dimension == 1 ? "" : "s");
 }
 
 /* The material as plain data: the index of a choice is the enum of its model. */
@@ -108,21 +94,21 @@ static void check_material(struct checking *checking, int index)
     case_fill_material(material);
     if ((text = eos_wrong(&material->material.eos, &key))) {
         snprintf(path, sizeof path, "eos.%s.%s", material->eos.choice->name, key);
-        wrong(checking, path, "%s", text);
+        case_wrong(checking, path, "%s", text);
     }
     if ((text = strength_wrong(&material->material.strength, &key))) {
         snprintf(path, sizeof path, "strength.%s.%s", material->strength.choice->name, key);
-        wrong(checking, path, "%s", text);
+        case_wrong(checking, path, "%s", text);
     }
 }
 
 static void check_replaces(struct checking *checking, const struct body_input *body, int index)
 {
     for (int i = 0; i < body->replaces.count; i++) {
-        int other = find_name(checking, &checking->input->bodies, "body", body->replaces.names[i],
-                              "replaces");
+        int other = case_find_name(checking, &checking->input->bodies, "body",
+                                   body->replaces.names[i], "replaces");
         if (other == index)
-            wrong(checking, "replaces", "a body cannot replace itself");
+            case_wrong(checking, "replaces", "a body cannot replace itself");
     }
 }
 
@@ -131,12 +117,12 @@ static void check_position(struct checking *checking, const char *key,
                            const struct field_value *field)
 {
     const struct simulation_case *input = checking->input;
-    if (!field->of_position || !dimension_known(checking))
+    if (!field->of_position || !case_dimension_known(checking))
         return;
     for (int axis = (int)input->dimension; axis < 3; axis++)
         if (position_expression_uses(field->of_position, axis))
-            wrong(checking, key, "the case has %d dimension%s, and no position %c",
-                  (int)input->dimension, input->dimension == 1 ? "" : "s", "xyz"[axis]);
+            case_wrong(checking, key, "the case has %d dimension%s, and no position %c",
+                       (int)input->dimension, input->dimension == 1 ? "" : "s", "xyz"[axis]);
 }
 
 static void check_positions(struct checking *checking, const char *key,
@@ -157,14 +143,14 @@ static void check_stress(struct checking *checking, const struct body_input *bod
     static const int counts[] = {3, 4, 6};
     const int64_t dimension = checking->input->dimension;
     const struct field_value *across = &body->stress.at[2];
-    if (body->stress.count == 0 || !dimension_known(checking))
+    if (body->stress.count == 0 || !case_dimension_known(checking))
         return;
     if (body->stress.count != counts[dimension - 1])
-        wrong(checking, "stress", "%s is wanted in %d dimension%s", forms[dimension - 1],
-              (int)dimension, dimension == 1 ? "" : "s");
+        case_wrong(checking, "stress", "%s is wanted in %d dimension%s", forms[dimension - 1],
+                   (int)dimension, dimension == 1 ? "" : "s");
     else if (checking->input->geometry == GEOMETRY_PLANE_STRESS &&
              (across->of_position || across->constant != 0.0))
-        wrong(checking, "stress.3", "in plane stress the stress zz is zero");
+        case_wrong(checking, "stress.3", "in plane stress the stress zz is zero");
 }
 
 static void check_start_keys(struct checking *checking, const struct body_input *body)
@@ -186,44 +172,44 @@ static void check_start(struct checking *checking, struct body_input *body)
     struct simulation_case *input = checking->input;
     const struct material_input *material = case_material(input, body->material_index);
     snprintf(path, sizeof path, "materials.%s", input->materials.names[body->material_index]);
-    if (is_wrong(checking, "") || document_is_wrong(input->document, path))
+    if (case_is_wrong(checking, "") || document_is_wrong(input->document, path))
         return;
     const struct material *plain = &material->material;
     const char *text = heat_wrong(&plain->heat, &plain->eos);
     if (text && field_is_given(&body->temperature)) {
-        wrong(checking, "temperature", "the material \"%s\" has no temperature: %s", body->material,
-              text);
+        case_wrong(checking, "temperature", "the material \"%s\" has no temperature: %s",
+                   body->material, text);
         return;
     }
     text = body_start_wrong(body, plain, &key);
     if (!text && !body->varies)
         text = body_state_at(body, plain, (struct vec3){0}, &body->start, &key);
     if (text)
-        wrong(checking, key, "%s", text);
+        case_wrong(checking, key, "%s", text);
 }
 
 static void check_shape(struct checking *checking, const struct body_input *body)
 {
     const struct choice *shape = body->shape.choice;
-    if (!shape || !dimension_known(checking) || is_wrong(checking, shape->name))
+    if (!shape || !case_dimension_known(checking) || case_is_wrong(checking, shape->name))
         return;
     const int dimension = (int)checking->input->dimension;
     const char *text = shape_wrong(&body->shape, dimension);
     if (text) {
-        wrong(checking, shape->name, "%s", text);
+        case_wrong(checking, shape->name, "%s", text);
         return;
     }
     const struct bounds bounds = shape_bounds(&body->shape);
     if (!bounds_finite(&bounds)) {
-        wrong(checking, shape->name,
-              "this shape has no end: an intersection with another bounds it");
+        case_wrong(checking, shape->name,
+                   "this shape has no end: an intersection with another bounds it");
         return;
     }
-    if (!body->lattice.choice || is_wrong(checking, "lattice"))
+    if (!body->lattice.choice || case_is_wrong(checking, "lattice"))
         return;
     text = lattice_wrong(&body->lattice, &body->shape, dimension);
     if (text)
-        wrong(checking, "lattice", "%s", text);
+        case_wrong(checking, "lattice", "%s", text);
 }
 
 static void check_body(struct checking *checking, int index)
@@ -233,20 +219,21 @@ static void check_body(struct checking *checking, int index)
     body->material_index = -1;
     if (body->material)
         body->material_index =
-            find_name(checking, &input->materials, "material", body->material, "material");
+            case_find_name(checking, &input->materials, "material", body->material, "material");
     body->varies = body_varies(body);
     check_start_keys(checking, body);
     if (body->material_index >= 0)
         check_start(checking, body);
     check_shape(checking, body);
     if (body->velocity.count == 0)
-        body->velocity.count = dimension_known(checking) ? (int)input->dimension : 0;
-    else if (dimension_known(checking) && body->velocity.count != input->dimension)
-        wrong(checking, "velocity", "%d component%s wanted, one a dimension; found %d",
-              (int)input->dimension, input->dimension == 1 ? " is" : "s are", body->velocity.count);
+        body->velocity.count = case_dimension_known(checking) ? (int)input->dimension : 0;
+    else if (case_dimension_known(checking) && body->velocity.count != input->dimension)
+        case_wrong(checking, "velocity", "%d component%s wanted, one a dimension; found %d",
+                   (int)input->dimension, input->dimension == 1 ? " is" : "s are",
+                   body->velocity.count);
     if (body->frozen && (body->driven || !isnan(body->stop)))
-        wrong(checking, "frozen", "a frozen body keeps its velocity: leave `%s` out",
-              body->driven ? "driven" : "stop");
+        case_wrong(checking, "frozen", "a frozen body keeps its velocity: leave `%s` out",
+                   body->driven ? "driven" : "stop");
     check_replaces(checking, body, index);
 }
 
@@ -257,22 +244,23 @@ static void check_detonation(struct checking *checking, int index)
     const struct vector_value *ends[] = {&detonation->at, &detonation->to};
     const char *const keys[] = {"at", "to"};
     bool same = detonation->to.count == detonation->at.count;
-    for (int end = 0; end < 2 && dimension_known(checking); end++)
+    for (int end = 0; end < 2 && case_dimension_known(checking); end++)
         if (ends[end]->count && ends[end]->count != input->dimension)
-            wrong(checking, keys[end], "%d component%s wanted, one a dimension; found %d",
-                  (int)input->dimension, input->dimension == 1 ? " is" : "s are", ends[end]->count);
+            case_wrong(checking, keys[end], "%d component%s wanted, one a dimension; found %d",
+                       (int)input->dimension, input->dimension == 1 ? " is" : "s are",
+                       ends[end]->count);
     for (int k = 0; k < detonation->at.count; k++)
         same = same && detonation->to.at[k] == detonation->at.at[k];
-    if (same && !is_wrong(checking, ""))
-        wrong(checking, "to", "both ends are the same place: leave this out");
+    if (same && !case_is_wrong(checking, ""))
+        case_wrong(checking, "to", "both ends are the same place: leave this out");
     detonation->body = -1;
     if (!detonation->of)
         return;
-    detonation->body = find_name(checking, &input->bodies, "body", detonation->of, "of");
-    if (detonation->body >= 0 && !is_wrong(checking, "of") &&
+    detonation->body = case_find_name(checking, &input->bodies, "body", detonation->of, "of");
+    if (detonation->body >= 0 && !case_is_wrong(checking, "of") &&
         case_body(input, detonation->body)->material_index >= 0 &&
         !detonation_lights(input, index, detonation->body))
-        wrong(checking, "of", "the material of this body has no `burn` that waits to be lit");
+        case_wrong(checking, "of", "the material of this body has no `burn` that waits to be lit");
 }
 
 /* Every body that burns is lit by something. */
@@ -286,7 +274,7 @@ static void check_lit(struct checking *checking, int body)
     for (int i = 0; i < input->detonations.count; i++)
         if (detonation_lights(input, i, body))
             return;
-    wrong(checking, "", "nothing lights this explosive: name a place in `detonations`");
+    case_wrong(checking, "", "nothing lights this explosive: name a place in `detonations`");
 }
 
 static void check_contact(struct checking *checking, int index)
@@ -294,24 +282,25 @@ static void check_contact(struct checking *checking, int index)
     struct simulation_case *input = checking->input;
     struct contact_input *contact = case_contact(input, index);
     contact->body[0] = contact->body[1] = -1;
-    if (contact->between.count == 0 && is_wrong(checking, ""))
+    if (contact->between.count == 0 && case_is_wrong(checking, ""))
         return;
     if (contact->between.count != 2) {
-        wrong(checking, "between", "two bodies are wanted, found %d", contact->between.count);
+        case_wrong(checking, "between", "two bodies are wanted, found %d", contact->between.count);
         return;
     }
     for (int i = 0; i < 2; i++)
         contact->body[i] =
-            find_name(checking, &input->bodies, "body", contact->between.names[i], "between");
+            case_find_name(checking, &input->bodies, "body", contact->between.names[i], "between");
     if (contact->body[0] < 0 || contact->body[1] < 0)
         return;
     if (contact->body[0] == contact->body[1])
-        wrong(checking, "between", "two different bodies are wanted");
+        case_wrong(checking, "between", "two different bodies are wanted");
     for (int i = 0; i < index; i++) {
         const struct contact_input *other = case_contact(input, i);
         if ((other->body[0] == contact->body[0] && other->body[1] == contact->body[1]) ||
             (other->body[0] == contact->body[1] && other->body[1] == contact->body[0]))
-            wrong(checking, "between", "\"%s\" already names these two", input->contacts.names[i]);
+            case_wrong(checking, "between", "\"%s\" already names these two",
+                       input->contacts.names[i]);
     }
 }
 
@@ -327,22 +316,23 @@ static void check_limits(struct checking *checking, const struct check_input *ch
 {
     const struct quantity *is = &check->is, *within = &check->within;
     if (is_given(is) && !is_given(within))
-        wrong(checking, "is", "this needs `within` beside it");
+        case_wrong(checking, "is", "this needs `within` beside it");
     else if (!is_given(within) && !is_given(&check->at_most) && !is_given(&check->at_least))
-        wrong(checking, "", "a limit is missing: `is` and `within`, `at_most` or `at_least`");
+        case_wrong(checking, "", "a limit is missing: `is` and `within`, `at_most` or `at_least`");
     if (!is_given(within))
         return;
     if (within->value < 0.0)
-        wrong(checking, "within", "this cannot be negative");
+        case_wrong(checking, "within", "this cannot be negative");
     if (is_given(is) && is->value != 0.0 && !is_number(within) &&
         !dimension_equal(is->dimension, within->dimension))
-        wrong(checking, "within", "a fraction, or a quantity of the dimension of `is`, is wanted");
+        case_wrong(checking, "within",
+                   "a fraction, or a quantity of the dimension of `is`, is wanted");
 }
 
 static void check_between(struct checking *checking, const struct vector_value *between)
 {
     if (between->count != 0 && !(between->count == 2 && between->at[0] < between->at[1]))
-        wrong(checking, "between", "two positions are wanted, the smaller first");
+        case_wrong(checking, "between", "two positions are wanted, the smaller first");
 }
 
 /* A chain of ratios would hide what is compared with what. */
@@ -352,11 +342,12 @@ static void check_relative(struct checking *checking, struct check_input *check,
     check->relative_check = -1;
     if (!check->relative || !strcmp(check->relative, "start"))
         return;
-    const int other = find_name(checking, &input->checks, "check", check->relative, "relative");
+    const int other =
+        case_find_name(checking, &input->checks, "check", check->relative, "relative");
     if (other == index)
-        wrong(checking, "relative", "a check cannot be relative to itself");
+        case_wrong(checking, "relative", "a check cannot be relative to itself");
     else if (other >= 0 && case_check(input, other)->relative)
-        wrong(checking, "relative", "the check \"%s\" is relative itself", check->relative);
+        case_wrong(checking, "relative", "the check \"%s\" is relative itself", check->relative);
     check->relative_check = other;
 }
 
@@ -364,23 +355,23 @@ static void check_check(struct checking *checking, int index)
 {
     struct check_input *check = case_check(checking->input, index);
     if (check->of)
-        find_name(checking, &checking->input->bodies, "body", check->of, "of");
+        case_find_name(checking, &checking->input->bodies, "body", check->of, "of");
     check_between(checking, &check->between);
-    check_axis(checking, "axis", check->axis);
-    if (check->about.count != 0 && dimension_known(checking) &&
+    case_check_axis(checking, "axis", check->axis);
+    if (check->about.count != 0 && case_dimension_known(checking) &&
         check->about.count != checking->input->dimension)
-        wrong(checking, "about", "%d component%s wanted, one a dimension; found %d",
-              (int)checking->input->dimension, checking->input->dimension == 1 ? " is" : "s are",
-              check->about.count);
+        case_wrong(checking, "about", "%d component%s wanted, one a dimension; found %d",
+                   (int)checking->input->dimension,
+                   checking->input->dimension == 1 ? " is" : "s are", check->about.count);
     check_relative(checking, check, index);
     if (check->at > checking->input->run.until &&
         !document_is_wrong(checking->input->document, "run"))
-        wrong(checking, "at", "the run ends before, at %.9g s", checking->input->run.until);
+        case_wrong(checking, "at", "the run ends before, at %.9g s", checking->input->run.until);
     if (check->falls_short && !check->falls_short[0])
-        wrong(checking, "falls_short", "the reason is wanted");
+        case_wrong(checking, "falls_short", "the reason is wanted");
     if (!check->falls_short && check->falls_short_if != 1.0)
-        wrong(checking, "falls_short_if", "this needs `falls_short` beside it");
-    if (!is_wrong(checking, ""))
+        case_wrong(checking, "falls_short_if", "this needs `falls_short` beside it");
+    if (!case_is_wrong(checking, ""))
         check_limits(checking, check);
 }
 
@@ -388,7 +379,7 @@ static void check_check(struct checking *checking, int index)
 static void check_file_name(struct checking *checking)
 {
     if (strchr(checking->name, '/') || checking->name[0] == '.' || !checking->name[0])
-        wrong(checking, "", "its name becomes that of a file: no `/`, and no `.` in front");
+        case_wrong(checking, "", "its name becomes that of a file: no `/`, and no `.` in front");
 }
 
 static void check_probe(struct checking *checking, int index)
@@ -396,9 +387,9 @@ static void check_probe(struct checking *checking, int index)
     const struct probe_input *probe = case_probe(checking->input, index);
     check_file_name(checking);
     if (probe->of)
-        find_name(checking, &checking->input->bodies, "body", probe->of, "of");
+        case_find_name(checking, &checking->input->bodies, "body", probe->of, "of");
     check_between(checking, &probe->between);
-    check_axis(checking, "axis", probe->axis);
+    case_check_axis(checking, "axis", probe->axis);
 }
 
 static void check_profile(struct checking *checking, int index)
@@ -406,36 +397,9 @@ static void check_profile(struct checking *checking, int index)
     const struct profile_input *profile = case_profile(checking->input, index);
     check_file_name(checking);
     if (profile->of)
-        find_name(checking, &checking->input->bodies, "body", profile->of, "of");
+        case_find_name(checking, &checking->input->bodies, "body", profile->of, "of");
     check_between(checking, &profile->between);
-    check_axis(checking, "along", profile->along);
-}
-
-static void check_wall(struct checking *checking, int index)
-{
-    static const char *const axes = "xyz";
-    const struct simulation_case *input = checking->input;
-    const struct wall_input *wall = case_wall(input, index);
-    check_axis(checking, "mirror", wall->axis);
-    if (input->geometry == GEOMETRY_AXISYMMETRIC && wall->axis == 0 &&
-        (wall->side == WALL_LOW ? wall->at != 0.0 : wall->at <= 0.0))
-        wrong(checking, "at", "the axis of symmetry bounds x from below, at 0 m: %s",
-              wall->side == WALL_LOW ? "leave this wall out" : "put this wall beyond it");
-    for (int i = 0; i < index && !is_wrong(checking, ""); i++) {
-        const struct wall_input *other = case_wall(input, i);
-        char path[PATH_TEXT];
-        snprintf(path, sizeof path, "walls.%s", input->walls.names[i]);
-        if (other->axis != wall->axis || document_is_wrong(input->document, path))
-            continue;
-        double low = wall->side == WALL_LOW ? wall->at : other->at;
-        double high = wall->side == WALL_LOW ? other->at : wall->at;
-        if (other->side == wall->side)
-            wrong(checking, "side", "\"%s\" is a %s wall on the %c axis already",
-                  input->walls.names[i], wall->side == WALL_LOW ? "low" : "high", axes[wall->axis]);
-        else if (low >= high)
-            wrong(checking, "at", "the low wall on the %c axis does not lie below the high wall",
-                  axes[wall->axis]);
-    }
+    case_check_axis(checking, "along", profile->along);
 }
 
 /* NAMES of checks under KEY. */
@@ -443,20 +407,20 @@ static void check_check_names(struct checking *checking, const struct name_list 
                               const char *key)
 {
     for (int i = 0; i < names->count; i++)
-        find_name(checking, &checking->input->checks, "check", names->names[i], key);
+        case_find_name(checking, &checking->input->checks, "check", names->names[i], key);
 }
 
 static void check_order(struct checking *checking, int index)
 {
     const struct simulation_case *input = checking->input;
     const struct order_input *order = case_order(input, index);
-    find_name(checking, &input->checks, "check", checking->name, "");
-    if (isnan(order->at_least) && isnan(order->at_most) && !is_wrong(checking, ""))
-        wrong(checking, "", "a limit is missing: `at_least` or `at_most`");
+    case_find_name(checking, &input->checks, "check", checking->name, "");
+    if (isnan(order->at_least) && isnan(order->at_most) && !case_is_wrong(checking, ""))
+        case_wrong(checking, "", "a limit is missing: `at_least` or `at_most`");
     if (order->at_least > order->at_most)
-        wrong(checking, "at_least", "this lies above `at_most`");
+        case_wrong(checking, "at_least", "this lies above `at_most`");
     if (order->falls_short && !order->falls_short[0])
-        wrong(checking, "falls_short", "the reason is wanted");
+        case_wrong(checking, "falls_short", "the reason is wanted");
 }
 
 static void check_map(struct checking *checking, const char *key, const struct named_map *map,
@@ -476,13 +440,14 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "materials", &input->materials, check_material);
     if (input->bodies.count == 0 && !document_is_wrong(input->document, "")) {
         checking.map = "bodies";
-        wrong(&checking, "", "one body at least is wanted");
+        case_wrong(&checking, "", "one body at least is wanted");
     }
     check_map(&checking, "bodies", &input->bodies, check_body);
-    check_map(&checking, "walls", &input->walls, check_wall);
+    check_map(&checking, "walls", &input->walls, case_check_wall);
     check_map(&checking, "contacts", &input->contacts, check_contact);
     check_map(&checking, "detonations", &input->detonations, check_detonation);
     check_map(&checking, "bodies", &input->bodies, check_lit);
+    case_check_gravity(&checking);
     check_map(&checking, "probes", &input->probes, check_probe);
     check_map(&checking, "profiles", &input->profiles, check_profile);
     check_map(&checking, "checks", &input->checks, check_check);

@@ -360,6 +360,14 @@ const struct parameter case_table[] = {
      .table = case_detonation_table,
      .size = sizeof(struct detonation_input),
      .help = "where and when explosives that burn are lit, by name"},
+    {.key = "gravity",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct simulation_case, gravity),
+     .unit = "m/s^2",
+     .standard = PARAMETER_OPTIONAL,
+     .help =
+         "the acceleration of everything that is not held, one value a dimension; none when not "
+         "given"},
     {.key = "run",
      .kind = PARAMETER_TABLE,
      .offset = offsetof(struct simulation_case, run),

@@ -4,8 +4,10 @@
 
 #include <string.h>
 
-static const char *const cause_names[LEDGER_CAUSES] = {
-    [LEDGER_WALLS] = "walls", [LEDGER_AXIS] = "axis", [LEDGER_PISTONS] = "pistons"};
+static const char *const cause_names[LEDGER_CAUSES] = {[LEDGER_WALLS] = "walls",
+                                                       [LEDGER_AXIS] = "axis",
+                                                       [LEDGER_PISTONS] = "pistons",
+                                                       [LEDGER_GRAVITY] = "gravity"};
 
 /* Behind the entries of the ledger, what else particles_totals sums. */
 enum { TOTAL_KINETIC = LEDGER_ENTRIES, TOTAL_INTERNAL, TOTAL_MOMENTUM_SCALE, TOTALS };

@@ -218,6 +218,7 @@ struct error *simulation_create(const struct simulation_case *input, const struc
                                       .geometry = (enum case_geometry)input->geometry};
     TRY(check_counts(input));
     simulation->materials = input->materials.count;
+    memcpy(simulation->gravity, input->gravity.at, sizeof simulation->gravity);
     for (int i = 0; i < input->materials.count; i++)
         simulation->material[i] = case_material(input, i)->material;
     struct error *error = set_mirrors(input, &simulation->mirrors);

@@ -38,6 +38,7 @@ struct simulation {
     int materials;
     struct material material[MATERIALS_MAX];
     struct mirrors mirrors;                      /* rigid slip walls */
+    double gravity[3];                           /* m/s^2, of what nothing holds */
     uint8_t *group_of_body;                      /* contact group of each body */
     uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS]; /* of the first towards the second */
     int surfaces;
@@ -64,6 +65,13 @@ void simulation_destroy(struct simulation *simulation);
 /* The fields for what the case's materials remember beyond the core's, POINT_HISTORY at most: the solver adds them to its
  * store. Returns how many. */
 int simulation_history(const struct simulation *simulation, struct field_declaration *fields);
+
+/* True when the case has gravity. */
+BOLIDE_INLINE bool simulation_has_gravity(const struct simulation *simulation)
+{
+    const double *g = simulation->gravity;
+    return g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0;
+}
 
 /* Adds SECONDS to phase NAME. */
 void simulation_spend(struct simulation *simulation, const char *name, double seconds);

@@ -1,4 +1,4 @@
-/* What the material point method takes from the bodies of a case, and what it refuses. */
+/* What the material point method takes from the bodies of a case, and what it refuses; gravity in the ledger. */
 #include "base/memory.h"
 #include "model/generate.h"
 #include "mpm/mpm_internal.h"
@@ -60,4 +60,27 @@ struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulati
     if (simulation->geometry == GEOMETRY_AXISYMMETRIC) /* a cell at the axis, per radian */
         mpm->least_mass *= 0.5 * mpm->edge;
     return error;
+}
+
+/* Work goes with the mean velocity of the step, so that free fall keeps its energy to rounding. */
+void mpm_book_gravity(struct simulation *simulation, double dt, bool begin)
+{
+    const struct particles *p = &simulation->particles;
+    const double *g = simulation->gravity;
+    if (!simulation_has_gravity(simulation))
+        return;
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct ledger own = {0};
+#pragma omp for schedule(static)
+        for (int32_t i = 0; i < p->count; i++) {
+            const double *x = p->position[i], *u = p->velocity[i];
+            const struct vec3 impulse = vec3_scale(dt * p->mass[i], vec3_make(g[0], g[1], g[2]));
+            const double work = 0.5 * vec3_dot(impulse, vec3_make(u[0], u[1], u[2]));
+            ledger_book(&own, LEDGER_GRAVITY, 0.0, begin ? impulse : vec3_make(0.0, 0.0, 0.0),
+                        vec3_make(x[0], x[1], x[2]), work);
+        }
+#pragma omp critical(bolide_mpm_gravity)
+        ledger_join(&simulation->ledger, &own);
+    }
 }

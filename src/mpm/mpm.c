@@ -371,6 +371,7 @@ static struct error *mpm_advance(void *solver, struct simulation *simulation, do
 {
     struct mpm *mpm = solver;
     const int scheme = mpm->parameters.scheme;
+    mpm_book_gravity(simulation, dt, true);
     if (scheme == MPM_USF) {
         TRY(ranks_agree(simulation->ranks, update_states(mpm, simulation, dt, true)));
         TRY(sum_particles(mpm, simulation));
@@ -383,6 +384,7 @@ static struct error *mpm_advance(void *solver, struct simulation *simulation, do
         mpm_advance_nodes(mpm, simulation, &mpm->layer[g], dt);
     simulation_spend(simulation, "nodes", clock_seconds() - begin);
     find_velocities(mpm, simulation, dt, scheme == MPM_MUSL, scheme == MPM_USF);
+    mpm_book_gravity(simulation, dt, false);
     return scheme == MPM_USF ? NULL : update_states(mpm, simulation, dt, false);
 }
 

@@ -83,6 +83,10 @@ struct error *mpm_refuse(const struct simulation *simulation);
 /* What the particles of each body and material are to the grid. */
 struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulation);
 
+/* Books what gravity does in a step of DT: its impulse and half of its work at the BEGIN of the step, the rest of its work
+ * once velocities are those of the end. */
+void mpm_book_gravity(struct simulation *simulation, double dt, bool begin);
+
 struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simulation,
                                 struct layer *layer);
 

@@ -156,12 +156,26 @@ static void fold(const struct mpm *mpm, struct layer *layer, const struct grid_f
             }
 }
 
+static void add_gravity(const struct simulation *simulation, const struct layer *layer,
+                        int32_t block)
+{
+    for (int k = 0; k < BLOCK_CELLS; k++) {
+        double *node = grid_node(&layer->main, block, k);
+        for (int c = 0; c < 3; c++)
+            node[NODE_FORCE + c] += node[NODE_MASS] * simulation->gravity[c];
+    }
+}
+
 struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simulation,
                             struct layer *layer)
 {
+    const bool heavy = simulation_has_gravity(simulation);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t n = 0; n < layer->grid.blocks; n++)
+    for (int32_t n = 0; n < layer->grid.blocks; n++) {
         grid_reduce(&layer->grid, &layer->main, n);
+        if (heavy)
+            add_gravity(simulation, layer, n);
+    }
     TRY(collect_walls(mpm, layer));
     fold(mpm, layer, &layer->main);
     return NULL;

@@ -114,6 +114,7 @@ static struct error *take_stage(struct simulation *simulation, const struct hllc
     if (f->sph.rates.wall)
         sph_book_walls(simulation, &f->sph, 0.5 * dt);
     sph_hold_bodies(simulation, &f->sph, 0.5 * dt);
+    sph_add_gravity(simulation, &f->sph, 0.5 * dt, 0.0);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
         struct hllc_level *level = &f->level[i];

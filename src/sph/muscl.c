@@ -78,7 +78,7 @@ BOLIDE_INLINE struct expected expected_rates(const struct simulation *simulation
     }
     bool held = sph_is_held(simulation, p->body[i]);
     for (int a = 0; a < 3; a++)
-        rates.acceleration[a] = held ? 0.0 : force[a] / p->density[i];
+        rates.acceleration[a] = held ? 0.0 : force[a] / p->density[i] + simulation->gravity[a];
     return rates;
 }
 

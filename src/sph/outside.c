@@ -1,5 +1,5 @@
-/* What acts on particles from outside, as the ledger books it: walls, the axis of symmetry, and what holds bodies,
- * pistons that keep their velocity whatever pushes back, strikers that stop, and ends that keep all their state. */
+/* What acts on particles from outside, as the ledger books it: walls, the axis of symmetry, what holds bodies,
+ * pistons that keep their velocity whatever pushes back, strikers that stop, and ends that keep all their state; gravity. */
 #include <string.h>
 
 #include "sph/sph_internal.h"
@@ -131,5 +131,34 @@ void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, 
             if (f->rates.drift)
                 f->rates.drift[i][axis] = 0.0;
         }
+    }
+}
+
+/* Its work goes with the mean velocity of the step, so that free fall keeps its energy to rounding. */
+void sph_add_gravity(struct simulation *simulation, const struct sph_fields *f, double dt,
+                     double ahead)
+{
+    const struct particles *p = &simulation->particles;
+    const struct vec3 gravity = vector_of(simulation->gravity);
+    if (!simulation_has_gravity(simulation))
+        return;
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct ledger own = {0};
+#pragma omp for schedule(static)
+        for (int32_t i = 0; i < p->count; i++) {
+            if (sph_is_held(simulation, p->body[i]))
+                continue;
+            double *a = f->rates.acceleration[i];
+            for (int axis = 0; axis < 3; axis++)
+                a[axis] += simulation->gravity[axis];
+            const struct vec3 u = vector_of(p->velocity[i]);
+            const struct vec3 impulse = vec3_scale(dt * p->mass[i], gravity);
+            ledger_book(&own, LEDGER_GRAVITY, 0.0, impulse,
+                        vec3_add(vector_of(p->position[i]), vec3_scale(ahead, u)),
+                        vec3_dot(impulse, vec3_add(u, vec3_scale(ahead, vector_of(a)))));
+        }
+#pragma omp critical(bolide_sph_gravity)
+        ledger_join(&simulation->ledger, &own);
     }
 }

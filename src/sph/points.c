@@ -231,6 +231,7 @@ struct advance {
     int dimension;
     bool total;
     double dt, time;
+    const double *gravity;
 };
 
 /* A run of particles of one material. MATERIAL's kinds are constants where this is inlined; PLAIN: it remembers no more
@@ -254,7 +255,7 @@ BOLIDE_INLINE void update_run(const struct material *material, bool plain, struc
             if (f->rates.drift && f->velocity_gradient)
                 x[axis] += dt * f->rates.drift[i][axis];
             u[axis] = next;
-            a2 += square(a[axis]);
+            a2 += a[axis] * (a[axis] - step.gravity[axis]);
         }
         struct motion motion;
         motion.dt = dt;
@@ -268,7 +269,8 @@ BOLIDE_INLINE void update_run(const struct material *material, bool plain, struc
             motion.density = p->density[i] / muscl_deform(dt, &motion.strain_rate, &motion.spin);
         if (f->packing)
             motion.density *= 1.0 + dt * packing_rate(material, p, f, i);
-        /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2, without taking differences. */
+        /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2 and the work of gravity, without taking
+         * differences. */
         motion.energy =
             p->energy[i] + dt * f->rates.power[i] - (step.total ? 0.5 * square(dt) * a2 : 0.0);
         if (f->heat_rate)
@@ -358,7 +360,7 @@ static void update_block(const struct sph *sph, struct simulation *simulation,
 {
     struct particles *p = &simulation->particles;
     const struct advance step = {simulation->dimension, sph->parameters.energy == SPH_ENERGY_TOTAL,
-                                 dt, simulation->time + dt};
+                                 dt, simulation->time + dt, simulation->gravity};
     int32_t end = block->first + block->count;
     for (int32_t begin = block->first, next; begin < end; begin = next) {
         uint16_t material = p->material[begin];
@@ -393,6 +395,7 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation, d
         update_heat(sph, simulation, &f, dt, &failure);
         return failure.any ? simulation_impossible(simulation, failure.index) : NULL;
     }
+    sph_add_gravity(simulation, &f, dt, 0.5 * dt);
 #pragma omp parallel num_threads(simulation->threads)
     {
         struct failure own = {false, 0, 0};

@@ -221,6 +221,11 @@ void sph_stop_bodies(struct simulation *simulation);
 /* Takes from held bodies (`driven`, `stop`) their acceleration in a step of DT, and books it. */
 void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, double dt);
 
+/* Adds gravity to the acceleration of bodies that nothing holds, and books what it does in a step of DT with the place and
+ * velocity that a particle has AHEAD of time n. */
+void sph_add_gravity(struct simulation *simulation, const struct sph_fields *f, double dt,
+                     double ahead);
+
 /* Particles stand still: nothing but heat. */
 BOLIDE_INLINE bool sph_still(const struct sph *sph)
 {

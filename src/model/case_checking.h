@@ -1,0 +1,36 @@
+/* What the checks of a case's meaning share. Private to case_check*.c. */
+#ifndef BOLIDE_CASE_CHECKING_H
+#define BOLIDE_CASE_CHECKING_H
+
+#include "model/case_internal.h"
+
+/* Where a check stands: a path, to which a key may be added. */
+struct checking {
+    struct simulation_case *input;
+    struct error *error;
+    const char *map, *name; /* "bodies", "flyer" */
+};
+
+enum { PATH_TEXT = 512 };
+
+/* True when the reader complained about KEY or something in it: what it means is not known. */
+bool case_is_wrong(const struct checking *checking, const char *key);
+
+/* A complaint about KEY, unless the reader had one already. */
+void case_wrong(struct checking *checking, const char *key, const char *format, ...)
+    BOLIDE_PRINTF(3, 4);
+
+/* The index of NAME in MAP; -1 after a complaint. WHAT is `body` or `material`. */
+int case_find_name(struct checking *checking, const struct named_map *map, const char *what,
+                   const char *name, const char *key);
+
+bool case_dimension_known(const struct checking *checking);
+
+/* The case must have AXIS. */
+void case_check_axis(struct checking *checking, const char *key, int axis);
+
+/* Of what acts from outside (case_check_outside.c). */
+void case_check_wall(struct checking *checking, int index);
+void case_check_gravity(struct checking *checking);
+
+#endif
