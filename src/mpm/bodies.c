@@ -1,6 +1,9 @@
 /* What the material point method takes from the bodies of a case, and what it refuses; gravity in the ledger. */
+#include <string.h>
+
 #include "base/memory.h"
 #include "model/generate.h"
+#include "model/held.h"
 #include "mpm/mpm_internal.h"
 
 struct error *mpm_refuse(const struct simulation *simulation)
@@ -9,15 +12,76 @@ struct error *mpm_refuse(const struct simulation *simulation)
     struct error *error = NULL;
     if (simulation->geometry == GEOMETRY_PLANE_STRESS)
         error = input_error(input, "geometry", NULL, "the solver mpm knows no plane stress");
+    for (int c = 0; c < input->contacts.count; c++)
+        for (int side = 0; side < 2; side++)
+            if (case_body(input, case_contact(input, c)->body[side])->frozen)
+                error = error_join(
+                    error,
+                    input_error(input, "contacts", input->contacts.names[c],
+                                "by the solver mpm a frozen body sticks to what it touches"));
+    return error;
+}
+
+static bool same_hold(const struct body_input *a, const struct body_input *b)
+{
+    return a->driven == b->driven && !a->frozen && !b->frozen &&
+           (a->stop == b->stop || (isnan(a->stop) && isnan(b->stop)));
+}
+
+struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    static_assert((int)CONTACT_GROUPS == (int)BIN_GROUPS, "a layer for each contact group");
+    mpm->layer_of_body = memory_allocate((size_t)input->bodies.count);
+    if (!mpm->layer_of_body)
+        return error_new(ERROR_SYSTEM, "out of memory");
     for (int b = 0; b < input->bodies.count; b++) {
         const struct body_input *body = case_body(input, b);
-        if (body->driven || body->frozen || !isnan(body->stop))
-            error = error_join(
-                error, input_error(input, "bodies", input->bodies.names[b],
-                                   "the solver mpm moves all bodies by their forces: driven, "
-                                   "frozen and stop are for sph"));
+        const int group = simulation->group_of_body[b];
+        int g = 0;
+        while (g < mpm->layers && !(mpm->layer[g].group == group &&
+                                    same_hold(case_body(input, mpm->layer[g].body), body)))
+            g++;
+        if (g == BIN_GROUPS)
+            return input_error(input, "bodies", input->bodies.names[b],
+                               "the solver mpm tells %d kinds of bodies apart, by contacts and by "
+                               "how they are held, and this is one more",
+                               (int)BIN_GROUPS);
+        mpm->layer_of_body[b] = (uint8_t)g;
+        if (g < mpm->layers)
+            continue;
+        const struct material *material = &simulation->material[body->material_index];
+        struct point point = body->start;
+        if (body->varies)
+            point = (struct point){.density = material_density(material)};
+        const struct response response = material_evaluate(material, &point);
+        mpm->layer[mpm->layers++] = (struct layer){.group = group,
+                                                   .body = b,
+                                                   .sound_long = response.sound_long,
+                                                   .sound_shear = response.sound_shear};
     }
-    return error;
+    return NULL;
+}
+
+bool mpm_is_held(const struct layer *layer, const struct simulation *simulation)
+{
+    return body_is_held(simulation, layer->body);
+}
+
+bool mpm_is_frozen(const struct layer *layer, const struct simulation *simulation)
+{
+    return body_is_frozen(simulation, layer->body);
+}
+
+void mpm_move_held(struct simulation *simulation, double dt)
+{
+    const struct particles *p = &simulation->particles;
+    if (!any_body(simulation, body_is_held))
+        return;
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < p->count; i++)
+        for (int k = 0; k < simulation->dimension && body_is_held(simulation, p->body[i]); k++)
+            p->position[i][k] += dt * p->velocity[i][k];
 }
 
 /* The density that decides from which mass on a node's velocity counts. */
@@ -75,6 +139,8 @@ void mpm_book_gravity(struct simulation *simulation, double dt, bool begin)
 #pragma omp for schedule(static)
         for (int32_t i = 0; i < p->count; i++) {
             const double *x = p->position[i], *u = p->velocity[i];
+            if (body_is_held(simulation, p->body[i]))
+                continue;
             const struct vec3 impulse = vec3_scale(dt * p->mass[i], vec3_make(g[0], g[1], g[2]));
             const double work = 0.5 * vec3_dot(impulse, vec3_make(u[0], u[1], u[2]));
             ledger_book(&own, LEDGER_GRAVITY, 0.0, begin ? impulse : vec3_make(0.0, 0.0, 0.0),

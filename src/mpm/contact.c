@@ -76,6 +76,9 @@ static struct contact_side side_of(const double *node, double dt)
         vec3_add(vector_at(node + NODE_MOMENTUM), vec3_scale(dt, vector_at(node + NODE_FORCE)))};
 }
 
+/* Which layer of a meeting keeps its velocity. */
+enum held_side { HELD_NONE, HELD_FIRST, HELD_SECOND };
+
 /* Two layers and the blocks of nodes that are the same. */
 struct meeting {
     struct layer *a, *b;
@@ -84,6 +87,8 @@ struct meeting {
     int law;
     struct contact_rule rule;
     int normal; /* enum contact_normal */
+    enum held_side held;
+    bool frozen;
 };
 
 /* How a node of layer a touches others is a number of two bits for each of them, in the last number of its normal. */
@@ -97,6 +102,35 @@ static enum contact_state touch_of(const double *normal, int other)
 static void set_touch(double *normal, int other, enum contact_state state)
 {
     normal[TOUCH_NUMBER] += (double)((uint64_t)state << 2 * other);
+}
+
+/* The impulse that the body of FREE gets from a held one in a step of DT, NORMAL out of it; it is noted with its work in the
+ * second field of the held layer. */
+static struct contact_push push_by_held(const struct meeting *m, int k, const double *node,
+                                        const double *held, struct vec3 normal, double dt)
+{
+    const struct layer *layer = m->held == HELD_FIRST ? m->a : m->b;
+    const int32_t block = m->held == HELD_FIRST ? m->in_a : m->in_b;
+    const struct contact_side side = side_of(node, dt);
+    struct vec3 u = vec3_scale(1.0 / held[NODE_MASS], vector_at(held + NODE_MOMENTUM));
+    struct contact_push push;
+    if (m->frozen) {
+        const struct vec3 g = vector_at(grid_node(&layer->normal, block, k));
+        const double area = sqrt(vec3_dot(g, g)); /* times the density */
+        push.impulse = contact_run_out(side, vector_at(held + NODE_FORCE), u,
+                                       area > 0.0 ? vec3_scale(1.0 / area, g) : g,
+                                       area * layer->sound_long, area * layer->sound_shear, dt);
+        push.state = CONTACT_NONE;
+        u = vec3_scale(1.0 / side.mass, vec3_add(side.momentum, push.impulse));
+    } else {
+        push = contact_push_held(side, u, normal, m->rule);
+    }
+    double *note = grid_node(&layer->back, block, k);
+    note[0] += push.impulse.x;
+    note[1] += push.impulse.y;
+    note[2] += push.impulse.z;
+    note[3] += vec3_dot(push.impulse, u);
+    return push;
 }
 
 /* A pair of layers at the nodes of a block. */
@@ -115,10 +149,18 @@ static void meet_block(const struct meeting *m, double least, double dt)
             if (vec3_dot(normal, normal) == 0.0)
                 continue;
         }
-        const struct contact_push push =
-            contact_push(side_of(first, dt), side_of(second, dt), normal, m->rule);
-        push_node(first, 1.0 / dt, push.impulse);
-        push_node(second, -1.0 / dt, push.impulse);
+        struct contact_push push;
+        if (m->held == HELD_FIRST) {
+            push = push_by_held(m, k, second, first, vec3_scale(-1.0, normal), dt);
+            push_node(second, 1.0 / dt, push.impulse);
+        } else if (m->held == HELD_SECOND) {
+            push = push_by_held(m, k, first, second, normal, dt);
+            push_node(first, 1.0 / dt, push.impulse);
+        } else {
+            push = contact_push(side_of(first, dt), side_of(second, dt), normal, m->rule);
+            push_node(first, 1.0 / dt, push.impulse);
+            push_node(second, -1.0 / dt, push.impulse);
+        }
         if (m->law)
             set_touch(own, m->other, push.state);
     }
@@ -138,48 +180,115 @@ static void join_block(const struct meeting *m)
         const struct vec3 normal =
             normal_of(m->normal, vector_at(own), vector_at(grid_node(&m->b->normal, m->in_b, k)));
         const struct contact_rule rule = {state == CONTACT_STICKS ? (double)INFINITY : 0.0, false};
-        const struct contact_push push = contact_push(
-            (struct contact_side){first, vec3_scale(first, vector_at(u))},
-            (struct contact_side){second, vec3_scale(second, vector_at(v))}, normal, rule);
+        const struct contact_side a = {first, vec3_scale(first, vector_at(u))},
+                                  b = {second, vec3_scale(second, vector_at(v))};
+        const struct contact_push push =
+            m->held == HELD_FIRST    ? contact_push_held(b, vector_at(u), normal, rule)
+            : m->held == HELD_SECOND ? contact_push_held(a, vector_at(v), normal, rule)
+                                     : contact_push(a, b, normal, rule);
         const double change[3] = {push.impulse.x, push.impulse.y, push.impulse.z};
         for (int c = 0; c < 3; c++) {
-            u[c] += change[c] / first;
-            v[c] -= change[c] / second;
+            u[c] += m->held == HELD_FIRST ? 0.0 : change[c] / first;
+            v[c] += m->held == HELD_FIRST    ? change[c] / second
+                    : m->held == HELD_SECOND ? 0.0
+                                             : -change[c] / second;
         }
     }
 }
 
-static bool any_law(const struct mpm *mpm, const struct simulation *simulation)
+static int law_of(const struct simulation *simulation, const struct layer *a, const struct layer *b)
 {
-    for (int g = 0; g < mpm->layers; g++)
+    return simulation->law[a->group][b->group];
+}
+
+/* Laws are about normals, and so is what frozen bodies do. */
+static bool wants_normals(const struct mpm *mpm, const struct simulation *simulation)
+{
+    for (int g = 0; g < mpm->layers; g++) {
+        if (mpm_is_frozen(&mpm->layer[g], simulation))
+            return true;
         for (int h = 0; h < mpm->layers; h++)
-            if (simulation->law[g][h])
+            if (law_of(simulation, &mpm->layer[g], &mpm->layer[h]))
                 return true;
+    }
     return false;
 }
 
-/* All pairs of layers, in a fixed order: in a step of DT, or with DT zero their velocities. */
+/* Layers G and H, in a step of DT, or with DT zero their velocities. */
+static void meet_pair(struct mpm *mpm, const struct simulation *simulation, int g, int h, double dt)
+{
+    struct layer *a = &mpm->layer[g], *b = &mpm->layer[h];
+    const bool first = mpm_is_held(a, simulation), second = mpm_is_held(b, simulation);
+    const bool frozen = mpm_is_frozen(first ? a : b, simulation);
+    const int law = law_of(simulation, a, b);
+    const struct contact_surface *surface = &simulation->surface[law / LAW_SURFACE];
+    const struct contact_rule rule = {law & LAW_SLIP ? surface->friction : (double)INFINITY,
+                                      (law & LAW_NO_TENSION) != 0};
+    if ((first && second) || (frozen && !(dt > 0.0)))
+        return;
+#pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
+    for (int32_t n = 0; n < a->grid.blocks; n++) {
+        const int32_t other = a->meets[n] && b->bins.count > 0
+                                  ? block_table_find(&b->grid.table, a->grid.key[n])
+                                  : -1;
+        const struct meeting meeting = {a,
+                                        b,
+                                        n,
+                                        other,
+                                        h,
+                                        law,
+                                        rule,
+                                        surface->normal,
+                                        first    ? HELD_FIRST
+                                        : second ? HELD_SECOND
+                                                 : HELD_NONE,
+                                        frozen};
+        if (other >= 0 && dt > 0.0)
+            meet_block(&meeting, law ? mpm->least_mass : 0.0, dt);
+        else if (other >= 0)
+            join_block(&meeting);
+    }
+}
+
+/* All pairs of layers, in a fixed order. */
 static void meet_pairs(struct mpm *mpm, const struct simulation *simulation, double dt)
 {
     for (int g = 0; g < mpm->layers; g++)
-        for (int h = g + 1; h < mpm->layers; h++) {
-            struct layer *a = &mpm->layer[g], *b = &mpm->layer[h];
-            const int law = simulation->law[g][h];
-            const struct contact_surface *surface = &simulation->surface[law / LAW_SURFACE];
-            const struct contact_rule rule = {law & LAW_SLIP ? surface->friction : (double)INFINITY,
-                                              (law & LAW_NO_TENSION) != 0};
-#pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
-            for (int32_t n = 0; n < a->grid.blocks; n++) {
-                const int32_t other = a->meets[n] && b->bins.count > 0
-                                          ? block_table_find(&b->grid.table, a->grid.key[n])
-                                          : -1;
-                const struct meeting meeting = {a, b, n, other, h, law, rule, surface->normal};
-                if (other >= 0 && dt > 0.0)
-                    meet_block(&meeting, law ? mpm->least_mass : 0.0, dt);
-                else if (other >= 0)
-                    join_block(&meeting);
-            }
+        for (int h = g + 1; h < mpm->layers; h++)
+            meet_pair(mpm, simulation, g, h, dt);
+}
+
+static void clear_notes(const struct layer *layer)
+{
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
+        for (int k = 0; k < BLOCK_CELLS; k++)
+            memset(grid_node(&layer->back, n, k), 0, BACK_STRIDE * sizeof(double));
+}
+
+/* What held bodies have done. At walls the ledger of these has it too: a node before a wall gets what it shares with its
+ * image. */
+static void book_notes(const struct mpm *mpm, struct simulation *simulation,
+                       const struct layer *layer)
+{
+    for (int32_t n = 0; n < layer->grid.blocks; n++) {
+        int64_t corner[3], at[3];
+        if (!layer->meets[n] || mpm_is_far(mpm, layer, layer->grid.touch[n][0].bin))
+            continue;
+        grid_corner(&layer->grid, n, corner);
+        for (int k = 0; k < BLOCK_CELLS; k++) {
+            const double *note = grid_node(&layer->back, n, k);
+            const struct vec3 impulse = vector_at(note);
+            mpm_node_index(layer->grid.dimension, corner, k, at);
+            if (vec3_dot(impulse, impulse) == 0.0 || mpm_behind_wall(mpm, layer, at))
+                continue;
+            const struct vec3 place =
+                vec3_scale(mpm->edge, vec3_make((double)at[0], (double)at[1], (double)at[2]));
+            ledger_book(&simulation->ledger, LEDGER_PISTONS, 0.0, impulse, place, note[3]);
+            if (mpm_near_wall(mpm, layer, at))
+                ledger_book(&simulation->ledger, LEDGER_WALLS, 0.0, vec3_scale(-1.0, impulse),
+                            place, 0.0);
         }
+    }
 }
 
 /* Blocks that lie side by side have no normals yet. */
@@ -199,16 +308,22 @@ struct error *mpm_find_meetings(struct mpm *mpm)
     return NULL;
 }
 
-void mpm_meet(struct mpm *mpm, const struct simulation *simulation, double dt)
+void mpm_meet(struct mpm *mpm, struct simulation *simulation, double dt)
 {
-    const bool laws = any_law(mpm, simulation);
-    for (int g = 0; g < mpm->layers && laws; g++)
+    const bool normals = wants_normals(mpm, simulation);
+    for (int g = 0; g < mpm->layers && normals; g++)
         find_slopes(mpm, simulation, &mpm->layer[g]);
-    if (laws)
+    if (normals)
         mpm_exchange(mpm, simulation, offsetof(struct layer, normal));
-    for (int g = 0; g < mpm->layers && laws; g++)
+    for (int g = 0; g < mpm->layers && normals; g++)
         find_normals(mpm, simulation, &mpm->layer[g]);
+    for (int g = 0; g < mpm->layers; g++)
+        if (mpm_is_held(&mpm->layer[g], simulation))
+            clear_notes(&mpm->layer[g]);
     meet_pairs(mpm, simulation, dt);
+    for (int g = 0; g < mpm->layers; g++)
+        if (mpm_is_held(&mpm->layer[g], simulation))
+            book_notes(mpm, simulation, &mpm->layer[g]);
 }
 
 void mpm_join_velocities(struct mpm *mpm, const struct simulation *simulation)

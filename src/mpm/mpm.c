@@ -14,6 +14,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "model/generate.h"
+#include "model/held.h"
 #include "mpm/mpm_internal.h"
 
 static const struct field_declaration mpm_field_table[] = {
@@ -31,11 +32,6 @@ static bool is_affine(const struct mpm *mpm) { return mpm->parameters.transfer !
 
 static void start_layers(struct mpm *mpm, const struct simulation *simulation)
 {
-    static_assert((int)CONTACT_GROUPS == (int)BIN_GROUPS, "a layer for each contact group");
-    mpm->layers = 1;
-    for (int b = 0; b < simulation->input->bodies.count; b++)
-        if (simulation->group_of_body[b] >= mpm->layers)
-            mpm->layers = simulation->group_of_body[b] + 1;
     for (int g = 0; g < mpm->layers; g++) {
         grid_start(&mpm->layer[g].grid, simulation->dimension,
                    shape_reach((enum grid_shape)mpm->parameters.shape));
@@ -52,6 +48,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     mpm->edge = mpm->parameters.cell;
     TRY(error_join(mpm_refuse(simulation),
                    error_join(mpm_note_bodies(mpm, simulation), mpm_find_planes(mpm, simulation))));
+    TRY(mpm_share_layers(mpm, simulation));
     start_layers(mpm, simulation);
     struct field_declaration fields[COUNT_OF(mpm_field_table) + 1 + POINT_HISTORY];
     int count = simulation_history(simulation, fields);
@@ -120,7 +117,7 @@ static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
                             .id = p->id,
                             .order = p->order,
                             .groups = mpm->layers,
-                            .group_of_body = simulation->group_of_body,
+                            .group_of_body = mpm->layer_of_body,
                             .body = p->body};
     for (int axis = 0; axis < 3; axis++) {
         binned.low[axis] = mpm->has_plane[axis][0] ? mpm->plane[axis][0] : INT64_MIN;
@@ -272,6 +269,7 @@ static struct limit limit_step(const struct mpm *mpm, const struct simulation *s
 static struct error *mpm_prepare(void *solver, struct simulation *simulation, struct limit *limit)
 {
     struct mpm *mpm = solver;
+    stop_bodies(simulation);
     double begin = clock_seconds();
     TRY(refresh_grid(mpm, simulation));
     simulation_spend(simulation, "cells", clock_seconds() - begin);
@@ -297,7 +295,8 @@ static void find_velocities(struct mpm *mpm, struct simulation *simulation, doub
             if (mpm_is_far(mpm, layer, b))
                 continue;
             grid_spread(&layer->grid, &layer->main, b);
-            transfer_velocity(&transfer, b, dt, scatter, move);
+            if (!mpm_is_held(layer, simulation))
+                transfer_velocity(&transfer, b, dt, scatter, move);
         }
     }
     mpm->work += clock_seconds() - begin;
@@ -322,6 +321,9 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
 {
     const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
     const struct particles *p = &simulation->particles;
+    const bool held = mpm_is_held(layer, simulation);
+    if (mpm_is_frozen(layer, simulation))
+        return;
 #pragma omp parallel num_threads(simulation->threads)
     {
         double *rate = mpm->rate[thread_number()];
@@ -335,8 +337,8 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
                 grid_spread(&layer->grid, &layer->back, b);
                 of = grid_patch(&layer->grid, &layer->back, b);
             }
-            transfer_gradient(&transfer, b, dt, of, of_main ? NODE_STRIDE : BACK_STRIDE, move,
-                              rate);
+            transfer_gradient(&transfer, b, dt, of, of_main ? NODE_STRIDE : BACK_STRIDE,
+                              move && !held, rate);
             const int32_t found = mpm_update_points(mpm, simulation, layer, b, dt, rate);
             if (found >= 0 && (own < 0 || p->id[found] < p->id[own]))
                 own = found;
@@ -385,7 +387,9 @@ static struct error *mpm_advance(void *solver, struct simulation *simulation, do
     simulation_spend(simulation, "nodes", clock_seconds() - begin);
     find_velocities(mpm, simulation, dt, scheme == MPM_MUSL, scheme == MPM_USF);
     mpm_book_gravity(simulation, dt, false);
-    return scheme == MPM_USF ? NULL : update_states(mpm, simulation, dt, false);
+    struct error *error = scheme == MPM_USF ? NULL : update_states(mpm, simulation, dt, false);
+    mpm_move_held(simulation, dt);
+    return error;
 }
 
 static struct error *mpm_state(void *solver, struct visitor *visitor)
@@ -410,6 +414,7 @@ static void mpm_destroy(void *solver)
     free(mpm->rate);
     free(mpm->half_size);
     free(mpm->gauge);
+    free(mpm->layer_of_body);
     bins_free(&mpm->bins);
     mpm_free_halo(mpm);
     for (int g = 0; g < mpm->layers; g++) {

@@ -14,9 +14,12 @@ struct wall_node {
     double sum[NODE_STRIDE]; /* of the particles alone, before what is behind the wall is added */
 };
 
-/* The nodes of bodies that share their velocities: of all bodies where the case names no contacts, else of each contact
- * group. */
+/* The nodes of bodies that share their velocities: of all bodies where the case names no contacts and holds none, else of
+ * each contact group and each way to be held. */
 struct layer {
+    int group;                      /* contact group */
+    int body;                       /* the first of its bodies */
+    double sound_long, sound_shear; /* of frozen ones at the start */
     struct bins
         bins; /* a part of all bins, or own ones and, without particles, those of other ranks; not owned */
     struct grid grid;
@@ -53,6 +56,7 @@ struct mpm {
     bool has_plane[3][2]; /* node index of the low and the high wall across each axis */
     struct bins bins;
     int layers;
+    uint8_t *layer_of_body;
     struct layer layer[BIN_GROUPS];
     double **rate; /* of the particles of a bin, one a thread */
     int threads;
@@ -80,6 +84,14 @@ struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
 
 /* What the method cannot do, located in the case. */
 struct error *mpm_refuse(const struct simulation *simulation);
+/* Which bodies share a layer. */
+struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulation);
+/* Whether the bodies of a layer keep their velocities, or all of their state. */
+bool mpm_is_held(const struct layer *layer, const struct simulation *simulation);
+bool mpm_is_frozen(const struct layer *layer, const struct simulation *simulation);
+/* Held bodies move by their velocities in a step of DT. */
+void mpm_move_held(struct simulation *simulation, double dt);
+
 /* What the particles of each body and material are to the grid. */
 struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulation);
 
@@ -96,6 +108,11 @@ struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulati
 /* Sums of patches at all nodes of a layer; mass, momentum and force then know of walls. */
 struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simulation,
                             struct layer *layer);
+/* Whether walls change the node at AT, and whether it lies behind one. */
+bool mpm_near_wall(const struct mpm *mpm, const struct layer *layer, const int64_t at[3]);
+bool mpm_behind_wall(const struct mpm *mpm, const struct layer *layer, const int64_t at[3]);
+/* The index of node K of a block whose first node has index CORNER. */
+void mpm_node_index(int dimension, const int64_t corner[3], int k, int64_t at[3]);
 /* What walls do to the vectors of the second or third field. */
 void mpm_fold_vectors(const struct mpm *mpm, struct layer *layer, const struct grid_field *field);
 /* The step of the nodes (2-13), and what walls push in it. */
@@ -111,7 +128,7 @@ void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt);
 /* Contact between layers, see contact.c: which blocks of nodes they share; forces at nodes that both have, in a step of
  * DT. */
 struct error *mpm_find_meetings(struct mpm *mpm);
-void mpm_meet(struct mpm *mpm, const struct simulation *simulation, double dt);
+void mpm_meet(struct mpm *mpm, struct simulation *simulation, double dt);
 /* The same for the velocities of the second field where layers touched, in the step or always. */
 void mpm_join_velocities(struct mpm *mpm, const struct simulation *simulation);
 

@@ -45,12 +45,21 @@ static int64_t behind(const struct mpm *mpm, int axis, int side, int64_t at)
     return side ? at - mpm->plane[axis][1] : mpm->plane[axis][0] - at;
 }
 
-static bool near_wall(const struct mpm *mpm, const struct layer *layer, const int64_t at[3],
-                      int64_t within)
+bool mpm_near_wall(const struct mpm *mpm, const struct layer *layer, const int64_t at[3])
 {
+    const int64_t within = layer->grid.reach;
     for (int axis = 0; axis < layer->grid.dimension; axis++)
         for (int side = 0; side < 2; side++)
             if (mpm->has_plane[axis][side] && behind(mpm, axis, side, at[axis]) >= -within)
+                return true;
+    return false;
+}
+
+bool mpm_behind_wall(const struct mpm *mpm, const struct layer *layer, const int64_t at[3])
+{
+    for (int axis = 0; axis < layer->grid.dimension; axis++)
+        for (int side = 0; side < 2; side++)
+            if (mpm->has_plane[axis][side] && behind(mpm, axis, side, at[axis]) > 0)
                 return true;
     return false;
 }
@@ -68,7 +77,7 @@ static bool block_near_wall(const struct mpm *mpm, const struct layer *layer,
     return false;
 }
 
-static void node_index(int dimension, const int64_t corner[3], int k, int64_t at[3])
+void mpm_node_index(int dimension, const int64_t corner[3], int k, int64_t at[3])
 {
     int place[3];
     bin_cell_place(dimension, k, place);
@@ -80,15 +89,14 @@ static void node_index(int dimension, const int64_t corner[3], int k, int64_t at
 static struct error *collect_block(const struct mpm *mpm, struct layer *layer, int32_t block,
                                    const int64_t corner[3])
 {
-    const int64_t within = layer->grid.reach;
     if (!memory_reserve((void **)&layer->wall, &layer->wall_capacity, layer->walls + BLOCK_CELLS,
                         layer->walls, sizeof *layer->wall))
         return error_new(ERROR_SYSTEM, "out of memory for %d nodes at walls", layer->walls);
     for (int k = 0; k < BLOCK_CELLS; k++) {
         struct wall_node *wall = &layer->wall[layer->walls];
-        node_index(layer->grid.dimension, corner, k, wall->at);
+        mpm_node_index(layer->grid.dimension, corner, k, wall->at);
         double *node = grid_node(&layer->main, block, k);
-        if (node[NODE_MASS] <= 0.0 || !near_wall(mpm, layer, wall->at, within))
+        if (node[NODE_MASS] <= 0.0 || !mpm_near_wall(mpm, layer, wall->at))
             continue;
         wall->node = node;
         wall->booked = !mpm_is_far(mpm, layer, layer->grid.touch[block][0].bin);
@@ -169,7 +177,7 @@ static void add_gravity(const struct simulation *simulation, const struct layer 
 struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simulation,
                             struct layer *layer)
 {
-    const bool heavy = simulation_has_gravity(simulation);
+    const bool heavy = simulation_has_gravity(simulation) && !mpm_is_held(layer, simulation);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++) {
         grid_reduce(&layer->grid, &layer->main, n);
@@ -212,6 +220,7 @@ static void book_walls(const struct mpm *mpm, struct simulation *simulation,
 void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
                        double dt)
 {
+    const bool held = mpm_is_held(layer, simulation);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++)
         for (int k = 0; k < BLOCK_CELLS; k++) {
@@ -220,17 +229,35 @@ void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, str
             if (mass <= 0.0)
                 continue;
             for (int c = 0; c < 3; c++) {
-                const double force = node[NODE_FORCE + c];
+                const double force = held ? 0.0 : node[NODE_FORCE + c];
                 node[NODE_VELOCITY + c] = (node[NODE_MOMENTUM + c] + dt * force) / mass;
                 node[NODE_ACCELERATION + c] = force / mass;
             }
         }
-    book_walls(mpm, simulation, layer, dt);
+    if (!held)
+        book_walls(mpm, simulation, layer, dt);
+}
+
+/* What held bodies have is in the main field, before the step as momentum. */
+static void keep_velocities(const struct simulation *simulation, struct layer *layer, bool momentum)
+{
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
+        for (int k = 0; k < BLOCK_CELLS; k++) {
+            const double *node = grid_node(&layer->main, n, k), mass = node[NODE_MASS];
+            double *back = grid_node(&layer->back, n, k);
+            for (int c = 0; c < 3; c++)
+                back[c] = mass > 0.0 ? node[NODE_VELOCITY + c] / (momentum ? mass : 1.0) : 0.0;
+        }
 }
 
 void mpm_find_velocities(const struct mpm *mpm, const struct simulation *simulation,
                          struct layer *layer, bool plain)
 {
+    if (mpm_is_held(layer, simulation)) {
+        keep_velocities(simulation, layer, plain);
+        return;
+    }
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++) {
         if (!plain)

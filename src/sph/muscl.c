@@ -61,7 +61,7 @@ BOLIDE_INLINE struct expected expected_rates(const struct simulation *simulation
     const struct particles *p = &simulation->particles;
     const int dimension = kind.dimension;
     struct expected rates = {{0.0}, {{0.0}}};
-    if (sph_is_frozen(simulation, p->body[i]))
+    if (body_is_frozen(simulation, p->body[i]))
         return rates;
     const double *g = f->velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
     double force[3];
@@ -76,7 +76,7 @@ BOLIDE_INLINE struct expected expected_rates(const struct simulation *simulation
             force[1] += p->deviator[i][3] / radius;
         rates.gradient[2][2] = p->velocity[i][0] / radius;
     }
-    bool held = sph_is_held(simulation, p->body[i]);
+    bool held = body_is_held(simulation, p->body[i]);
     for (int a = 0; a < 3; a++)
         rates.acceleration[a] = held ? 0.0 : force[a] / p->density[i] + simulation->gravity[a];
     return rates;

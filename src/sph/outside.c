@@ -42,56 +42,15 @@ void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, d
     }
 }
 
-static bool stands(const struct simulation *simulation, int body)
-{
-    return simulation->time >= case_body(simulation->input, body)->stop;
-}
-
-bool sph_is_held(const struct simulation *simulation, int body)
-{
-    const struct body_input *input = case_body(simulation->input, body);
-    return stands(simulation, body) || input->driven || input->frozen;
-}
-
-static bool any_body(const struct simulation *simulation,
-                     bool (*is)(const struct simulation *, int))
-{
-    for (int body = 0; body < simulation->input->bodies.count; body++)
-        if (is(simulation, body))
-            return true;
-    return false;
-}
-
-void sph_stop_bodies(struct simulation *simulation)
-{
-    struct particles *p = &simulation->particles;
-    if (!any_body(simulation, stands))
-        return;
-    for (int32_t i = 0; i < p->count; i++) {
-        double *u = p->velocity[i];
-        if (!stands(simulation, p->body[i]))
-            continue;
-        struct vec3 velocity = vector_of(u);
-        ledger_book(&simulation->ledger, LEDGER_PISTONS, 0.0, vec3_scale(-p->mass[i], velocity),
-                    vector_of(p->position[i]), -0.5 * p->mass[i] * vec3_dot(velocity, velocity));
-        u[0] = u[1] = u[2] = 0.0;
-    }
-}
-
-bool sph_is_frozen(const struct simulation *simulation, int body)
-{
-    return case_body(simulation->input, body)->frozen;
-}
-
 /* Particles of frozen bodies get no rates: they move as they are. */
 static void freeze_bodies(struct simulation *simulation, const struct sph_fields *f, double dt)
 {
     const struct particles *p = &simulation->particles;
     const struct pair_rates *rates = &f->rates;
-    if (!any_body(simulation, sph_is_frozen))
+    if (!any_body(simulation, body_is_frozen))
         return;
     for (int32_t i = 0; i < p->count; i++) {
-        if (!sph_is_frozen(simulation, p->body[i]))
+        if (!body_is_frozen(simulation, p->body[i]))
             continue;
         struct vec3 impulse = vec3_scale(-dt * p->mass[i], vector_of(rates->acceleration[i]));
         double heat = rates->power[i] + (f->heat_rate ? f->heat_rate[i] : 0.0);
@@ -117,10 +76,10 @@ void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, 
 {
     freeze_bodies(simulation, f, dt);
     const struct particles *p = &simulation->particles;
-    if (!any_body(simulation, sph_is_held))
+    if (!any_body(simulation, body_is_held))
         return;
     for (int32_t i = 0; i < p->count; i++) {
-        if (!sph_is_held(simulation, p->body[i]))
+        if (!body_is_held(simulation, p->body[i]))
             continue;
         double *a = f->rates.acceleration[i];
         struct vec3 impulse = vec3_scale(-dt * p->mass[i], vector_of(a));
@@ -147,7 +106,7 @@ void sph_add_gravity(struct simulation *simulation, const struct sph_fields *f, 
         struct ledger own = {0};
 #pragma omp for schedule(static)
         for (int32_t i = 0; i < p->count; i++) {
-            if (sph_is_held(simulation, p->body[i]))
+            if (body_is_held(simulation, p->body[i]))
                 continue;
             double *a = f->rates.acceleration[i];
             for (int axis = 0; axis < 3; axis++)

@@ -380,7 +380,7 @@ static void prepare_motion(struct sph *sph, struct simulation *simulation,
 static struct error *sph_prepare(void *solver, struct simulation *simulation, struct limit *limit)
 {
     struct sph *sph = solver;
-    sph_stop_bodies(simulation);
+    stop_bodies(simulation);
     TRY(sph_refresh_rows(sph, simulation));
     struct sph_fields fields = sph_fields_of(sph, simulation);
     *limit = (struct limit){(double)INFINITY, "nothing", 0};

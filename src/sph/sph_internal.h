@@ -2,6 +2,7 @@
 #ifndef BOLIDE_SPH_INTERNAL_H
 #define BOLIDE_SPH_INTERNAL_H
 
+#include "model/held.h"
 #include "sph/conduction.h"
 #include "sph/hllc_kernel.h"
 #include "sph/muscl_kernel.h"
@@ -76,16 +77,13 @@ void muscl_start(const struct sph *sph, const struct simulation *simulation);
 void muscl_pack(struct sph *sph, const struct simulation *simulation);
 void muscl_pack_rest(struct sph *sph, const struct simulation *simulation);
 
-/* Whether BODY keeps all of its state. */
-bool sph_is_frozen(const struct simulation *simulation, int body);
-
 /* div U at level n by the slopes found a step before, 1/s. */
 BOLIDE_INLINE double muscl_divergence(const struct simulation *simulation,
                                       const struct sph_fields *f, int32_t i)
 {
     const struct particles *p = &simulation->particles;
     const int dimension = p->dimension;
-    if (sph_is_frozen(simulation, p->body[i]))
+    if (body_is_frozen(simulation, p->body[i]))
         return 0.0;
     const double *g = f->velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
     double sum = g[0];
@@ -211,12 +209,6 @@ BOLIDE_INLINE void sph_reflect_tensor(int dimension, struct vec3 sign, double *t
 
 /* Books what images and hoop stress push in a step of DT. */
 void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, double dt);
-
-/* Whether BODY keeps its velocity whatever pushes. */
-bool sph_is_held(const struct simulation *simulation, int body);
-
-/* Brings bodies to rest whose time has come (`stop`). */
-void sph_stop_bodies(struct simulation *simulation);
 
 /* Takes from held bodies (`driven`, `stop`) their acceleration in a step of DT, and books it. */
 void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, double dt);
