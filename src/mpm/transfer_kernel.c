@@ -24,9 +24,10 @@ INLINE void add_affine(const struct transfer *t, struct kind kind, const struct 
             momentum[i] += factor * g[3 * i + j] * chunk->away[j][at[j]][lane];
 }
 
-/* The record of a particle: PLAIN goes with the shape function, BY_SLOPE with its slopes. */
+/* The record of a particle: PLAIN goes with the shape function, BY_SLOPE with its slopes, AROUND with what stands for the
+ * shape function around the axis. */
 struct record {
-    vector8 plain, by_slope[3];
+    vector8 plain, by_slope[3], around;
 };
 
 INLINE void record_of(const struct transfer *t, struct kind kind, int32_t i, struct record *record)
@@ -37,8 +38,9 @@ INLINE void record_of(const struct transfer *t, struct kind kind, int32_t i, str
     /* force = -V sigma grad N (2-10); what an axis that there is not would get is zero */
     const bool y = kind.dimension > 1, z = kind.dimension > 2;
     const double v = -volume, vy = y ? v : 0.0, vz = z ? v : 0.0;
+    record->plain = (vector8){mass, mass * u[0], mass * u[1], mass * u[2], 0.0, 0.0, 0.0, 0.0};
     const double around = t->axisymmetric ? v * (s[2] - p) / t->position[i][0] : 0.0;
-    record->plain = (vector8){mass, mass * u[0], mass * u[1], mass * u[2], around, 0.0, 0.0, 0.0};
+    record->around = (vector8){0.0, 0.0, 0.0, 0.0, around, 0.0, 0.0, 0.0};
     record->by_slope[0] = (vector8){0.0, 0.0, 0.0, 0.0, v * (s[0] - p), vy * s[3], vz * s[5], 0.0};
     if (y)
         record->by_slope[1] =
@@ -79,6 +81,8 @@ INLINE void add_record(const struct transfer *t, struct kind kind, const struct 
             vector8 level = value * record->plain + along_a * record->by_slope[0];
             if (kind.dimension > 2)
                 level += along_b * record->by_slope[1];
+            else if (t->axisymmetric)
+                level += chunk->around[a][lane] * record->around;
             const vector8 tilt = value * record->by_slope[kind.dimension - 1];
             const size_t row = kind.dimension > 2 ? node_of(t, kind, base, a, b, 0)
                                                   : node_of(t, kind, base, a, 0, 0);
@@ -270,20 +274,35 @@ INLINE void velocity(const struct transfer *t, struct kind kind, int32_t bin, do
     }
 }
 
+/* The radial velocity of the lanes of a chunk as the hoop strain sees it. */
+INLINE void gather_around(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                          size_t base, const double *velocity, int stride, double *sum)
+{
+    for (int lane = 0; lane < kind.lanes; lane++)
+        sum[lane] = 0.0;
+    for (int a = 0; a < kind.window; a++)
+        for (int b = 0; b < kind.window; b++) {
+            const double *node = velocity + node_of(t, kind, base, a, b, 0) * (size_t)stride;
+            for (int lane = 0; lane < kind.lanes; lane++)
+                sum[lane] += chunk->around[a][lane] * chunk->value[1][b][lane] * node[0];
+        }
+}
+
 INLINE void gradient(const struct transfer *t, struct kind kind, int32_t bin, double dt,
                      const double *of, int stride, bool move, double *rate)
 {
+    const bool round = kind.dimension == 2 && t->axisymmetric;
     const double *patch = grid_patch(t->grid, t->main, bin);
     const struct corner corner = corner_of(t, kind, bin);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
-        ALIGNED double sum[3][3][LANES], flow[3][LANES], around[1][LANES];
+        ALIGNED double sum[3][3][LANES], flow[3][LANES], around[LANES];
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             gather_slopes(t, kind, &chunk, walk.base, of, stride, sum);
-            if (t->axisymmetric)
-                gather(t, kind, &chunk, walk.base, of, stride, 1, around);
+            if (round)
+                gather_around(t, kind, &chunk, walk.base, of, stride, around);
             if (move)
                 gather(t, kind, &chunk, walk.base, patch + NODE_VELOCITY, NODE_STRIDE,
                        kind.dimension, flow);
@@ -291,7 +310,7 @@ INLINE void gradient(const struct transfer *t, struct kind kind, int32_t bin, do
                 double *x = t->position[chunk.index[lane]];
                 rate[0] = sum[0][0][lane];
                 rate[1] = sum[1][1][lane];
-                rate[2] = t->axisymmetric ? around[0][lane] / x[0] : sum[2][2][lane];
+                rate[2] = round ? around[lane] / x[0] : sum[2][2][lane];
                 rate[3] = 0.5 * (sum[0][1][lane] + sum[1][0][lane]);
                 rate[4] = 0.5 * (sum[1][2][lane] + sum[2][1][lane]);
                 rate[5] = 0.5 * (sum[2][0][lane] + sum[0][2][lane]);

@@ -27,6 +27,7 @@ struct chunk {
     ALIGNED double value[3][WINDOW_MAX][LANES]; /* along an axis, at a node */
     ALIGNED double slope[3][WINDOW_MAX][LANES]; /* 1/m */
     ALIGNED double away[3][WINDOW_MAX][LANES];  /* of the node from the particle, m; affine only */
+    ALIGNED double around[WINDOW_MAX][LANES];   /* along x, for what acts around the axis */
 };
 
 /* The cell of a bin that a loop is at. */
@@ -86,7 +87,9 @@ INLINE void weigh(const struct transfer *t, struct kind kind, const struct cell_
     for (int lane = 0; lane < kind.lanes; lane++)
         chunk->index[lane] = walk->list[begin + (lane < chunk->count ? lane : chunk->count - 1)];
     for (int lane = 0; lane < kind.lanes; lane++)
-        half[lane] = t->shape == SHAPE_GIMP ? t->half_size[t->body[chunk->index[lane]]] : 0.5;
+        half[lane] = t->shape == SHAPE_GIMP || t->axisymmetric
+                         ? t->half_size[t->body[chunk->index[lane]]]
+                         : 0.5;
     for (int axis = 0; axis < kind.dimension; axis++) {
         double(*value)[LANES] = chunk->value[axis], (*slope)[LANES] = chunk->slope[axis];
         for (int lane = 0; lane < kind.lanes; lane++)
@@ -107,6 +110,9 @@ INLINE void weigh(const struct transfer *t, struct kind kind, const struct cell_
         else
             weigh_axis(kind, SHAPE_CUBIC, xi, half, value, slope);
         const double first = kind.window == 2 ? 0.0 : -1.0;
+        for (int k = 0; axis == 0 && t->axisymmetric && k < kind.window; k++)
+            for (int lane = 0; lane < kind.lanes; lane++)
+                chunk->around[k][lane] = shape_around(t->shape, xi[lane] - (first + k), half[lane]);
         for (int k = 0; k < kind.window; k++)
             for (int lane = 0; lane < kind.lanes; lane++) {
                 slope[k][lane] *= per_edge;

@@ -165,19 +165,18 @@ static void usf_gains_energy_and_usl_loses_more_than_musl(void **state)
     assert_true(fabs(smooth - 1.0) < 0.2 * fabs(musl - 1.0));
 }
 
-static void a_gas_at_rest_between_walls_stays_at_rest(void **state)
+/* A gas at rest, whose low side of x is a wall or the axis. */
+#define AT_REST(GEOMETRY, SIDE)                                                                \
+    "format: 1\ntitle: A gas at rest\ndimension: 2\n" GEOMETRY "resolution: 1 mm\n"            \
+    "solver: {mpm: {cell: 2 mm}}\n" MATERIALS "bodies:\n"                                      \
+    "  gas: {material: gas, box: {from: [0 mm, 0 mm], to: [24 mm, 20 mm]}, pressure: 1 GPa}\n" \
+    "walls:\n" SIDE "  x1: {mirror: x, at: 24 mm, side: high}\n"                               \
+    "  y0: {mirror: y, at: 0 mm, side: low}\n"                                                 \
+    "  y1: {mirror: y, at: 20 mm, side: high}\n"                                               \
+    "run: {until: 1 s}\n"
+
+static void check_rest(const char *text)
 {
-    (void)state;
-    static const char text[] =
-        "format: 1\ntitle: A gas at rest\ndimension: 2\nresolution: 1 mm\n"
-        "solver: {mpm: {cell: 2 mm}}\n" MATERIALS "bodies:\n"
-        "  gas: {material: gas, box: {from: [0 mm, 0 mm], to: [24 mm, 20 mm]}, pressure: 1 GPa}\n"
-        "walls:\n"
-        "  x0: {mirror: x, at: 0 mm, side: low}\n"
-        "  x1: {mirror: x, at: 24 mm, side: high}\n"
-        "  y0: {mirror: y, at: 0 mm, side: low}\n"
-        "  y1: {mirror: y, at: 20 mm, side: high}\n"
-        "run: {until: 1 s}\n";
     static const char *const settings[] = {"solver.mpm.shape=linear", "solver.mpm.shape=gimp",
                                            "solver.mpm.shape=quadratic", "solver.mpm.shape=cubic"};
     for (size_t k = 0; k < COUNT_OF(settings); k++) {
@@ -191,6 +190,18 @@ static void a_gas_at_rest_between_walls_stays_at_rest(void **state)
                     fail_msg("%s: %g m/s", settings[k], p->velocity[i][a]);
         end(run);
     }
+}
+
+static void a_gas_at_rest_between_walls_stays_at_rest(void **state)
+{
+    (void)state;
+    check_rest(AT_REST("", "  x0: {mirror: x, at: 0 mm, side: low}\n"));
+}
+
+static void a_gas_at_rest_about_the_axis_stays_at_rest(void **state)
+{
+    (void)state;
+    check_rest(AT_REST("geometry: axisymmetric\n", ""));
 }
 
 static void a_wall_between_planes_of_the_grid_is_a_mistake(void **state)
@@ -216,6 +227,7 @@ int main(void)
         cmocka_unit_test(mass_and_momentum_stay_but_for_what_walls_push),
         cmocka_unit_test(usf_gains_energy_and_usl_loses_more_than_musl),
         cmocka_unit_test(a_gas_at_rest_between_walls_stays_at_rest),
+        cmocka_unit_test(a_gas_at_rest_about_the_axis_stays_at_rest),
         cmocka_unit_test(a_wall_between_planes_of_the_grid_is_a_mistake),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
