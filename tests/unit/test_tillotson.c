@@ -19,7 +19,8 @@ static const struct eos_tillotson aluminium = {.density = 2700.0,
                                                .alpha = 5.0,
                                                .beta = 5.0,
                                                .incipient_energy = 3e6,
-                                               .complete_energy = 13.9e6};
+                                               .complete_energy = 13.9e6,
+                                               .tension = NAN};
 
 static double pressure(double density, double energy)
 {
@@ -77,6 +78,19 @@ static void derivatives_are_those_of_the_pressure(void **state)
         }
 }
 
+static void it_bears_no_more_tension_than_it_is_given(void **state)
+{
+    (void)state;
+    struct eos_tillotson weak = aluminium;
+    weak.tension = 1e9;
+    struct eos_value drawn = eos_tillotson(&weak, 2500.0, 1e5, NULL);
+    assert_true(pressure(2500.0, 1e5) < -1e9);
+    assert_true(drawn.pressure == -1e9);
+    assert_true(drawn.dp_de == 0.0);
+    assert_true(drawn.dp_drho == 75.2e9 / 2700.0);
+    assert_true(eos_tillotson(&weak, 2690.0, 1e5, NULL).pressure == pressure(2690.0, 1e5));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -84,6 +98,7 @@ int main(void)
         cmocka_unit_test(condensed_and_vapour_values_are_those_worked_out_by_hand),
         cmocka_unit_test(regions_meet_without_a_jump),
         cmocka_unit_test(derivatives_are_those_of_the_pressure),
+        cmocka_unit_test(it_bears_no_more_tension_than_it_is_given),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,6 +6,9 @@
  *                                                          exp(-alpha (1/eta - 1)^2)
  *   between:                                p = [(e - e_iv) p_v + (e_cv - e) p_c] / (e_cv - e_iv)
  *
+ * and no pressure below that at which matter parts, where it is given: what is drawn out farther keeps that tension, and
+ * bears pressure again once it is pressed together as far as it was drawn out.
+ *
  * Source: Tillotson, General Atomic report GA-3216 (1962); in this form Melosh, Impact Cratering (1989), II.4. */
 #ifndef BOLIDE_EOS_TILLOTSON_H
 #define BOLIDE_EOS_TILLOTSON_H
@@ -21,6 +24,7 @@ struct eos_tillotson {
     double alpha, beta;      /* decay of the condensed terms in the vapour */
     double incipient_energy; /* e_iv, J/kg: vaporisation begins */
     double complete_energy;  /* e_cv, J/kg: vaporisation is complete */
+    double tension;          /* the largest that it bears, Pa; NAN: any */
 };
 
 BOLIDE_INLINE struct eos_value eos_tillotson_condensed(const struct eos_tillotson *t,
@@ -60,10 +64,9 @@ BOLIDE_INLINE struct eos_value eos_tillotson_vapour(const struct eos_tillotson *
     return value;
 }
 
-BOLIDE_INLINE struct eos_value eos_tillotson(const struct eos_tillotson *t, double density,
-                                             double energy, const double *history)
+BOLIDE_INLINE struct eos_value eos_tillotson_whole(const struct eos_tillotson *t, double density,
+                                                   double energy)
 {
-    (void)history;
     if (density >= t->density || energy <= t->incipient_energy)
         return eos_tillotson_condensed(t, density, energy);
     struct eos_value vapour = eos_tillotson_vapour(t, density, energy);
@@ -77,6 +80,19 @@ BOLIDE_INLINE struct eos_value eos_tillotson(const struct eos_tillotson *t, doub
     value.dp_de = share * vapour.dp_de + (1.0 - share) * condensed.dp_de +
                   (vapour.pressure - condensed.pressure) / width;
     value.status = 0;
+    return value;
+}
+
+BOLIDE_INLINE struct eos_value eos_tillotson(const struct eos_tillotson *t, double density,
+                                             double energy, const double *history)
+{
+    (void)history;
+    struct eos_value value = eos_tillotson_whole(t, density, energy);
+    if (value.pressure < -t->tension) { /* never where it is NAN */
+        value.pressure = -t->tension;
+        value.dp_drho = t->bulk_modulus / t->density; /* the sound of matter at rest */
+        value.dp_de = 0.0;
+    }
     return value;
 }
 
