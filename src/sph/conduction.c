@@ -88,7 +88,7 @@ static void pack_owned(const struct simulation *simulation, const struct sph_fie
     int k = 0;
     for (int axis = 0; axis < simulation->dimension; axis++)
         record[k++] = p->position[i][axis];
-    record[k++] = f->diameter[i];
+    record[k++] = sph_support(f, i);
     record[k++] = sph_volume(simulation, f, i);
     record[k++] = heat_temperature(heat, &material->eos, p->density[i], p->energy[i]);
     record[k++] = heat->conductivity;

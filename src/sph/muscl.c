@@ -166,7 +166,7 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     const double *s = p->deviator[i], pressure = p->pressure[i];
     for (int axis = 0; axis < dimension; axis++)
         record[k++] = p->position[i][axis];
-    record[k++] = f->diameter[i];
+    record[k++] = sph_support(f, i);
     record[k++] = sph_volume(simulation, f, i);
     for (int axis = 0; axis < dimension; axis++)
         record[k++] = p->velocity[i][axis] + velocity[axis];

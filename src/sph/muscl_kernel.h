@@ -95,8 +95,9 @@ struct muscl_rates {
     /* For the next step, of what its values will be: dU^a/dx^b by rows, 1/s; of the record's stresses by direction, Pa/m */
     double *velocity_gradient, *stress_gradient;
     double (*force)[3]; /* likewise, on a unit of volume, N/m^3 */
-    /* Not on a line: what volumes fill of the space there is at the start, one at least, and what they do beyond. */
-    double (*packing)[2];
+    /* Not on a line: what volumes fill of the space there is at the start, one at least, and what they do beyond; how
+     * thinly neighbours stand on some axis. */
+    double (*packing)[3];
 };
 
 struct muscl_loop {

@@ -59,12 +59,9 @@ INLINE void sums_totals(struct muscl_kind kind, struct sums *sums, double *all)
                 f < wide ? sums->row[b][f] : all[at.narrow + b * narrow + f - wide];
 }
 
-/* The inverse of the second moment M, 1 on a complete lattice. Where neighbours lie to one side or in a plane M is
- * nearly singular, and its inverse gives way to the unit tensor as its norm grows from 16 to 32; the corner of a cubic
- * lattice has 5, of a distorted one up to 16. */
-INLINE struct sym3 correction_of(int dimension, struct sym3 m)
+/* det M times the inverse of M; *DET is det M. */
+INLINE struct sym3 adjoint_of(int dimension, struct sym3 m, double *det)
 {
-    const struct sym3 one = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
     if (dimension < 3)
         m.zz = 1.0;
     if (dimension < 2)
@@ -72,7 +69,18 @@ INLINE struct sym3 correction_of(int dimension, struct sym3 m)
     struct sym3 l = {m.yy * m.zz - square(m.yz), m.xx * m.zz - square(m.zx),
                      m.xx * m.yy - square(m.xy), m.yz * m.zx - m.xy * m.zz,
                      m.xy * m.zx - m.yz * m.xx,  m.xy * m.yz - m.zx * m.yy};
-    double det = m.xx * l.xx + m.xy * l.xy + m.zx * l.zx;
+    *det = m.xx * l.xx + m.xy * l.xy + m.zx * l.zx;
+    return l;
+}
+
+/* The inverse of the second moment M, 1 on a complete lattice. Where neighbours lie to one side or in a plane M is
+ * nearly singular, and its inverse gives way to the unit tensor as its norm grows from 16 to 32; the corner of a cubic
+ * lattice has 5, of a distorted one up to 16. */
+INLINE struct sym3 correction_of(int dimension, struct sym3 m)
+{
+    const struct sym3 one = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+    double det;
+    const struct sym3 l = adjoint_of(dimension, m, &det);
     double norm = sqrt(sym3_square(l)) / maximum(det, 1e-100);
     double share = det > 0.0 ? minimum(1.0, maximum(0.0, 2.0 - 0.0625 * norm)) : 0.0;
     double scale = share > 0.0 ? share / det : 0.0;
@@ -102,21 +110,22 @@ INLINE void write_tensor(int dimension, struct sym3 m, double *to)
     }
 }
 
-/* L for forces. Where neighbours lie to one side the moment is completed by what is missing on the other side, a free
+/* The moment for forces. Where neighbours lie to one side it is completed by what is missing on the other side, a free
  * surface that no stress acts on: with the first moment o, M + o o |o|^2/(o.M.o), which doubles it at the end of a line. */
-INLINE struct sym3 correction_of_forces(int dimension, struct sym3 m, struct vec3 o)
+INLINE struct sym3 moment_of_forces(struct sym3 m, struct vec3 o)
 {
     double across = vec3_dot(o, sym3_dot(m, o));
     double scale = across > 0.0 ? vec3_dot(o, o) / across : 0.0;
     struct sym3 missing = {o.x * o.x, o.y * o.y, o.z * o.z, o.x * o.y, o.y * o.z, o.z * o.x};
-    return correction_of(dimension, sym3_add(m, sym3_scale(scale, missing)));
+    return sym3_add(m, sym3_scale(scale, missing));
 }
 
 /* What the volumes about a particle fill beyond the space there is: the excess of tr M/dimension over the start's. Where matter
  * has met across a gap the velocity gradient counts too little of the closing, and bodies would run into each other. The trace is
- * 1 on the average of any arrangement that fills space; elastic waves change it by less than the slack. */
+ * 1 on the average of any arrangement that fills space; elastic waves change it by less than the slack.
+ * And how thinly neighbours stand on some axis: the norm of the inverse of the MOMENT of forces, 100 at most. */
 INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                          struct sym3 m)
+                          struct sym3 m, struct sym3 moment)
 {
     const double slack = 0.005;
     const double filled = kind.dimension == 2 ? 0.5 * (m.xx + m.yy) : (m.xx + m.yy + m.zz) / 3.0;
@@ -124,6 +133,9 @@ INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kind kind,
     if (packing[0] == 0.0)
         packing[0] = maximum(1.0, filled);
     packing[1] = maximum(filled - packing[0] - slack, 0.0);
+    double det;
+    const double norm = sqrt(sym3_square(adjoint_of(kind.dimension, moment, &det)));
+    packing[2] = 100.0 * det > norm ? norm / det : 100.0;
 }
 
 /* Strain rate, spin and, on a line, drift. O is the first moment. */
@@ -205,13 +217,14 @@ INLINE struct vec3 expected_force(struct muscl_kind kind, const double *own, con
 
 /* What the next step starts from. */
 INLINE void write_gradients(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                            const double *all, struct sym3 m, struct sym3 l, struct vec3 o)
+                            const double *all, struct sym3 m, struct sym3 moment, struct sym3 l,
+                            struct vec3 o)
 {
     const int dimension = kind.dimension, stresses = muscl_stresses(kind);
     const int values = muscl_values(kind);
     const struct layout at = layout_of(kind);
     const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
-    const struct sym3 of_forces = correction_of_forces(dimension, m, o);
+    const struct sym3 of_forces = correction_of(dimension, moment);
     write_tensor(dimension, of_forces,
                  loop->rates.correction + (size_t)i * (size_t)tensor_components(dimension));
     double slope[3 * (ROW + 1)];
@@ -256,10 +269,11 @@ INLINE void write_rates(const struct muscl_loop *loop, struct muscl_kind kind, i
     const struct sym3 m = stress_from(kind.dimension, all + at.moment, 1);
     const struct vec3 offset = vector_from(kind.dimension, all + at.offset, 1);
     const struct sym3 l = correction_of(kind.dimension, m);
+    const struct sym3 moment = moment_of_forces(m, offset);
     if (kind.dimension > 1)
-        write_packing(loop, kind, i, m);
+        write_packing(loop, kind, i, m, moment);
     write_strain(loop, kind, i, all, l, offset);
-    write_gradients(loop, kind, i, all, m, l, offset);
+    write_gradients(loop, kind, i, all, m, moment, l, offset);
 }
 
 #endif

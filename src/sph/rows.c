@@ -43,7 +43,9 @@ static bool recuts(const struct sph *sph, const struct simulation *simulation)
 struct error *sph_refresh_rows(struct sph *sph, struct simulation *simulation)
 {
     struct particles *p = &simulation->particles;
-    struct reach reach = {particles_field(p, "diameter"), sph->parameters.smoothing};
+    const bool grows = sph_second_order(sph) && p->dimension > 1;
+    const char *const diameter = grows ? "support" : "diameter";
+    struct reach reach = {particles_field(p, diameter), sph->parameters.smoothing};
     int64_t most = sph->parameters.rebuild;
     double begin = clock_seconds();
     bool recut = recuts(sph, simulation);
@@ -55,7 +57,7 @@ struct error *sph_refresh_rows(struct sph *sph, struct simulation *simulation)
     double work = work_of(sph, simulation);
     TRY(particles_distribute(p, work - sph->work, recut));
     sph->work = work;
-    reach.diameter = particles_field(p, "diameter");
+    reach.diameter = particles_field(p, diameter);
     TRY(neighbours_build(&sph->neighbours, p, reach, &simulation->mirrors, &sph->groups,
                          simulation->threads));
     sph->steps_since_build = 0;

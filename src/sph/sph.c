@@ -43,9 +43,9 @@ static const struct field_declaration stress_gradient_field = {
     "stress_gradient", NULL, "gradient of stress", NUMBER_DOUBLE, 0, FIELD_STATE};
 static const struct field_declaration force_field = {
     "expected_force", "N/m^3", "force of the next step", NUMBER_DOUBLE, 3, FIELD_STATE};
-static const struct field_declaration packing_field = {
-    "packing",     NULL, "how far volumes filled space at the start, and do beyond that",
-    NUMBER_DOUBLE, 2,    FIELD_STATE};
+static const struct field_declaration plane_fields[] = {
+    {"packing", NULL, "how volumes fill space, and lack neighbours", NUMBER_DOUBLE, 3, FIELD_STATE},
+    {"support", "m", "diameter that the kernel goes with", NUMBER_DOUBLE, 1, FIELD_STATE}};
 static const struct field_declaration heat_field = {
     "heat_rate", NULL, "specific power of conduction", NUMBER_DOUBLE, 1, FIELD_DERIVED};
 static const struct field_declaration level_history_field = {
@@ -113,6 +113,7 @@ struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *
         f.stress_gradient = particles_field(p, "stress_gradient");
         f.force = particles_field(p, "expected_force");
         f.packing = simulation->dimension > 1 ? particles_field(p, "packing") : NULL;
+        f.support = simulation->dimension > 1 ? particles_field(p, "support") : NULL;
     }
     if (sph_axisymmetric(simulation)) {
         f.rates.hoop_pull = particles_field(p, "hoop_pull");
@@ -218,8 +219,8 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
         fields[count] = stress_gradient_field;
         fields[count++].components = kind.dimension * muscl_stresses(kind);
         fields[count++] = force_field;
-        if (kind.dimension > 1)
-            fields[count++] = packing_field;
+        for (size_t k = 0; k < COUNT_OF(plane_fields) && kind.dimension > 1; k++)
+            fields[count++] = plane_fields[k];
     }
     if (sph_corrected(sph)) { /* supports are those of the start */
         own[DIAMETER_FIELD].kind = FIELD_STATE;
@@ -451,7 +452,7 @@ static double sph_bytes(const void *parameters, int dimension)
     if (sph->method == SPH_MUSCL) {
         const struct muscl_kind kind = {dimension, dimension > 1, false}; /* as of a solid */
         int slopes = tensor_components(dimension) + dimension * (dimension + muscl_stresses(kind));
-        fields += (slopes + 5) * sizeof(double);
+        fields += (slopes + (dimension > 1 ? 7 : 3)) * sizeof(double);
         record = (muscl_stride(kind) + PLACE_STRIDE) * sizeof(double);
     }
     double rows = sizeof(struct row) + 1.25 * neighbours * sizeof(uint32_t);

@@ -20,7 +20,8 @@ struct sph_fields {
     double *density_rate; /* of hllc and monaghan, NULL otherwise */
     /* second order only, as muscl_rates has them */
     double *correction, *velocity_gradient, *stress_gradient;
-    double (*packing)[2];
+    double (*packing)[3];
+    double *support; /* the diameter that a kernel goes with; not on a line */
     double (*force)[3];
 };
 
@@ -54,6 +55,12 @@ BOLIDE_INLINE double sph_depth(const struct simulation *simulation, const struct
     if (f->thickness)
         return f->thickness[i];
     return sph_axisymmetric(simulation) ? simulation->particles.position[i][0] : 1.0;
+}
+
+/* The diameter that the kernel of particle I goes with. */
+BOLIDE_INLINE double sph_support(const struct sph_fields *f, int32_t i)
+{
+    return f->support ? f->support[i] : f->diameter[i];
 }
 
 /* V = m/rho; with a depth the area A = m/(rho d) of a section. */
