@@ -152,6 +152,14 @@ static double place_of(const struct selection *selection, const double x[3])
     return about->count > 0 ? sqrt(sum) : x[selection->axis];
 }
 
+bool measure_takes(const struct measurement *measurement, int body, int32_t i)
+{
+    const struct check_input *check = measurement->check;
+    const struct particles *p = &measurement->simulation->particles;
+    const struct selection selection = {body, check->axis, check->between, check->about};
+    return selects(&selection, place_of(&selection, p->position[i]), p->body[i]);
+}
+
 struct error *samples_select(const struct particles *particles, const struct view *view,
                              int component, const struct selection *selection,
                              struct samples *samples)

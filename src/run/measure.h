@@ -78,6 +78,7 @@ struct measure_total {
 
 struct measure_extent {
     int along; /* x, y, z or the radius */
+    bool edges;
 };
 
 struct measure_turn {
@@ -159,6 +160,8 @@ struct error *samples_select(const struct particles *particles, const struct vie
                              struct samples *samples);
 /* The index of the body that the check is `of`, -1 for all. */
 int measure_body(const struct measurement *measurement);
+/* Whether the check speaks of particle I of BODY (-1: all), by `between`. */
+bool measure_takes(const struct measurement *measurement, int body, int32_t i);
 
 /* Collective: the mean of the places AT of the particles of BODY (-1: all), by mass. */
 struct vec3 measure_center(const struct measurement *measurement, const double (*at)[3], int body);

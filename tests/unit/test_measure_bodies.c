@@ -193,6 +193,20 @@ static void extent_is_measured_between_centers_of_particles(void **state)
     stage_close(&s);
 }
 
+static void extent_reaches_edges_and_keeps_to_a_slice(void **state)
+{
+    (void)state;
+    struct stage s;
+    stage_begin(&s, "  edges: {extent: {along: x, edges: yes}, of: left, at_most: 1 m}\n"
+                    "  slice: {extent: x, of: left, between: [2.6 mm, 5.4 mm], at_most: 1 m}\n"
+                    "  centres: {extent: radius, of: ring, at_most: 1 m}\n"
+                    "  radius: {extent: {along: radius, edges: yes}, of: ring, at_most: 1 m}\n");
+    assert_float_equal(stage_value(&s, 0), 10e-3, 1e-16);
+    assert_float_equal(stage_value(&s, 1), 2e-3, 1e-16);
+    assert_true(stage_value(&s, 3) > stage_value(&s, 2) + 0.3e-3);
+    stage_close(&s);
+}
+
 static void radius_follows_a_surface_that_no_particle_stands_on(void **state)
 {
     (void)state;
@@ -470,7 +484,7 @@ static void what_makes_no_sense_of_a_body_is_told_before_the_run(void **state)
         {"  it: {extent: z, at_most: 1 m}\n", "the case has 2 dimensions"},
         {"  it: {radius: {start: 1 m, center: [0 m]}, at_most: 1 m}\n",
          "`center`: 2 components are wanted, one a dimension; found 1"},
-        {"  it: {extent: x, between: [0 m, 1 m], at_most: 1 m}\n", "`between` has no meaning"},
+        {"  it: {turn: z, between: [0 m, 1 m], at_most: 1}\n", "`between` has no meaning"},
         {"  it: {extent: x, at_most: 1 s}\n", "`at_most` is in s"},
         {"  it: {total: mass, relative: start, at_most: 1 kg/m}\n", "`at_most` is in"},
         {"  it: {mean: pressure, relative: at, at_most: 1}\n  at: {mean: position.x, at_most: 1 m}",
@@ -495,6 +509,7 @@ int main(void)
         cmocka_unit_test(a_total_is_that_of_a_body),
         cmocka_unit_test(turn_is_the_angle_of_a_rigid_rotation),
         cmocka_unit_test(extent_is_measured_between_centers_of_particles),
+        cmocka_unit_test(extent_reaches_edges_and_keeps_to_a_slice),
         cmocka_unit_test(radius_follows_a_surface_that_no_particle_stands_on),
         cmocka_unit_test(spread_is_the_standard_deviation),
         cmocka_unit_test(pieces_are_what_hangs_together),
