@@ -96,8 +96,8 @@ struct muscl_rates {
     double *velocity_gradient, *stress_gradient;
     double (*force)[3]; /* likewise, on a unit of volume, N/m^3 */
     /* Not on a line: what volumes fill of the space there is at the start, one at least, and what they do beyond; how
-     * thinly neighbours stand on some axis. */
-    double (*packing)[3];
+     * thinly neighbours stand on some axis, at the start and now. */
+    double (*packing)[4];
 };
 
 struct muscl_loop {

@@ -230,15 +230,13 @@ BOLIDE_INLINE double packing_rate(const struct material *material, const struct 
 
 /* The share of the diameter by which the support of particle I is wider after a step of DT. Matter that flows far draws its
  * particles apart along one axis and together along another, until on the one they no longer see each other: the velocity
- * gradient knows nothing of that axis then, and density goes astray. So a support grows, some per cent a step, until the
- * moment of its neighbours has a least eigenvalue of 1/sqrt(3) at least, and shrinks again where there is more; not beyond
- * what plastic strain can have drawn out, nor three times. */
-BOLIDE_INLINE double support_share(const struct particles *p, const struct sph_fields *f,
-                                   int dimension, double dt, int32_t i)
+ * gradient knows nothing of that axis then, and density goes astray. So a support grows, some per cent a step, where
+ * neighbours stand more thinly than at the start (see write_packing), and shrinks where they do not; not beyond what plastic
+ * strain can have drawn out, nor three times. */
+BOLIDE_INLINE double support_share(const struct particles *p, const struct sph_fields *f, double dt,
+                                   int32_t i)
 {
-    const double thinnest =
-        dimension == 2 ? 2.0 : 2.2360679774997896; /* sqrt(3 + 1), sqrt(3 + 2) */
-    const double lack = minimum(f->packing[i][2] / thinnest - 1.0, 1.0);
+    const double lack = minimum(f->packing[i][3] / f->packing[i][2] - 1.0, 1.0);
     const double share = f->support[i] / f->diameter[i] *
                          (1.0 + 0.1 * lack * dt * f->sound_long[i] / f->diameter[i]);
     return share > 1.0 ? minimum(share, minimum(3.0, exp(p->plastic_strain[i]))) : 1.0;
@@ -321,7 +319,7 @@ BOLIDE_INLINE void update_run(const struct material *material, bool plain, struc
         s[3] = point.deviator.xy;
         s[4] = point.deviator.yz;
         s[5] = point.deviator.zx;
-        const double share = f->support ? support_share(p, f, dimension, dt, i) : 1.0;
+        const double share = f->support ? support_share(p, f, dt, i) : 1.0;
         f->sound_long[i] = r.sound_long;
         f->sound_shear[i] = r.sound_shear;
         double depth = f->thickness ? f->thickness[i] : f->rates.hoop_pull ? fabs(x[0]) : 1.0;

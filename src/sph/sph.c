@@ -44,7 +44,7 @@ static const struct field_declaration stress_gradient_field = {
 static const struct field_declaration force_field = {
     "expected_force", "N/m^3", "force of the next step", NUMBER_DOUBLE, 3, FIELD_STATE};
 static const struct field_declaration plane_fields[] = {
-    {"packing", NULL, "how volumes fill space, and lack neighbours", NUMBER_DOUBLE, 3, FIELD_STATE},
+    {"packing", NULL, "how volumes fill space, and lack neighbours", NUMBER_DOUBLE, 4, FIELD_STATE},
     {"support", "m", "diameter that the kernel goes with", NUMBER_DOUBLE, 1, FIELD_STATE}};
 static const struct field_declaration heat_field = {
     "heat_rate", NULL, "specific power of conduction", NUMBER_DOUBLE, 1, FIELD_DERIVED};
@@ -452,7 +452,7 @@ static double sph_bytes(const void *parameters, int dimension)
     if (sph->method == SPH_MUSCL) {
         const struct muscl_kind kind = {dimension, dimension > 1, false}; /* as of a solid */
         int slopes = tensor_components(dimension) + dimension * (dimension + muscl_stresses(kind));
-        fields += (slopes + (dimension > 1 ? 7 : 3)) * sizeof(double);
+        fields += (slopes + (dimension > 1 ? 8 : 3)) * sizeof(double);
         record = (muscl_stride(kind) + PLACE_STRIDE) * sizeof(double);
     }
     double rows = sizeof(struct row) + 1.25 * neighbours * sizeof(uint32_t);

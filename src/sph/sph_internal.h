@@ -20,7 +20,7 @@ struct sph_fields {
     double *density_rate; /* of hllc and monaghan, NULL otherwise */
     /* second order only, as muscl_rates has them */
     double *correction, *velocity_gradient, *stress_gradient;
-    double (*packing)[3];
+    double (*packing)[4];
     double *support; /* the diameter that a kernel goes with; not on a line */
     double (*force)[3];
 };

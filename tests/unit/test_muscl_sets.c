@@ -165,12 +165,12 @@ static void threads_rows_and_a_resume_do_not_change_a_bit(void **state)
     }
 }
 
-/* What the next step starts from is saved: a run that forgets one of both goes on otherwise. */
-static void expected_forces_and_packing_belong_to_the_state(void **state)
+/* What the next step starts from is saved: a run that forgets one of them goes on otherwise. */
+static void expected_forces_packing_and_supports_belong_to_the_state(void **state)
 {
     (void)state;
-    static const char *const names[] = {"expected_force", "packing"};
-    static const size_t components[] = {3, 2};
+    static const char *const names[] = {"expected_force", "packing", "support"};
+    static const size_t components[] = {3, 4, 1};
     const uint64_t wanted = hash_after(plane_gap, &plain, &plain, 20);
     for (size_t k = 0; k < COUNT_OF(names); k++) {
         struct running *run = begin_fresh(plane_gap, &plain);
@@ -197,7 +197,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_instruction_sets_give_the_same_bits),
         cmocka_unit_test(threads_rows_and_a_resume_do_not_change_a_bit),
-        cmocka_unit_test(expected_forces_and_packing_belong_to_the_state),
+        cmocka_unit_test(expected_forces_packing_and_supports_belong_to_the_state),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

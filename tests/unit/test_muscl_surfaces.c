@@ -255,7 +255,7 @@ static void packing_counts_from_that_of_the_start(void **state)
     for (size_t k = 0; k < COUNT_OF(lattices); k++) {
         struct running *run = begin_lattice(lattices[k]);
         const struct particles *p = &run->simulation.particles;
-        const double(*kept)[3] = particles_field(p, "packing");
+        const double(*kept)[4] = particles_field(p, "packing");
         put_into(run, 0.95);
         double *start = packing_of_all(run);
         prepare(run);
