@@ -49,12 +49,14 @@ struct wall_input {
  * Pairs that no contact names stick in shear and carry tension. */
 enum contact_shear { SHEAR_STICK, SHEAR_SLIP };
 enum contact_tension { TENSION_CARRIED, TENSION_NONE };
+enum contact_touch { TOUCH_NODES, TOUCH_SURFACES };
 enum contact_normal { NORMAL_MEAN, NORMAL_FIRST, NORMAL_SECOND };
 struct contact_input {
     struct name_list between; /* two bodies */
     int shear, tension;
     double friction; /* where they slip */
     int normal;      /* whose surface it is taken from */
+    int touch;       /* enum contact_touch */
     int body[2];     /* filled by case_read */
 };
 

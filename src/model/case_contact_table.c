@@ -3,6 +3,7 @@
 
 static const char *const shear_names[] = {"stick", "slip", NULL};
 static const char *const tension_names[] = {"carried", "none", NULL};
+static const char *const touch_names[] = {"nodes", "surfaces", NULL};
 static const char *const normal_names[] = {"mean", "first", "second", NULL};
 
 const struct parameter case_contact_table[] = {
@@ -39,5 +40,12 @@ const struct parameter case_contact_table[] = {
      .help =
          "whose surface tells which way the contact pushes: that of the first body (the stiffer, "
          "or the convex one), of the second, or the mean of both (solver mpm)"},
+    {.key = "touch",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct contact_input, touch),
+     .standard = "nodes",
+     .names = touch_names,
+     .help = "when bodies that may part feel each other: where they have the same nodes, a cell "
+             "before they meet, or where their surfaces meet (solver mpm)"},
     PARAMETER_END,
 };

@@ -77,15 +77,16 @@ static int law_of(const struct law_table *table, int first, int second)
 
 /* The number of the surface with these values, which becomes one if there is none yet; CONTACT_SURFACES when there are too
  * many. */
-static int surface_of(struct simulation *simulation, double friction, int normal)
+static int surface_of(struct simulation *simulation, struct contact_surface surface)
 {
     int k = 0;
     simulation->surfaces = simulation->surfaces ? simulation->surfaces : 1;
-    while (k < simulation->surfaces &&
-           (simulation->surface[k].friction != friction || simulation->surface[k].normal != normal))
+    while (k < simulation->surfaces && (simulation->surface[k].friction != surface.friction ||
+                                        simulation->surface[k].normal != surface.normal ||
+                                        simulation->surface[k].touch != surface.touch))
         k++;
     if (k == simulation->surfaces && k < CONTACT_SURFACES)
-        simulation->surface[simulation->surfaces++] = (struct contact_surface){friction, normal};
+        simulation->surface[simulation->surfaces++] = surface;
     return k;
 }
 
@@ -100,7 +101,9 @@ static bool laws_of(struct simulation *simulation, const struct contact_input *c
     bool room = true;
     for (int side = 0; side < 2; side++) {
         const int normal = side ? turned[contact->normal] : contact->normal;
-        const int surface = surface_of(simulation, contact->friction, bits ? normal : NORMAL_MEAN);
+        const int surface = surface_of(
+            simulation, (struct contact_surface){contact->friction, bits ? normal : NORMAL_MEAN,
+                                                 bits ? contact->touch : TOUCH_NODES});
         law[side] = bits | LAW_SURFACE * surface;
         room &= surface < CONTACT_SURFACES;
     }

@@ -20,6 +20,7 @@ enum contact_law {
 struct contact_surface {
     double friction;
     int normal; /* enum contact_normal; the first is the group whose row of laws it is */
+    int touch;  /* enum contact_touch */
 };
 enum { CONTACT_SURFACES = 60 };
 

@@ -22,10 +22,32 @@ struct error *mpm_refuse(const struct simulation *simulation)
     return error;
 }
 
-static bool same_hold(const struct body_input *a, const struct body_input *b)
+/* The layer of a contact group for bodies that are HELD or not, a frozen one's own; it becomes one if there is none yet.
+ * BIN_GROUPS when there are too many. */
+static int layer_for(struct mpm *mpm, const struct simulation *simulation, int body, bool held)
 {
-    return a->driven == b->driven && !a->frozen && !b->frozen &&
-           (a->stop == b->stop || (isnan(a->stop) && isnan(b->stop)));
+    const bool frozen = body_is_frozen(simulation, body);
+    const int group = simulation->group_of_body[body];
+    int g = 0;
+    while (g < mpm->layers && (frozen || mpm->layer[g].frozen || mpm->layer[g].group != group ||
+                               mpm->layer[g].held != held))
+        g++;
+    if (g == mpm->layers && g < BIN_GROUPS)
+        mpm->layer[mpm->layers++] = (struct layer){.group = group, .held = held, .frozen = frozen};
+    return g;
+}
+
+/* How fast waves are in a frozen body at the start. */
+static void note_sound(struct layer *layer, const struct simulation *simulation, int body)
+{
+    const struct body_input *input = case_body(simulation->input, body);
+    const struct material *material = &simulation->material[input->material_index];
+    struct point point = input->start;
+    if (input->varies)
+        point = (struct point){.density = material_density(material)};
+    const struct response response = material_evaluate(material, &point);
+    layer->sound_long = response.sound_long;
+    layer->sound_shear = response.sound_shear;
 }
 
 struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulation)
@@ -33,44 +55,33 @@ struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulat
     const struct simulation_case *input = simulation->input;
     static_assert((int)CONTACT_GROUPS == (int)BIN_GROUPS, "a layer for each contact group");
     mpm->layer_of_body = memory_allocate((size_t)input->bodies.count);
-    if (!mpm->layer_of_body)
+    mpm->layer_at_rest = memory_allocate((size_t)input->bodies.count);
+    if (!mpm->layer_of_body || !mpm->layer_at_rest)
         return error_new(ERROR_SYSTEM, "out of memory");
     for (int b = 0; b < input->bodies.count; b++) {
         const struct body_input *body = case_body(input, b);
-        const int group = simulation->group_of_body[b];
-        int g = 0;
-        while (g < mpm->layers && !(mpm->layer[g].group == group &&
-                                    same_hold(case_body(input, mpm->layer[g].body), body)))
-            g++;
-        if (g == BIN_GROUPS)
+        const bool held = body->driven || body->frozen || body->stop <= 0.0;
+        const int own = layer_for(mpm, simulation, b, held),
+                  rest = isnan(body->stop) ? own : layer_for(mpm, simulation, b, true);
+        if (own == BIN_GROUPS || rest == BIN_GROUPS)
             return input_error(input, "bodies", input->bodies.names[b],
                                "the solver mpm tells %d kinds of bodies apart, by contacts and by "
                                "how they are held, and this is one more",
                                (int)BIN_GROUPS);
-        mpm->layer_of_body[b] = (uint8_t)g;
-        if (g < mpm->layers)
-            continue;
-        const struct material *material = &simulation->material[body->material_index];
-        struct point point = body->start;
-        if (body->varies)
-            point = (struct point){.density = material_density(material)};
-        const struct response response = material_evaluate(material, &point);
-        mpm->layer[mpm->layers++] = (struct layer){.group = group,
-                                                   .body = b,
-                                                   .sound_long = response.sound_long,
-                                                   .sound_shear = response.sound_shear};
+        mpm->layer_of_body[b] = (uint8_t)own;
+        mpm->layer_at_rest[b] = (uint8_t)rest;
+        if (body->frozen)
+            note_sound(&mpm->layer[own], simulation, b);
     }
     return NULL;
 }
 
-bool mpm_is_held(const struct layer *layer, const struct simulation *simulation)
+void mpm_stop_bodies(struct mpm *mpm, struct simulation *simulation)
 {
-    return body_is_held(simulation, layer->body);
-}
-
-bool mpm_is_frozen(const struct layer *layer, const struct simulation *simulation)
-{
-    return body_is_frozen(simulation, layer->body);
+    stop_bodies(simulation);
+    for (int b = 0; b < simulation->input->bodies.count; b++)
+        if (body_stands(simulation, b))
+            mpm->layer_of_body[b] = mpm->layer_at_rest[b];
 }
 
 void mpm_move_held(struct simulation *simulation, double dt)
@@ -148,5 +159,25 @@ void mpm_book_gravity(struct simulation *simulation, double dt, bool begin)
         }
 #pragma omp critical(bolide_mpm_gravity)
         ledger_join(&simulation->ledger, &own);
+    }
+}
+
+void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulation)
+{
+    const struct particles *p = &simulation->particles;
+    double(*gradient)[9] = particles_field(p, "velocity_gradient");
+    for (int32_t i = 0; i < p->count; i++) {
+        const struct field_list *velocity = &case_body(simulation->input, p->body[i])->velocity;
+        const double *x = p->position[i], away = mpm->half_size[p->body[i]] * mpm->edge;
+        for (int j = 0; j < simulation->dimension; j++) {
+            double low[3] = {x[0], x[1], x[2]}, high[3] = {x[0], x[1], x[2]};
+            low[j] -= away;
+            high[j] += away;
+            for (int k = 0; k < velocity->count; k++)
+                gradient[i][3 * k + j] =
+                    (field_at(&velocity->at[k], vec3_make(high[0], high[1], high[2])) -
+                     field_at(&velocity->at[k], vec3_make(low[0], low[1], low[2]))) /
+                    (2.0 * away);
+        }
     }
 }

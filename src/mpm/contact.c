@@ -49,18 +49,23 @@ static void find_normals(const struct mpm *mpm, const struct simulation *simulat
     mpm_fold_vectors(mpm, layer, &layer->normal);
 }
 
-static struct vec3 vector_at(const double *v) { return vec3_make(v[0], v[1], v[2]); }
-
-/* Out of the first body, from both gradients of mass; zero where there is none. */
-static struct vec3 normal_of(int rule, struct vec3 first, struct vec3 second)
+/* A half-space whose surface lies s cells beyond a node has there mass per gradient of M(s)/N(s) cells, M the integral of
+ * the shape function N up to s. */
+void mpm_note_surfaces(struct mpm *mpm)
 {
-    const struct vec3 turned = vec3_scale(-1.0, second);
-    const struct vec3 g = rule == NORMAL_FIRST    ? first
-                          : rule == NORMAL_SECOND ? turned
-                                                  : vec3_add(first, turned);
-    const double length = sqrt(vec3_dot(g, g));
-    return length > 0.0 ? vec3_scale(1.0 / length, g) : vec3_make(0.0, 0.0, 0.0);
+    enum { PARTS = 64 };
+    const enum grid_shape shape = (enum grid_shape)mpm->parameters.shape;
+    const double step = 2.0 * SURFACE_REACH / SURFACES / PARTS, half = mpm->half_size[0];
+    double mass = 0.0, s = -SURFACE_REACH;
+    for (int k = 0; k <= SURFACES; k++) {
+        const double value = shape_value(shape, s, half);
+        mpm->surface[k] = value > 0.0 ? mass / value : s < 0.0 ? 0.0 : (double)INFINITY;
+        for (int part = 0; part < PARTS; part++, s += step)
+            mass += step * shape_value(shape, s + 0.5 * step, half);
+    }
 }
+
+static struct vec3 vector_at(const double *v) { return vec3_make(v[0], v[1], v[2]); }
 
 static void push_node(double *node, double factor, struct vec3 impulse)
 {
@@ -87,9 +92,56 @@ struct meeting {
     int law;
     struct contact_rule rule;
     int normal; /* enum contact_normal */
+    int touch;  /* enum contact_touch */
     enum held_side held;
     bool frozen;
+    const double *surface; /* of struct mpm */
+    double edge;
 };
+
+/* How far the surface of a body lies beyond a node, in cells, from the mass that it has there and its gradient. */
+static double surface_beyond(const struct meeting *m, const double *node, struct vec3 gradient)
+{
+    const double ratio = node[NODE_MASS] / (m->edge * sqrt(vec3_dot(gradient, gradient)));
+    int low = 0, high = SURFACES;
+    while (high - low > 1) {
+        const int middle = (low + high) / 2;
+        if (m->surface[middle] > ratio)
+            high = middle;
+        else
+            low = middle;
+    }
+    const double part = (ratio - m->surface[low]) / (m->surface[high] - m->surface[low]);
+    return SURFACE_REACH * (2.0 * (low + minimum(part, 1.0)) / SURFACES - 1.0);
+}
+
+/* Out of the first body at node K, from both gradients of mass; zero where there is none. A body whose surface is more
+ * than a cell beyond the node has none. */
+static struct vec3 normal_at(const struct meeting *m, int k)
+{
+    const struct vec3 first = vector_at(grid_node(&m->a->normal, m->in_a, k)),
+                      second = vector_at(grid_node(&m->b->normal, m->in_b, k)),
+                      turned = vec3_scale(-1.0, second);
+    const struct vec3 g = m->normal == NORMAL_FIRST    ? first
+                          : m->normal == NORMAL_SECOND ? turned
+                                                       : vec3_add(first, turned);
+    const double *node = m->normal == NORMAL_SECOND ? grid_node(&m->b->main, m->in_b, k)
+                                                    : grid_node(&m->a->main, m->in_a, k);
+    if (m->normal != NORMAL_MEAN && surface_beyond(m, node, g) > 1.0)
+        return vec3_make(0.0, 0.0, 0.0);
+    const double length = sqrt(vec3_dot(g, g));
+    return length > 0.0 ? vec3_scale(1.0 / length, g) : vec3_make(0.0, 0.0, 0.0);
+}
+
+/* Whether there is room between the surfaces of two bodies at a node. */
+static bool is_apart(const struct meeting *m, int k)
+{
+    const double *first = grid_node(&m->a->main, m->in_a, k),
+                 *second = grid_node(&m->b->main, m->in_b, k);
+    return surface_beyond(m, first, vector_at(grid_node(&m->a->normal, m->in_a, k))) +
+               surface_beyond(m, second, vector_at(grid_node(&m->b->normal, m->in_b, k))) <
+           0.0;
+}
 
 /* How a node of layer a touches others is a number of two bits for each of them, in the last number of its normal. */
 enum { TOUCH_NUMBER = 3 };
@@ -144,9 +196,9 @@ static void meet_block(const struct meeting *m, double least, double dt)
         struct vec3 normal = vec3_make(0.0, 0.0, 0.0);
         double *own = grid_node(&m->a->normal, m->in_a, k);
         if (m->law) {
-            normal = normal_of(m->normal, vector_at(own),
-                               vector_at(grid_node(&m->b->normal, m->in_b, k)));
-            if (vec3_dot(normal, normal) == 0.0)
+            normal = normal_at(m, k);
+            if (vec3_dot(normal, normal) == 0.0 ||
+                (m->rule.opens && m->touch == TOUCH_SURFACES && is_apart(m, k)))
                 continue;
         }
         struct contact_push push;
@@ -177,8 +229,7 @@ static void join_block(const struct meeting *m)
         double *u = grid_node(&m->a->back, m->in_a, k), *v = grid_node(&m->b->back, m->in_b, k);
         if (state == CONTACT_NONE || !(first > 0.0 && second > 0.0))
             continue;
-        const struct vec3 normal =
-            normal_of(m->normal, vector_at(own), vector_at(grid_node(&m->b->normal, m->in_b, k)));
+        const struct vec3 normal = normal_at(m, k);
         const struct contact_rule rule = {state == CONTACT_STICKS ? (double)INFINITY : 0.0, false};
         const struct contact_side a = {first, vec3_scale(first, vector_at(u))},
                                   b = {second, vec3_scale(second, vector_at(v))};
@@ -205,7 +256,7 @@ static int law_of(const struct simulation *simulation, const struct layer *a, co
 static bool wants_normals(const struct mpm *mpm, const struct simulation *simulation)
 {
     for (int g = 0; g < mpm->layers; g++) {
-        if (mpm_is_frozen(&mpm->layer[g], simulation))
+        if (mpm->layer[g].frozen)
             return true;
         for (int h = 0; h < mpm->layers; h++)
             if (law_of(simulation, &mpm->layer[g], &mpm->layer[h]))
@@ -218,8 +269,8 @@ static bool wants_normals(const struct mpm *mpm, const struct simulation *simula
 static void meet_pair(struct mpm *mpm, const struct simulation *simulation, int g, int h, double dt)
 {
     struct layer *a = &mpm->layer[g], *b = &mpm->layer[h];
-    const bool first = mpm_is_held(a, simulation), second = mpm_is_held(b, simulation);
-    const bool frozen = mpm_is_frozen(first ? a : b, simulation);
+    const bool first = a->held, second = b->held;
+    const bool frozen = (first ? a : b)->frozen;
     const int law = law_of(simulation, a, b);
     const struct contact_surface *surface = &simulation->surface[law / LAW_SURFACE];
     const struct contact_rule rule = {law & LAW_SLIP ? surface->friction : (double)INFINITY,
@@ -231,18 +282,21 @@ static void meet_pair(struct mpm *mpm, const struct simulation *simulation, int 
         const int32_t other = a->meets[n] && b->bins.count > 0
                                   ? block_table_find(&b->grid.table, a->grid.key[n])
                                   : -1;
-        const struct meeting meeting = {a,
-                                        b,
-                                        n,
-                                        other,
-                                        h,
-                                        law,
-                                        rule,
-                                        surface->normal,
-                                        first    ? HELD_FIRST
-                                        : second ? HELD_SECOND
-                                                 : HELD_NONE,
-                                        frozen};
+        const struct meeting meeting = {.a = a,
+                                        .b = b,
+                                        .in_a = n,
+                                        .in_b = other,
+                                        .other = h,
+                                        .law = law,
+                                        .rule = rule,
+                                        .normal = surface->normal,
+                                        .touch = surface->touch,
+                                        .held = first    ? HELD_FIRST
+                                                : second ? HELD_SECOND
+                                                         : HELD_NONE,
+                                        .frozen = frozen,
+                                        .surface = mpm->surface,
+                                        .edge = mpm->edge};
         if (other >= 0 && dt > 0.0)
             meet_block(&meeting, law ? mpm->least_mass : 0.0, dt);
         else if (other >= 0)
@@ -318,11 +372,11 @@ void mpm_meet(struct mpm *mpm, struct simulation *simulation, double dt)
     for (int g = 0; g < mpm->layers && normals; g++)
         find_normals(mpm, simulation, &mpm->layer[g]);
     for (int g = 0; g < mpm->layers; g++)
-        if (mpm_is_held(&mpm->layer[g], simulation))
+        if (mpm->layer[g].held)
             clear_notes(&mpm->layer[g]);
     meet_pairs(mpm, simulation, dt);
     for (int g = 0; g < mpm->layers; g++)
-        if (mpm_is_held(&mpm->layer[g], simulation))
+        if (mpm->layer[g].held)
             book_notes(mpm, simulation, &mpm->layer[g]);
 }
 

@@ -127,11 +127,11 @@ void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt)
         struct layer *layer = &mpm->layer[g];
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
         for (int32_t b = 0; b < layer->bins.count; b++)
-            if (!mpm_is_far(mpm, layer, b) && !mpm_is_held(layer, simulation))
+            if (!mpm_is_far(mpm, layer, b) && !layer->held)
                 damp_bin(mpm, simulation, layer, b, dt);
     }
     mpm_exchange(mpm, simulation, offsetof(struct layer, back));
     for (int g = 0; g < mpm->layers; g++)
-        if (!mpm_is_held(&mpm->layer[g], simulation))
+        if (!mpm->layer[g].held)
             add_forces(mpm, simulation, &mpm->layer[g]);
 }

@@ -14,7 +14,6 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "model/generate.h"
-#include "model/held.h"
 #include "mpm/mpm_internal.h"
 
 static const struct field_declaration mpm_field_table[] = {
@@ -50,6 +49,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
                    error_join(mpm_note_bodies(mpm, simulation), mpm_find_planes(mpm, simulation))));
     TRY(mpm_share_layers(mpm, simulation));
     start_layers(mpm, simulation);
+    mpm_note_surfaces(mpm);
     struct field_declaration fields[COUNT_OF(mpm_field_table) + 1 + POINT_HISTORY];
     int count = simulation_history(simulation, fields);
     for (size_t k = 0; k < COUNT_OF(mpm_field_table); k++)
@@ -70,6 +70,8 @@ static struct error *mpm_start(void *solver, struct simulation *simulation)
         return error_new(ERROR_SYSTEM, "out of memory");
     if (!simulation->particles.blocks) /* as they are when loaded */
         TRY(particles_sort(&simulation->particles));
+    if (is_affine(mpm) && simulation->step == 0)
+        mpm_start_gradients(mpm, simulation);
     mpm_evaluate(simulation);
     return NULL;
 }
@@ -269,7 +271,7 @@ static struct limit limit_step(const struct mpm *mpm, const struct simulation *s
 static struct error *mpm_prepare(void *solver, struct simulation *simulation, struct limit *limit)
 {
     struct mpm *mpm = solver;
-    stop_bodies(simulation);
+    mpm_stop_bodies(mpm, simulation);
     double begin = clock_seconds();
     TRY(refresh_grid(mpm, simulation));
     simulation_spend(simulation, "cells", clock_seconds() - begin);
@@ -295,7 +297,7 @@ static void find_velocities(struct mpm *mpm, struct simulation *simulation, doub
             if (mpm_is_far(mpm, layer, b))
                 continue;
             grid_spread(&layer->grid, &layer->main, b);
-            if (!mpm_is_held(layer, simulation))
+            if (!layer->held)
                 transfer_velocity(&transfer, b, dt, scatter, move);
         }
     }
@@ -321,8 +323,8 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
 {
     const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
     const struct particles *p = &simulation->particles;
-    const bool held = mpm_is_held(layer, simulation);
-    if (mpm_is_frozen(layer, simulation))
+    const bool held = layer->held;
+    if (layer->frozen)
         return;
 #pragma omp parallel num_threads(simulation->threads)
     {
@@ -415,6 +417,7 @@ static void mpm_destroy(void *solver)
     free(mpm->half_size);
     free(mpm->gauge);
     free(mpm->layer_of_body);
+    free(mpm->layer_at_rest);
     bins_free(&mpm->bins);
     mpm_free_halo(mpm);
     for (int g = 0; g < mpm->layers; g++) {

@@ -18,8 +18,8 @@ struct wall_node {
  * each contact group and each way to be held. */
 struct layer {
     int group;                      /* contact group */
-    int body;                       /* the first of its bodies */
-    double sound_long, sound_shear; /* of frozen ones at the start */
+    bool held, frozen;              /* its bodies keep their velocities, or all of their state */
+    double sound_long, sound_shear; /* of a frozen body at the start */
     struct bins
         bins; /* a part of all bins, or own ones and, without particles, those of other ranks; not owned */
     struct grid grid;
@@ -46,17 +46,22 @@ struct halo {
     int64_t received_capacity;
 };
 
+/* Distances of a surface from a node that are told apart, and the largest in cells. */
+enum { SURFACES = 256, SURFACE_REACH = 2 };
+
 struct mpm {
     struct mpm_parameters parameters;
     double edge;       /* of a cell, m */
     double *half_size; /* of the particles of each body, in cells */
     double *gauge;     /* of each material, Pa */
+    double surface[SURFACES +
+                   1]; /* mass per gradient of it, where a surface is so far beyond a node */
     double least_mass; /* of a node whose velocity counts in strain, kg */
     int64_t plane[3][2];
     bool has_plane[3][2]; /* node index of the low and the high wall across each axis */
     struct bins bins;
     int layers;
-    uint8_t *layer_of_body;
+    uint8_t *layer_of_body, *layer_at_rest;
     struct layer layer[BIN_GROUPS];
     double **rate; /* of the particles of a bin, one a thread */
     int threads;
@@ -84,11 +89,11 @@ struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
 
 /* What the method cannot do, located in the case. */
 struct error *mpm_refuse(const struct simulation *simulation);
-/* Which bodies share a layer. */
+/* Which bodies share a layer; those that stop change it then. */
 struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulation);
-/* Whether the bodies of a layer keep their velocities, or all of their state. */
-bool mpm_is_held(const struct layer *layer, const struct simulation *simulation);
-bool mpm_is_frozen(const struct layer *layer, const struct simulation *simulation);
+void mpm_stop_bodies(struct mpm *mpm, struct simulation *simulation);
+/* Fresh particles that carry a gradient of velocity get that of their body's velocity over their size. */
+void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulation);
 /* Held bodies move by their velocities in a step of DT. */
 void mpm_move_held(struct simulation *simulation, double dt);
 
@@ -127,6 +132,7 @@ void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt);
 
 /* Contact between layers, see contact.c: which blocks of nodes they share; forces at nodes that both have, in a step of
  * DT. */
+void mpm_note_surfaces(struct mpm *mpm);
 struct error *mpm_find_meetings(struct mpm *mpm);
 void mpm_meet(struct mpm *mpm, struct simulation *simulation, double dt);
 /* The same for the velocities of the second field where layers touched, in the step or always. */

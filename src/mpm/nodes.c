@@ -177,7 +177,7 @@ static void add_gravity(const struct simulation *simulation, const struct layer 
 struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simulation,
                             struct layer *layer)
 {
-    const bool heavy = simulation_has_gravity(simulation) && !mpm_is_held(layer, simulation);
+    const bool heavy = simulation_has_gravity(simulation) && !layer->held;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++) {
         grid_reduce(&layer->grid, &layer->main, n);
@@ -220,7 +220,7 @@ static void book_walls(const struct mpm *mpm, struct simulation *simulation,
 void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
                        double dt)
 {
-    const bool held = mpm_is_held(layer, simulation);
+    const bool held = layer->held;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++)
         for (int k = 0; k < BLOCK_CELLS; k++) {
@@ -254,7 +254,7 @@ static void keep_velocities(const struct simulation *simulation, struct layer *l
 void mpm_find_velocities(const struct mpm *mpm, const struct simulation *simulation,
                          struct layer *layer, bool plain)
 {
-    if (mpm_is_held(layer, simulation)) {
+    if (layer->held) {
         keep_velocities(simulation, layer, plain);
         return;
     }

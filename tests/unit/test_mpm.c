@@ -54,7 +54,8 @@ static const char contact_case[] =
     "m/s, -400 m/s]}\n"
     "contacts:\n"
     "  slip: {between: [rod, slab], shear: slip, tension: none}\n"
-    "  rub: {between: [ball, slab], shear: slip, tension: none, friction: 0.3, normal: first}\n"
+    "  rub: {between: [ball, slab], shear: slip, tension: none, friction: 0.3, normal: first, "
+    "touch: surfaces}\n"
     "walls:\n"
     "  floor: {mirror: y, at: 0 mm, side: low}\n"
     "run: {until: 1 s}\n";
@@ -219,10 +220,40 @@ static void a_wall_between_planes_of_the_grid_is_a_mistake(void **state)
     end(run);
 }
 
+/* A block that flies at another, half a cell away. */
+static void surfaces_that_do_not_meet_are_left_alone(void **state)
+{
+    (void)state;
+    static const char blocks[] =
+        "format: 1\ndimension: 2\nresolution: 1 mm\nsolver: mpm\n" MATERIALS "bodies:\n"
+        "  flyer: {material: aluminium, box: {from: [-9 mm, 0 mm], to: [-1 mm, 8 mm]}, velocity: "
+        "[100 m/s, 0 m/s]}\n"
+        "  plate: {material: aluminium, box: {from: [0 mm, 0 mm], to: [8 mm, 8 mm]}}\n"
+        "contacts: {faces: {between: [flyer, plate], tension: none}}\n"
+        "run: {until: 1 s}\n";
+    static const char *const settings[] = {"contacts.faces.touch=nodes",
+                                           "contacts.faces.touch=surfaces"};
+    for (int k = 0; k < 2; k++) {
+        const struct variant variant = {"", 1, 1.0, settings[k], false};
+        struct running *run = begin_fresh(blocks, &variant);
+        step(run, 2);
+        const double moved =
+            particles_totals(&run->simulation.particles, &run->ranks, 1).entry[LEDGER_MOMENTUM_X];
+        assert_true(k ? moved == 0.0 : moved > 0.0);
+        while (run->simulation.time < 1.2e-5) /* past the time to meet, 1e-5 s */
+            step(run, 1);
+        assert_true(
+            particles_totals(&run->simulation.particles, &run->ranks, 1).entry[LEDGER_MOMENTUM_X] >
+            0.0);
+        end(run);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_do_not_depend_on_threads_storage_or_a_resume),
+        cmocka_unit_test(surfaces_that_do_not_meet_are_left_alone),
         cmocka_unit_test(mass_and_momentum_stay_in_contacts),
         cmocka_unit_test(mass_and_momentum_stay_but_for_what_walls_push),
         cmocka_unit_test(usf_gains_energy_and_usl_loses_more_than_musl),
