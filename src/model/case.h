@@ -60,6 +60,25 @@ struct contact_input {
     int body[2];     /* filled by case_read */
 };
 
+/* outflows: NAME: {across: x, at: 1 m, side: high}: a face behind which particles leave the case. */
+struct outflow_input {
+    int axis, side; /* side: enum wall_side */
+    double at;
+    double pressure; /* of what is behind it; NAN: that of what leaves */
+};
+
+/* loads: NAME: {on: bar, pressure: 1 MPa}: what pushes on the surface of a body. */
+struct load_input {
+    char *on;
+    double pressure; /* NAN: not given */
+    struct vector_value
+        traction; /* on the surface that looks to `side` of `axis`; count 0: not given */
+    int axis, side;
+    struct vector_value between; /* positions along `axis`; count 0: everywhere */
+    double after, before;        /* s; before NAN: to the end */
+    int body;                    /* filled by case_read */
+};
+
 /* detonations: NAME: {at: [0 mm, 0 mm], of: charge}: where and when explosives are lit. */
 struct detonation_input {
     struct vector_value at, to; /* to.count 0: a point */
@@ -162,6 +181,8 @@ struct simulation_case {
     struct named_map materials;   /* struct material_input */
     struct named_map bodies;      /* struct body_input */
     struct named_map walls;       /* struct wall_input */
+    struct named_map outflows;    /* struct outflow_input */
+    struct named_map loads;       /* struct load_input */
     struct named_map contacts;    /* struct contact_input */
     struct named_map detonations; /* struct detonation_input */
     struct vector_value gravity;  /* m/s^2; count 0: none */
@@ -229,6 +250,14 @@ static inline struct body_input *case_body(const struct simulation_case *c, int 
 static inline struct wall_input *case_wall(const struct simulation_case *c, int index)
 {
     return (struct wall_input *)c->walls.items + index;
+}
+static inline struct outflow_input *case_outflow(const struct simulation_case *c, int index)
+{
+    return (struct outflow_input *)c->outflows.items + index;
+}
+static inline struct load_input *case_load(const struct simulation_case *c, int index)
+{
+    return (struct load_input *)c->loads.items + index;
 }
 static inline struct contact_input *case_contact(const struct simulation_case *c, int index)
 {

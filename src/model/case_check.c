@@ -329,7 +329,7 @@ static void check_limits(struct checking *checking, const struct check_input *ch
                    "a fraction, or a quantity of the dimension of `is`, is wanted");
 }
 
-static void check_between(struct checking *checking, const struct vector_value *between)
+void case_check_between(struct checking *checking, const struct vector_value *between)
 {
     if (between->count != 0 && !(between->count == 2 && between->at[0] < between->at[1]))
         case_wrong(checking, "between", "two positions are wanted, the smaller first");
@@ -356,7 +356,7 @@ static void check_check(struct checking *checking, int index)
     struct check_input *check = case_check(checking->input, index);
     if (check->of)
         case_find_name(checking, &checking->input->bodies, "body", check->of, "of");
-    check_between(checking, &check->between);
+    case_check_between(checking, &check->between);
     case_check_axis(checking, "axis", check->axis);
     if (check->about.count != 0 && case_dimension_known(checking) &&
         check->about.count != checking->input->dimension)
@@ -388,7 +388,7 @@ static void check_probe(struct checking *checking, int index)
     check_file_name(checking);
     if (probe->of)
         case_find_name(checking, &checking->input->bodies, "body", probe->of, "of");
-    check_between(checking, &probe->between);
+    case_check_between(checking, &probe->between);
     case_check_axis(checking, "axis", probe->axis);
 }
 
@@ -398,7 +398,7 @@ static void check_profile(struct checking *checking, int index)
     check_file_name(checking);
     if (profile->of)
         case_find_name(checking, &checking->input->bodies, "body", profile->of, "of");
-    check_between(checking, &profile->between);
+    case_check_between(checking, &profile->between);
     case_check_axis(checking, "along", profile->along);
 }
 
@@ -447,6 +447,8 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "contacts", &input->contacts, check_contact);
     check_map(&checking, "detonations", &input->detonations, check_detonation);
     check_map(&checking, "bodies", &input->bodies, check_lit);
+    check_map(&checking, "outflows", &input->outflows, case_check_outflow);
+    check_map(&checking, "loads", &input->loads, case_check_load);
     case_check_gravity(&checking);
     check_map(&checking, "probes", &input->probes, check_probe);
     check_map(&checking, "profiles", &input->profiles, check_profile);

@@ -1,4 +1,4 @@
-/* What the tables cannot say of what acts on a case from outside: walls, gravity. */
+/* What the tables cannot say of what acts on a case from outside: walls, outflows, loads, gravity. */
 #include "model/case_checking.h"
 #include "model/document_internal.h"
 
@@ -29,6 +29,41 @@ void case_check_wall(struct checking *checking, int index)
                        "the low wall on the %c axis does not lie below the high wall",
                        axes[wall->axis]);
     }
+}
+
+void case_check_outflow(struct checking *checking, int index)
+{
+    const struct simulation_case *input = checking->input;
+    const struct outflow_input *outflow = case_outflow(input, index);
+    case_check_axis(checking, "across", outflow->axis);
+    if (input->geometry == GEOMETRY_AXISYMMETRIC && outflow->axis == 0 && outflow->side == WALL_LOW)
+        case_wrong(checking, "side", "nothing flows out through the axis of symmetry");
+}
+
+void case_check_load(struct checking *checking, int index)
+{
+    const struct simulation_case *input = checking->input;
+    struct load_input *load = case_load(input, index);
+    load->body = -1;
+    if (load->on)
+        load->body = case_find_name(checking, &input->bodies, "body", load->on, "on");
+    case_check_axis(checking, "axis", load->axis);
+    case_check_between(checking, &load->between);
+    if (case_is_wrong(checking, ""))
+        return;
+    if (isnan(load->pressure) == (load->traction.count == 0))
+        case_wrong(checking, "", "one of `pressure` and `traction` is wanted");
+    else if (load->traction.count && load->between.count == 0)
+        case_wrong(checking, "traction",
+                   "this wants `between`: the body has another end, which a "
+                   "traction must not pull");
+    else if (load->traction.count && case_dimension_known(checking) &&
+             load->traction.count != input->dimension)
+        case_wrong(checking, "traction", "%d component%s wanted, one a dimension; found %d",
+                   (int)input->dimension, input->dimension == 1 ? " is" : "s are",
+                   load->traction.count);
+    if (load->before <= load->after)
+        case_wrong(checking, "before", "this does not lie behind `after`");
 }
 
 void case_check_gravity(struct checking *checking)

@@ -29,8 +29,13 @@ bool case_dimension_known(const struct checking *checking);
 /* The case must have AXIS. */
 void case_check_axis(struct checking *checking, const char *key, int axis);
 
+/* BETWEEN is nothing or two positions. */
+void case_check_between(struct checking *checking, const struct vector_value *between);
+
 /* Of what acts from outside (case_check_outside.c). */
 void case_check_wall(struct checking *checking, int index);
+void case_check_outflow(struct checking *checking, int index);
+void case_check_load(struct checking *checking, int index);
 void case_check_gravity(struct checking *checking);
 
 #endif

@@ -11,6 +11,8 @@ enum { CASE_FORMAT = 1 };
 extern const struct parameter case_material_table[];
 extern const struct parameter case_detonation_table[];  /* struct detonation_input */
 extern const struct parameter case_contact_table[];     /* struct contact_input */
+extern const struct parameter case_outflow_table[];     /* struct outflow_input */
+extern const struct parameter case_load_table[];        /* struct load_input */
 extern const struct parameter case_probe_table[];       /* struct probe_input */
 extern const struct parameter case_profile_table[];     /* struct profile_input */
 extern const struct parameter case_convergence_table[]; /* struct convergence_input */

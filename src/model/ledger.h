@@ -8,8 +8,17 @@
 #include "parallel/ranks.h"
 #include "particle/particles.h"
 
-/* Walls that push; the axis of symmetry, whose hoop stress does; what holds bodies (`driven`, `stop`); gravity. */
-enum ledger_cause { LEDGER_WALLS, LEDGER_AXIS, LEDGER_PISTONS, LEDGER_GRAVITY, LEDGER_CAUSES };
+/* Walls that push; the axis of symmetry, whose hoop stress does; what holds bodies (`driven`, `stop`); gravity; what
+ * pushes on surfaces; faces that particles leave through. */
+enum ledger_cause {
+    LEDGER_WALLS,
+    LEDGER_AXIS,
+    LEDGER_PISTONS,
+    LEDGER_GRAVITY,
+    LEDGER_LOADS,
+    LEDGER_OUTFLOWS,
+    LEDGER_CAUSES
+};
 
 /* kg, kg m/s, kg m^2/s, J; in a plane problem per metre of depth, in 1-D per square metre, in
  * axisymmetry per radian. */

@@ -101,22 +101,13 @@ static void damp_bin(const struct mpm *mpm, struct simulation *simulation, struc
     }
 }
 
-/* Adds to the forces at nodes those that stand in the patches of the second field. */
 static void add_forces(const struct mpm *mpm, const struct simulation *simulation,
                        struct layer *layer)
 {
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++)
         grid_reduce(&layer->grid, &layer->back, n);
-    for (int32_t w = 0; w < layer->walls; w++)
-        for (int c = 0; c < 3; c++)
-            layer->wall[w].sum[NODE_FORCE + c] += layer->wall[w].back[c];
-    mpm_fold_vectors(mpm, layer, &layer->back);
-#pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t n = 0; n < layer->grid.blocks; n++)
-        for (int k = 0; k < BLOCK_CELLS; k++)
-            for (int c = 0; c < 3; c++)
-                grid_node(&layer->main, n, k)[NODE_FORCE + c] += grid_node(&layer->back, n, k)[c];
+    mpm_add_forces(mpm, simulation, layer);
 }
 
 void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt)

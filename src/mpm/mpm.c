@@ -382,6 +382,7 @@ static struct error *mpm_advance(void *solver, struct simulation *simulation, do
     }
     const double begin = clock_seconds();
     mpm_damp_shear(mpm, simulation, dt);
+    mpm_push_surfaces(mpm, simulation, dt);
     if (mpm->layers > 1)
         mpm_meet(mpm, simulation, dt);
     for (int g = 0; g < mpm->layers; g++)
@@ -391,6 +392,7 @@ static struct error *mpm_advance(void *solver, struct simulation *simulation, do
     mpm_book_gravity(simulation, dt, false);
     struct error *error = scheme == MPM_USF ? NULL : update_states(mpm, simulation, dt, false);
     mpm_move_held(simulation, dt);
+    mpm_lose_particles(simulation);
     return error;
 }
 

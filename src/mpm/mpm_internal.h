@@ -127,6 +127,15 @@ void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, str
 void mpm_find_velocities(const struct mpm *mpm, const struct simulation *simulation,
                          struct layer *layer, bool plain);
 
+/* Adds to the forces at nodes those that stand in the second field, summed over patches; walls know of them. */
+void mpm_add_forces(const struct mpm *mpm, const struct simulation *simulation,
+                    struct layer *layer);
+
+/* Collective: loads and faces of outflow push in a step of DT. */
+void mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt);
+/* Marks particles that have left through a face, and books what they had. */
+void mpm_lose_particles(struct simulation *simulation);
+
 /* Mean modes of shear in cells of fluid lose force (2-46)-(2-48), and what that takes in DT heats the particles. */
 void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt);
 

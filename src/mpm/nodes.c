@@ -194,6 +194,19 @@ void mpm_fold_vectors(const struct mpm *mpm, struct layer *layer, const struct g
     fold(mpm, layer, field);
 }
 
+void mpm_add_forces(const struct mpm *mpm, const struct simulation *simulation, struct layer *layer)
+{
+    for (int32_t w = 0; w < layer->walls; w++)
+        for (int c = 0; c < 3; c++)
+            layer->wall[w].sum[NODE_FORCE + c] += layer->wall[w].back[c];
+    mpm_fold_vectors(mpm, layer, &layer->back);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
+        for (int k = 0; k < BLOCK_CELLS; k++)
+            for (int c = 0; c < 3; c++)
+                grid_node(&layer->main, n, k)[NODE_FORCE + c] += grid_node(&layer->back, n, k)[c];
+}
+
 /* A wall changes the momentum of particles by what they get from a node in excess of what they have put into it. */
 static void book_walls(const struct mpm *mpm, struct simulation *simulation,
                        const struct layer *layer, double dt)

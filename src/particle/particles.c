@@ -108,6 +108,7 @@ struct error *particles_append(struct particles *particles, int32_t count, int32
 
 void particles_delete(struct particles *particles, int32_t index)
 {
+    particles->deleted += particles->body[index] != BODY_DELETED;
     particles->body[index] = BODY_DELETED;
 }
 
@@ -125,7 +126,7 @@ struct error *particles_commit(struct particles *particles)
         kept++;
     }
     particles->count = kept;
-    particles->pending = 0;
+    particles->pending = particles->deleted = 0;
     return particles_sort(particles);
 }
 

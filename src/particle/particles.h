@@ -35,6 +35,7 @@ enum { PARTICLES_FIELDS = 48 };
 struct particles {
     int dimension;
     int32_t count, pending; /* owned; appended since the last commit, behind them */
+    int32_t deleted;        /* marked since then */
     int64_t capacity;
     int32_t blocks;
     int64_t block_capacity;

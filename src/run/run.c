@@ -75,14 +75,21 @@ static struct error *no_step(const struct run *run)
                   run->limit.why ? run->limit.why : "unknown"));
 }
 
-/* The time that a step must not pass: the end, or that of a body which stops before. */
+/* The earlier of an EVENT and one at TIME, NAN never, if that has yet to come. */
+static double earlier(const struct run *run, double event, double time)
+{
+    return time > run->simulation.time && time < event ? time : event;
+}
+
+/* The time that a step must not pass: the end, or before it that of a body which stops, or of a load. */
 static double next_event(const struct run *run)
 {
     double event = run->input->run.until;
-    for (int i = 0; i < run->input->bodies.count; i++) {
-        double stop = case_body(run->input, i)->stop;
-        if (stop > run->simulation.time && stop < event)
-            event = stop;
+    for (int i = 0; i < run->input->bodies.count; i++)
+        event = earlier(run, event, case_body(run->input, i)->stop);
+    for (int i = 0; i < run->input->loads.count; i++) {
+        event = earlier(run, event, case_load(run->input, i)->after);
+        event = earlier(run, event, case_load(run->input, i)->before);
     }
     return event;
 }
@@ -94,7 +101,7 @@ static struct error *hear_ranks(struct run *run, struct error *error)
     const struct run_options *options = run->options;
     struct particles *particles = &run->simulation.particles;
     enum { CHANGED, STOP, CHECKPOINT, SAID };
-    double said[SAID] = {[CHANGED] = particles->pending > 0,
+    double said[SAID] = {[CHANGED] = particles->pending > 0 || particles->deleted > 0,
                          [STOP] = options->stop && *options->stop,
                          [CHECKPOINT] = run_checkpoint_is_due(run)};
     TRY(ranks_agree_on(&run->ranks, error, said, SAID));

@@ -4,6 +4,19 @@
 
 #include "sph/sph_internal.h"
 
+struct error *sph_refuse(const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    for (int i = 0; i < input->contacts.count; i++)
+        if (case_contact(input, i)->friction > 0.0)
+            return input_error(input, "contacts", input->contacts.names[i],
+                               "the solver sph knows no friction: bodies slip or stick");
+    if (input->outflows.count || input->loads.count)
+        return input_error(input, input->loads.count ? "loads" : "outflows", NULL,
+                           "the solver sph has none: use mpm");
+    return NULL;
+}
+
 static struct vec3 vector_of(const double v[3]) { return vec3_make(v[0], v[1], v[2]); }
 
 /* The images behind the axis push as walls do; a particle sees those of the nearer of axis and wall. */

@@ -74,16 +74,6 @@ static bool has_laws(const struct simulation *simulation)
     return false;
 }
 
-static struct error *check_contacts(const struct simulation *simulation)
-{
-    const struct simulation_case *input = simulation->input;
-    for (int i = 0; i < input->contacts.count; i++)
-        if (case_contact(input, i)->friction > 0.0)
-            return input_error(input, "contacts", input->contacts.names[i],
-                               "the solver sph knows no friction: bodies slip or stick");
-    return NULL;
-}
-
 static bool is_standard(const struct sph *sph) { return sph->parameters.method == SPH_STANDARD; }
 
 static bool is_thin(const struct simulation *simulation)
@@ -199,7 +189,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     sph->neighbours.skin = sph->parameters.skin;
     sph->neighbours.near_skin = sph_near_skin(&sph->parameters, simulation->dimension);
     TRY(choose_kind(sph, simulation));
-    TRY(check_contacts(simulation));
+    TRY(sph_refuse(simulation));
     sph->groups = (struct contact_groups){simulation->group_of_body, &simulation->law[0][0],
                                           has_laws(simulation) ? CONTACT_GROUPS : 1};
     struct field_declaration fields[COUNT_OF(sph_field_table) + 12 + HLLC_FIELDS + POINT_HISTORY];

@@ -214,6 +214,9 @@ BOLIDE_INLINE void sph_reflect_tensor(int dimension, struct vec3 sign, double *t
     }
 }
 
+/* What the method cannot do of what acts from outside, located in the case. */
+struct error *sph_refuse(const struct simulation *simulation);
+
 /* Books what images and hoop stress push in a step of DT. */
 void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, double dt);
 

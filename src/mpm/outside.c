@@ -1,0 +1,314 @@
+/* What pushes on surfaces, and what leaves through faces.
+ *
+ * The surface of a body is where the gradient of its volume, A_I = sum V grad N, does not vanish: its area at a node times
+ * the normal, as the forces of stresses have it. So a pressure P pushes with -P A_I, and balances one inside to rounding
+ * (in place of (2-11) of Cui, dissertation (2014), which marks particles). At a face of outflow the normal stress becomes
+ * that of matter at rest behind it, which waves run out into (Lysmer and Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859),
+ *   f_n = -(p - p0) A_n - rho c A_n v_n'
+ * with v' at the end of the step, or else that of what leaves. */
+#include <string.h>
+
+#include "mpm/mpm_internal.h"
+
+/* What a particle gives to the numbers of its nodes: number n gets the sum over axes k of by_slope[n][k] dN/dx_k. */
+struct given {
+    double by_slope[3][3];
+};
+
+/* A particle in a cell whose first node stands at PLACE of the patch and has index FIRST. */
+struct reached {
+    int place[3];
+    int64_t first[3];
+};
+
+static void give(const struct mpm *mpm, const struct layer *layer, const struct reached *reached,
+                 const double *x, double half, const struct given *given, double *patch)
+{
+    const enum grid_shape shape = (enum grid_shape)mpm->parameters.shape;
+    const int dimension = layer->grid.dimension, window = 2 + 2 * layer->grid.reach;
+    double value[3][4], slope[3][4];
+    int count[3] = {1, 1, 1};
+    for (int axis = 0; axis < dimension; axis++) {
+        count[axis] = window;
+        for (int k = 0; k < window; k++) {
+            const double r = x[axis] / mpm->edge - (double)(reached->first[axis] + k);
+            const bool linear = shape == SHAPE_LINEAR; /* on a node all of the cell has slopes */
+            value[axis][k] = linear && k ? 1.0 + r : shape_value(shape, r, half);
+            slope[axis][k] = (linear ? (k ? 1.0 : -1.0) : shape_slope(shape, r, half)) / mpm->edge;
+        }
+    }
+    int at[3];
+    for (at[0] = 0; at[0] < count[0]; at[0]++)
+        for (at[1] = 0; at[1] < count[1]; at[1]++)
+            for (at[2] = 0; at[2] < count[2]; at[2]++) {
+                size_t node = 0;
+                for (int axis = 0; axis < dimension; axis++)
+                    node =
+                        node * (size_t)layer->grid.side + (size_t)(reached->place[axis] + at[axis]);
+                for (int k = 0; k < dimension; k++) {
+                    double d = 1.0;
+                    for (int axis = 0; axis < dimension; axis++)
+                        d *= axis == k ? slope[axis][at[axis]] : value[axis][at[axis]];
+                    for (int n = 0; n < 3; n++)
+                        patch[node * BACK_STRIDE + (size_t)n] += given->by_slope[n][k] * d;
+                }
+            }
+}
+
+/* Whose surface, and what its particles give. */
+struct surface {
+    int body;         /* -1: all */
+    double low, high; /* nodes between these have it, in cells along AXIS */
+    int axis;
+    struct given (*of)(const struct mpm *, const struct simulation *, const struct surface *,
+                       int32_t i);
+    const struct load_input *load;
+    const struct outflow_input *outflow;
+};
+
+static struct given by_load(const struct mpm *mpm, const struct simulation *simulation,
+                            const struct surface *surface, int32_t i)
+{
+    const struct particles *p = &simulation->particles;
+    const struct load_input *load = surface->load;
+    const double volume = p->mass[i] / p->density[i],
+                 sign = load->side == WALL_HIGH ? volume : -volume;
+    struct given given = {{{0.0}}};
+    (void)mpm;
+    for (int k = 0; k < simulation->dimension; k++)
+        if (load->traction.count)
+            given.by_slope[k][load->axis] = sign * load->traction.at[k];
+        else
+            given.by_slope[k][k] = -volume * load->pressure;
+    return given;
+}
+
+/* Area, impedance times area, and normal stress times area. */
+enum { FACE_AREA, FACE_IMPEDANCE, FACE_PUSH, FACE_FORCE };
+
+static struct given by_outflow(const struct mpm *mpm, const struct simulation *simulation,
+                               const struct surface *surface, int32_t i)
+{
+    const struct particles *p = &simulation->particles;
+    const double *sound = particles_field(p, "sound_long"), *q = particles_field(p, "viscosity");
+    const double gauge = mpm->gauge[p->material[i]], volume = p->mass[i] / p->density[i];
+    const double sign = surface->outflow->side == WALL_HIGH ? 1.0 : -1.0;
+    const int axis = surface->axis;
+    struct given given = {{{0.0}}};
+    given.by_slope[FACE_AREA][axis] = sign * volume;
+    given.by_slope[FACE_IMPEDANCE][axis] = sign * p->mass[i] * sound[i];
+    given.by_slope[FACE_PUSH][axis] =
+        isnan(surface->outflow->pressure)
+            ? sign * volume * (p->pressure[i] + q[i] - gauge - p->deviator[i][axis])
+            : sign * volume * (surface->outflow->pressure - gauge);
+    return given;
+}
+
+/* Whether a bin reaches nodes that may have the surface. */
+static bool is_near(const struct layer *layer, const struct surface *surface, int32_t b)
+{
+    int64_t corner[3];
+    const int cells = block_cells(layer->grid.dimension), reach = layer->grid.reach;
+    block_coordinates(layer->bins.bin[b].key, corner);
+    const double first = (double)(corner[surface->axis] * cells);
+    return first + cells + reach >= surface->low && first - reach <= surface->high;
+}
+
+static void give_bin(const struct mpm *mpm, const struct simulation *simulation,
+                     const struct layer *layer, const struct surface *surface, int32_t b)
+{
+    const struct particles *p = &simulation->particles;
+    const struct bin *bin = &layer->bins.bin[b];
+    const int dimension = layer->grid.dimension;
+    double *patch = grid_patch(&layer->grid, &layer->back, b);
+    memset(patch, 0, (size_t)(layer->grid.patch * BACK_STRIDE) * sizeof *patch);
+    if (!is_near(layer, surface, b))
+        return;
+    int64_t corner[3];
+    block_coordinates(bin->key, corner);
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        struct reached reached;
+        bin_cell_place(dimension, cell, reached.place);
+        for (int axis = 0; axis < 3; axis++)
+            reached.first[axis] =
+                corner[axis] * block_cells(dimension) + reached.place[axis] - layer->grid.reach;
+        for (int32_t k = bin->cell[cell]; k < bin->cell[cell + 1]; k++) {
+            const int32_t i = layer->bins.list[bin->first + k];
+            const struct given given = surface->of(mpm, simulation, surface, i);
+            if (surface->body < 0 || p->body[i] == surface->body)
+                give(mpm, layer, &reached, p->position[i], mpm->half_size[p->body[i]], &given,
+                     patch);
+        }
+    }
+}
+
+/* Collective: the sums of a surface at the nodes of all layers that move. */
+static void sum_surface(struct mpm *mpm, const struct simulation *simulation,
+                        const struct surface *surface)
+{
+    for (int g = 0; g < mpm->layers; g++) {
+        const struct layer *layer = &mpm->layer[g];
+#pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
+        for (int32_t b = 0; b < layer->bins.count; b++)
+            if (!mpm_is_far(mpm, layer, b) && !layer->held)
+                give_bin(mpm, simulation, layer, surface, b);
+    }
+    mpm_exchange(mpm, simulation, offsetof(struct layer, back));
+    for (int g = 0; g < mpm->layers; g++) {
+        struct layer *layer = &mpm->layer[g];
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+        for (int32_t n = 0; n < layer->grid.blocks; n++)
+            if (!layer->held)
+                grid_reduce(&layer->grid, &layer->back, n);
+    }
+}
+
+/* The force along the outward normal of a face in a step of DT, from what a node has without walls and SUM of the face. */
+static double face_force(const struct surface *surface, const double *node, const double *sum,
+                         double dt)
+{
+    const double sign = surface->outflow->side == WALL_HIGH ? 1.0 : -1.0, mass = node[NODE_MASS];
+    if (!(sum[FACE_AREA] > 0.0 && mass > 0.0))
+        return 0.0;
+    if (isnan(surface->outflow->pressure))
+        return -sum[FACE_PUSH];
+    const double damping = maximum(sum[FACE_IMPEDANCE], 0.0),
+                 momentum = sign * (node[NODE_MOMENTUM + surface->axis] +
+                                    dt * node[NODE_FORCE + surface->axis]) -
+                            dt * sum[FACE_PUSH];
+    return -sum[FACE_PUSH] - damping * momentum / (mass + dt * damping);
+}
+
+/* Turns the sums of a face into forces: first all, then those at walls, which the main field does not have as they were. */
+static void push_face(struct layer *layer, const struct surface *surface, double dt, int threads)
+{
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
+        for (int k = 0; k < BLOCK_CELLS; k++) {
+            double *sum = grid_node(&layer->back, n, k);
+            sum[FACE_FORCE] = face_force(surface, grid_node(&layer->main, n, k), sum, dt);
+        }
+    for (int32_t w = 0; w < layer->walls; w++)
+        layer->wall[w].back[FACE_FORCE] =
+            face_force(surface, layer->wall[w].sum, layer->wall[w].back, dt);
+    const double sign = surface->outflow->side == WALL_HIGH ? 1.0 : -1.0;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
+        for (int k = 0; k < BLOCK_CELLS; k++) {
+            double *sum = grid_node(&layer->back, n, k);
+            const double force = sign * sum[FACE_FORCE];
+            for (int c = 0; c < BACK_STRIDE; c++)
+                sum[c] = c == surface->axis ? force : 0.0;
+        }
+}
+
+/* The nodes of a block that do not have the surface get no force; what the others get in a step of DT is booked, with the
+ * mean velocity of the step, where BOOKED. */
+static void book_block(const struct mpm *mpm, const struct layer *layer,
+                       const struct surface *surface, int32_t block, bool booked, double dt,
+                       struct ledger *ledger)
+{
+    const enum ledger_cause cause = surface->load ? LEDGER_LOADS : LEDGER_OUTFLOWS;
+    int64_t corner[3], at[3];
+    grid_corner(&layer->grid, block, corner);
+    for (int k = 0; k < BLOCK_CELLS; k++) {
+        double *f = grid_node(&layer->back, block, k);
+        const double *node = grid_node(&layer->main, block, k);
+        mpm_node_index(layer->grid.dimension, corner, k, at);
+        const double place = (double)at[surface->axis];
+        if (!(place >= surface->low && place <= surface->high && node[NODE_MASS] > 0.0))
+            memset(f, 0, BACK_STRIDE * sizeof *f);
+        if (!booked || (f[0] == 0.0 && f[1] == 0.0 && f[2] == 0.0))
+            continue;
+        double work = 0.0;
+        for (int c = 0; c < 3; c++)
+            work += dt * f[c] *
+                    (node[NODE_MOMENTUM + c] + 0.5 * dt * (node[NODE_FORCE + c] + f[c])) /
+                    node[NODE_MASS];
+        ledger_book(ledger, cause, 0.0, vec3_scale(dt, vec3_make(f[0], f[1], f[2])),
+                    vec3_scale(mpm->edge, vec3_make((double)at[0], (double)at[1], (double)at[2])),
+                    work);
+    }
+}
+
+static void book_forces(const struct mpm *mpm, struct simulation *simulation,
+                        const struct layer *layer, const struct surface *surface, double dt)
+{
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct ledger own = {0};
+#pragma omp for schedule(static)
+        for (int32_t n = 0; n < layer->grid.blocks; n++)
+            book_block(mpm, layer, surface, n, !mpm_is_far(mpm, layer, layer->grid.touch[n][0].bin),
+                       dt, &own);
+#pragma omp critical(bolide_mpm_surface)
+        ledger_join(&simulation->ledger, &own);
+    }
+}
+
+static void push_surface(struct mpm *mpm, struct simulation *simulation,
+                         const struct surface *surface, double dt)
+{
+    sum_surface(mpm, simulation, surface);
+    for (int g = 0; g < mpm->layers; g++) {
+        struct layer *layer = &mpm->layer[g];
+        if (layer->held)
+            continue;
+        if (surface->outflow)
+            push_face(layer, surface, dt, simulation->threads);
+        book_forces(mpm, simulation, layer, surface, dt);
+        mpm_add_forces(mpm, simulation, layer);
+    }
+}
+
+void mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt)
+{
+    static const double reaches[] = {
+        [SHAPE_LINEAR] = 1.0, [SHAPE_GIMP] = 1.5, [SHAPE_QUADRATIC] = 1.5, [SHAPE_CUBIC] = 2.0};
+    const struct simulation_case *input = simulation->input;
+    const double reach = reaches[mpm->parameters.shape];
+    for (int i = 0; i < input->loads.count; i++) {
+        const struct load_input *load = case_load(input, i);
+        const bool part = load->between.count > 0;
+        const struct surface surface = {
+            .body = load->body,
+            .low = part ? load->between.at[0] / mpm->edge : -(double)INFINITY,
+            .high = part ? load->between.at[1] / mpm->edge : (double)INFINITY,
+            .axis = load->axis,
+            .of = by_load,
+            .load = load};
+        if (simulation->time >= load->after && !(simulation->time >= load->before))
+            push_surface(mpm, simulation, &surface, dt);
+    }
+    for (int i = 0; i < input->outflows.count; i++) {
+        const struct outflow_input *outflow = case_outflow(input, i);
+        const struct surface surface = {.body = -1,
+                                        .low = outflow->at / mpm->edge - reach,
+                                        .high = outflow->at / mpm->edge + reach,
+                                        .axis = outflow->axis,
+                                        .of = by_outflow,
+                                        .outflow = outflow};
+        push_surface(mpm, simulation, &surface, dt);
+    }
+}
+
+void mpm_lose_particles(struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    struct particles *p = &simulation->particles;
+    for (int i = 0; i < input->outflows.count; i++) {
+        const struct outflow_input *outflow = case_outflow(input, i);
+        for (int32_t k = 0; k < p->count; k++) {
+            const double *x = p->position[k], *u = p->velocity[k], m = p->mass[k];
+            const double beyond = x[outflow->axis] - outflow->at;
+            if ((outflow->side == WALL_HIGH ? beyond : -beyond) <= 0.0 ||
+                p->body[k] >= input->bodies.count) /* gone through another face */
+                continue;
+            const struct vec3 velocity = vec3_make(u[0], u[1], u[2]);
+            ledger_book(&simulation->ledger, LEDGER_OUTFLOWS, -m, vec3_scale(-m, velocity),
+                        vec3_make(x[0], x[1], x[2]),
+                        -m * (p->energy[k] + 0.5 * vec3_dot(velocity, velocity)));
+            particles_delete(p, k);
+        }
+    }
+}

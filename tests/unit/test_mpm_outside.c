@@ -1,0 +1,178 @@
+/* Loads on surfaces and faces of outflow by the material point method. */
+#include "running.h"
+
+#define MATERIALS                                                                            \
+    "materials:\n"                                                                           \
+    "  gas: {eos: {ideal-gas: {density: 1500 kg/m^3, gamma: 3}}}\n"                          \
+    "  metal:\n"                                                                             \
+    "    eos: {mie-grueneisen: {density: 2700 kg/m^3, sound: 5350 m/s, slope: 1.35, gamma: " \
+    "2.17, bulk_modulus: 73 GPa}}\n"                                                         \
+    "    strength: {perfect-plastic: {shear_modulus: 23 GPa, yield: 0.3 GPa}}\n"
+
+/* A fluid ball under pressure, within and without. */
+static const char balanced[] =
+    "format: 1\ndimension: 2\nresolution: 1 mm\nsolver: mpm\n" MATERIALS "bodies:\n"
+    "  drop: {material: gas, ball: {center: [0 mm, 0 mm], radius: 9.3 mm}, density: 1500 kg/m^3, "
+    "pressure: 5 GPa}\n"
+    "loads: {around: {on: drop, pressure: 5 GPa}}\n"
+    "run: {until: 1 s}\n";
+
+/* A block on a floor, pulled along its top for a while. */
+static const char pulled[] =
+    "format: 1\ndimension: 2\nresolution: 1 mm\nsolver: mpm\n" MATERIALS "bodies:\n"
+    "  block: {material: metal, box: {from: [0 mm, 0 mm], to: [20 mm, 10 mm]}}\n"
+    "loads:\n"
+    "  pull: {on: block, traction: [50 MPa, 20 MPa], axis: y, between: [6 mm, 14 mm], after: 0.1 "
+    "us, before: 1 us}\n"
+    "walls: {floor: {mirror: y, at: 0 mm, side: low}}\n"
+    "run: {until: 1 s}\n";
+
+/* A jet that leaves through two faces along a floor, and a load behind it. */
+static const char leaving[] =
+    "format: 1\ndimension: 2\nresolution: 1 mm\nsolver: {mpm: {courant: 0.2}}\n" MATERIALS
+    "bodies:\n"
+    "  jet: {material: gas, box: {from: [0 mm, 0 mm], to: [20 mm, 10 mm]}, density: 1500 kg/m^3, "
+    "pressure: 1 GPa, velocity: [2 km/s, 300 m/s]}\n"
+    "loads: {behind: {on: jet, pressure: 1 GPa, between: [-5 mm, 10 mm]}}\n"
+    "outflows:\n"
+    "  right: {across: x, at: 19.5 mm, side: high}\n"
+    "  above: {across: y, at: 10.2 mm, side: high, pressure: 0.5 GPa}\n"
+    "walls: {floor: {mirror: y, at: 0 mm, side: low}}\n"
+    "run: {until: 1 s}\n";
+
+static const struct variant plain = {"plain", 1, 1.0, NULL, false};
+
+/* Steps as the run loop has them: particles go between two. */
+static void step_and_commit(struct running *run, int steps)
+{
+    for (int k = 0; k < steps; k++) {
+        step(run, 1);
+        if (run->simulation.particles.deleted)
+            assert_success(particles_commit(&run->simulation.particles));
+    }
+}
+
+static void pressure_around_balances_pressure_within(void **state)
+{
+    (void)state;
+    static const char *const settings[] = {"solver.mpm.shape=linear", "solver.mpm.shape=quadratic",
+                                           "solver.mpm.shape=gimp"};
+    for (size_t k = 0; k < COUNT_OF(settings); k++) {
+        const struct variant variant = {"", 1, 1.0, settings[k], false};
+        struct running *run = begin_fresh(balanced, &variant);
+        const struct particles *p = &run->simulation.particles;
+        step(run, 5);
+        for (int32_t i = 0; i < p->count; i++)
+            assert_near(fabs(p->velocity[i][0]) + fabs(p->velocity[i][1]), 0.0, 1e-8);
+        end(run);
+    }
+}
+
+static void check_kept(struct running *run, const struct totals *start)
+{
+    const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    const struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
+    for (int e = LEDGER_MASS; e <= LEDGER_MOMENTUM_Z; e++)
+        assert_near(now.entry[e] - booked.entry[e], start->entry[e],
+                    1e-13 * (e == LEDGER_MASS
+                                 ? start->entry[LEDGER_MASS]
+                                 : maximum(now.momentum_scale, start->momentum_scale)));
+}
+
+static void a_traction_gives_its_force_while_it_acts(void **state)
+{
+    (void)state;
+    struct running *run = begin_fresh(pulled, &plain);
+    const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    double acted = 0.0;
+    while (run->simulation.time < 1.3e-6) {
+        const double before = run->simulation.time;
+        step(run, 1);
+        acted += before >= 1e-7 && before < 1e-6 ? run->simulation.time - before : 0.0;
+        check_kept(run, &start);
+    }
+    const struct totals loads = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_LOADS);
+    assert_near(loads.entry[LEDGER_MOMENTUM_X], 50e6 * 0.02 * acted, 2e-3 * 50e6 * 0.02 * acted);
+    assert_near(loads.entry[LEDGER_MOMENTUM_Y], 20e6 * 0.02 * acted, 2e-3 * 20e6 * 0.02 * acted);
+    assert_true(loads.entry[LEDGER_ENERGY] > 0.0);
+    end(run);
+}
+
+static void what_leaves_is_booked(void **state)
+{
+    (void)state;
+    struct running *run = begin_fresh(leaving, &plain);
+    const struct particles *p = &run->simulation.particles;
+    const int32_t count = p->count;
+    const struct totals start = particles_totals(p, &run->ranks, -1);
+    for (int k = 0; k < 60; k++) {
+        step_and_commit(run, 1);
+        check_kept(run, &start);
+    }
+    assert_true(p->count < count - 20);
+    for (int32_t i = 0; i < p->count; i++)
+        assert_true(p->position[i][0] <= 0.0195 && p->position[i][1] <= 0.0102);
+    end(run);
+}
+
+/* Of a stream faster than sound with the pressure about it, as much leaves as comes, and nothing changes before the face. */
+static void a_fast_stream_leaves_as_it_came(void **state)
+{
+    (void)state;
+    static const char stream[] =
+        "format: 1\ndimension: 1\nresolution: 1 mm\nsolver: {mpm: {gauge_pressure: 1 Pa}}\n"
+        "materials: {gas: {eos: {ideal-gas: {density: 1 kg/m^3, gamma: 1.4}}}}\n"
+        "bodies: {gas: {material: gas, box: {from: [0 m], to: [0.2 m]}, density: 1 kg/m^3, "
+        "pressure: 1 Pa, velocity: [3 m/s]}}\n"
+        "outflows: {right: {across: x, at: 0.2 m, side: high}}\n"
+        "run: {until: 1 s}\n";
+    struct running *run = begin_fresh(stream, &plain);
+    const struct particles *p = &run->simulation.particles;
+    while (run->simulation.time < 0.03)
+        step_and_commit(run, 1);
+    assert_near(0.001 * p->count, 0.2 - 3.0 * run->simulation.time, 0.0011);
+    for (int32_t i = 0; i < p->count; i++) {
+        assert_near(p->velocity[i][0], 3.0, 1e-12);
+        assert_near(p->pressure[i], 1.0,
+                    1e-3); /* nodes of next to no mass do not move in strains */
+    }
+    end(run);
+}
+
+static uint64_t hash_of(const char *text, const struct variant *variant)
+{
+    struct running *run = begin_fresh(text, variant->resumed ? &plain : variant);
+    step_and_commit(run, 30);
+    if (variant->resumed)
+        run = resume(run, text, variant);
+    step_and_commit(run, 30);
+    const uint64_t hash = particles_hash(&run->simulation.particles);
+    end(run);
+    return hash;
+}
+
+static void bits_do_not_depend_on_threads_storage_or_a_resume(void **state)
+{
+    (void)state;
+    const char *const texts[] = {pulled, leaving};
+    for (size_t k = 0; k < COUNT_OF(texts); k++) {
+        const struct variant others[] = {{"three threads", 3, 1.0, NULL, false},
+                                         {"other storage", 2, 1.7, NULL, false},
+                                         {"resumed", 1, 1.0, NULL, true}};
+        const uint64_t hash = hash_of(texts[k], &plain);
+        for (size_t v = 0; v < COUNT_OF(others); v++)
+            assert_true(hash_of(texts[k], &others[v]) == hash);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pressure_around_balances_pressure_within),
+        cmocka_unit_test(a_traction_gives_its_force_while_it_acts),
+        cmocka_unit_test(what_leaves_is_booked),
+        cmocka_unit_test(a_fast_stream_leaves_as_it_came),
+        cmocka_unit_test(bits_do_not_depend_on_threads_storage_or_a_resume),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
