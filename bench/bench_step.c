@@ -66,11 +66,12 @@ static int64_t count_pairs(const struct sph *sph, const struct simulation *simul
     return pairs;
 }
 
-static size_t record_bytes(const struct sph *sph)
+/* Of the store, the records, which stand in its scratch, and the places beside them. */
+static double state_bytes(const struct sph *sph, const struct particles *p)
 {
-    int doubles = sph_second_order(sph) ? muscl_stride(muscl_kind_of(sph)) + PLACE_STRIDE
-                                        : record_stride(sph->kind);
-    return (size_t)doubles * sizeof(double);
+    return (double)particles_bytes(p) +
+           ((double)p->scratch.size + (double)sph->place_capacity * PLACE_STRIDE * sizeof(double)) /
+               p->count;
 }
 
 static struct measured measure(const struct run *run)
@@ -111,8 +112,7 @@ static struct measured measure(const struct run *run)
         .rate = count * run->steps / seconds,
         .pairs = pairs / count,
         .seconds_a_pair = seconds / (pairs * run->steps),
-        .state_bytes = (double)particles_bytes(&simulation->particles) +
-                       (double)(record_bytes(sph) * (size_t)sph->record_capacity) / count,
+        .state_bytes = state_bytes(sph, &simulation->particles),
         .list_bytes = (double)neighbours_bytes(&sph->neighbours) / count,
         .steps_a_build = (double)run->steps / (double)(sph->neighbours.builds - builds),
         .hash = particles_hash(&simulation->particles),

@@ -51,6 +51,28 @@ bool memory_reserve(void **array, int64_t *capacity, int64_t needed, int64_t kep
     return true;
 }
 
+bool scratch_begin(struct scratch *scratch, size_t bytes)
+{
+    size_t wanted = bytes + (size_t)SCRATCH_PARTS * MEMORY_ALIGNMENT;
+    scratch->used = 0;
+    if (wanted <= scratch->size)
+        return true;
+    const size_t grown = scratch->size + scratch->size / 8;
+    wanted = wanted > grown ? wanted : grown;
+    free(scratch->memory);
+    scratch->memory = allocate_raw(wanted);
+    scratch->size = scratch->memory ? wanted : 0;
+    return scratch->memory != NULL;
+}
+
+void *scratch_part(struct scratch *scratch, size_t bytes)
+{
+    void *part = scratch->memory + scratch->used;
+    scratch->used += (bytes + MEMORY_ALIGNMENT - 1) / MEMORY_ALIGNMENT * MEMORY_ALIGNMENT;
+    assert(scratch->used <= scratch->size);
+    return part;
+}
+
 char *text_vformat(const char *format, va_list arguments)
 {
     va_list again;

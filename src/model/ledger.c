@@ -52,24 +52,36 @@ struct totals ledger_totals(const struct ledger *ledger, const struct ranks *ran
     return totals;
 }
 
+/* Adds those of particle I. */
+static void add_particle(const struct particles *particles, int32_t i, struct exact_sum *sums)
+{
+    const double *x = particles->position[i], *u = particles->velocity[i];
+    const double mass = particles->mass[i];
+    const struct vec3 velocity = vec3_make(u[0], u[1], u[2]);
+    const struct vec3 momentum = vec3_scale(mass, velocity);
+    const double speed_square = vec3_dot(velocity, velocity);
+    exact_sum_add(&sums[LEDGER_MASS], mass);
+    add_vector(&sums[LEDGER_MOMENTUM_X], momentum);
+    add_vector(&sums[LEDGER_ANGULAR_X], vec3_cross(vec3_make(x[0], x[1], x[2]), momentum));
+    exact_sum_add(&sums[TOTAL_KINETIC], 0.5 * mass * speed_square);
+    exact_sum_add(&sums[TOTAL_INTERNAL], mass * particles->energy[i]);
+    exact_sum_add(&sums[TOTAL_MOMENTUM_SCALE], mass * sqrt(speed_square));
+}
+
 struct totals particles_totals(const struct particles *particles, const struct ranks *ranks,
                                int body)
 {
     struct exact_sum sums[TOTALS] = {0};
-    for (int32_t i = 0; i < particles->count; i++) {
-        if (body >= 0 && particles->body[i] != body)
-            continue;
-        const double *x = particles->position[i], *u = particles->velocity[i];
-        const double mass = particles->mass[i];
-        const struct vec3 velocity = vec3_make(u[0], u[1], u[2]);
-        const struct vec3 momentum = vec3_scale(mass, velocity);
-        const double speed_square = vec3_dot(velocity, velocity);
-        exact_sum_add(&sums[LEDGER_MASS], mass);
-        add_vector(&sums[LEDGER_MOMENTUM_X], momentum);
-        add_vector(&sums[LEDGER_ANGULAR_X], vec3_cross(vec3_make(x[0], x[1], x[2]), momentum));
-        exact_sum_add(&sums[TOTAL_KINETIC], 0.5 * mass * speed_square);
-        exact_sum_add(&sums[TOTAL_INTERNAL], mass * particles->energy[i]);
-        exact_sum_add(&sums[TOTAL_MOMENTUM_SCALE], mass * sqrt(speed_square));
+#pragma omp parallel num_threads(particles->threads)
+    {
+        struct exact_sum own[TOTALS] = {0};
+#pragma omp for schedule(static)
+        for (int32_t i = 0; i < particles->count; i++)
+            if (body < 0 || particles->body[i] == body)
+                add_particle(particles, i, own);
+#pragma omp critical(bolide_totals)
+        for (int entry = 0; entry < TOTALS; entry++)
+            exact_sum_join(&sums[entry], &own[entry]);
     }
     exact_sum_join(&sums[LEDGER_ENERGY], &sums[TOTAL_KINETIC]);
     exact_sum_join(&sums[LEDGER_ENERGY], &sums[TOTAL_INTERNAL]);

@@ -58,6 +58,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
         fields[count++] = gradient_field;
     TRY(particles_create(simulation->dimension, mpm->edge, fields, count, &simulation->particles));
     simulation->particles.ranks = simulation->ranks;
+    simulation->particles.threads = simulation->threads;
     return NULL;
 }
 

@@ -1,6 +1,7 @@
 /* The plan of ghosts; see ghosts.h. */
 #include "parallel/ghosts.h"
 
+#include <omp.h>
 #include <stdlib.h>
 
 #include "base/clock.h"
@@ -19,59 +20,114 @@ static int images_along(const struct mirrors *mirrors, int axis, double x, doubl
     return count;
 }
 
-static struct error *reserve(void **array, int64_t *capacity, int64_t needed, int64_t kept,
-                             size_t element)
-{
-    if (!memory_reserve(array, capacity, needed, kept, element))
-        return error_new(ERROR_SYSTEM, "out of memory for %lld images", (long long)needed);
-    return NULL;
-}
+/* The images of a place, by axis. */
+struct images {
+    int count[3];
+    image_code code[3][3];
+};
 
-static struct error *plan_add(struct ghosts *ghosts, int32_t source, image_code image)
+static struct images images_of(const struct mirrors *mirrors, int dimension, const double x[3],
+                               double distance)
 {
-    int64_t needed = (int64_t)ghosts->count + 1, capacity = ghosts->capacity;
-    if (needed > capacity) {
-        TRY(reserve((void **)&ghosts->source, &capacity, needed, ghosts->count,
-                    sizeof *ghosts->source));
-        capacity = ghosts->capacity;
-        TRY(reserve((void **)&ghosts->image, &capacity, needed, ghosts->count,
-                    sizeof *ghosts->image));
-        ghosts->capacity = capacity;
-    }
-    ghosts->source[ghosts->count] = source;
-    ghosts->image[ghosts->count++] = image;
-    return NULL;
-}
-
-/* The images of the particle at X whose record is SOURCE. */
-static struct error *plan_images(const struct mirrors *mirrors, int dimension, int32_t source,
-                                 const double x[3], double distance, struct ghosts *ghosts)
-{
-    image_code image[3][3] = {{0}};
-    int images[3] = {1, 1, 1};
+    struct images images = {{1, 1, 1}, {{0}}};
     for (int axis = 0; axis < dimension; axis++)
-        images[axis] = images_along(mirrors, axis, x[axis], distance, image[axis]);
-    for (int c = 0; c < images[2]; c++)
-        for (int b = 0; b < images[1]; b++)
-            for (int a = 0; a < images[0]; a++)
-                if (a || b || c)
-                    TRY(plan_add(ghosts, source,
-                                 (image_code)(image[0][a] + 3 * image[1][b] + 9 * image[2][c])));
-    return NULL;
+        images.count[axis] = images_along(mirrors, axis, x[axis], distance, images.code[axis]);
+    return images;
+}
+
+/* How many there are, less the place itself. */
+static int32_t number_of(const struct images *images)
+{
+    return images->count[0] * images->count[1] * images->count[2] - 1;
+}
+
+/* Plans those of the particle whose record is SOURCE, as ghosts from G on. Returns the next ghost. */
+static int32_t plan_images(const struct images *images, int32_t source, struct ghosts *ghosts,
+                           int32_t g)
+{
+    for (int c = 0; c < images->count[2]; c++)
+        for (int b = 0; b < images->count[1]; b++)
+            for (int a = 0; a < images->count[0]; a++) {
+                if (!a && !b && !c)
+                    continue;
+                ghosts->source[g] = source;
+                ghosts->image[g++] = (image_code)(images->code[0][a] + 3 * images->code[1][b] +
+                                                  9 * images->code[2][c]);
+            }
+    return g;
+}
+
+static bool reserve(struct ghosts *ghosts, int64_t needed)
+{
+    int64_t capacity = ghosts->capacity;
+    if (!memory_reserve((void **)&ghosts->source, &capacity, needed, ghosts->count,
+                        sizeof *ghosts->source))
+        return false;
+    capacity = ghosts->capacity;
+    if (!memory_reserve((void **)&ghosts->image, &capacity, needed, ghosts->count,
+                        sizeof *ghosts->image))
+        return false;
+    ghosts->capacity = capacity;
+    return true;
+}
+
+/* Plans the images of COUNT places X, STRIDE doubles apart, whose records stand from SOURCE on: each thread counts those
+ * of a part of the places, and writes them behind those of the parts before. */
+static bool plan_part(const struct mirrors *mirrors, int dimension, const double *x, size_t stride,
+                      int32_t source, int32_t count, double distance, int threads,
+                      struct ghosts *ghosts)
+{
+    enum { PARTS = 64 };
+    int32_t number[PARTS + 1] = {0};
+    bool room = true;
+#pragma omp parallel num_threads(threads < PARTS ? threads : PARTS)
+    {
+        const int parts = omp_get_num_threads(), part = omp_get_thread_num();
+        const int32_t begin = (int32_t)((int64_t)count * part / parts);
+        const int32_t end = (int32_t)((int64_t)count * (part + 1) / parts);
+        int32_t own = 0;
+        for (int32_t i = begin; i < end; i++) {
+            struct images images = images_of(mirrors, dimension, x + (size_t)i * stride, distance);
+            own += number_of(&images);
+        }
+        number[part + 1] = own;
+#pragma omp barrier
+#pragma omp single
+        {
+            number[0] = ghosts->count;
+            for (int k = 0; k < parts; k++)
+                number[k + 1] += number[k];
+            room = reserve(ghosts, number[parts]);
+            ghosts->count = room ? number[parts] : ghosts->count;
+        }
+        for (int32_t i = begin, g = number[part]; i < end && room && own > 0; i++) {
+            struct images images = images_of(mirrors, dimension, x + (size_t)i * stride, distance);
+            g = plan_images(&images, source + i, ghosts, g);
+        }
+    }
+    return room;
 }
 
 struct error *ghosts_plan(const struct mirrors *mirrors, int dimension, int32_t count,
-                          const double (*position)[3], double distance, struct ghosts *ghosts)
+                          const double (*position)[3], double distance, int threads,
+                          struct ghosts *ghosts)
 {
+    const size_t stride = sizeof *ghosts->remote / sizeof(double);
+    static_assert(sizeof(struct remote) % sizeof(double) == 0, "places lie doubles apart");
     ghosts->count = 0;
-    for (int32_t g = 0; g < ghosts->remotes; g++)
-        TRY(plan_add(ghosts, count + g, 0));
-    for (int32_t i = 0; i < count; i++)
-        TRY(plan_images(mirrors, dimension, i, position[i], distance, ghosts));
+    bool room = reserve(ghosts, ghosts->remotes);
+    for (int32_t g = 0; g < ghosts->remotes && room; g++) {
+        ghosts->source[g] = count + g;
+        ghosts->image[g] = 0;
+    }
+    ghosts->count = ghosts->remotes;
+    room = room && plan_part(mirrors, dimension, (const double *)position, 3, 0, count, distance,
+                             threads, ghosts);
     ghosts->early = ghosts->count;
-    for (int32_t g = 0; g < ghosts->remotes; g++)
-        TRY(plan_images(mirrors, dimension, count + g, ghosts->remote[g].place, distance, ghosts));
-    return NULL;
+    room = room && plan_part(mirrors, dimension, (const double *)ghosts->remote, stride, count,
+                             ghosts->remotes, distance, threads, ghosts);
+    return room ? NULL
+                : error_new(ERROR_SYSTEM, "out of memory for the images of %d particles", count);
 }
 
 void ghosts_start(struct ghosts *ghosts, double *record, int32_t owned, size_t bytes)

@@ -1,9 +1,6 @@
 /* Levels of cells; see cells.h. A level's edge is at least the sum of the reaches of two of its points, so that points of one level are found in adjacent cells; between levels the range is the mean of the two edges. */
 #include "particle/cells.h"
 
-#include <stdlib.h>
-
-#include "base/memory.h"
 #include "parallel/block.h"
 
 /* A key: five bits of level on top, the coordinates share the rest. */
@@ -56,20 +53,33 @@ static int32_t find_cell(const struct cells *cells, uint64_t key)
     }
 }
 
-static void index_cells(struct cells *cells)
+/* Where a cell ends up among those of like slot depends on who comes first, what is found there does not. */
+static void index_cells(struct cells *cells, int threads)
 {
+#pragma omp parallel for schedule(static) num_threads(threads)
     for (int32_t c = 0; c < cells->count; c++) {
         uint64_t s = slot_of(cells, cells->cell[c].key);
-        while (cells->slot[s])
+        int32_t empty = 0;
+        while (!__atomic_compare_exchange_n(&cells->slot[s], &empty, c + 1, false, __ATOMIC_RELAXED,
+                                            __ATOMIC_RELAXED)) {
             s = (s + 1) & (cells->slots - 1);
-        cells->slot[s] = c + 1;
+            empty = 0;
+        }
     }
-    int32_t c = 0;
-    for (int level = 0; level <= CELL_LEVELS; level++) {
-        while (c < cells->count && level_of_key(cells, cells->cell[c].key) < level)
-            c++;
-        cells->level_begin[level] = c;
+}
+
+/* The first cell of LEVEL or a higher one. */
+static int32_t first_of_level(const struct cells *cells, int level)
+{
+    int32_t low = 0, high = cells->count;
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        if (level_of_key(cells, cells->cell[middle].key) < level)
+            low = middle + 1;
+        else
+            high = middle;
     }
+    return low;
 }
 
 static uint64_t key_of_point(const struct cells *cells, const struct cell_point *point)
@@ -84,59 +94,47 @@ static uint64_t key_of_point(const struct cells *cells, const struct cell_point 
     return key_of(cells, level, at);
 }
 
-static struct error *out_of_memory(int32_t count)
+/* Of the sort. The cells come to stand in its spare room, the slots in that of the entries, once these have been used. */
+enum { SLOTS_LEAST = 64 };
+static size_t room_for(int32_t count)
 {
-    return error_new(ERROR_SYSTEM, "out of memory in the neighbour search of %d points", count);
+    return (size_t)(count > SLOTS_LEAST ? count : SLOTS_LEAST) * sizeof(struct keyed);
 }
 
-static struct error *fill_cells(struct cells *cells, const struct cell_point *points,
-                                struct keyed *entry, struct keyed *scratch)
+size_t cells_bytes(int32_t count)
 {
-    for (int32_t i = 0; i < cells->points; i++)
-        entry[i] = (struct keyed){key_of_point(cells, &points[i]), i};
-    radix_sort(entry, scratch, cells->points);
-    for (int32_t i = 0; i < cells->points; i++) {
-        cells->point[i] = points[entry[i].index];
-        cells->count += i == 0 || entry[i].key != entry[i - 1].key;
-    }
-    cells->slots = 64;
-    while (cells->slots < 2 * (uint64_t)cells->count)
-        cells->slots *= 2;
-    cells->cell = memory_allocate((size_t)cells->count * sizeof *cells->cell);
-    cells->slot = memory_allocate(cells->slots * sizeof *cells->slot);
-    if (!cells->cell || !cells->slot)
-        return out_of_memory(cells->points);
-    int32_t c = -1;
-    for (int32_t i = 0; i < cells->points; i++) {
-        if (i == 0 || entry[i].key != entry[i - 1].key)
-            cells->cell[++c] = (struct cell){entry[i].key, i, 0};
-        cells->cell[c].count++;
-    }
-    index_cells(cells);
-    return NULL;
+    return (size_t)count * sizeof(struct cell_point) + 2 * room_for(count);
 }
 
-struct error *cells_make(struct cells *cells, int dimension, double edge,
-                         const struct cell_point *points, int32_t count)
+void cells_make(struct cells *cells, int dimension, double edge, cells_point *point_of,
+                const void *context, int32_t count, struct scratch *scratch, int threads)
 {
+    static_assert(sizeof(struct key_run) <= sizeof(struct keyed), "cells fit in the spare room");
+    struct keyed *entry = scratch_part(scratch, room_for(count));
+    struct keyed *spare = scratch_part(scratch, room_for(count));
     *cells = (struct cells){.dimension = dimension, .edge = edge, .points = count};
-    struct keyed *entry = memory_allocate((size_t)count * sizeof *entry);
-    struct keyed *scratch = memory_allocate((size_t)count * sizeof *scratch);
-    cells->point = memory_allocate((size_t)count * sizeof *cells->point);
-    struct error *error = !entry || !scratch || !cells->point
-                              ? out_of_memory(count)
-                              : fill_cells(cells, points, entry, scratch);
-    free(entry);
-    free(scratch);
-    return error;
-}
-
-void cells_free(struct cells *cells)
-{
-    free(cells->point);
-    free(cells->cell);
-    free(cells->slot);
-    *cells = (struct cells){0};
+    cells->point = scratch_part(scratch, (size_t)count * sizeof *cells->point);
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t i = 0; i < count; i++) {
+        const struct cell_point point = point_of(context, i);
+        entry[i] = (struct keyed){key_of_point(cells, &point), i};
+    }
+    radix_sort(entry, spare, count, threads);
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t k = 0; k < count; k++)
+        cells->point[k] = point_of(context, entry[k].index);
+    cells->cell = (struct key_run *)spare;
+    cells->count = radix_runs(entry, count, threads, cells->cell);
+    cells->slots = SLOTS_LEAST;
+    while (cells->slots < 2 * (uint64_t)cells->count) /* four a cell at most */
+        cells->slots *= 2;
+    cells->slot = (int32_t *)entry;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (uint64_t s = 0; s < cells->slots; s++)
+        cells->slot[s] = 0;
+    index_cells(cells, threads);
+    for (int level = 0; level <= CELL_LEVELS; level++)
+        cells->level_begin[level] = first_of_level(cells, level);
 }
 
 int cell_level(const struct cells *cells, int32_t cell)

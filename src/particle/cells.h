@@ -3,7 +3,7 @@
 #ifndef BOLIDE_CELLS_H
 #define BOLIDE_CELLS_H
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "particle/radix.h"
 
 enum { CELL_LEVELS = 32, CELL_LEVEL_ZERO = 8 };
@@ -15,29 +15,27 @@ struct cell_point {
     uint16_t group;      /* contact group */
 };
 
-/* Points first .. first + count - 1 of the cell. */
-struct cell {
-    uint64_t key;
-    int32_t first, count;
-};
-
+/* Cells are the runs of points of one key. */
 struct cells {
     int dimension;
     double edge; /* of level CELL_LEVEL_ZERO */
     int32_t points;
     struct cell_point *point;
     int32_t count;
-    struct cell *cell;
+    struct key_run *cell;
     uint64_t slots;                       /* a power of two */
     int32_t *slot;                        /* cell index + 1, 0 for an empty slot */
     int32_t level_begin[CELL_LEVELS + 1]; /* cells are sorted by level */
 };
 
-/* Makes the cells of COUNT points, given in any order; takes over no memory. EDGE is the cell edge of
- * level zero. Points are neighbours when nearer than the sum of their reaches. */
-struct error *cells_make(struct cells *cells, int dimension, double edge,
-                         const struct cell_point *points, int32_t count);
-void cells_free(struct cells *cells);
+/* Point I of those that CONTEXT is about. */
+typedef struct cell_point cells_point(const void *context, int32_t i);
+
+/* Makes the cells of COUNT points, in any order, with THREADS threads. EDGE is the cell edge of level zero. Points are
+ * neighbours when nearer than the sum of their reaches. The cells stand in parts of SCRATCH, of cells_bytes() together. */
+void cells_make(struct cells *cells, int dimension, double edge, cells_point *point_of,
+                const void *context, int32_t count, struct scratch *scratch, int threads);
+size_t cells_bytes(int32_t count);
 
 int cell_level(const struct cells *cells, int32_t cell);
 

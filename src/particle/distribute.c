@@ -86,9 +86,21 @@ int particles_owner(const struct particles *p, uint64_t key)
     return low;
 }
 
+/* Nothing of what does not move. */
 static size_t bytes_of(const struct field *field)
 {
+    if (field->declaration.kind & FIELD_PASSING)
+        return 0;
     return number_size(field->declaration.number) * (size_t)field->declaration.components;
+}
+
+/* Of the fields that go with a particle. */
+static size_t bytes_that_go(const struct particles *p)
+{
+    size_t bytes = 0;
+    for (int k = 0; k < p->fields; k++)
+        bytes += bytes_of(&p->field[k]);
+    return bytes;
 }
 
 static void pack(const struct particles *p, int32_t i, char *out)
@@ -135,7 +147,7 @@ static struct error *find_leaving(struct particles *p, struct leaving *leaving)
 static struct error *take_in(struct particles *p, struct leaving *leaving, const char *came,
                              int32_t count)
 {
-    const size_t bytes = particles_bytes(p);
+    const size_t bytes = bytes_that_go(p);
     int32_t k = 0, first;
     for (; k < count && leaving->filled < leaving->sent; k++)
         unpack(p, leaving->errand[leaving->filled++].item, came + (size_t)k * bytes);
@@ -150,7 +162,7 @@ static struct error *send_some(struct particles *p, struct exchange *exchange,
                                struct leaving *leaving)
 {
     enum { AT_ONCE = 1 << 15 };
-    const size_t bytes = particles_bytes(p);
+    const size_t bytes = bytes_that_go(p);
     int32_t some = leaving->count - leaving->sent;
     some = some < AT_ONCE ? some : AT_ONCE;
     TRY(exchange_plan(exchange, p->ranks, leaving->errand + leaving->sent, some));

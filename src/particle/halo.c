@@ -53,15 +53,19 @@ static struct region *own_regions(const struct particles *p, struct reach reach,
 {
     struct region *region = memory_allocate((size_t)p->blocks * sizeof *region);
     *whole = empty_region();
-    for (int32_t b = 0; b < p->blocks && region; b++) {
+    if (!region)
+        return NULL;
+#pragma omp parallel for schedule(dynamic) num_threads(p->threads)
+    for (int32_t b = 0; b < p->blocks; b++) {
         region[b] = empty_region();
         region[b].key = p->block[b].key;
         region[b].rank = p->ranks->rank;
         for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++)
             include(&region[b], p->position[i], p->position[i],
                     (1.0 + skin) * reach.smoothing * reach.diameter[i]);
-        include(whole, region[b].low, region[b].high, region[b].reach);
     }
+    for (int32_t b = 0; b < p->blocks; b++)
+        include(whole, region[b].low, region[b].high, region[b].reach);
     return region;
 }
 

@@ -19,11 +19,11 @@ static const double plan_margin = 1.5;
 /* What a build needs for a while. */
 struct build {
     struct neighbours *n;
-    const struct particles *p;
+    struct particles *p; /* only its scratch changes */
     struct reach reach;
     const struct mirrors *mirrors;
     const struct contact_groups *groups;
-    struct cell_point *point; /* owned, then ghosts */
+    uint32_t *rank; /* by (id, image), of owned particles, then of ghosts */
     struct cells cells;
 };
 
@@ -35,6 +35,7 @@ struct workspace {
     uint32_t *key, *entry, *row;       /* kept of them */
     int64_t capacity;
     bool failed;
+    struct segment segment; /* a copy: those of the threads lie in one line of the cache */
 };
 
 static struct error *out_of_memory(const struct particles *p)
@@ -42,9 +43,10 @@ static struct error *out_of_memory(const struct particles *p)
     return error_new(ERROR_SYSTEM, "out of memory for the neighbours of %d particles", p->count);
 }
 
-static double largest_reach(const struct particles *p, struct reach reach)
+static double largest_reach(const struct particles *p, struct reach reach, int threads)
 {
     double largest = 0.0;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : largest)
     for (int32_t i = 0; i < p->count; i++)
         largest = maximum(largest, reach.smoothing * reach.diameter[i]);
     return ranks_maximum(p->ranks, largest);
@@ -55,30 +57,32 @@ static uint16_t group_of(const struct build *b, uint16_t body)
     return b->groups->groups > 1 ? b->groups->of_body[body] : 0;
 }
 
-static void place_points(struct build *b)
+static bool is_image(const struct build *b, int32_t i)
 {
+    return i >= b->p->count + b->n->ghosts.remotes;
+}
+
+/* A cells_point: owned particle or ghost I. */
+static struct cell_point point_of(const void *context, int32_t i)
+{
+    const struct build *b = context;
     const struct particles *p = b->p;
     const struct ghosts *ghosts = &b->n->ghosts;
-    for (int32_t i = 0; i < p->count; i++) {
-        const double *x = p->position[i];
-        double own = (1.0 + b->n->skin) * b->reach.smoothing * b->reach.diameter[i];
-        b->point[i] = (struct cell_point){x[0], x[1], x[2], own, 0, 0, group_of(b, p->body[i])};
-    }
-    for (int32_t g = 0; g < ghosts->remotes; g++) {
-        const struct remote *r = &ghosts->remote[g];
-        b->point[p->count + g] = (struct cell_point){
-            r->place[0], r->place[1], r->place[2],         (1.0 + b->n->skin) * r->reach,
-            0,           0,           group_of(b, r->body)};
-    }
-    for (int32_t g = ghosts->remotes; g < ghosts->count; g++) {
-        struct cell_point point = b->point[ghosts->source[g]];
-        struct vec3 x =
-            image_position(b->mirrors, ghosts->image[g], vec3_make(point.x, point.y, point.z));
-        point.x = x.x;
-        point.y = x.y;
-        point.z = x.z;
-        b->point[p->count + g] = point;
-    }
+    const int32_t from = is_image(b, i) ? ghosts->source[i - p->count] : i;
+    const struct remote *remote = from < p->count ? NULL : &ghosts->remote[from - p->count];
+    const double *place = remote ? remote->place : p->position[from];
+    const double reach = remote ? remote->reach : b->reach.smoothing * b->reach.diameter[from];
+    struct vec3 x = vec3_make(place[0], place[1], place[2]);
+    if (is_image(b, i))
+        x = image_position(b->mirrors, ghosts->image[i - p->count], x);
+    const uint32_t part = (uint32_t)(is_image(b, i) ? PART_IMAGE : 0) << ENTRY_PART_SHIFT;
+    return (struct cell_point){x.x,
+                               x.y,
+                               x.z,
+                               (1.0 + b->n->skin) * reach,
+                               part | b->rank[i],
+                               part | (uint32_t)i,
+                               group_of(b, remote ? remote->body : p->body[from])};
 }
 
 static uint64_t id_of(const struct build *b, int32_t i)
@@ -88,37 +92,40 @@ static uint64_t id_of(const struct build *b, int32_t i)
     return source < owned ? b->p->id[source] : ghosts->remote[source - owned].id;
 }
 
-static bool is_image(const struct build *b, int32_t i)
+/* Ranks all COUNT points by id, then image. */
+static void rank_points(struct build *b, struct keyed *entry, struct keyed *spare, int32_t count,
+                        int threads)
 {
-    return i >= b->p->count + b->n->ghosts.remotes;
+    const struct ghosts *ghosts = &b->n->ghosts;
+    const int32_t owned = b->p->count;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t i = 0; i < count; i++)
+        entry[i] = (struct keyed){i < owned ? 0 : ghosts->image[i - owned], i};
+    radix_sort(entry, spare, count, threads);
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t k = 0; k < count; k++)
+        entry[k].key = id_of(b, entry[k].index);
+    radix_sort(entry, spare, count, threads);
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t k = 0; k < count; k++)
+        b->rank[entry[k].index] = (uint32_t)k;
 }
 
-/* Ranks all points by id, then image, and puts keys and entries together. */
-static struct error *rank_points(struct build *b, int32_t count)
+/* Ranks the points, and puts them into cells, which take the room of the ranking. */
+static struct error *make_cells(struct build *b, int32_t count, int threads)
 {
-    struct keyed *entry = memory_allocate((size_t)count * sizeof *entry);
-    struct keyed *scratch = memory_allocate((size_t)count * sizeof *scratch);
-    if (entry && scratch) {
-        const struct ghosts *ghosts = &b->n->ghosts;
-        int32_t owned = b->p->count;
-        for (int32_t i = 0; i < count; i++)
-            entry[i] = (struct keyed){i < owned ? 0 : ghosts->image[i - owned], i};
-        radix_sort(entry, scratch, count);
-        for (int32_t k = 0; k < count; k++) {
-            entry[k].key = id_of(b, entry[k].index);
-        }
-        radix_sort(entry, scratch, count);
-        for (int32_t k = 0; k < count; k++) {
-            uint32_t part = (uint32_t)(is_image(b, entry[k].index) ? PART_IMAGE : 0)
-                            << ENTRY_PART_SHIFT;
-            b->point[entry[k].index].key = part | (uint32_t)k;
-            b->point[entry[k].index].entry = part | (uint32_t)entry[k].index;
-        }
-    }
-    bool done = entry && scratch;
-    free(entry);
-    free(scratch);
-    return done ? NULL : out_of_memory(b->p);
+    struct scratch *scratch = &b->p->scratch;
+    const size_t ranks = (size_t)count * sizeof *b->rank;
+    if (!scratch_begin(scratch, ranks + cells_bytes(count)))
+        return out_of_memory(b->p);
+    b->rank = scratch_part(scratch, ranks);
+    const size_t used = scratch->used;
+    struct keyed *entry = scratch_part(scratch, (size_t)count * sizeof *entry);
+    struct keyed *spare = scratch_part(scratch, (size_t)count * sizeof *spare);
+    rank_points(b, entry, spare, count, threads);
+    scratch->used = used;
+    cells_make(&b->cells, b->p->dimension, b->p->cell, point_of, b, count, scratch, threads);
+    return NULL;
 }
 
 static bool workspace_reserve(struct workspace *w, int64_t needed, int64_t kept)
@@ -202,16 +209,15 @@ static bool segment_reserve(struct segment *segment, int64_t needed)
     return true;
 }
 
-static bool store_row(struct neighbours *n, int thread, int32_t i, const uint32_t *row,
+static bool store_row(struct row *at, struct segment *segment, int thread, const uint32_t *row,
                       int32_t count)
 {
-    struct segment *segment = &n->segment[thread];
     if (!segment_reserve(segment, segment->count + count))
         return false;
     if (count > 0) /* else there may be no room yet */
         memcpy(segment->entry + segment->count, row, (size_t)count * sizeof *row);
-    n->row[i] = (struct row){(uint32_t)segment->count, (uint16_t)(segment->count >> 32),
-                             (uint16_t)thread, (uint32_t)count};
+    *at = (struct row){(uint32_t)segment->count, (uint16_t)(segment->count >> 32), (uint16_t)thread,
+                       (uint32_t)count};
     segment->count += count;
     return true;
 }
@@ -224,7 +230,7 @@ static int32_t index_of(const struct cell_point *point)
 /* Rows of the owned points of one cell. */
 static bool build_cell(struct build *b, struct workspace *w, int thread, int32_t cell)
 {
-    const struct cell *c = &b->cells.cell[cell];
+    const struct key_run *c = &b->cells.cell[cell];
     const struct cell_point *own = b->cells.point + c->first;
     bool any = false;
     for (int32_t k = 0; k < c->count; k++)
@@ -244,7 +250,7 @@ static bool build_cell(struct build *b, struct workspace *w, int thread, int32_t
         const struct row_point point = {own->x, own->y, own->z, own->reach,
                                         own->key | law_part(b->groups, own->group, own->group)};
         int32_t count = row_find(&w->near, &point, w->key, w->entry, w->row);
-        if (!store_row(b->n, thread, index_of(own), w->row, count))
+        if (!store_row(&b->n->row[index_of(own)], &w->segment, thread, w->row, count))
             return false;
     }
     return true;
@@ -266,11 +272,13 @@ static struct error *build_rows(struct build *b, int threads)
         b->n->segment[t].count = 0;
 #pragma omp parallel num_threads(threads) reduction(|| : failed)
     {
-        struct workspace w = {0};
+        const int thread = omp_get_thread_num();
+        struct workspace w = {.segment = b->n->segment[thread]};
 #pragma omp for schedule(dynamic, 16)
         for (int32_t cell = 0; cell < b->cells.count; cell++)
             if (!failed)
-                failed = !build_cell(b, &w, omp_get_thread_num(), cell);
+                failed = !build_cell(b, &w, thread, cell);
+        b->n->segment[thread] = w.segment;
         workspace_free(&w);
     }
     return failed ? out_of_memory(b->p) : NULL;
@@ -323,38 +331,29 @@ static struct error *build_with(struct build *b, int threads)
     int32_t count = b->p->count + n->ghosts.count;
     if ((uint32_t)count >= ENTRY_INDEX)
         return error_new(ERROR_INPUT, "%d particles and images are too many for one rank", count);
-    b->point = memory_allocate((size_t)count * sizeof *b->point);
-    if (!b->point)
-        return out_of_memory(b->p);
-    place_points(b);
-    TRY(rank_points(b, count));
-    TRY(cells_make(&b->cells, b->p->dimension, b->p->cell, b->point, count));
-    free(b->point); /* the cells have them now */
-    b->point = NULL;
+    TRY(make_cells(b, count, threads));
     TRY(build_rows(b, threads));
     if (b->p->ranks->joined)
         find_outer(n, b->p, threads);
     return NULL;
 }
 
-struct error *neighbours_build(struct neighbours *neighbours, const struct particles *particles,
+struct error *neighbours_build(struct neighbours *neighbours, struct particles *particles,
                                struct reach reach, const struct mirrors *mirrors,
                                const struct contact_groups *groups, int threads)
 {
     TRY(ranks_agree(particles->ranks, reserve(neighbours, particles, threads)));
     double distance =
-        plan_margin * 2.0 * (1.0 + neighbours->skin) * largest_reach(particles, reach);
+        plan_margin * 2.0 * (1.0 + neighbours->skin) * largest_reach(particles, reach, threads);
     struct halo halo;
     TRY(halo_plan(particles, reach, neighbours->skin, &neighbours->ghosts, &halo));
-    struct error *error =
-        ghosts_plan(mirrors, particles->dimension, particles->count,
-                    (const double(*)[3])particles->position, distance, &neighbours->ghosts);
+    struct error *error = ghosts_plan(mirrors, particles->dimension, particles->count,
+                                      (const double(*)[3])particles->position, distance, threads,
+                                      &neighbours->ghosts);
     struct build build = {
         .n = neighbours, .p = particles, .reach = reach, .mirrors = mirrors, .groups = groups};
     if (!error)
         error = build_with(&build, threads);
-    free(build.point);
-    cells_free(&build.cells);
     error = ranks_agree(particles->ranks, error);
     if (!error)
         error = motion_start(neighbours, particles, reach, mirrors, distance, &halo, threads);

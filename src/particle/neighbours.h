@@ -86,8 +86,9 @@ struct reach {
     double smoothing; /* reach = smoothing * diameter */
 };
 
-/* Collective: builds all rows and the plan of ghosts, with THREADS threads. The store must be distributed. */
-struct error *neighbours_build(struct neighbours *neighbours, const struct particles *particles,
+/* Collective: builds all rows and the plan of ghosts, with THREADS threads, in the scratch of the store, which must be
+ * distributed. */
+struct error *neighbours_build(struct neighbours *neighbours, struct particles *particles,
                                struct reach reach, const struct mirrors *mirrors,
                                const struct contact_groups *groups, int threads);
 

@@ -20,7 +20,7 @@ static struct error *reserve_motion(struct neighbours *n, const struct particles
 }
 
 /* Room for near rows: as much as the rows take, of which what is not used is never touched. */
-static bool reserve_near(struct neighbours *n, const struct particles *p)
+static bool reserve_near(struct neighbours *n, const struct particles *p, int threads)
 {
     int64_t capacity = n->near_reference_capacity, entries = 0;
     if (!memory_reserve((void **)&n->near_origin, &capacity, p->count, 0, sizeof *n->near_origin))
@@ -32,10 +32,16 @@ static bool reserve_near(struct neighbours *n, const struct particles *p)
     if (!memory_reserve((void **)&n->near_block, &n->near_block_capacity, p->blocks, 0,
                         sizeof *n->near_block))
         return false;
+#pragma omp parallel for schedule(static) num_threads(threads)
     for (int32_t b = 0; b < p->blocks; b++) {
-        n->near_block[b] = entries;
+        n->near_block[b] = 0;
         for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++)
-            entries += n->row[i].count;
+            n->near_block[b] += n->row[i].count;
+    }
+    for (int32_t b = 0; b < p->blocks; b++) {
+        const int64_t of_block = n->near_block[b];
+        n->near_block[b] = entries;
+        entries += of_block;
     }
     return memory_reserve((void **)&n->near_entry, &n->near_capacity, entries, 0,
                           sizeof *n->near_entry) &&
@@ -43,7 +49,7 @@ static bool reserve_near(struct neighbours *n, const struct particles *p)
                           sizeof *n->near_row);
 }
 
-static struct error *reserve(struct neighbours *n, const struct particles *p)
+static struct error *reserve(struct neighbours *n, const struct particles *p, int threads)
 {
     int64_t capacity = n->reference_capacity;
     if (!memory_reserve((void **)&n->origin, &capacity, p->count, 0, sizeof *n->origin))
@@ -61,7 +67,7 @@ static struct error *reserve(struct neighbours *n, const struct particles *p)
         !memory_reserve((void **)&m->touching, &m->touching_capacity, p->blocks, 0,
                         sizeof *m->touching) ||
         !memory_reserve((void **)&m->group_of, &m->group_of_capacity, p->count, 0, 1) ||
-        (n->near_skin > 0.0 && !reserve_near(n, p)))
+        (n->near_skin > 0.0 && !reserve_near(n, p, threads)))
         return motion_out_of_memory();
     return NULL;
 }
@@ -162,7 +168,7 @@ struct error *motion_start(struct neighbours *n, const struct particles *p, stru
     TRY(ranks_agree(p->ranks, reserve_motion(n, p)));
     if (p->ranks->joined)
         TRY(motion_meet(n->motion, p, halo));
-    TRY(ranks_agree(p->ranks, reserve(n, p)));
+    TRY(ranks_agree(p->ranks, reserve(n, p, threads)));
     struct block_motion *motion = n->motion;
     motion->distance = distance;
     motion->taken_approach = motion->taken_apart = 0.0;

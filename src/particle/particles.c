@@ -49,7 +49,8 @@ struct error *particles_create(int dimension, double cell, const struct field_de
 {
     assert(COUNT_OF(core_fields) + (size_t)count <= PARTICLES_FIELDS);
     static const struct ranks alone = {0, 1, false};
-    *particles = (struct particles){.dimension = dimension, .cell = cell, .ranks = &alone};
+    *particles =
+        (struct particles){.dimension = dimension, .cell = cell, .ranks = &alone, .threads = 1};
     for (size_t k = 0; k < COUNT_OF(core_fields); k++)
         particles->field[particles->fields++].declaration = core_fields[k];
     for (int k = 0; k < count; k++)
@@ -63,6 +64,7 @@ void particles_destroy(struct particles *particles)
         free(particles->field[k].data);
     free(particles->block);
     free(particles->cut);
+    free(particles->scratch.memory);
     *particles = (struct particles){0};
 }
 

@@ -7,6 +7,7 @@
 #ifndef BOLIDE_PARTICLES_H
 #define BOLIDE_PARTICLES_H
 
+#include "base/memory.h"
 #include "base/vector.h"
 #include "base/visitor.h"
 #include "material/history.h"
@@ -16,6 +17,7 @@
 enum field_kind {
     FIELD_STATE = 1,   /* saved, migrated */
     FIELD_DERIVED = 2, /* found again from the state */
+    FIELD_PASSING = 4, /* holds nothing from before to after a sort: not moved with the particle */
 };
 
 struct field_declaration {
@@ -44,6 +46,9 @@ struct particles {
     uint64_t *cut;             /* rank r owns the blocks of keys cut[r] .. cut[r + 1] - 1 */
     double work;               /* seconds spent on the particles since the cut */
     double cell;               /* edge of a cell of the global grid, m; fixed for a run */
+    int threads;               /* that sort */
+    struct scratch
+        scratch; /* for sorting, and for who has no need of what it holds when particles are sorted */
     uint64_t order; /* grows with every sort: an index means the same particle while it stays */
     int fields;
     struct field field[PARTICLES_FIELDS];

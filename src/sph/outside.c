@@ -55,55 +55,71 @@ void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, d
     }
 }
 
+/* Calls ACT for every particle whose body IS says so of; each thread books in a ledger of its own. */
+typedef void act_on(struct simulation *simulation, const struct sph_fields *f, double dt, int32_t i,
+                    struct ledger *ledger);
+static void act_where(struct simulation *simulation, const struct sph_fields *f, double dt,
+                      bool (*is)(const struct simulation *, int), act_on *act)
+{
+    const struct particles *p = &simulation->particles;
+    if (!any_body(simulation, is))
+        return;
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct ledger own = {0};
+#pragma omp for schedule(static)
+        for (int32_t i = 0; i < p->count; i++)
+            if (is(simulation, p->body[i]))
+                act(simulation, f, dt, i, &own);
+#pragma omp critical(bolide_sph_bodies)
+        ledger_join(&simulation->ledger, &own);
+    }
+}
+
 /* Particles of frozen bodies get no rates: they move as they are. */
-static void freeze_bodies(struct simulation *simulation, const struct sph_fields *f, double dt)
+static void freeze_particle(struct simulation *simulation, const struct sph_fields *f, double dt,
+                            int32_t i, struct ledger *ledger)
 {
     const struct particles *p = &simulation->particles;
     const struct pair_rates *rates = &f->rates;
-    if (!any_body(simulation, body_is_frozen))
-        return;
-    for (int32_t i = 0; i < p->count; i++) {
-        if (!body_is_frozen(simulation, p->body[i]))
-            continue;
-        struct vec3 impulse = vec3_scale(-dt * p->mass[i], vector_of(rates->acceleration[i]));
-        double heat = rates->power[i] + (f->heat_rate ? f->heat_rate[i] : 0.0);
-        double work = vec3_dot(impulse, vector_of(p->velocity[i]));
-        ledger_book(&simulation->ledger, LEDGER_PISTONS, 0.0, impulse, vector_of(p->position[i]),
-                    work - dt * p->mass[i] * heat);
-        memset(rates->acceleration[i], 0, sizeof *rates->acceleration);
-        memset(rates->strain_rate[i], 0, sizeof *rates->strain_rate);
-        memset(rates->spin[i], 0, sizeof *rates->spin);
-        rates->power[i] = 0.0;
-        if (rates->drift)
-            memset(rates->drift[i], 0, sizeof *rates->drift);
-        if (f->heat_rate)
-            f->heat_rate[i] = 0.0;
-        if (f->density_rate)
-            f->density_rate[i] = 0.0;
-        if (f->packing)
-            f->packing[i][1] = 0.0;
+    struct vec3 impulse = vec3_scale(-dt * p->mass[i], vector_of(rates->acceleration[i]));
+    double heat = rates->power[i] + (f->heat_rate ? f->heat_rate[i] : 0.0);
+    double work = vec3_dot(impulse, vector_of(p->velocity[i]));
+    ledger_book(ledger, LEDGER_PISTONS, 0.0, impulse, vector_of(p->position[i]),
+                work - dt * p->mass[i] * heat);
+    memset(rates->acceleration[i], 0, sizeof *rates->acceleration);
+    memset(rates->strain_rate[i], 0, sizeof *rates->strain_rate);
+    memset(rates->spin[i], 0, sizeof *rates->spin);
+    rates->power[i] = 0.0;
+    if (rates->drift)
+        memset(rates->drift[i], 0, sizeof *rates->drift);
+    if (f->heat_rate)
+        f->heat_rate[i] = 0.0;
+    if (f->density_rate)
+        f->density_rate[i] = 0.0;
+    if (f->packing)
+        f->packing[i][1] = 0.0;
+}
+
+static void hold_particle(struct simulation *simulation, const struct sph_fields *f, double dt,
+                          int32_t i, struct ledger *ledger)
+{
+    const struct particles *p = &simulation->particles;
+    double *a = f->rates.acceleration[i];
+    struct vec3 impulse = vec3_scale(-dt * p->mass[i], vector_of(a));
+    ledger_book(ledger, LEDGER_PISTONS, 0.0, impulse, vector_of(p->position[i]),
+                vec3_dot(impulse, vector_of(p->velocity[i])));
+    for (int axis = 0; axis < 3; axis++) {
+        a[axis] = 0.0;
+        if (f->rates.drift)
+            f->rates.drift[i][axis] = 0.0;
     }
 }
 
 void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, double dt)
 {
-    freeze_bodies(simulation, f, dt);
-    const struct particles *p = &simulation->particles;
-    if (!any_body(simulation, body_is_held))
-        return;
-    for (int32_t i = 0; i < p->count; i++) {
-        if (!body_is_held(simulation, p->body[i]))
-            continue;
-        double *a = f->rates.acceleration[i];
-        struct vec3 impulse = vec3_scale(-dt * p->mass[i], vector_of(a));
-        ledger_book(&simulation->ledger, LEDGER_PISTONS, 0.0, impulse, vector_of(p->position[i]),
-                    vec3_dot(impulse, vector_of(p->velocity[i])));
-        for (int axis = 0; axis < 3; axis++) {
-            a[axis] = 0.0;
-            if (f->rates.drift)
-                f->rates.drift[i][axis] = 0.0;
-        }
-    }
+    act_where(simulation, f, dt, body_is_frozen, freeze_particle);
+    act_where(simulation, f, dt, body_is_held, hold_particle);
 }
 
 /* Its work goes with the mean velocity of the step, so that free fall keeps its energy to rounding. */

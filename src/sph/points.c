@@ -398,9 +398,12 @@ static void update_heat(const struct sph *sph, struct simulation *simulation,
     for (int32_t i = 0; i < p->count; i++)
         p->energy[i] += dt * f->heat_rate[i];
     sph_evaluate(sph, simulation);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++)
-        if (!isfinite(p->energy[i]) || !isfinite(p->pressure[i]))
+        if (!isfinite(p->energy[i]) || !isfinite(p->pressure[i])) {
+#pragma omp critical(bolide_sph_failure)
             note_failure(failure, p->id[i], i);
+        }
 }
 
 struct error *sph_update(const struct sph *sph, struct simulation *simulation, double dt)
@@ -418,7 +421,7 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation, d
 #pragma omp parallel num_threads(simulation->threads)
     {
         struct failure own = {false, 0, 0};
-#pragma omp for schedule(dynamic, 8)
+#pragma omp for schedule(dynamic)
         for (int32_t b = 0; b < simulation->particles.blocks; b++)
             update_block(sph, simulation, &f, &simulation->particles.block[b], dt, &own);
 #pragma omp critical(bolide_sph_failure)

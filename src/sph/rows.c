@@ -6,18 +6,21 @@
 #include "sph/lanes.h"
 #include "sph/sph_internal.h"
 
-static struct error *reserve_records(struct sph *sph, const struct simulation *simulation)
+/* Records stand in the scratch of the store until particles are sorted again. */
+static struct error *reserve_records(struct sph *sph, struct simulation *simulation)
 {
+    struct scratch *scratch = &simulation->particles.scratch;
     int64_t count = (int64_t)simulation->particles.count + sph->neighbours.ghosts.count + 1;
     size_t stride = (size_t)(sph_corrected(sph)      ? hllc_stride(sph->hllc)
                              : sph_second_order(sph) ? muscl_stride(muscl_kind_of(sph))
                                                      : record_stride(sph->kind));
-    if (!memory_reserve((void **)&sph->record, &sph->record_capacity, count, 0,
-                        stride * sizeof(double)) ||
+    const size_t bytes = (size_t)count * stride * sizeof(double);
+    if (!scratch_begin(scratch, bytes) ||
         (sph_second_order(sph) && !memory_reserve((void **)&sph->place, &sph->place_capacity, count,
                                                   0, PLACE_STRIDE * sizeof(double))))
         return error_new(ERROR_SYSTEM, "out of memory for the records of %lld particles",
                          (long long)count);
+    sph->record = scratch_part(scratch, bytes);
     return exchange_reserve(&sph->neighbours.ghosts.exchange, stride * sizeof(double));
 }
 

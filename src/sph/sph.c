@@ -20,19 +20,19 @@ static const struct field_declaration sph_field_table[] = {
     {"diameter", "m", "particle diameter (m/rho)^(1/dimension)", NUMBER_DOUBLE, 1, FIELD_DERIVED},
     {"sound_long", "m/s", "longitudinal sound speed", NUMBER_DOUBLE, 1, FIELD_DERIVED},
     {"sound_shear", "m/s", "shear wave speed", NUMBER_DOUBLE, 1, FIELD_DERIVED},
-    {"acceleration", NULL, "acceleration", NUMBER_DOUBLE, 3, FIELD_DERIVED},
-    {"power", NULL, "specific power of the contact forces", NUMBER_DOUBLE, 1, FIELD_DERIVED},
-    {"strain_rate", NULL, "symmetric velocity gradient", NUMBER_DOUBLE, 6, FIELD_DERIVED},
-    {"spin", NULL, "half the curl of velocity", NUMBER_DOUBLE, 3, FIELD_DERIVED},
+    {"acceleration", NULL, "acceleration", NUMBER_DOUBLE, 3, FIELD_PASSING},
+    {"power", NULL, "specific power of the contact forces", NUMBER_DOUBLE, 1, FIELD_PASSING},
+    {"strain_rate", NULL, "symmetric velocity gradient", NUMBER_DOUBLE, 6, FIELD_PASSING},
+    {"spin", NULL, "half the curl of velocity", NUMBER_DOUBLE, 3, FIELD_PASSING},
 };
 enum { DIAMETER_FIELD = 0, SPIN_FIELD = COUNT_OF(sph_field_table) - 1 };
 static const struct field_declaration wall_field = {
-    "wall_acceleration", NULL, "acceleration by walls", NUMBER_DOUBLE, 3, FIELD_DERIVED};
+    "wall_acceleration", NULL, "acceleration by walls", NUMBER_DOUBLE, 3, FIELD_PASSING};
 static const struct field_declaration drift_field = {
-    "drift", NULL, "mean contact velocity less own velocity", NUMBER_DOUBLE, 3, FIELD_DERIVED};
+    "drift", NULL, "mean contact velocity less own velocity", NUMBER_DOUBLE, 3, FIELD_PASSING};
 static const struct field_declaration hoop_fields[] = {
-    {"hoop_pull", NULL, "acceleration by hoop stress", NUMBER_DOUBLE, 1, FIELD_DERIVED},
-    {"hoop_strain", NULL, "part of u/r that is strain rate", NUMBER_DOUBLE, 1, FIELD_DERIVED}};
+    {"hoop_pull", NULL, "acceleration by hoop stress", NUMBER_DOUBLE, 1, FIELD_PASSING},
+    {"hoop_strain", NULL, "part of u/r that is strain rate", NUMBER_DOUBLE, 1, FIELD_PASSING}};
 static const struct field_declaration thickness_field = {
     "thickness", "", "thickness relative to the start", NUMBER_DOUBLE, 1, FIELD_STATE};
 static const struct field_declaration correction_field = {
@@ -47,7 +47,7 @@ static const struct field_declaration plane_fields[] = {
     {"packing", NULL, "how volumes fill space, and lack neighbours", NUMBER_DOUBLE, 4, FIELD_STATE},
     {"support", "m", "diameter that the kernel goes with", NUMBER_DOUBLE, 1, FIELD_STATE}};
 static const struct field_declaration heat_field = {
-    "heat_rate", NULL, "specific power of conduction", NUMBER_DOUBLE, 1, FIELD_DERIVED};
+    "heat_rate", NULL, "specific power of conduction", NUMBER_DOUBLE, 1, FIELD_PASSING};
 static const struct field_declaration level_history_field = {
     "level_history", NULL, "history of level n", NUMBER_DOUBLE, POINT_HISTORY, FIELD_DERIVED};
 static const struct field_declaration viscosity_field = {
@@ -237,6 +237,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     double cell = growth_room * support * (1.0 + sph->parameters.skin);
     TRY(particles_create(simulation->dimension, cell, fields, count, &simulation->particles));
     simulation->particles.ranks = simulation->ranks;
+    simulation->particles.threads = simulation->threads;
     return NULL;
 }
 
@@ -275,7 +276,7 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
     for (int rest = 0; rest < 2; rest++) {
         if (rest)
             sph_pack_rest(sph, simulation);
-#pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
+#pragma omp parallel for schedule(dynamic) num_threads(simulation->threads)
         for (int32_t b = 0; b < p->blocks; b++) {
             const int32_t first = p->block[b].first, end = first + p->block[b].count;
             if (neighbours_inner(&sph->neighbours, b) == rest)
@@ -317,7 +318,7 @@ static void sum_pairs_ahead(struct sph *sph, struct simulation *simulation,
     for (int rest = 0; rest < 2; rest++) {
         if (rest)
             muscl_pack_rest(sph, simulation);
-#pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
+#pragma omp parallel for schedule(dynamic) num_threads(simulation->threads)
         for (int32_t b = 0; b < p->blocks; b++) {
             const int32_t first = p->block[b].first, end = first + p->block[b].count;
             if (neighbours_inner(&sph->neighbours, b) == rest)
@@ -352,6 +353,7 @@ static void prepare_motion(struct sph *sph, struct simulation *simulation,
     double begin = clock_seconds();
     if (is_standard(sph)) {
         /* Viscosity needs the divergence of the same level first. */
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
         for (int32_t i = 0; i < simulation->particles.count; i++)
             fields->viscosity[i] = 0.0;
         sph_pack(sph, simulation);
@@ -420,7 +422,6 @@ static void sph_destroy(void *solver)
     struct sph *sph = solver;
     neighbours_free(&sph->neighbours);
     conduction_destroy(sph);
-    free(sph->record);
     free(sph->place);
 }
 

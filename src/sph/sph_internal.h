@@ -37,7 +37,7 @@ struct sph {
     int64_t steps_since_build;
     double work; /* seconds that the particles had taken when they were last distributed */
     double *record, *place;
-    int64_t record_capacity, place_capacity; /* in records */
+    int64_t place_capacity; /* in records */
     struct conduction conduction;
 };
 
