@@ -122,15 +122,18 @@ static void order_by_id(struct keyed *entry, int64_t count, const uint64_t *id)
     }
 }
 
-/* Brings each block's entries into their order; returns whether any particle has a new place. */
+/* Finds where each block's entries begin, and brings them into their order; returns whether any particle has a new
+ * place. */
 static bool fill_blocks(struct particles *p, struct keyed *entry)
 {
     bool moved = false;
+#pragma omp parallel for schedule(static) num_threads(p->threads)
+    for (int32_t b = 0; b < p->blocks; b++)
+        p->block[b].first = first_of_block(entry, p->count, b);
 #pragma omp parallel for schedule(dynamic) num_threads(p->threads) reduction(|| : moved)
     for (int32_t b = 0; b < p->blocks; b++) {
-        const int32_t first = first_of_block(entry, p->count, b);
-        const int32_t end = first_of_block(entry, p->count, b + 1);
-        p->block[b].first = first;
+        const int32_t first = p->block[b].first;
+        const int32_t end = b + 1 < p->blocks ? p->block[b + 1].first : p->count;
         p->block[b].count = end - first;
         order_by_id(entry + first, end - first, p->id);
         for (int32_t i = first; i < end && !moved; i++)
