@@ -32,6 +32,18 @@ static void add_body(const struct simulation_case *input, int index, struct esti
     estimate->material_mass[body->material_index] += of->summary.mass;
 }
 
+/* Of a particle: what the materials of the case remember. */
+static double history_bytes(const struct simulation_case *input)
+{
+    unsigned needed = 0;
+    double bytes = 0.0;
+    for (int m = 0; m < input->materials.count; m++)
+        needed |= material_history(&case_material(input, m)->material);
+    for (int slot = 0; slot < POINT_HISTORY; slot++)
+        bytes += needed & 1u << slot ? sizeof(double) : 0.0;
+    return bytes;
+}
+
 static void join_bounds(struct bounds *all, const struct bounds *one)
 {
     all->low = vec3_make(minimum(all->low.x, one->low.x), minimum(all->low.y, one->low.y),
@@ -94,7 +106,8 @@ struct error *estimate_run(const struct simulation_case *input, int threads,
     find_mean_density(input, estimate);
     const struct solver_class *class = input->solver.choice->thing;
     estimate->bytes =
-        (double)estimate->particles * class->bytes(input->solver.value, (int)input->dimension);
+        (double)estimate->particles *
+        (class->bytes(input->solver.value, (int)input->dimension) + history_bytes(input));
     double steps = ceil(input->run.until / estimate->step);
     int64_t most = input->run.max_steps;
     estimate->steps = most > 0 && steps > (double)most ? most : (int64_t)minimum(steps, 1e18);
