@@ -1,5 +1,5 @@
-/* The exponential function as a formula, which a compiler turns into vectors: the same bits in every lane, for
- * every instruction set, within two units in the last place of the library's. */
+/* The exponential function, the logarithm and powers as formulas, which a compiler turns into vectors: the same bits in
+ * every lane, for every instruction set, the first two within two units in the last place of the library's. */
 #ifndef BOLIDE_EXPONENTIAL_H
 #define BOLIDE_EXPONENTIAL_H
 
@@ -29,6 +29,38 @@ BOLIDE_INLINE double exponential(double x)
     bits = (bits + 1023) << 52;
     memcpy(&power, &bits, sizeof power); /* 2^k */
     return value * power;
+}
+
+/* x = 2^k m, m between sqrt(1/2) and sqrt(2), and the series ln m = 2 artanh s, s = (m - 1)/(m + 1). X is positive and not
+ * subnormal; of zero it is some -709. */
+BOLIDE_INLINE double logarithm(double x)
+{
+    const double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821492927058770002e-10;
+    const uint64_t root = 0x3fe6a09e667f3bcdu, one = 0x3ff0000000000000u; /* sqrt(1/2), 1 */
+    const uint64_t shift = 0x4330000000000000u; /* 2^52: the last bits of its sum with k are k */
+    uint64_t bits, whole;
+    double m, k;
+    memcpy(&bits, &x, sizeof bits);
+    bits += one - root;
+    whole = bits >> 52 | shift;
+    bits = (bits & 0xfffffffffffffu) + root;
+    memcpy(&m, &bits, sizeof m);
+    memcpy(&k, &whole, sizeof k);
+    k -= 4503599627370496.0 + 1023.0;
+    double f = m - 1.0, s = f / (m + 1.0), z = s * s, z2 = z * z, z4 = z2 * z2;
+    double t1 = 1.0 / 3.0 + z * (1.0 / 5.0), t3 = 1.0 / 7.0 + z * (1.0 / 9.0);
+    double t5 = 1.0 / 11.0 + z * (1.0 / 13.0), t7 = 1.0 / 15.0 + z * (1.0 / 17.0);
+    double t9 = 1.0 / 19.0 + z * (1.0 / 21.0);
+    double tail = 2.0 * z * ((t1 + z2 * t3) + z4 * ((t5 + z2 * t7) + z4 * t9));
+    /* 2 s = f - s f, and f is exact */
+    return k * ln2_high + (f - (s * (f - tail) - k * ln2_low));
+}
+
+/* x^n of n > 0 and of x as the logarithm takes it, or zero. */
+BOLIDE_INLINE double power(double x, double n)
+{
+    const double value = exponential(n * logarithm(x));
+    return x > 0.0 ? value : 0.0;
 }
 
 #endif

@@ -6,9 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-
-/* The cell of a particle outside of the block that it is stored in. */
-enum { CELL_ELSEWHERE = 255 };
+#include "grid/cell_kernel.h"
 
 struct stray {
     int32_t candidate, index;
@@ -40,61 +38,35 @@ static inline int64_t cell_along(const struct binned *p, int axis, double x)
     return index > p->high[axis] ? p->high[axis] : index;
 }
 
-/* The cell of particle I within the block at cells CORNER .. CORNER + cells - 1, CELL_ELSEWHERE when it is in none. */
-static inline uint8_t cell_within(const struct binned *p, int32_t i, int dimension,
-                                  const int64_t corner[3])
-{
-    const int64_t cells = block_cells(dimension);
-    int64_t cell = 0;
-    bool inside = true;
-    for (int axis = 0; axis < dimension; axis++) {
-        int64_t at = cell_along(p, axis, p->position[i][axis]) - corner[axis];
-        inside &= at >= 0 && at < cells;
-        cell = cell * cells + at;
-    }
-    return inside ? (uint8_t)cell : CELL_ELSEWHERE;
-}
-
 static inline int group_of(const struct binned *p, int32_t i)
 {
     return p->groups > 1 ? p->group_of_body[p->body[i]] : 0;
 }
 
-static void corner_of(int dimension, uint64_t key, int64_t corner[3])
-{
-    block_coordinates(key, corner);
-    for (int axis = 0; axis < 3; axis++)
-        corner[axis] *= block_cells(dimension);
-}
-
-static void find_cells(struct bins *bins, const struct binned *p, int32_t b)
+/* Where the particles of storage block B lie. */
+static void find_cells(struct bins *bins, const struct binned *p, const struct cell_loop *loop,
+                       int32_t b)
 {
     const struct block *block = &p->block[b];
+    const int32_t end = block->first + block->count;
     struct candidate *candidate = &bins->candidate[(int64_t)b * p->groups];
-    int64_t corner[3];
-    corner_of(p->dimension, block->key, corner);
+    int64_t at[3];
+    double corner[3];
+    block_coordinates(block->key, at);
+    for (int axis = 0; axis < 3; axis++)
+        corner[axis] = (double)(at[axis] * block_cells(p->dimension));
+    cell_loop_run(loop, corner, block->first, end, bins->cell);
     int32_t leaving = 0;
+    for (int32_t i = block->first; i < end; i++)
+        leaving += bins->cell[i] == CELL_ELSEWHERE;
     for (int g = 0; g < p->groups; g++)
         candidate[g] = (struct candidate){block->key, b, g, 0, 0, 0, 0};
-    for (int32_t i = block->first; i < block->first + block->count; i++) {
-        switch (p->dimension) {
-        case 1:
-            bins->cell[i] = cell_within(p, i, 1, corner);
-            break;
-        case 2:
-            bins->cell[i] = cell_within(p, i, 2, corner);
-            break;
-        default:
-            bins->cell[i] = cell_within(p, i, 3, corner);
-        }
-        const bool away = bins->cell[i] == CELL_ELSEWHERE;
-        leaving += away;
-        if (p->groups > 1)
-            candidate[group_of(p, i)].locals += !away;
-    }
     candidate->leaving = leaving;
     if (p->groups == 1)
         candidate->locals = block->count - leaving;
+    else
+        for (int32_t i = block->first; i < end; i++)
+            candidate[group_of(p, i)].locals += bins->cell[i] != CELL_ELSEWHERE;
 }
 
 /* How many particles have left the cell that they were stored by. */
@@ -270,9 +242,14 @@ struct error *bins_make(struct bins *bins, const struct binned *p, int threads)
         !memory_reserve((void **)&bins->candidate, &bins->candidate_capacity,
                         (int64_t)p->blocks * p->groups, 0, sizeof *bins->candidate))
         return out_of_memory(p);
+    struct cell_loop loop = {p->dimension, p->edge, p->position, {0.0}, {0.0}};
+    for (int axis = 0; axis < 3; axis++) {
+        loop.low[axis] = (double)p->low[axis];
+        loop.high[axis] = (double)p->high[axis];
+    }
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int32_t b = 0; b < p->blocks; b++)
-        find_cells(bins, p, b);
+        find_cells(bins, p, &loop, b);
     bins->moved = count_moved(bins, p, threads);
     TRY(find_strays(bins, p));
     sort_strays(bins, p->groups);
@@ -281,6 +258,21 @@ struct error *bins_make(struct bins *bins, const struct binned *p, int threads)
     for (int32_t b = 0; b < bins->count; b++)
         fill_bin(bins, p, b);
     return NULL;
+}
+
+void bins_settle(struct bins *bins, uint64_t order, int threads)
+{
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t b = 0; b < bins->count; b++) {
+        const struct bin *bin = &bins->bin[b];
+        for (int c = 0; c < BLOCK_CELLS; c++)
+            for (int32_t k = bin->first + bin->cell[c]; k < bin->first + bin->cell[c + 1]; k++) {
+                bins->list[k] = k;
+                bins->home[k] = (uint8_t)c;
+            }
+    }
+    bins->moved = 0;
+    bins->order = order;
 }
 
 void bins_free(struct bins *bins)

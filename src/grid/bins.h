@@ -56,6 +56,8 @@ struct bins {
 
 /* ERROR_STATE when a particle lies beyond what blocks can count. */
 struct error *bins_make(struct bins *bins, const struct binned *particles, int threads);
+/* Tells that the particles are now stored in the order of the bins' list: bin after bin, which is BINNED's order ORDER. */
+void bins_settle(struct bins *bins, uint64_t order, int threads);
 void bins_free(struct bins *bins);
 
 /* The cell of a block along each axis, from its number in the block. */

@@ -158,22 +158,36 @@ BOLIDE_INLINE struct response material_step(const struct material *material, str
  *
  * with v = 1/rho and q the mean viscous pressure. It is solved for a pressure that is linear in energy, as nearly all
  * are; others are taken along their slope. Source: the energy bookkeeping of MPM3D, Zhang, Chen and Liu, The material
- * point method (2017), with p = A + B e. */
+ * point method (2017), with p = A + B e. The first function is what does not depend on p', the second the rest, where
+ * VALUE is at the density and energy that are known then. */
+BOLIDE_INLINE double material_work(const struct point *point, const struct motion *motion,
+                                   struct sym3 new_deviator)
+{
+    const struct sym3 mean = sym3_scale(0.5, sym3_add(point->deviator, new_deviator)),
+                      rate = motion->strain_rate;
+    const double volume = 1.0 / point->density, change = 1.0 / motion->density - volume;
+    const double shear = mean.xx * rate.xx + mean.yy * rate.yy + mean.zz * rate.zz +
+                         2.0 * (mean.xy * rate.xy + mean.yz * rate.yz + mean.zx * rate.zx);
+    return (volume + 0.5 * change) * shear * motion->dt -
+           change * (0.5 * point->pressure + motion->viscous_pressure);
+}
+
+BOLIDE_INLINE double material_work_of_pressure(double density, double new_density,
+                                               const struct eos_value *value)
+{
+    const double change = 1.0 / new_density - 1.0 / density;
+    return -0.5 * change * value->pressure / (1.0 + 0.5 * change * value->dp_de);
+}
+
 BOLIDE_INLINE struct response material_step_by_work(const struct material *material,
                                                     struct point *point,
                                                     const struct motion *motion)
 {
-    const struct sym3 start = point->deviator, rate = motion->strain_rate;
-    double volume = 1.0 / point->density, pressure = point->pressure;
+    const struct point start = *point;
     material_flow(material, point, motion);
-    const struct sym3 mean = sym3_scale(0.5, sym3_add(start, point->deviator));
-    double change = 1.0 / point->density - volume;
-    double shear = mean.xx * rate.xx + mean.yy * rate.yy + mean.zz * rate.zz +
-                   2.0 * (mean.xy * rate.xy + mean.yz * rate.yz + mean.zx * rate.zx);
-    point->energy += (volume + 0.5 * change) * shear * motion->dt -
-                     change * (0.5 * pressure + motion->viscous_pressure);
-    struct eos_value value = material_pressure(material, point);
-    point->energy -= 0.5 * change * value.pressure / (1.0 + 0.5 * change * value.dp_de);
+    point->energy += material_work(&start, motion, point->deviator);
+    const struct eos_value value = material_pressure(material, point);
+    point->energy += material_work_of_pressure(start.density, motion->density, &value);
     return material_evaluate(material, point);
 }
 

@@ -173,7 +173,8 @@ static void meeting_free(struct meeting *m)
     block_table_free(&m->table);
 }
 
-struct error *mpm_find_halo(struct mpm *mpm, const struct simulation *simulation)
+/* Plans anew whose patches come and go. */
+static struct error *plan_halo(struct mpm *mpm, const struct simulation *simulation)
 {
     struct meeting m = {0};
     struct far_bin *all = NULL;
@@ -193,22 +194,51 @@ struct error *mpm_find_halo(struct mpm *mpm, const struct simulation *simulation
         error = exchange_plan(&mpm->halo.exchange, simulation->ranks, m.errand, m.errands);
     assert(error || mpm->halo.exchange.comes == m.fars);
     meeting_free(&m);
-    for (int g = 0; g < mpm->layers && !error; g++)
-        mpm->layer[g].bins = (struct bins){.count = mpm->halo.begin[g + 1] - mpm->halo.begin[g],
-                                           .list = mpm->bins.list,
-                                           .bin = mpm->halo.bin + mpm->halo.begin[g]};
     return error;
 }
 
-struct error *mpm_reserve_halo(struct mpm *mpm, const struct simulation *simulation)
+/* Takes the own bins of this step into the halo as planned; false when they are not those that it was planned for. */
+static bool renew_own(struct mpm *mpm)
+{
+    struct halo *halo = &mpm->halo;
+    int32_t b = 0;
+    for (int g = 0; g < mpm->layers; g++) {
+        for (int32_t to = halo->begin[g]; to < halo->begin[g + 1]; to++) {
+            if (halo->far[to])
+                continue;
+            if (b == mpm->bins.begin[g + 1] || mpm->bins.bin[b].key != halo->bin[to].key)
+                return false;
+            halo->bin[to] = mpm->bins.bin[b++];
+        }
+        if (b != mpm->bins.begin[g + 1])
+            return false;
+    }
+    return true;
+}
+
+struct error *mpm_find_halo(struct mpm *mpm, const struct simulation *simulation,
+                            struct error *error)
+{
+    double changed = error || !mpm->halo.far || !renew_own(mpm);
+    TRY(ranks_agree_on(simulation->ranks, error, &changed, 1));
+    if (changed > 0.0)
+        TRY(plan_halo(mpm, simulation));
+    for (int g = 0; g < mpm->layers; g++)
+        mpm->layer[g].bins = (struct bins){.count = mpm->halo.begin[g + 1] - mpm->halo.begin[g],
+                                           .list = mpm->bins.list,
+                                           .bin = mpm->halo.bin + mpm->halo.begin[g]};
+    return NULL;
+}
+
+struct error *mpm_reserve_halo(struct mpm *mpm)
 {
     struct halo *halo = &mpm->halo;
     const size_t bytes = (size_t)(mpm->layer[0].grid.patch * NODE_STRIDE) * sizeof(double);
-    struct error *error = exchange_reserve(&halo->exchange, bytes);
-    if (!error && !memory_reserve((void **)&halo->received, &halo->received_capacity,
-                                  halo->exchange.comes, 0, bytes))
-        error = out_of_memory();
-    return ranks_agree(simulation->ranks, error);
+    TRY(exchange_reserve(&halo->exchange, bytes));
+    return memory_reserve((void **)&halo->received, &halo->received_capacity, halo->exchange.comes,
+                          0, bytes)
+               ? NULL
+               : out_of_memory();
 }
 
 /* The patch of bin BIN of the halo, in the field at byte FIELD of its layer. */

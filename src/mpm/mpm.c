@@ -136,12 +136,12 @@ static struct error *reserve_rates(struct mpm *mpm)
     for (int32_t b = 0; b < mpm->bins.count; b++)
         most =
             mpm->bins.bin[b].cell[BLOCK_CELLS] > most ? mpm->bins.bin[b].cell[BLOCK_CELLS] : most;
-    if (most <= mpm->rate_capacity)
+    if (most + 8 <= mpm->rate_capacity)
         return NULL;
-    const int64_t wanted = most + most / 2;
+    const int64_t wanted = most + most / 2 + 8; /* lanes behind the last */
     for (int t = 0; t < mpm->threads; t++) {
         free(mpm->rate[t]);
-        mpm->rate[t] = memory_allocate((size_t)wanted * RATE_STRIDE * sizeof(double));
+        mpm->rate[t] = memory_allocate((size_t)wanted * RATES * sizeof(double));
         if (!mpm->rate[t]) {
             mpm->rate_capacity = 0;
             return error_new(ERROR_SYSTEM, "out of memory for %lld particles of a block",
@@ -152,34 +152,52 @@ static struct error *reserve_rates(struct mpm *mpm)
     return NULL;
 }
 
-/* Collective: true when a particle has come to a block of another rank, or the case has space divided anew. */
-static bool must_go(const struct mpm *mpm, const struct simulation *simulation, bool recut)
+/* Stores the particles as bins have them. */
+static struct error *store_by_bins(struct mpm *mpm, struct simulation *simulation)
 {
-    const struct particles *p = &simulation->particles;
-    bool away = recut;
-    for (int32_t b = 0; b < mpm->bins.count && !away; b++)
-        away = particles_owner(p, mpm->bins.bin[b].key) != simulation->ranks->rank;
-    return ranks_maximum(simulation->ranks, away) > 0.0;
+    struct particles *p = &simulation->particles;
+    const struct bins *bins = &mpm->bins;
+    if (mpm->layers > 1) { /* blocks have a bin for each layer */
+        TRY(particles_sort(p));
+        return find_bins(mpm, simulation);
+    }
+    if (!memory_reserve((void **)&mpm->block, &mpm->block_capacity, bins->count, 0,
+                        sizeof *mpm->block))
+        return error_new(ERROR_SYSTEM, "out of memory for %d blocks", bins->count);
+    for (int32_t b = 0; b < bins->count; b++)
+        mpm->block[b] =
+            (struct block){bins->bin[b].key, bins->bin[b].first, bins->bin[b].cell[BLOCK_CELLS]};
+    TRY(particles_arrange(p, bins->list, mpm->block, bins->count));
+    bins_settle(&mpm->bins, p->order, simulation->threads);
+    return NULL;
 }
 
-/* Particles into cells, on the ranks that own these. */
+/* Whether a particle has come to a block of another rank. */
+static bool has_left(const struct mpm *mpm, const struct simulation *simulation)
+{
+    bool away = false;
+    for (int32_t b = 0; b < mpm->bins.count && !away; b++)
+        away = particles_owner(&simulation->particles, mpm->bins.bin[b].key) !=
+               simulation->ranks->rank;
+    return away;
+}
+
+/* Particles into cells, on the ranks that own these; where the case has space divided anew, that is done here. */
 static struct error *place_particles(struct mpm *mpm, struct simulation *simulation)
 {
     struct particles *p = &simulation->particles;
     const int64_t every = simulation->input->run.rebalance;
     const bool several = simulation->ranks->size > 1,
                recut = several && every > 0 && simulation->step % every == 0;
-    TRY(ranks_agree(simulation->ranks, find_bins(mpm, simulation)));
-    const bool goes = several && must_go(mpm, simulation, recut);
-    if (goes) {
+    struct error *error = find_bins(mpm, simulation);
+    double goes = several && !error && (recut || has_left(mpm, simulation));
+    TRY(ranks_agree_on(simulation->ranks, error, &goes, 1));
+    if (goes > 0.0) {
         TRY(particles_distribute(p, mpm->work, recut));
         mpm->work = 0.0;
-    } else if ((double)mpm->bins.moved > moved_limit * p->count) {
-        TRY(particles_sort(p));
-    } else {
-        return NULL;
+        return find_bins(mpm, simulation);
     }
-    return find_bins(mpm, simulation);
+    return (double)mpm->bins.moved > moved_limit * p->count ? store_by_bins(mpm, simulation) : NULL;
 }
 
 /* Gives each layer its part of the bins. */
@@ -205,20 +223,20 @@ static struct error *reserve_fields(struct mpm *mpm)
     }
     if (mpm->layers > 1)
         TRY(mpm_find_meetings(mpm));
+    if (mpm->halo.far)
+        TRY(mpm_reserve_halo(mpm));
     return reserve_rates(mpm);
 }
 
 /* Collective: particles into cells, and the blocks of nodes that these need. */
 static struct error *refresh_grid(struct mpm *mpm, struct simulation *simulation)
 {
-    const bool several = simulation->ranks->size > 1;
-    TRY(ranks_agree(simulation->ranks, place_particles(mpm, simulation)));
-    if (several)
-        TRY(mpm_find_halo(mpm, simulation));
-    else
+    struct error *error = place_particles(mpm, simulation);
+    if (simulation->ranks->size > 1)
+        TRY(mpm_find_halo(mpm, simulation, error));
+    else if (!error)
         share_bins(mpm);
-    TRY(ranks_agree(simulation->ranks, reserve_fields(mpm)));
-    return several ? mpm_reserve_halo(mpm, simulation) : NULL;
+    return ranks_agree(simulation->ranks, error ? error : reserve_fields(mpm));
 }
 
 /* Collective: mass, momentum and force of all nodes. */
@@ -341,7 +359,7 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
                 of = grid_patch(&layer->grid, &layer->back, b);
             }
             transfer_gradient(&transfer, b, dt, of, of_main ? NODE_STRIDE : BACK_STRIDE,
-                              move && !held, rate);
+                              move && !held, (struct rates){rate, (size_t)mpm->rate_capacity});
             const int32_t found = mpm_update_points(mpm, simulation, layer, b, dt, rate);
             if (found >= 0 && (own < 0 || p->id[found] < p->id[own]))
                 own = found;
@@ -421,6 +439,7 @@ static void mpm_destroy(void *solver)
     free(mpm->gauge);
     free(mpm->layer_of_body);
     free(mpm->layer_at_rest);
+    free(mpm->block);
     bins_free(&mpm->bins);
     mpm_free_halo(mpm);
     for (int g = 0; g < mpm->layers; g++) {

@@ -60,6 +60,8 @@ struct mpm {
     int64_t plane[3][2];
     bool has_plane[3][2]; /* node index of the low and the high wall across each axis */
     struct bins bins;
+    struct block *block; /* of storage, as bins have it */
+    int64_t block_capacity;
     int layers;
     uint8_t *layer_of_body, *layer_at_rest;
     struct layer layer[BIN_GROUPS];
@@ -76,10 +78,12 @@ BOLIDE_INLINE bool mpm_is_far(const struct mpm *mpm, const struct layer *layer, 
     return mpm->halo.far && mpm->halo.far[layer->bins.bin - mpm->halo.bin + bin];
 }
 
-/* Collective: finds the bins of other ranks that own ones meet, and gives the layers all of them. */
-struct error *mpm_find_halo(struct mpm *mpm, const struct simulation *simulation);
-/* Collective: room to exchange patches once the layers' fields have it; the patches of a field. */
-struct error *mpm_reserve_halo(struct mpm *mpm, const struct simulation *simulation);
+/* Collective: finds the bins of other ranks that own ones meet, and gives the layers all of them; quick while the keys of
+ * all ranks' bins stay. ERROR is the rank's own so far. */
+struct error *mpm_find_halo(struct mpm *mpm, const struct simulation *simulation,
+                            struct error *error);
+/* Room to exchange patches. Collective: brings the patches of a field. */
+struct error *mpm_reserve_halo(struct mpm *mpm);
 void mpm_exchange(struct mpm *mpm, const struct simulation *simulation, size_t field);
 void mpm_free_halo(struct mpm *mpm);
 

@@ -1,15 +1,8 @@
 /* What happens to a particle on its own: its state from the strain of the step. Source: Cui, dissertation (2014), (2-18)
  * to (2-21); the energy of a step as the public codes of the same group have it. */
+#include "material/batch.h"
 #include "mpm/mpm_internal.h"
-
-struct point_fields {
-    double *sound, *viscosity;
-};
-
-/* What a step is for a particle; LENGTH is its size at the start. */
-struct advance {
-    double dt, time, length; /* time at the end */
-};
+#include "mpm/point_kernel.h"
 
 void mpm_evaluate(struct simulation *simulation)
 {
@@ -25,52 +18,35 @@ void mpm_evaluate(struct simulation *simulation)
     }
 }
 
-/* S + S Om^T + Om S for Om_ij = w_ij dt of the SPIN w (2-21). */
-BOLIDE_INLINE struct sym3 jaumann_turn(struct sym3 s, struct vec3 angle)
+/* Brings particle I, number K of its bin, of a material that batches do not know to the next level. LENGTH is its size at
+ * the start. */
+static void update_point(const struct point_loop *loop, const struct simulation *simulation,
+                         const struct material *material, int32_t i, int32_t k, double length)
 {
-    const double xy = -angle.z, zx = -angle.y, yz = -angle.x; /* Om_xy, -Om_xz, Om_yz */
-    const double xz = -zx;
-    struct sym3 r = s;
-    r.xx += 2.0 * (xy * s.xy + xz * s.zx);
-    r.yy += 2.0 * (-xy * s.xy + yz * s.yz);
-    r.zz += 2.0 * (-xz * s.zx - yz * s.yz);
-    r.xy += xy * (s.yy - s.xx) + xz * s.yz + yz * s.zx;
-    r.yz += yz * (s.zz - s.yy) - xy * s.zx - xz * s.xy;
-    r.zx += xz * (s.zz - s.xx) + xy * s.yz - yz * s.xy;
-    return r;
-}
-
-/* Brings particle I to the next level; false when its new state is impossible. */
-static bool update_point(const struct mpm *mpm, struct particles *p,
-                         const struct material *material, const struct point_fields *f, int32_t i,
-                         struct advance step, const double *rate)
-{
-    const struct mpm_parameters *parameters = &mpm->parameters;
-    const double dt = step.dt;
-    double *s = p->deviator[i];
+    const struct particles *p = &simulation->particles;
+    double *s = p->deviator[i], rate[RATES];
+    for (int c = 0; c < RATES; c++)
+        rate[c] = loop->rate[(size_t)c * loop->rate_stride + (size_t)k];
     struct motion motion = {
-        .dt = dt,
-        .time = step.time,
-        .length = step.length,
+        .dt = loop->dt,
+        .time = simulation->time + loop->dt,
+        .length = length,
         .strain_rate = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]},
         .spin = vec3_make(rate[RATE_SPIN], rate[RATE_SPIN + 1], rate[RATE_SPIN + 2])};
-    const double divergence = sym3_trace(motion.strain_rate), edge = mpm->edge;
-    motion.density = p->density[i] / (1.0 + dt * divergence); /* (2-20) */
+    const double divergence = rate[0] + rate[1] + rate[2];
+    motion.density = p->density[i] / (1.0 + loop->dt * divergence); /* (2-20) */
     struct point point = {.density = p->density[i],
                           .energy = p->energy[i],
                           .pressure = p->pressure[i],
                           .deviator = {s[0], s[1], s[2], s[3], s[4], s[5]}};
     particle_load_history(p, i, point.history);
-    /* q = rho h (b2 h d^2 - b1 c d) in compression, but not of an explosive that has yet to burn */
-    double viscosity = 0.0;
+    /* an explosive that has yet to burn has no viscosity */
     const bool inert = material_burns(material) && point.history[HISTORY_burnt] == 0.0;
-    if (divergence < 0.0 && !inert)
-        viscosity = motion.density * edge *
-                    (parameters->viscosity_quadratic * edge * square(divergence) -
-                     parameters->viscosity_linear * f->sound[i] * divergence);
-    motion.viscous_pressure = 0.5 * (f->viscosity[i] + viscosity);
-    if (parameters->rotation == MPM_JAUMANN) {
-        point.deviator = jaumann_turn(point.deviator, vec3_scale(dt, motion.spin));
+    const double viscosity =
+        inert ? 0.0 : point_viscosity(loop, motion.density, loop->sound[i], divergence);
+    motion.viscous_pressure = 0.5 * (loop->viscosity[i] + viscosity);
+    if (loop->jaumann) {
+        point.deviator = jaumann_turn(point.deviator, vec3_scale(loop->dt, motion.spin));
         motion.spin = vec3_make(0.0, 0.0, 0.0);
     }
     const struct response r = material_step_by_work(material, &point, &motion);
@@ -78,18 +54,14 @@ static bool update_point(const struct mpm *mpm, struct particles *p,
     p->energy[i] = point.energy;
     p->pressure[i] = point.pressure;
     particle_keep_history(p, i, point.history);
-    f->viscosity[i] = viscosity;
-    f->sound[i] = r.sound_long;
+    loop->viscosity[i] = viscosity;
+    loop->sound[i] = r.sound_long;
     s[0] = point.deviator.xx;
     s[1] = point.deviator.yy;
     s[2] = point.deviator.zz;
     s[3] = point.deviator.xy;
     s[4] = point.deviator.yz;
     s[5] = point.deviator.zx;
-    const double *x = p->position[i], *u = p->velocity[i];
-    return point.density > 0.0 && isfinite(point.density) && isfinite(point.pressure) &&
-           isfinite(point.energy) && isfinite(x[0] + x[1] + x[2]) && isfinite(u[0] + u[1] + u[2]) &&
-           !(r.status & POINT_NO_SOUND);
 }
 
 /* Rounding must not take a particle through a wall. */
@@ -104,24 +76,77 @@ static void keep_before_walls(const struct simulation *simulation, double x[3])
     }
 }
 
+static struct point_loop loop_of(const struct mpm *mpm, const struct simulation *simulation,
+                                 double dt, const double *rate)
+{
+    const struct particles *p = &simulation->particles;
+    return (struct point_loop){.density = p->density,
+                               .energy = p->energy,
+                               .pressure = p->pressure,
+                               .deviator = p->deviator,
+                               .plastic_strain = p->plastic_strain,
+                               .plastic_heating = p->history[HISTORY_plastic_heating],
+                               .sound = particles_field(p, "sound_long"),
+                               .viscosity = particles_field(p, "viscosity"),
+                               .position = (const double(*)[3])p->position,
+                               .velocity = (const double(*)[3])p->velocity,
+                               .rate = rate,
+                               .rate_stride = (size_t)mpm->rate_capacity,
+                               .dt = dt,
+                               .edge = mpm->edge,
+                               .viscosity_quadratic = mpm->parameters.viscosity_quadratic,
+                               .viscosity_linear = mpm->parameters.viscosity_linear,
+                               .jaumann = mpm->parameters.rotation == MPM_JAUMANN};
+}
+
+static bool is_possible(const struct particles *p, const struct point_loop *loop, int32_t i)
+{
+    const double *x = p->position[i], *u = p->velocity[i];
+    return p->density[i] > 0.0 && loop->sound[i] > 0.0 &&
+           isfinite(p->density[i] + p->pressure[i] + p->energy[i]) &&
+           isfinite(x[0] + x[1] + x[2]) && isfinite(u[0] + u[1] + u[2]);
+}
+
+/* Particles BEGIN .. END - 1 of the bin at LIST, which are of one material; false when one has become impossible. */
+static bool update_run(const struct mpm *mpm, const struct simulation *simulation,
+                       const struct point_loop *loop, const int32_t *list, int32_t begin,
+                       int32_t end)
+{
+    const struct particles *p = &simulation->particles;
+    const struct material *material = &simulation->material[p->material[list[begin]]];
+    if (batch_takes(material))
+        return point_loop_run(loop, material, list, begin, end);
+    bool possible = true;
+    for (int32_t k = begin; k < end; k++) {
+        const int32_t i = list[k];
+        update_point(loop, simulation, material, i, k,
+                     2.0 * mpm->half_size[p->body[i]] * mpm->edge);
+        possible &= is_possible(p, loop, i);
+    }
+    return possible;
+}
+
 int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
                           const struct layer *layer, int32_t bin, double dt, const double *rate)
 {
     struct particles *p = &simulation->particles;
-    const struct point_fields f = {particles_field(p, "sound_long"),
-                                   particles_field(p, "viscosity")};
+    const struct point_loop loop = loop_of(mpm, simulation, dt, rate);
     const int32_t *list = layer->bins.list + layer->bins.bin[bin].first;
     const int32_t count = layer->bins.bin[bin].cell[BLOCK_CELLS];
+    bool possible = true;
     int32_t impossible = -1;
-    for (int32_t k = 0; k < count; k++) {
-        const int32_t i = list[k];
-        keep_before_walls(simulation, p->position[i]);
-        const struct advance step = {dt, simulation->time + dt,
-                                     2.0 * mpm->half_size[p->body[i]] * mpm->edge};
-        if (!update_point(mpm, p, &simulation->material[p->material[i]], &f, i, step,
-                          rate + (size_t)k * RATE_STRIDE) &&
-            (impossible < 0 || p->id[i] < p->id[impossible]))
-            impossible = i;
+    if (simulation->input->walls.count > 0)
+        for (int32_t k = 0; k < count; k++)
+            keep_before_walls(simulation, p->position[list[k]]);
+    for (int32_t begin = 0, end; begin < count; begin = end) {
+        const uint16_t material = p->material[list[begin]];
+        for (end = begin + 1; end < count && p->material[list[end]] == material;)
+            end++;
+        possible &= update_run(mpm, simulation, &loop, list, begin, end);
     }
+    for (int32_t k = 0; k < count && !possible; k++)
+        if (!is_possible(p, &loop, list[k]) &&
+            (impossible < 0 || p->id[list[k]] < p->id[impossible]))
+            impossible = list[k];
     return impossible;
 }

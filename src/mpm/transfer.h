@@ -14,7 +14,7 @@ enum { NODE_STRIDE = 8 };
 enum { BACK_STRIDE = 4 };
 
 /* Of a particle over the step: its velocity gradient's parts xx, yy, zz, xy, yz, zx, and half the curl. */
-enum { RATE_STRAIN = 0, RATE_SPIN = 6, RATE_STRIDE = 9 };
+enum { RATE_STRAIN = 0, RATE_SPIN = 6, RATES = 9 };
 
 struct transfer {
     int dimension;
@@ -51,10 +51,16 @@ void transfer_slopes(const struct transfer *transfer, int32_t bin);
 void transfer_velocity(const struct transfer *transfer, int32_t bin, double dt, bool scatter,
                        bool move);
 
-/* Rates of strain and spin of the particles of BIN (2-18), (2-19), RATE_STRIDE numbers each in the order of the bin, from
- * nodal velocities at VELOCITY, STRIDE numbers a node in the order of the patch; with MOVE the particles move as
- * the patch of the main field has it. */
+/* Where the rates of a bin's particles go: number c of the k-th at to[c * stride + k]; each row has room for seven more, which
+ * are written too. */
+struct rates {
+    double *to;
+    size_t stride;
+};
+
+/* Rates of strain and spin of the particles of BIN (2-18), (2-19) from nodal velocities at VELOCITY, STRIDE numbers a node in
+ * the order of the patch; with MOVE the particles move as the patch of the main field has it. */
 void transfer_gradient(const struct transfer *transfer, int32_t bin, double dt,
-                       const double *velocity, int stride, bool move, double *rate);
+                       const double *velocity, int stride, bool move, struct rates rates);
 
 #endif

@@ -1,17 +1,24 @@
-/* The loops of transfer.h. Weights are found for two, four or eight particles of a cell at once;
- * what a particle takes from nodes is summed in the lanes of these, and what it gives to a node is
- * one record, summed in the lanes of that. */
+/* The loops of transfer.h. Weights are found for two, four or eight particles of a cell at once; what a particle takes
+ * from nodes is summed in the lanes of these, and what it gives to a node is one record, summed in the lanes of that:
+ * over the particles of a cell, then over cells. */
 #include <string.h>
 
+#include "base/isa.h"
 #include "mpm/transfer_weights.h"
 
-#define JOIN2(name, isa) name##_##isa
-#define JOIN1(name, isa) JOIN2(name, isa)
-#define NAMED(name) JOIN1(name, BOLIDE_ISA)
-
 /* All that a node has, as the compiler may keep it in a register. */
-typedef double vector8 __attribute__((vector_size(64), may_alias));
-typedef double vector4 __attribute__((vector_size(32), may_alias)); /* of the second field */
+typedef double vector8 __attribute__((vector_size(64)));
+typedef double vector4 __attribute__((vector_size(32))); /* of the second field */
+
+/* Nodes of a window. */
+enum { NODES_MAX = WINDOW_MAX * WINDOW_MAX * WINDOW_MAX };
+
+INLINE int nodes_of(struct kind kind)
+{
+    return kind.dimension == 1   ? kind.window
+           : kind.dimension == 2 ? kind.window * kind.window
+                                 : kind.window * kind.window * kind.window;
+}
 
 /* Where the nodes of a particle may have a velocity that changes over them: what its gradient adds at a node. */
 INLINE void add_affine(const struct transfer *t, struct kind kind, const struct chunk *chunk,
@@ -24,49 +31,56 @@ INLINE void add_affine(const struct transfer *t, struct kind kind, const struct 
             momentum[i] += factor * g[3 * i + j] * chunk->away[j][at[j]][lane];
 }
 
-/* The record of a particle: PLAIN goes with the shape function, BY_SLOPE with its slopes, AROUND with what stands for the
- * shape function around the axis. */
+/* What a particle gives to nodes: PLAIN goes with the shape function, BY_SLOPE with its slopes, AROUND with what stands
+ * for the shape function around the axis. What is always zero is set once. */
 struct record {
-    vector8 plain, by_slope[3], around;
+    ALIGNED double plain[NODE_STRIDE], by_slope[3][NODE_STRIDE], around[NODE_STRIDE];
 };
 
-INLINE void record_of(const struct transfer *t, struct kind kind, int32_t i, struct record *record)
+INLINE void find_record(const struct transfer *t, struct kind kind, int32_t i,
+                        struct record *record)
 {
-    const double mass = t->mass[i], volume = mass / t->density[i];
+    const double mass = t->mass[i], v = -mass / t->density[i];
     const double p = t->pressure[i] + t->viscosity[i] - t->gauge[t->material[i]];
     const double *s = t->deviator[i], *u = t->velocity[i];
-    /* force = -V sigma grad N (2-10); what an axis that there is not would get is zero */
-    const bool y = kind.dimension > 1, z = kind.dimension > 2;
-    const double v = -volume, vy = y ? v : 0.0, vz = z ? v : 0.0;
-    record->plain = (vector8){mass, mass * u[0], mass * u[1], mass * u[2], 0.0, 0.0, 0.0, 0.0};
-    const double around = t->axisymmetric ? v * (s[2] - p) / t->position[i][0] : 0.0;
-    record->around = (vector8){0.0, 0.0, 0.0, 0.0, around, 0.0, 0.0, 0.0};
-    record->by_slope[0] = (vector8){0.0, 0.0, 0.0, 0.0, v * (s[0] - p), vy * s[3], vz * s[5], 0.0};
-    if (y)
-        record->by_slope[1] =
-            (vector8){0.0, 0.0, 0.0, 0.0, v * s[3], v * (s[1] - p), vz * s[4], 0.0};
-    if (z)
-        record->by_slope[2] =
-            (vector8){0.0, 0.0, 0.0, 0.0, v * s[5], v * s[4], v * (s[2] - p), 0.0};
+    double(*by_slope)[NODE_STRIDE] = record->by_slope;
+    record->plain[NODE_MASS] = mass;
+    for (int k = 0; k < 3; k++)
+        record->plain[NODE_MOMENTUM + k] = mass * u[k];
+    if (t->axisymmetric)
+        record->around[NODE_FORCE] = v * (s[2] - p) / t->position[i][0];
+    /* force = -V sigma grad N (2-10); what an axis that there is not would get stays zero */
+    by_slope[0][NODE_FORCE] = v * (s[0] - p);
+    if (kind.dimension > 1) {
+        by_slope[0][NODE_FORCE + 1] = by_slope[1][NODE_FORCE] = v * s[3];
+        by_slope[1][NODE_FORCE + 1] = v * (s[1] - p);
+    }
+    if (kind.dimension > 2) {
+        by_slope[0][NODE_FORCE + 2] = by_slope[2][NODE_FORCE] = v * s[5];
+        by_slope[1][NODE_FORCE + 2] = by_slope[2][NODE_FORCE + 1] = v * s[4];
+        by_slope[2][NODE_FORCE + 2] = v * (s[2] - p);
+    }
 }
 
-/* Adds a particle's record to the nodes of a row along the last axis: those share all but that axis' factor. LEVEL goes
- * with the shape function along it, TILT with its slope. */
+/* Adds a particle's record to the sums of a row of nodes along the last axis: those share all but that axis' factor.
+ * LEVEL goes with the shape function along it, TILT with its slope. */
 INLINE void add_row(const struct chunk *chunk, struct kind kind, int lane, const vector8 *level,
-                    const vector8 *tilt, double *node)
+                    const vector8 *tilt, vector8 *sum)
 {
     const int last = kind.dimension - 1;
-    vector8 *at = (vector8 *)node;
     for (int c = 0; c < kind.window; c++)
-        at[c] += chunk->value[last][c][lane] * *level + chunk->slope[last][c][lane] * *tilt;
+        sum[c] += chunk->value[last][c][lane] * *level + chunk->slope[last][c][lane] * *tilt;
 }
 
 INLINE void add_record(const struct transfer *t, struct kind kind, const struct chunk *chunk,
-                       int lane, size_t base, const struct record *record, double *patch)
+                       int lane, const struct record *record, vector8 *sum)
 {
+    vector8 plain, by_slope[3], around;
+    memcpy(&plain, record->plain, sizeof plain);
+    memcpy(&around, record->around, sizeof around);
+    memcpy(by_slope, record->by_slope, (size_t)kind.dimension * sizeof plain);
     if (kind.dimension == 1) {
-        add_row(chunk, kind, lane, &record->plain, &record->by_slope[0],
-                patch + base * NODE_STRIDE);
+        add_row(chunk, kind, lane, &plain, &by_slope[0], sum);
         return;
     }
     for (int a = 0; a < kind.window; a++)
@@ -78,16 +92,28 @@ INLINE void add_record(const struct transfer *t, struct kind kind, const struct 
                 along_a *= chunk->value[1][b][lane];
                 value *= chunk->value[1][b][lane];
             }
-            vector8 level = value * record->plain + along_a * record->by_slope[0];
+            vector8 level = value * plain + along_a * by_slope[0];
             if (kind.dimension > 2)
-                level += along_b * record->by_slope[1];
+                level += along_b * by_slope[1];
             else if (t->axisymmetric)
-                level += chunk->around[a][lane] * record->around;
-            const vector8 tilt = value * record->by_slope[kind.dimension - 1];
-            const size_t row = kind.dimension > 2 ? node_of(t, kind, base, a, b, 0)
-                                                  : node_of(t, kind, base, a, 0, 0);
-            add_row(chunk, kind, lane, &level, &tilt, patch + row * NODE_STRIDE);
+                level += chunk->around[a][lane] * around;
+            const vector8 tilt = value * by_slope[kind.dimension - 1];
+            add_row(chunk, kind, lane, &level, &tilt,
+                    sum + (kind.dimension > 2 ? a * kind.window + b : a) * kind.window);
         }
+}
+
+/* Adds the sums of a cell to its nodes in the patch, STRIDE numbers each. */
+INLINE void add_sums(const struct transfer *t, struct kind kind, size_t base, const void *sums,
+                     int stride, double *patch)
+{
+    const double *sum = sums;
+    FOR_NODES(kind, a, b, c)
+    {
+        double *node = patch + node_of(t, kind, base, a, b, c) * (size_t)stride;
+        for (int k = 0; k < stride; k++)
+            node[k] += *sum++;
+    }
 }
 
 INLINE void scatter(const struct transfer *t, struct kind kind, int32_t bin)
@@ -95,17 +121,22 @@ INLINE void scatter(const struct transfer *t, struct kind kind, int32_t bin)
     double *patch = grid_patch(t->grid, t->main, bin);
     memset(patch, 0, (size_t)(t->grid->patch * NODE_STRIDE) * sizeof *patch);
     const struct corner corner = corner_of(t, kind, bin);
+    struct record record[LANES] = {0};
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
-        struct record record;
+        vector8 sum[NODES_MAX];
+        if (walk.count == 0)
+            continue;
+        for (int n = 0; n < nodes_of(kind); n++)
+            sum[n] = (vector8){0.0};
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
-            for (int lane = 0; lane < chunk.count; lane++) {
-                record_of(t, kind, chunk.index[lane], &record);
-                add_record(t, kind, &chunk, lane, walk.base, &record, patch);
-                if (!t->affine)
-                    continue;
+            for (int lane = 0; lane < chunk.count; lane++)
+                find_record(t, kind, chunk.index[lane], &record[lane]);
+            for (int lane = 0; lane < chunk.count; lane++)
+                add_record(t, kind, &chunk, lane, &record[lane], sum);
+            for (int lane = 0; lane < chunk.count && t->affine; lane++)
                 FOR_NODES(kind, a, b, c)
                 {
                     const double value = weight_of(kind, &chunk, lane, a, b, c).value;
@@ -113,8 +144,8 @@ INLINE void scatter(const struct transfer *t, struct kind kind, int32_t bin)
                     add_affine(t, kind, &chunk, lane, a, b, c, value * t->mass[chunk.index[lane]],
                                node + NODE_MOMENTUM);
                 }
-            }
         }
+        add_sums(t, kind, walk.base, sum, NODE_STRIDE, patch);
     }
 }
 
@@ -140,8 +171,25 @@ INLINE void scatter_slopes(const struct transfer *t, struct kind kind, int32_t b
     }
 }
 
-/* For the lanes of a chunk: the sums over nodes of COUNT numbers at DATA, STRIDE a node. */
-INLINE void gather(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+/* The shape functions of the lanes of a chunk at all nodes of the window. */
+INLINE void find_weights(struct kind kind, const struct chunk *chunk, double (*weight)[LANES])
+{
+    FOR_NODES(kind, a, b, c)
+    {
+        for (int lane = 0; lane < kind.lanes; lane++) {
+            double w = chunk->value[0][a][lane];
+            if (kind.dimension > 1)
+                w *= chunk->value[1][b][lane];
+            if (kind.dimension > 2)
+                w *= chunk->value[2][c][lane];
+            (*weight)[lane] = w;
+        }
+        weight++;
+    }
+}
+
+/* For the lanes of a chunk: the sums over nodes, with their WEIGHT, of COUNT numbers at DATA, STRIDE a node. */
+INLINE void gather(const struct transfer *t, struct kind kind, const double (*weight)[LANES],
                    size_t base, const double *data, int stride, int count, double (*sum)[LANES])
 {
     for (int k = 0; k < count; k++)
@@ -150,17 +198,10 @@ INLINE void gather(const struct transfer *t, struct kind kind, const struct chun
     FOR_NODES(kind, a, b, c)
     {
         const double *node = data + node_of(t, kind, base, a, b, c) * (size_t)stride;
-        ALIGNED double w[LANES];
-        for (int lane = 0; lane < kind.lanes; lane++) {
-            w[lane] = chunk->value[0][a][lane];
-            if (kind.dimension > 1)
-                w[lane] *= chunk->value[1][b][lane];
-            if (kind.dimension > 2)
-                w[lane] *= chunk->value[2][c][lane];
-        }
         for (int k = 0; k < count; k++)
             for (int lane = 0; lane < kind.lanes; lane++)
-                sum[k][lane] += w[lane] * node[k];
+                sum[k][lane] += (*weight)[lane] * node[k];
+        weight++;
     }
 }
 
@@ -188,8 +229,9 @@ INLINE void gather_slopes(const struct transfer *t, struct kind kind, const stru
     }
 }
 
-/* The gradient that a particle carries on: by slopes, or by first moments over the second one of the shape function,
- * sum_I N u (x_I - x) / sum_I N (x_I - x)^2 (Jiang et al., ACM Trans. Graph. 34 (2015) 51). */
+/* The gradient that a particle carries on: by slopes, or by first moments over
+ * the second one of the shape function, sum_I N u (x_I - x) / sum_I N (x_I -
+ * x)^2 (Jiang et al., ACM Trans. Graph. 34 (2015) 51). */
 INLINE void keep_gradient(const struct transfer *t, struct kind kind, const struct chunk *chunk,
                           size_t base, const double *velocity)
 {
@@ -226,6 +268,34 @@ INLINE void keep_gradient(const struct transfer *t, struct kind kind, const stru
                 t->gradient[chunk->index[lane]][3 * i + j] = sum[i][j][lane];
 }
 
+/* New velocities of the lanes of a chunk, from the sums over nodes of acceleration and velocity. */
+INLINE void accelerate(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                       double dt, bool move, double (*push)[LANES], double (*flow)[LANES])
+{
+    for (int lane = 0; lane < chunk->count; lane++) {
+        double *u = t->velocity[chunk->index[lane]], *x = t->position[chunk->index[lane]];
+        for (int k = 0; k < kind.dimension; k++) {
+            u[k] += dt * push[k][lane];
+            if (t->flip < 1.0)
+                u[k] = t->flip * u[k] + (1.0 - t->flip) * flow[k][lane];
+            if (move)
+                x[k] += dt * flow[k][lane];
+        }
+    }
+}
+
+/* Adds the momenta of the lanes of a chunk to the SUM of each node. */
+INLINE void add_momenta(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                        const double (*weight)[LANES], vector4 *sum)
+{
+    for (int lane = 0; lane < chunk->count; lane++) {
+        const double *u = t->velocity[chunk->index[lane]], mass = t->mass[chunk->index[lane]];
+        const vector4 momentum = {mass * u[0], mass * u[1], mass * u[2], 0.0};
+        for (int n = 0; n < nodes_of(kind); n++)
+            sum[n] += weight[n][lane] * momentum;
+    }
+}
+
 INLINE void velocity(const struct transfer *t, struct kind kind, int32_t bin, double dt,
                      bool scatter_back, bool move)
 {
@@ -238,39 +308,58 @@ INLINE void velocity(const struct transfer *t, struct kind kind, int32_t bin, do
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
-        ALIGNED double push[3][LANES], flow[3][LANES];
+        ALIGNED double push[3][LANES], flow[3][LANES], weight[NODES_MAX][LANES];
+        vector4 sum[NODES_MAX];
+        if (walk.count == 0)
+            continue;
+        for (int n = 0; n < nodes_of(kind); n++)
+            sum[n] = (vector4){0.0};
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
-            gather(t, kind, &chunk, walk.base, patch + NODE_ACCELERATION, NODE_STRIDE,
+            find_weights(kind, &chunk, weight);
+            gather(t, kind, weight, walk.base, patch + NODE_ACCELERATION, NODE_STRIDE,
                    kind.dimension, push);
             if (blend)
-                gather(t, kind, &chunk, walk.base, patch + NODE_VELOCITY, NODE_STRIDE,
+                gather(t, kind, weight, walk.base, patch + NODE_VELOCITY, NODE_STRIDE,
                        kind.dimension, flow);
-            for (int lane = 0; lane < chunk.count; lane++) {
-                double *u = t->velocity[chunk.index[lane]], *x = t->position[chunk.index[lane]];
-                for (int k = 0; k < kind.dimension; k++) {
-                    u[k] += dt * push[k][lane];
-                    if (t->flip < 1.0)
-                        u[k] = t->flip * u[k] + (1.0 - t->flip) * flow[k][lane];
-                    if (move)
-                        x[k] += dt * flow[k][lane];
-                }
-            }
+            accelerate(t, kind, &chunk, dt, move, push, flow);
             if (t->affine)
                 keep_gradient(t, kind, &chunk, walk.base, patch + NODE_VELOCITY);
-            for (int lane = 0; lane < chunk.count && back; lane++) {
-                const double *u = t->velocity[chunk.index[lane]], mass = t->mass[chunk.index[lane]];
-                const vector4 momentum = {mass * u[0], mass * u[1], mass * u[2], 0.0};
+            if (!back)
+                continue;
+            add_momenta(t, kind, &chunk, weight, sum);
+            for (int lane = 0; lane < chunk.count && t->affine; lane++)
                 FOR_NODES(kind, a, b, c)
                 {
                     const double value = weight_of(kind, &chunk, lane, a, b, c).value;
-                    double *node = back + node_of(t, kind, walk.base, a, b, c) * BACK_STRIDE;
-                    *(vector4 *)node += value * momentum;
-                    if (t->affine)
-                        add_affine(t, kind, &chunk, lane, a, b, c, mass * value, node);
+                    add_affine(t, kind, &chunk, lane, a, b, c, t->mass[chunk.index[lane]] * value,
+                               back + node_of(t, kind, walk.base, a, b, c) * BACK_STRIDE);
                 }
-            }
         }
+        if (back)
+            add_sums(t, kind, walk.base, sum, BACK_STRIDE, back);
+    }
+}
+
+/* Strain and spin of the lanes of a chunk from the gradients of velocity SUM; AROUND is the velocity away from the
+ * axis. */
+INLINE void keep_rates(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                       double (*sum)[3][LANES], const double *around, struct rates rates)
+{
+    const bool round = kind.dimension == 2 && t->axisymmetric;
+    double *row[RATES];
+    for (int c = 0; c < RATES; c++)
+        row[c] = rates.to + (size_t)c * rates.stride;
+    for (int lane = 0; lane < kind.lanes; lane++) {
+        row[0][lane] = sum[0][0][lane];
+        row[1][lane] = sum[1][1][lane];
+        row[2][lane] = round ? around[lane] / t->position[chunk->index[lane]][0] : sum[2][2][lane];
+        row[3][lane] = 0.5 * (sum[0][1][lane] + sum[1][0][lane]);
+        row[4][lane] = 0.5 * (sum[1][2][lane] + sum[2][1][lane]);
+        row[5][lane] = 0.5 * (sum[2][0][lane] + sum[0][2][lane]);
+        row[6][lane] = 0.5 * (sum[2][1][lane] - sum[1][2][lane]);
+        row[7][lane] = 0.5 * (sum[0][2][lane] - sum[2][0][lane]);
+        row[8][lane] = 0.5 * (sum[1][0][lane] - sum[0][1][lane]);
     }
 }
 
@@ -289,7 +378,7 @@ INLINE void gather_around(const struct transfer *t, struct kind kind, const stru
 }
 
 INLINE void gradient(const struct transfer *t, struct kind kind, int32_t bin, double dt,
-                     const double *of, int stride, bool move, double *rate)
+                     const double *of, int stride, bool move, struct rates rates)
 {
     const bool round = kind.dimension == 2 && t->axisymmetric;
     const double *patch = grid_patch(t->grid, t->main, bin);
@@ -298,28 +387,21 @@ INLINE void gradient(const struct transfer *t, struct kind kind, int32_t bin, do
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
         ALIGNED double sum[3][3][LANES], flow[3][LANES], around[LANES];
+        ALIGNED double weight[NODES_MAX][LANES];
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
+            find_weights(kind, &chunk, weight);
             gather_slopes(t, kind, &chunk, walk.base, of, stride, sum);
             if (round)
                 gather_around(t, kind, &chunk, walk.base, of, stride, around);
             if (move)
-                gather(t, kind, &chunk, walk.base, patch + NODE_VELOCITY, NODE_STRIDE,
+                gather(t, kind, weight, walk.base, patch + NODE_VELOCITY, NODE_STRIDE,
                        kind.dimension, flow);
-            for (int lane = 0; lane < chunk.count; lane++, rate += RATE_STRIDE) {
-                double *x = t->position[chunk.index[lane]];
-                rate[0] = sum[0][0][lane];
-                rate[1] = sum[1][1][lane];
-                rate[2] = round ? around[lane] / x[0] : sum[2][2][lane];
-                rate[3] = 0.5 * (sum[0][1][lane] + sum[1][0][lane]);
-                rate[4] = 0.5 * (sum[1][2][lane] + sum[2][1][lane]);
-                rate[5] = 0.5 * (sum[2][0][lane] + sum[0][2][lane]);
-                rate[RATE_SPIN] = 0.5 * (sum[2][1][lane] - sum[1][2][lane]);
-                rate[RATE_SPIN + 1] = 0.5 * (sum[0][2][lane] - sum[2][0][lane]);
-                rate[RATE_SPIN + 2] = 0.5 * (sum[1][0][lane] - sum[0][1][lane]);
-                for (int k = 0; k < kind.dimension && move; k++)
-                    x[k] += dt * flow[k][lane];
-            }
+            keep_rates(t, kind, &chunk, sum, around, rates);
+            rates.to += chunk.count;
+            for (int lane = 0; lane < chunk.count && move; lane++)
+                for (int k = 0; k < kind.dimension; k++)
+                    t->position[chunk.index[lane]][k] += dt * flow[k][lane];
         }
     }
 }
@@ -346,42 +428,32 @@ INLINE void gradient(const struct transfer *t, struct kind kind, int32_t bin, do
         CALL(3, 4);                                              \
     }
 
-void NAMED(transfer_scatter)(const struct transfer *t, int32_t bin);
-void NAMED(transfer_slopes)(const struct transfer *t, int32_t bin);
-void NAMED(transfer_velocity)(const struct transfer *t, int32_t bin, double dt, bool scatter_back,
-                              bool move);
-void NAMED(transfer_gradient)(const struct transfer *t, int32_t bin, double dt, const double *of,
-                              int stride, bool move, double *rate);
-
-void NAMED(transfer_scatter)(const struct transfer *t, int32_t bin)
-{
+ISA_KERNEL(void, transfer_scatter, const struct transfer *t, int32_t bin){
 #define CALL(dimension, window) scatter(t, (struct kind){dimension, window, 1 << dimension}, bin)
     BY_KIND(t, CALL)
 #undef CALL
 }
 
-void NAMED(transfer_slopes)(const struct transfer *t, int32_t bin)
-{
+ISA_KERNEL(void, transfer_slopes, const struct transfer *t, int32_t bin){
 #define CALL(dimension, window) \
     scatter_slopes(t, (struct kind){dimension, window, 1 << dimension}, bin)
     BY_KIND(t, CALL)
 #undef CALL
 }
 
-void NAMED(transfer_velocity)(const struct transfer *t, int32_t bin, double dt, bool scatter_back,
-                              bool move)
-{
+ISA_KERNEL(void, transfer_velocity, const struct transfer *t, int32_t bin, double dt,
+           bool scatter_back, bool move){
 #define CALL(dimension, window) \
     velocity(t, (struct kind){dimension, window, 1 << dimension}, bin, dt, scatter_back, move)
     BY_KIND(t, CALL)
 #undef CALL
 }
 
-void NAMED(transfer_gradient)(const struct transfer *t, int32_t bin, double dt, const double *of,
-                              int stride, bool move, double *rate)
+ISA_KERNEL(void, transfer_gradient, const struct transfer *t, int32_t bin, double dt,
+           const double *of, int stride, bool move, struct rates rates)
 {
 #define CALL(dimension, window) \
-    gradient(t, (struct kind){dimension, window, 1 << dimension}, bin, dt, of, stride, move, rate)
+    gradient(t, (struct kind){dimension, window, 1 << dimension}, bin, dt, of, stride, move, rates)
     BY_KIND(t, CALL)
 #undef CALL
 }

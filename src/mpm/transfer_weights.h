@@ -3,16 +3,10 @@
 #ifndef BOLIDE_MPM_TRANSFER_WEIGHTS_H
 #define BOLIDE_MPM_TRANSFER_WEIGHTS_H
 
+#include "base/lanes.h"
 #include "mpm/transfer.h"
 
-#if defined(BOLIDE_SANITIZE)
-#define INLINE static __attribute__((unused))
-#else
-#define INLINE static inline __attribute__((always_inline))
-#endif
-#define ALIGNED __attribute__((aligned(64)))
-
-enum { LANES = 8, WINDOW_MAX = 4 };
+enum { WINDOW_MAX = 4 };
 
 /* What is known when the loops are compiled. */
 struct kind {

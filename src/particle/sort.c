@@ -222,3 +222,25 @@ struct error *particles_sort(struct particles *particles)
         move_fields(particles, &s);
     return NULL;
 }
+
+struct error *particles_arrange(struct particles *particles, const int32_t *list,
+                                const struct block *block, int32_t blocks)
+{
+    struct particles *p = particles;
+    struct sorting s;
+    const size_t count = (size_t)p->count;
+    if (!scratch_begin(&p->scratch, count * (sizeof *s.entry + SLICE)) ||
+        !memory_reserve((void **)&p->block, &p->block_capacity, blocks, 0, sizeof *p->block))
+        return error_new(ERROR_SYSTEM, "out of memory while sorting %d particles", p->count);
+    s.entry = scratch_part(&p->scratch, count * sizeof *s.entry);
+    s.room.slice = scratch_part(&p->scratch, count * SLICE);
+#pragma omp parallel for schedule(static) num_threads(p->threads)
+    for (int32_t i = 0; i < p->count; i++)
+        s.entry[i].index = list[i];
+    move_fields(p, &s);
+    if (blocks > 0)
+        memcpy(p->block, block, (size_t)blocks * sizeof *block);
+    p->blocks = blocks;
+    p->order++;
+    return NULL;
+}

@@ -6,13 +6,14 @@
  *
  *   S_eq - 3 G d eps = Y(eps + d eps, d eps/dt)
  *
- * of the elastic trial S_eq, by Newton's method within a bracket; T is that before the step. The explicit variant is that
+ * of the elastic trial S_eq, by Newton's method; T is that before the step. The explicit variant is that
  * of the public MPM3D codes: d eps = (S_eq - Y)/[3 G + B n (eps + 1e-4)^(n-1)] with the Y before the step, then the
  * stress is put on Y after it; their Y before the step is stored, ours has the strain rate of the step.
  * Source: Johnson and Cook, Proc. 7th Int. Symp. Ballistics (1983) 541, in the form of Cui, dissertation (2014). */
 #ifndef BOLIDE_STRENGTH_JOHNSON_COOK_H
 #define BOLIDE_STRENGTH_JOHNSON_COOK_H
 
+#include "base/exponential.h"
 #include "material/strength/elastic.h"
 
 enum johnson_cook_return { JOHNSON_COOK_IMPLICIT, JOHNSON_COOK_EXPLICIT };
@@ -47,24 +48,31 @@ BOLIDE_INLINE const char *johnson_cook_wrong(const struct strength_johnson_cook 
 BOLIDE_INLINE double johnson_cook_softening(const struct strength_johnson_cook *solid,
                                             double heating)
 {
-    if (!johnson_cook_softens(solid) || heating <= 0.0)
+    if (!johnson_cook_softens(solid))
         return 1.0;
-    double share = heating / (solid->melt - solid->room);
-    return share < 1.0 ? 1.0 - pow(share, solid->m) : 0.0;
+    const double share = maximum(heating, 0.0) / (solid->melt - solid->room);
+    return 1.0 - power(minimum(share, 1.0), solid->m);
 }
 
 /* 1 + C ln max(rate/rate_0, 1). */
 BOLIDE_INLINE double johnson_cook_hastening(const struct strength_johnson_cook *solid, double rate)
 {
-    return rate > solid->rate ? 1.0 + solid->c * log(rate / solid->rate) : 1.0;
+    return 1.0 + solid->c * logarithm(maximum(rate / solid->rate, 1.0));
+}
+
+/* Y of slow flow at plastic STRAIN, with the SOFTENING by heat. */
+BOLIDE_INLINE double johnson_cook_slow(const struct strength_johnson_cook *solid, double strain,
+                                       double softening)
+{
+    return (solid->a + solid->b * power(strain, solid->n)) * softening;
 }
 
 /* Y at plastic STRAIN, RATE (1/s) and HEATING (K). */
 BOLIDE_INLINE double johnson_cook_stress(const struct strength_johnson_cook *solid, double strain,
                                          double rate, double heating)
 {
-    return (solid->a + solid->b * pow(strain, solid->n)) * johnson_cook_hastening(solid, rate) *
-           johnson_cook_softening(solid, heating);
+    return johnson_cook_slow(solid, strain, johnson_cook_softening(solid, heating)) *
+           johnson_cook_hastening(solid, rate);
 }
 
 /* Y of slow flow. */
@@ -75,39 +83,72 @@ BOLIDE_INLINE double strength_johnson_cook_yield(const struct strength_johnson_c
     return johnson_cook_stress(solid, point->history[HISTORY_plastic_strain], 0.0, heating);
 }
 
-/* The plastic strain of a step of DT that starts from STRAIN and SLOW, its Y of slow flow, with a trial stress beyond
- * that. What remains of the stress falls with it and Y grows, and Y bends down: from the left Newton's method does not
- * overshoot. Its first rounds take the hardening along its slope, which spares them a power. */
-BOLIDE_INLINE double johnson_cook_flow(const struct strength_johnson_cook *solid, double dt,
-                                       double trial, double strain, double slow, double softening)
+/* Up to eight points that flow, each on its own: what it does for one does not depend on the others. */
+enum { JOHNSON_COOK_LANES = 8 };
+struct johnson_cook_points {
+    double trial[JOHNSON_COOK_LANES];     /* Mises stress of the elastic trial, beyond SLOW */
+    double strain[JOHNSON_COOK_LANES];    /* plastic, before the step */
+    double slow[JOHNSON_COOK_LANES];      /* Y of slow flow before the step */
+    double softening[JOHNSON_COOK_LANES]; /* 1 - T*^m */
+    double flow[JOHNSON_COOK_LANES];      /* the plastic strain of the step: found */
+};
+
+/* A first guess of what a step of DT flows, from the hardening along its slope ALONG:
+ *
+ *   x + a ln x = b,  w = x/a:  w + ln w = z
+ *
+ * with w roughly known and brought nearer by one step of third order (Fritsch, Shafer and Crowley, Commun. ACM 16 (1973)
+ * 123). */
+BOLIDE_INLINE double johnson_cook_guess(const struct strength_johnson_cook *solid, double dt,
+                                        double trial, double slow, double along)
 {
-    const double triple = 3.0 * solid->shear_modulus;
-    const int guesses = strain > 0.0 ? 2 : 0;
-    const double along = guesses ? (slow - solid->a * softening) * solid->n / strain : 0.0;
-    double low = 0.0, high = (trial - slow) / triple, flow = high;
-    for (int round = 0; round < 60; round++) {
-        double now = strain + flow, rate = flow / dt, stress = slow + along * flow, slope = along;
-        if (round >= guesses) {
-            double power = solid->b * pow(now, solid->n) * softening;
-            stress = solid->a * softening + power;
-            slope = power * solid->n / now;
-        }
-        double hastening = johnson_cook_hastening(solid, rate);
-        slope *= hastening;
-        if (rate > solid->rate)
-            slope += stress * solid->c / flow;
-        double over = trial - triple * flow - stress * hastening;
-        if (round >= guesses)
-            *(over > 0.0 ? &low : &high) = flow;
-        double next = flow + over / (triple + slope);
-        if (!(next >= low && next <= high))
-            next = 0.5 * (low + high);
-        double change = fabs(next - flow);
-        flow = next;
-        if (round >= guesses && change <= 1e-4 * flow) /* the error left is about its square */
-            break;
+    const double stiff = 3.0 * solid->shear_modulus + along, beyond = trial - slow;
+    /* where rate does not matter much, a little more of it does no harm */
+    const double a = maximum(solid->c * slow, 1e-3 * beyond) / stiff;
+    const double z = beyond / (stiff * a) - logarithm(a / (solid->rate * dt));
+    const double e = exponential(minimum(z, 1.0));
+    const double w = z > 1.0 ? z - logarithm(maximum(z, 1.0)) : e / (1.0 + e);
+    const double rest = z - w - logarithm(w), up = 1.0 + w,
+                 much = 2.0 * up * (up + 2.0 / 3.0 * rest);
+    return minimum(a * w * (1.0 + rest / up * (much - rest) / (much - 2.0 * rest)), beyond / stiff);
+}
+
+/* What LANES points flow in a step of DT. What is left of the trial stress falls with the flow and Y grows, and Y bends
+ * down on either side of the reference rate: from the left Newton's method does not overshoot, from the right it comes
+ * to the left. It stops over where Y has its kink. */
+BOLIDE_INLINE void johnson_cook_flow(const struct strength_johnson_cook *solid, int lanes,
+                                     double dt, struct johnson_cook_points *p)
+{
+    const double triple = 3.0 * solid->shear_modulus, kink = solid->rate * dt;
+    int64_t going[JOHNSON_COOK_LANES], left = lanes;
+    for (int k = 0; k < lanes; k++) {
+        const double strain = p->strain[k], hardening = p->slow[k] - solid->a * p->softening[k];
+        going[k] = 1;
+        p->flow[k] = johnson_cook_guess(solid, dt, p->trial[k], p->slow[k],
+                                        strain > 0.0 ? hardening * solid->n / strain : 0.0);
     }
-    return flow;
+    for (int round = 0; round < 60 && left > 0; round++) {
+        left = 0;
+        for (int k = 0; k < lanes; k++) {
+            const double flow = p->flow[k], now = p->strain[k] + flow;
+            const double hardening = solid->b * p->softening[k] * power(now, solid->n);
+            const double stress = solid->a * p->softening[k] + hardening;
+            const double hastening = johnson_cook_hastening(solid, flow / dt);
+            const double over = p->trial[k] - triple * flow - stress * hastening;
+            const double left_of = flow >= kink ? solid->c : 0.0,
+                         right_of = flow > kink ? solid->c : 0.0;
+            const double hasty = over > 0.0 ? left_of : right_of;
+            const double slope = hardening * solid->n / now * hastening + stress * hasty / flow;
+            const double low = maximum(0.05 * flow, flow > kink ? kink : 0.0);
+            const double high = flow < kink ? kink : (double)INFINITY;
+            const double next = minimum(maximum(flow + over / (triple + slope), low), high);
+            const double change = fabs(next - flow);
+            p->flow[k] = going[k] ? next : flow;
+            /* the error left is about the square of this */
+            going[k] &= change > 1e-4 * next;
+            left += going[k];
+        }
+    }
 }
 
 BOLIDE_INLINE void strength_johnson_cook(const struct strength_johnson_cook *solid,
@@ -117,26 +158,25 @@ BOLIDE_INLINE void strength_johnson_cook(const struct strength_johnson_cook *sol
     (void)bulk_modulus;
     struct sym3 s = strength_elastic(solid->shear_modulus, motion, point->deviator);
     double trial = sym3_mises(s), strain = point->history[HISTORY_plastic_strain];
-    double softening = johnson_cook_softens(solid)
-                           ? johnson_cook_softening(solid, point->history[HISTORY_plastic_heating])
-                           : 1.0;
-    point->deviator = s;
-    if (trial <= solid->a * softening)
-        return;
+    double softening = johnson_cook_softening(solid, point->history[HISTORY_plastic_heating]);
     double triple = 3.0 * solid->shear_modulus, flow, stress;
-    double yield = (solid->a + solid->b * pow(strain, solid->n)) * softening;
+    double yield = johnson_cook_slow(solid, strain, softening);
+    point->deviator = s;
     if (solid->return_map == JOHNSON_COOK_EXPLICIT)
         yield *= johnson_cook_hastening(solid, strength_strain_rate(motion->strain_rate));
-    if (trial <= yield)
+    if (!(trial > yield))
         return;
     if (solid->return_map == JOHNSON_COOK_EXPLICIT) {
-        double slope = solid->b * solid->n * pow(strain + 1e-4, solid->n - 1.0);
+        double slope = solid->b * power(strain + 1e-4, solid->n) * solid->n /
+                       (strain + 1e-4); /* B n eps^(n-1) */
         flow = (trial - yield) / (triple + slope);
-        stress = (solid->a + solid->b * pow(strain + flow, solid->n)) * softening *
+        stress = johnson_cook_slow(solid, strain + flow, softening) *
                  johnson_cook_hastening(solid, flow / motion->dt);
         stress = minimum(stress, trial);
     } else {
-        flow = johnson_cook_flow(solid, motion->dt, trial, strain, yield, softening);
+        struct johnson_cook_points one = {{trial}, {strain}, {yield}, {softening}, {0.0}};
+        johnson_cook_flow(solid, 1, motion->dt, &one);
+        flow = one.flow[0];
         stress = trial - triple * flow;
     }
     point->deviator = sym3_scale(stress / trial, s);

@@ -1,0 +1,144 @@
+/* A step of many points at once against the step of each alone, to the last bit; and the logarithm and powers of lanes
+ * against the library's. */
+#include "dice.h"
+
+#include "material/batch.h"
+
+static const struct strength_johnson_cook hard = {
+    .shear_modulus = 81.8e9, .a = 350e6, .b = 275e6, .n = 0.36, .c = 0.022, .rate = 1.0, .m = NAN};
+
+static struct strength_johnson_cook soft(void)
+{
+    struct strength_johnson_cook solid = hard;
+    solid.m = 1.03;
+    solid.room = 300.0;
+    solid.melt = 1811.0;
+    solid.capacity = 452.0;
+    return solid;
+}
+
+static double some(struct dice *dice, double scale) { return dice_between(dice, -scale, scale); }
+
+/* A point and what happens to it; one in four does not flow. */
+static void throw_point(struct dice *dice, double rest, struct point *point, struct motion *motion)
+{
+    const double size = dice_below(dice, 4) ? 1.0 : 0.05, spin = 1e6;
+    *point = (struct point){.density = rest * dice_between(dice, 0.9, 1.4),
+                            .energy = some(dice, 1e5),
+                            .pressure = some(dice, 1e9),
+                            .deviator = {some(dice, 3e8 * size), some(dice, 3e8 * size), 0.0,
+                                         some(dice, 1e8 * size), some(dice, 1e8 * size),
+                                         some(dice, 1e8 * size)}};
+    point->deviator.zz = -point->deviator.xx - point->deviator.yy;
+    point->history[HISTORY_plastic_strain] =
+        dice_below(dice, 3) ? dice_between(dice, 0.0, 1.0) : 0.0;
+    point->history[HISTORY_plastic_heating] = dice_between(dice, 0.0, 1600.0);
+    *motion = (struct motion){.dt = 1e-8,
+                              .density = point->density * dice_between(dice, 0.99, 1.01),
+                              .viscous_pressure = dice_between(dice, 0.0, 1e8),
+                              .spin = {some(dice, spin), some(dice, spin), some(dice, spin)}};
+    double *rate = &motion->strain_rate.xx;
+    for (int c = 0; c < 6; c++)
+        rate[c] = some(dice, 2e6 * size);
+}
+
+static void put(struct batch *b, int k, const struct point *point, const struct motion *motion)
+{
+    b->density[k] = point->density;
+    b->new_density[k] = motion->density;
+    b->energy[k] = point->energy;
+    b->pressure[k] = point->pressure;
+    b->viscous_pressure[k] = motion->viscous_pressure;
+    batch_keep_tensor(b->strain_rate, k, motion->strain_rate);
+    batch_keep_tensor(b->deviator, k, point->deviator);
+    b->spin[0][k] = motion->spin.x;
+    b->spin[1][k] = motion->spin.y;
+    b->spin[2][k] = motion->spin.z;
+    b->plastic_strain[k] = point->history[HISTORY_plastic_strain];
+    b->plastic_heating[k] = point->history[HISTORY_plastic_heating];
+}
+
+static void check(const struct batch *b, int k, const struct point *point,
+                  const struct response *response)
+{
+    const double *s = &point->deviator.xx;
+    assert_true(b->energy[k] == point->energy && b->pressure[k] == point->pressure);
+    assert_true(b->sound_long[k] == response->sound_long);
+    assert_true(b->plastic_strain[k] == point->history[HISTORY_plastic_strain]);
+    assert_true(b->plastic_heating[k] == point->history[HISTORY_plastic_heating]);
+    for (int c = 0; c < 6; c++)
+        assert_true(b->new_deviator[c][k] == s[c]);
+}
+
+static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
+{
+    (void)state;
+    static const struct eos forms[] = {
+        {EOS_ideal_gas, {.ideal_gas = {1500.0, 3.0}}},
+        {EOS_jwl, {.jwl = {1630.0, 371.2e9, 3.21e9, 4.15, 0.95, 0.3, 6.993e9}}},
+        {EOS_mie_grueneisen, {.mie_grueneisen = {2700.0, 5350.0, 1.35, 2.17, 73e9}}},
+        {EOS_grueneisen_polynomial, {.grueneisen_polynomial = {7890.0, 4569.0, 1.49, 2.17}}},
+        {EOS_grueneisen_eta, {.grueneisen_eta = {8930.0, 3940.0, 1.49, 2.0}}}};
+    const struct strength strengths[] = {
+        {.kind = STRENGTH_NONE},
+        {STRENGTH_perfect_plastic, {.perfect_plastic = {23e9, 0.3e9}}},
+        {STRENGTH_johnson_cook, {.johnson_cook = hard}},
+        {STRENGTH_johnson_cook, {.johnson_cook = soft()}}};
+    struct dice dice = {3};
+    for (size_t m = 0; m < COUNT_OF(forms) * COUNT_OF(strengths) * 20; m++) {
+        const struct material material = {.eos = forms[m % COUNT_OF(forms)],
+                                          .strength = strengths[m / COUNT_OF(forms) % 4]};
+        struct batch batch = {.count = BATCH_LANES * (1 + dice_below(&dice, 8)), .dt = 1e-8};
+        struct point point[BATCH];
+        struct motion motion[BATCH];
+        assert_true(batch_takes(&material));
+        for (int k = 0; k < batch.count; k++) {
+            throw_point(&dice, material_density(&material), &point[k], &motion[k]);
+            put(&batch, k, &point[k], &motion[k]);
+        }
+        batch_step(&material, &batch);
+        for (int k = 0; k < batch.count; k++) {
+            const struct response response =
+                material_step_by_work(&material, &point[k], &motion[k]);
+            check(&batch, k, &point[k], &response);
+        }
+    }
+}
+
+static void what_batches_do_not_take_is_told(void **state)
+{
+    (void)state;
+    struct material material = {.strength = {STRENGTH_johnson_cook, {.johnson_cook = hard}}};
+    assert_true(batch_takes(&material));
+    material.strength.of.johnson_cook.return_map = JOHNSON_COOK_EXPLICIT;
+    assert_false(batch_takes(&material));
+    material.strength.kind = STRENGTH_drucker_prager;
+    assert_false(batch_takes(&material));
+    material.strength.kind = STRENGTH_NONE;
+    material.eos.kind = EOS_hjc;
+    assert_false(batch_takes(&material));
+}
+
+static void logarithm_and_powers_are_those_of_the_library(void **state)
+{
+    (void)state;
+    struct dice dice = {5};
+    for (int k = 0; k < 200000; k++) {
+        const double x = k % 2 ? exp(some(&dice, 700.0)) : 1.0 + some(&dice, 0.3);
+        const double wanted = log(x), n = dice_between(&dice, 0.01, 2.0);
+        assert_near(logarithm(x), wanted, 4.5e-16 * fabs(wanted));
+        const double base = exp(dice_between(&dice, -40.0, 4.0));
+        assert_close(power(base, n), pow(base, n), 2e-14);
+    }
+    assert_true(logarithm(1.0) == 0.0 && power(0.0, 0.01) == 0.0 && power(1.0, 0.3) == 1.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_batch_does_to_each_point_what_a_step_alone_does),
+        cmocka_unit_test(what_batches_do_not_take_is_told),
+        cmocka_unit_test(logarithm_and_powers_are_those_of_the_library),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
