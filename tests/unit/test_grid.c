@@ -276,7 +276,7 @@ static void set_linear(struct cloud *c)
 static void particles_take_a_linear_field_from_nodes_as_it_is(void **state)
 {
     (void)state;
-    static double rate[PARTICLES][RATE_STRIDE], old[PARTICLES][3], before[PARTICLES][3];
+    static double rate[RATES][PARTICLES + 7], old[PARTICLES][3], before[PARTICLES][3];
     for (int kind = 0; kind < 3 * 4; kind++) {
         const int dimension = 1 + kind % 3;
         const double dt = 0.01;
@@ -290,7 +290,7 @@ static void particles_take_a_linear_field_from_nodes_as_it_is(void **state)
             transfer_velocity(&c->transfer, b, dt, true, false);
             transfer_gradient(&c->transfer, b, dt,
                               grid_patch(&c->grid, &c->main, b) + NODE_VELOCITY, NODE_STRIDE, true,
-                              rate[c->bins.bin[b].first]);
+                              (struct rates){&rate[0][c->bins.bin[b].first], PARTICLES + 7});
         }
         for (int32_t n = 0; n < c->grid.blocks; n++)
             grid_reduce(&c->grid, &c->back, n);
@@ -306,11 +306,11 @@ static void particles_take_a_linear_field_from_nodes_as_it_is(void **state)
                     assert_near(c->gradient[i][3 * a + b], slopes[a][b], 1e-11);
                 total[a] += c->mass[i] * c->velocity[i][a];
             }
-            assert_near(rate[k][0], slopes[0][0], 1e-12);
+            assert_near(rate[0][k], slopes[0][0], 1e-12);
             if (dimension < 2)
                 continue;
-            assert_near(rate[k][3], 0.5 * (slopes[0][1] + slopes[1][0]), 1e-12);
-            assert_near(rate[k][RATE_SPIN + 2], 0.5 * (slopes[1][0] - slopes[0][1]), 1e-12);
+            assert_near(rate[3][k], 0.5 * (slopes[0][1] + slopes[1][0]), 1e-12);
+            assert_near(rate[RATE_SPIN + 2][k], 0.5 * (slopes[1][0] - slopes[0][1]), 1e-12);
         }
         for (int32_t n = 0; n < c->grid.blocks; n++)
             for (int k = 0; k < BLOCK_CELLS; k++)
