@@ -101,9 +101,9 @@ struct error *particles_commit(struct particles *particles);
  * (64, 8 x 8, 4 x 4 x 4) of the global grid, whose origin is the origin of space. */
 struct error *particles_sort(struct particles *particles);
 
-/* Stores the particles in the order of LIST instead, which has found all of their BLOCKS. Its room is kept. */
+/* Stores the particles in the order of LIST instead, which has found all of their BLOCKS. */
 struct error *particles_arrange(struct particles *particles, const int32_t *list,
-                                const struct block *block, int32_t blocks, int threads);
+                                const struct block *block, int32_t blocks);
 
 /* Collective: moves every particle to the rank that owns its block, then sorts. SECONDS are what the rank has worked
  * on its particles since the last call; where the ranks' work since the cut differs by too much, and with RECUT in
