@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/isa.h"
+
 #if defined(__AVX512F__)
 #include <immintrin.h>
 #endif
@@ -74,14 +76,8 @@ static void order(const uint32_t *key, const uint32_t *entry, int32_t count, uin
     }
 }
 
-#define JOIN(a, b) a##b
-#define NAME_OF(isa) JOIN(row_find_, isa)
-
-int32_t NAME_OF(BOLIDE_ISA)(const struct candidates *candidates, const struct row_point *own,
-                            uint32_t *key, uint32_t *entry, uint32_t *row);
-
-int32_t NAME_OF(BOLIDE_ISA)(const struct candidates *candidates, const struct row_point *own,
-                            uint32_t *key, uint32_t *entry, uint32_t *row)
+ISA_KERNEL(int32_t, row_find, const struct candidates *candidates, const struct row_point *own,
+           uint32_t *key, uint32_t *entry, uint32_t *row)
 {
     int32_t count = keep(candidates, own, key, entry);
     memset(key + count, 0, CANDIDATES_STEP * sizeof *key);

@@ -1,6 +1,7 @@
 /* The heat loop for one instruction set, named by BOLIDE_ISA; see heat_kernel.h. */
 #include "sph/heat_kernel.h"
 
+#include "base/isa.h"
 #include "sph/kernel.h"
 #include "sph/lanes.h"
 
@@ -65,12 +66,7 @@ INSTANCE(space_harmonic, 3, false, HEAT_HARMONIC)
 INSTANCE(deep_contact, 2, true, HEAT_CONTACT)
 INSTANCE(deep_harmonic, 2, true, HEAT_HARMONIC)
 
-#define JOIN(a, b) a##b
-#define NAME_OF(isa) JOIN(heat_loop_run_, isa)
-
-void NAME_OF(BOLIDE_ISA)(const struct heat_loop *loop, int32_t begin, int32_t end);
-
-void NAME_OF(BOLIDE_ISA)(const struct heat_loop *loop, int32_t begin, int32_t end)
+ISA_KERNEL(void, heat_loop_run, const struct heat_loop *loop, int32_t begin, int32_t end)
 {
     typedef void instance(const struct heat_loop *, int32_t, int32_t);
     static instance *const table[4][2] = {{line_contact, line_harmonic},

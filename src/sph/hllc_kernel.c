@@ -1,6 +1,8 @@
 /* The pair loops with corrected gradients for one instruction set, named by BOLIDE_ISA; see hllc_kernel.h. The contact
  * problem along a pair is riemann/hllc.h; how rows become lanes is lanes.h. */
 #include "sph/hllc_kernel.h"
+
+#include "base/isa.h"
 #include "riemann/hllc.h"
 #include "sph/kernel.h"
 #include "sph/record.h"
@@ -437,22 +439,22 @@ INSTANCES(plane, 2, false)
 INSTANCES(space, 3, false)
 INSTANCES(ring, 2, true)
 
-#define JOIN(a, b) a##b
-#define NAME_OF(isa) JOIN(hllc_pass_, isa)
+ISA_KERNEL(void, hllc_find_gradients, const struct hllc_loop *loop, int32_t begin, int32_t end)
+{
+    typedef void instance(const struct hllc_loop *, int32_t, int32_t);
+    static instance *const table[3] = {line_gradients, plane_gradients, space_gradients};
+    table[loop->kind.dimension - 1](loop, begin, end);
+}
 
-void NAME_OF(BOLIDE_ISA)(const struct hllc_loop *loop, bool forces, int32_t begin, int32_t end);
-
-void NAME_OF(BOLIDE_ISA)(const struct hllc_loop *loop, bool forces, int32_t begin, int32_t end)
+ISA_KERNEL(void, hllc_find_forces, const struct hllc_loop *loop, int32_t begin, int32_t end)
 {
     typedef void instance(const struct hllc_loop *, int32_t, int32_t);
     enum { RING = 3 }; /* behind the dimensions */
-    static instance *const gradients[3] = {line_gradients, plane_gradients, space_gradients};
     static instance *const table[4][3] = {{line_viscous, line_contact, line_reconstructed},
                                           {plane_viscous, plane_contact, plane_reconstructed},
                                           {space_viscous, space_contact, space_reconstructed},
                                           {ring_viscous, ring_contact, ring_reconstructed}};
     const struct hllc_kind kind = loop->kind;
-    const int space = kind.depth ? RING : kind.dimension - 1;
     const int pairs = kind.viscous ? 0 : 1 + kind.reconstructed;
-    (forces ? table[space][pairs] : gradients[kind.dimension - 1])(loop, begin, end);
+    table[kind.depth ? RING : kind.dimension - 1][pairs](loop, begin, end);
 }

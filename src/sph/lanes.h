@@ -12,18 +12,10 @@
 #include <immintrin.h>
 #endif
 
+#include "base/lanes.h"
 #include "particle/neighbours.h"
 
-enum { LANES = 8, LANES_CHUNK = 512, PLACE_STRIDE = 4 };
-
-#define ALIGNED __attribute__((aligned(64)))
-/* A kernel is instantiated by inlining all of it with its kind as a constant. Sanitized builds call instead: they
- * check the same code once, and compile in seconds. */
-#if defined(BOLIDE_SANITIZE)
-#define INLINE static __attribute__((unused))
-#else
-#define INLINE static inline __attribute__((always_inline))
-#endif
+enum { LANES_CHUNK = 512, PLACE_STRIDE = 4 };
 
 #if defined(__AVX512F__)
 typedef double vector8 __attribute__((vector_size(64)));

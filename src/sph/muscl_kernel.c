@@ -2,6 +2,8 @@
  * muscl_kernel.h. The area vector is that of the renormalised meshless methods (Lanson and Vila, SIAM J. Numer. Anal. 46
  * (2008) 1912). */
 #include "sph/muscl_kernel.h"
+
+#include "base/isa.h"
 #include "riemann/shock.h"
 #include "sph/kernel.h"
 #include "sph/muscl_slopes.h"
@@ -417,12 +419,7 @@ INSTANCE(deep_solid, 2, true, true)
 INSTANCE(space_fluid, 3, false, false)
 INSTANCE(space_solid, 3, true, false)
 
-#define JOIN(a, b) a##b
-#define NAME_OF(isa) JOIN(muscl_loop_run_, isa)
-
-void NAME_OF(BOLIDE_ISA)(const struct muscl_loop *loop, int32_t begin, int32_t end);
-
-void NAME_OF(BOLIDE_ISA)(const struct muscl_loop *loop, int32_t begin, int32_t end)
+ISA_KERNEL(void, muscl_loop_run, const struct muscl_loop *loop, int32_t begin, int32_t end)
 {
     typedef void instance(const struct muscl_loop *, int32_t, int32_t);
     enum { DEEP = 3 }; /* behind the dimensions */

@@ -3,6 +3,8 @@
  * Contact terms are (1.20)-(1.37) of Parshikov (2013), with velocity and traction split into the part along the
  * pair and the part across it; how rows become lanes is lanes.h. */
 #include "sph/pair_kernel.h"
+
+#include "base/isa.h"
 #include "riemann/dukowicz.h"
 #include "riemann/exact_gas.h"
 #include "sph/kernel.h"
@@ -358,12 +360,7 @@ TURN_INSTANCES(plane_solid, 2, false)
 TURN_INSTANCES(deep_solid, 2, true)
 TURN_INSTANCES(space_solid, 3, false)
 
-#define JOIN(a, b) a##b
-#define NAME_OF(isa) JOIN(pair_loop_run_, isa)
-
-void NAME_OF(BOLIDE_ISA)(const struct pair_loop *loop, int32_t begin, int32_t end);
-
-void NAME_OF(BOLIDE_ISA)(const struct pair_loop *loop, int32_t begin, int32_t end)
+ISA_KERNEL(void, pair_loop_run, const struct pair_loop *loop, int32_t begin, int32_t end)
 {
     typedef void instance(const struct pair_loop *, int32_t, int32_t);
 #define STARS(medium, gas)                                                                  \

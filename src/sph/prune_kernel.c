@@ -1,4 +1,5 @@
 /* Finding near rows for one instruction set, named by BOLIDE_ISA; see prune.h. */
+#include "base/isa.h"
 #include "base/vector.h"
 #include "sph/lanes.h"
 #include "sph/prune.h"
@@ -20,12 +21,8 @@ INLINE uint32_t prune_row(const struct prune_loop *loop, struct lane_records rec
     return found;
 }
 
-#define JOIN(a, b) a##b
-#define NAME_OF(isa) JOIN(prune_loop_run_, isa)
-
-void NAME_OF(BOLIDE_ISA)(const struct prune_loop *loop, const struct block *block, int64_t room);
-
-void NAME_OF(BOLIDE_ISA)(const struct prune_loop *loop, const struct block *block, int64_t room)
+ISA_KERNEL(void, prune_loop_run, const struct prune_loop *loop, const struct block *block,
+           int32_t b)
 {
     const struct lane_records records = {loop->record,
                                          loop->stride,
@@ -34,7 +31,11 @@ void NAME_OF(BOLIDE_ISA)(const struct prune_loop *loop, const struct block *bloc
                                          loop->smoothing * (1.0 + loop->neighbours->near_skin),
                                          loop->place};
     const struct neighbours *n = loop->neighbours;
-    for (int32_t i = block->first; i < block->first + block->count; i++) {
+    const struct block *own = &block[b];
+    if (!n->prune)
+        return;
+    int64_t room = n->near_block[b];
+    for (int32_t i = own->first; i < own->first + own->count; i++) {
         uint32_t count = prune_row(loop, records, i, n->near_entry + room);
         n->near_row[i] = (struct near_row){room, count};
         room += count;
