@@ -52,9 +52,9 @@ BOLIDE_INLINE struct motion batch_motion(const struct batch *b, int k)
 {
     struct motion motion = {.dt = b->dt,
                             .density = b->new_density[k],
-                            .viscous_pressure = b->viscous_pressure[k],
                             .strain_rate = batch_tensor(b->strain_rate, k),
-                            .spin = vec3_make(b->spin[0][k], b->spin[1][k], b->spin[2][k])};
+                            .spin = vec3_make(b->spin[0][k], b->spin[1][k], b->spin[2][k]),
+                            .viscous_pressure = b->viscous_pressure[k]};
     return motion;
 }
 

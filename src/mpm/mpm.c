@@ -4,12 +4,9 @@
  * of the scheme. Source: Cui, dissertation (2014), section 2.3. */
 #include "mpm/mpm.h"
 
+#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
-
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -326,15 +323,6 @@ static void find_velocities(struct mpm *mpm, struct simulation *simulation, doub
     simulation_spend(simulation, "velocities", clock_seconds() - begin);
 }
 
-static int thread_number(void)
-{
-#ifdef _OPENMP
-    return omp_get_thread_num();
-#else
-    return 0;
-#endif
-}
-
 /* New states of all particles of a layer from nodal velocities: those of the second field or, with OF_MAIN, of the first.
  * *FAILED becomes the one with the smallest id whose state is impossible, if that is smaller than the one that was there. */
 static void find_states(struct mpm *mpm, struct simulation *simulation, struct layer *layer,
@@ -347,7 +335,7 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
         return;
 #pragma omp parallel num_threads(simulation->threads)
     {
-        double *rate = mpm->rate[thread_number()];
+        double *rate = mpm->rate[omp_get_thread_num()];
         int32_t own = -1;
 #pragma omp for schedule(dynamic, 4)
         for (int32_t b = 0; b < layer->bins.count; b++) {
@@ -468,7 +456,8 @@ static double mpm_bytes(const void *parameters, int dimension)
     grid_start(&grid, dimension, shape_reach((enum grid_shape)of->shape));
     const double numbers = (NODE_STRIDE + BACK_STRIDE) * (double)(BLOCK_CELLS + grid.patch);
     const double particles = BLOCK_CELLS * pow(2.0, dimension);
-    return fields + sizeof(int32_t) + 2.0 + numbers * sizeof(double) / particles;
+    return fields + (double)particles_sort_bytes() + sizeof(int32_t) + 2.0 +
+           numbers * sizeof(double) / particles;
 }
 
 static double mpm_step(const void *parameters, int dimension, const struct material *material,

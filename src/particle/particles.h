@@ -101,6 +101,9 @@ struct error *particles_commit(struct particles *particles);
  * (64, 8 x 8, 4 x 4 x 4) of the global grid, whose origin is the origin of space. */
 struct error *particles_sort(struct particles *particles);
 
+/* What that needs for a while, bytes a particle of the scratch. */
+size_t particles_sort_bytes(void);
+
 /* Stores the particles in the order of LIST instead, which has found all of their BLOCKS. */
 struct error *particles_arrange(struct particles *particles, const int32_t *list,
                                 const struct block *block, int32_t blocks);

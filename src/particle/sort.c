@@ -204,12 +204,14 @@ static void move_fields(struct particles *p, const struct sorting *s)
     }
 }
 
+size_t particles_sort_bytes(void) { return 2 * sizeof(struct keyed) + SLICE; }
+
 struct error *particles_sort(struct particles *particles)
 {
     struct sorting s;
     const size_t count = (size_t)particles->count;
     particles->order++;
-    if (!scratch_begin(&particles->scratch, count * (2 * sizeof *s.entry + SLICE)))
+    if (!scratch_begin(&particles->scratch, count * particles_sort_bytes()))
         return error_new(ERROR_SYSTEM, "out of memory while sorting %d particles",
                          particles->count);
     s.entry = scratch_part(&particles->scratch, count * sizeof *s.entry);
