@@ -154,4 +154,13 @@ static inline uint64_t hash_after(const char *text, const struct variant *first,
     return hash;
 }
 
+/* Every particle of BODY has the velocity (X, Y). */
+static inline void assert_velocity(const struct running *run, int body, double x, double y)
+{
+    const struct particles *p = &run->simulation.particles;
+    for (int32_t i = 0; i < p->count; i++)
+        if (p->body[i] == body)
+            assert_true(p->velocity[i][0] == x && p->velocity[i][1] == y);
+}
+
 #endif

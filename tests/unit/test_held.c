@@ -26,14 +26,6 @@ static const struct variant by_contact = {"moved by contacts", 1, 1.0, "solver.s
 static const struct variant of_second_order = {"second order", 1, 1.0, "solver.sph.method=muscl",
                                                false};
 
-static void assert_velocity(const struct running *run, int body, double x, double y)
-{
-    const struct particles *p = &run->simulation.particles;
-    for (int32_t i = 0; i < p->count; i++)
-        if (p->body[i] == body)
-            assert_true(p->velocity[i][0] == x && p->velocity[i][1] == y);
-}
-
 static void assert_closed(const struct running *run, const struct totals *start)
 {
     const struct particles *p = &run->simulation.particles;

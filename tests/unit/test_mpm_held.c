@@ -43,14 +43,6 @@ static const char mixed[] =
 
 static const struct variant plain = {"plain", 1, 1.0, NULL, false};
 
-static void assert_velocity(const struct running *run, int body, double x, double y)
-{
-    const struct particles *p = &run->simulation.particles;
-    for (int32_t i = 0; i < p->count; i++)
-        if (p->body[i] == body)
-            assert_true(p->velocity[i][0] == x && p->velocity[i][1] == y);
-}
-
 static void assert_closed(const struct running *run, const struct totals *start)
 {
     const struct particles *p = &run->simulation.particles;
