@@ -164,7 +164,8 @@ struct convergence_input {
 
 /* sweep: {U0: [500 m/s, 1 km/s]}: one value that a run of the sweep, or of a study, takes. */
 struct sweep_value {
-    char *key, *text;         /* as they stand in the case */
+    int entry;        /* of the sweep, from 0; values of keys that change together share it */
+    char *key, *text; /* as they stand in the case */
     struct quantity quantity; /* what the text comes to; value NAN: it is no quantity */
 };
 

@@ -21,6 +21,7 @@ const struct parameter case_shaping_table[] = {
     {.key = "sweep",
      .kind = PARAMETER_MAP,
      .standard = PARAMETER_OPTIONAL,
-     .help = "names of let, or paths, each with the values to run with: {speed: [1 km/s, 2 km/s]}"},
+     .help = "names of let, or paths, each with the values to run with: {speed: [1 km/s, 2 km/s]}; "
+             "those that change together in a map: {gas: {gamma: [1.4, 3], front: [2 mm, 3 mm]}}"},
     PARAMETER_END,
 };

@@ -55,21 +55,31 @@ static struct error *check_values(const struct node *list, const char *told)
     return error;
 }
 
-/* Which value of ENTRY, the entry at INDEX of SWEEP, RUN takes: the last entry changes fastest. */
-static const struct node *value_of(const struct node *sweep, int index, int run)
+/* The lists of an entry of a sweep: its own, or those of the map of keys that change together. */
+static int lists_of(const struct node *entry) { return entry->kind == NODE_MAP ? entry->count : 1; }
+
+static const struct node *list_of(const struct node *entry, int k)
+{
+    return entry->kind == NODE_MAP ? entry->child[k] : entry;
+}
+
+static int values_of(const struct node *entry) { return list_of(entry, 0)->count; }
+
+/* Which of the values of the entry at INDEX of SWEEP RUN takes: the last entry changes fastest. */
+static int choice_of(const struct node *sweep, int index, int run)
 {
     int runs_below = 1;
     for (int i = index + 1; i < sweep->count; i++)
-        runs_below *= sweep->child[i]->count;
-    const struct node *entry = sweep->child[index];
-    return entry->child[(run - 1) / runs_below % entry->count];
+        runs_below *= values_of(sweep->child[i]);
+    return (run - 1) / runs_below % values_of(sweep->child[index]);
 }
 
 /* Puts a copy of VALUE, which keeps its place in the file, at PATH. */
-static struct error *take_value(struct simulation_case *input, const char *key, const char *path,
-                                const struct node *value)
+static struct error *take_value(struct simulation_case *input, int entry, const char *key,
+                                const char *path, const struct node *value)
 {
     struct sweep_value *taken = &input->sweep[input->sweep_values++];
+    taken->entry = entry;
     taken->key = text_copy(key);
     taken->text = text_copy(value->text);
     taken->quantity.value = NAN;
@@ -85,13 +95,30 @@ static struct error *take_value(struct simulation_case *input, const char *key, 
     return error;
 }
 
-static struct error *check_entry(const struct document *document, const struct node *entry)
+static struct error *check_list(const struct document *document, const struct node *list)
 {
     char *path, told[512];
-    snprintf(told, sizeof told, "%s.%s", sweep_key, entry->key);
-    struct error *error = find_target(document, entry->key, entry->key_place, told, &path);
+    snprintf(told, sizeof told, "%s.%s", sweep_key, list->key);
+    struct error *error = find_target(document, list->key, list->key_place, told, &path);
     free(path);
-    return error_join(error, check_values(entry, told));
+    return error_join(error, check_values(list, told));
+}
+
+static struct error *check_entry(const struct document *document, const struct node *entry)
+{
+    struct error *error = NULL;
+    if (lists_of(entry) == 0)
+        return place_error(node_place(entry), sweep_key, "\"%s\" names no lists of values",
+                           entry->key);
+    for (int k = 0; k < lists_of(entry); k++)
+        error = error_join(error, check_list(document, list_of(entry, k)));
+    for (int k = 1; k < lists_of(entry) && !error; k++)
+        if (list_of(entry, k)->count != values_of(entry))
+            error = place_error(node_place(list_of(entry, k)), sweep_key,
+                                "\"%s\" and \"%s\" change together: %d values are wanted, not %d",
+                                list_of(entry, 0)->key, list_of(entry, k)->key, values_of(entry),
+                                list_of(entry, k)->count);
+    return error;
 }
 
 static struct error *check_entries(struct simulation_case *input, const struct node *sweep)
@@ -99,8 +126,9 @@ static struct error *check_entries(struct simulation_case *input, const struct n
     struct error *error = NULL;
     double runs = 1.0;
     for (int i = 0; i < sweep->count; i++) {
-        error = error_join(error, check_entry(input->document, sweep->child[i]));
-        runs *= sweep->child[i]->count;
+        struct error *wrong = check_entry(input->document, sweep->child[i]);
+        runs *= wrong ? 1.0 : values_of(sweep->child[i]);
+        error = error_join(error, wrong);
     }
     if (!error && runs > SWEEP_RUNS_MAX)
         error =
@@ -109,22 +137,32 @@ static struct error *check_entries(struct simulation_case *input, const struct n
     return error;
 }
 
+/* Puts the value of choice CHOICE of LIST, of the entry ENTRY, where it belongs. */
+static struct error *take_choice(struct simulation_case *input, int entry, const struct node *list,
+                                 int choice)
+{
+    char *path = NULL;
+    struct error *error =
+        find_target(input->document, list->key, list->key_place, sweep_key, &path);
+    if (!error)
+        error = take_value(input, entry, list->key, path, list->child[choice]);
+    free(path);
+    return error;
+}
+
 static struct error *take_values(struct simulation_case *input, const struct node *sweep, int run)
 {
     struct error *error = NULL;
-    input->sweep = memory_allocate((size_t)sweep->count * sizeof *input->sweep);
+    int lists = 0;
+    for (int i = 0; i < sweep->count; i++)
+        lists += lists_of(sweep->child[i]);
+    input->sweep = memory_allocate((size_t)lists * sizeof *input->sweep);
     if (!input->sweep)
         return out_of_memory();
-    for (int i = 0; i < sweep->count; i++) {
-        const char *key = sweep->child[i]->key;
-        char *path = NULL;
-        struct error *wrong =
-            find_target(input->document, key, sweep->child[i]->key_place, sweep_key, &path);
-        if (!wrong)
-            wrong = take_value(input, key, path, value_of(sweep, i, run));
-        error = error_join(error, wrong);
-        free(path);
-    }
+    for (int i = 0; i < sweep->count; i++)
+        for (int k = 0; k < lists_of(sweep->child[i]); k++)
+            error = error_join(error, take_choice(input, i, list_of(sweep->child[i], k),
+                                                  choice_of(sweep, i, run)));
     return error;
 }
 
@@ -212,7 +250,7 @@ static struct error *take_multiple(struct simulation_case *input, double factor)
     struct node value = {.kind = NODE_SCALAR, .plain = true, .place = node->place};
     value.text = factor == 1.0 ? text_copy(node->text)
                                : text_format("%.15g mm", 1e3 * factor * resolution.value);
-    error = value.text ? take_value(input, key, key, &value) : out_of_memory();
+    error = value.text ? take_value(input, 0, key, key, &value) : out_of_memory();
     free(value.text);
     return error;
 }
@@ -232,7 +270,7 @@ struct error *case_take_study(struct simulation_case *input, const struct case_o
             if (!input->sweep)
                 error = out_of_memory();
             else if (varied.values)
-                error = take_value(input, varied.key, path, varied.values->child[run - 1]);
+                error = take_value(input, 0, varied.key, path, varied.values->child[run - 1]);
             else
                 error = take_multiple(input, standard_factors[run - 1]);
         }

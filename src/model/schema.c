@@ -407,6 +407,9 @@ static void write_thing(struct writer *w, const char *kind, const struct choice 
 /* The keys that shape a case before its table reads it; what they may be is not in any table. */
 static void write_shaping_keys(struct writer *w)
 {
+#define SWEPT                                            \
+    "{\"type\": \"array\", \"minItems\": 1, \"items\": " \
+    "{\"type\": [\"string\", \"number\", \"boolean\"], \"minLength\": 1}}"
     static const char *const schemas[][2] = {
         {"include", "\"anyOf\": [{\"type\": \"string\", \"minLength\": 1}, "
                     "{\"type\": \"array\", \"items\": {\"type\": \"string\", \"minLength\": 1}}]"},
@@ -417,9 +420,9 @@ static void write_shaping_keys(struct writer *w)
                   "{\"short\": false, \"long\": false, \"include\": false}"},
         {"long", "\"$ref\": \"#/$defs/part.case\", \"properties\": "
                  "{\"short\": false, \"long\": false, \"include\": false}"},
-        {"sweep", "\"type\": [\"object\", \"null\"], "
-                  "\"additionalProperties\": {\"type\": \"array\", \"minItems\": 1, \"items\": "
-                  "{\"type\": [\"string\", \"number\", \"boolean\"], \"minLength\": 1}}"},
+        {"sweep", "\"type\": [\"object\", \"null\"], \"additionalProperties\": {\"anyOf\": [" SWEPT
+                  ", {\"type\": \"object\", \"minProperties\": 1, "
+                  "\"additionalProperties\": " SWEPT "}]}"},
     };
     for (const struct parameter *p = case_shaping_table; !PARAMETER_IS_END(p); p++) {
         begin(w, p->key, '{');

@@ -149,7 +149,7 @@ static struct error *write_table(const char *folder, const struct verify_case *r
 struct dot {
     double x;
     const struct check_result *check;
-    int group;   /* the first run with the same swept values but for the first */
+    int group;   /* the first run with the same swept values but for the first entry's */
     char *label; /* these values */
 };
 
@@ -162,9 +162,18 @@ static int compare_dots(const void *a, const void *b)
     return (one->x > other->x) - (one->x < other->x);
 }
 
+/* The first of the values that are not the first entry's. */
+static int behind_first(const struct verify_case *run)
+{
+    int k = 0;
+    while (k < run->sweep_values && run->sweep[k].entry == 0)
+        k++;
+    return k;
+}
+
 static bool differ_in_first_only(const struct verify_case *a, const struct verify_case *b)
 {
-    for (int k = 1; k < a->sweep_values; k++)
+    for (int k = behind_first(a); k < a->sweep_values; k++)
         if (strcmp(a->sweep[k].text, b->sweep[k].text) != 0)
             return false;
     return true;
@@ -187,9 +196,9 @@ static int take_dots(const struct verify_case *runs, int count, const char *name
         const struct check_result *check = find_check(&runs[i], name);
         if (!check || !isfinite(check->measured))
             continue;
-        dots[taken++] =
-            (struct dot){ordinal ? i + 1.0 : runs[i].sweep[0].quantity.value, check,
-                         group_of(runs, i), values_text(runs[i].sweep, 1, runs[i].sweep_values)};
+        dots[taken++] = (struct dot){
+            ordinal ? i + 1.0 : runs[i].sweep[0].quantity.value, check, group_of(runs, i),
+            values_text(runs[i].sweep, behind_first(&runs[i]), runs[i].sweep_values)};
     }
     qsort(dots, (size_t)taken, sizeof *dots, compare_dots);
     return taken;

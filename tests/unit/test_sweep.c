@@ -85,6 +85,44 @@ static void the_last_key_changes_fastest(void **state)
     }
 }
 
+static void keys_that_change_together_are_one(void **state)
+{
+    (void)state;
+    static const double speeds[] = {7.0, 7.0, 8.0, 8.0}, energies[] = {1.0, 1.0, 4.0, 4.0};
+    write_case(HEAD "sweep:\n"
+                    "  cold: {speed: [7 m/s, 8 m/s], bodies.all.energy: [1 J/kg, 4 J/kg]}\n"
+                    "  resolution: [1 mm, 2 mm]\n");
+    for (int run = 1; run <= 4; run++) {
+        struct simulation_case *input = NULL;
+        assert_null(read_run(run, false, &input));
+        assert_int_equal(input->sweep_runs, 4);
+        assert_int_equal(input->sweep_values, 3);
+        assert_true(input->sweep[1].entry == 0 && input->sweep[2].entry == 1);
+        assert_true(case_body(input, 0)->velocity.at[0].constant == speeds[run - 1]);
+        assert_true(case_body(input, 0)->energy.constant == energies[run - 1]);
+        assert_true(input->resolution == (run % 2 ? 1e-3 : 2e-3));
+        case_free(input);
+    }
+}
+
+static void keys_that_change_together_have_as_many_values(void **state)
+{
+    (void)state;
+    struct simulation_case *input = NULL;
+    write_case(HEAD "sweep:\n  cold: {speed: [7 m/s, 8 m/s], resolution: [1 mm]}\n");
+    struct error *error = read_run(0, false, &input);
+    assert_non_null(error);
+    assert_string_equal(error_message(error, 0),
+                        "case.yaml:12:45: sweep: \"speed\" and \"resolution\" change together: 2 "
+                        "values are wanted, not 1");
+    error_free(error);
+    write_case(HEAD "sweep:\n  cold: {}\n");
+    error = read_run(0, false, &input);
+    assert_non_null(error);
+    assert_non_null(strstr(error_message(error, 0), "\"cold\" names no lists of values"));
+    error_free(error);
+}
+
 static void a_run_knows_its_values(void **state)
 {
     (void)state;
@@ -255,6 +293,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_last_key_changes_fastest),
+        cmocka_unit_test(keys_that_change_together_are_one),
+        cmocka_unit_test(keys_that_change_together_have_as_many_values),
         cmocka_unit_test(a_run_knows_its_values),
         cmocka_unit_test(the_short_form_has_a_sweep_of_its_own),
         cmocka_unit_test(a_mistake_stands_where_its_value_does),
