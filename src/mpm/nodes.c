@@ -8,27 +8,32 @@
 #include "base/memory.h"
 #include "mpm/mpm_internal.h"
 
+/* The wall at AT across AXIS does not lie on a plane of nodes. */
+static struct error *between_planes(const struct simulation *simulation, int axis, double at,
+                                    double edge)
+{
+    return input_error(
+        simulation->input, "walls", NULL,
+        "the wall at %c = %.9g m lies between planes of the grid: with cells of %.6g "
+        "m they are at %.9g m and %.9g m; with cells of %.6g m (cell of the solver "
+        "mpm) there is one at the wall",
+        "xyz"[axis], at, edge, floor(at / edge) * edge, ceil(at / edge) * edge,
+        fabs(at) / ceil(fabs(at / edge)));
+}
+
 struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulation)
 {
     struct error *error = NULL;
     for (int axis = 0; axis < simulation->dimension; axis++)
         for (int side = 0; side < 2; side++) {
             const double at = side ? simulation->mirrors.high[axis] : simulation->mirrors.low[axis];
-            const double index = at / mpm->edge, plane = nearbyint(index);
+            const double plane = nearbyint(at / mpm->edge);
             mpm->has_plane[axis][side] = !isnan(at);
             if (isnan(at))
                 continue;
             mpm->plane[axis][side] = (int64_t)plane;
-            if (fabs(index - plane) > 1e-6)
-                error = error_join(
-                    error,
-                    input_error(
-                        simulation->input, "walls", NULL,
-                        "the wall at %c = %.9g m lies between planes of the grid: with cells "
-                        "of %.6g m they are at %.9g m and %.9g m; with cells of %.6g m (cell "
-                        "of the solver mpm) there is one at the wall",
-                        "xyz"[axis], at, mpm -> edge, floor(index) * mpm -> edge,
-                        ceil(index) * mpm -> edge, fabs(at) / ceil(fabs(index))));
+            if (fabs(at / mpm->edge - plane) > 1e-6)
+                error = error_join(error, between_planes(simulation, axis, at, mpm->edge));
         }
     return error;
 }
