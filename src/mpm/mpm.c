@@ -42,6 +42,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     struct mpm *mpm = solver;
     mpm->parameters = mpm_settled(parameters, simulation);
     mpm->edge = mpm->parameters.cell;
+    TRY(mpm_refuse_parameters(&mpm->parameters, simulation));
     TRY(error_join(mpm_refuse(simulation),
                    error_join(mpm_note_bodies(mpm, simulation), mpm_find_planes(mpm, simulation))));
     TRY(mpm_share_layers(mpm, simulation));

@@ -91,6 +91,9 @@ void mpm_free_halo(struct mpm *mpm);
 struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
                                   const struct simulation *simulation);
 
+/* A located error where SETTLED parameters do not go together. */
+struct error *mpm_refuse_parameters(const struct mpm_parameters *settled,
+                                    const struct simulation *simulation);
 /* What the method cannot do, located in the case. */
 struct error *mpm_refuse(const struct simulation *simulation);
 /* Which bodies share a layer; those that stop change it then. */

@@ -220,6 +220,49 @@ static void a_wall_between_planes_of_the_grid_is_a_mistake(void **state)
     end(run);
 }
 
+/* A bar that sounds softly, and whose last particle is hardly beyond a node: by a hundredth of a cell. */
+static const char sounding[] =
+    "format: 1\ndimension: 1\nresolution: 1 mm\nsolver: {mpm: {cell: 2 mm}}\n" MATERIALS "bodies:\n"
+    "  bar: {material: aluminium, box: {from: [0.52 mm], to: [20.52 mm]}, velocity: "
+    "[sin(0.2*x/(1 mm))*1 "
+    "mm/s]}\n"
+    "run: {until: 1 s}\n";
+
+static void a_node_of_next_to_no_mass_is_stable(void **state)
+{
+    (void)state;
+    static const char *const settings[] = {"solver.mpm.shape=linear", "solver.mpm.transfer=apic",
+                                           "solver.mpm.transfer=tpic"};
+    for (size_t k = 0; k < COUNT_OF(settings); k++) {
+        const struct variant variant = {"", 1, 1.0, settings[k], false};
+        struct running *run = begin_fresh(sounding, &variant);
+        const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        step(run, 100);
+        const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        assert_true(now.entry[LEDGER_ENERGY] <= start.entry[LEDGER_ENERGY]);
+        end(run);
+    }
+}
+
+static void affine_transfers_want_functions_whose_slopes_do_not_jump(void **state)
+{
+    (void)state;
+    static const char *const settings[] = {"solver.mpm.transfer=apic", "solver.mpm.transfer=tpic"};
+    for (int k = 0; k < 2; k++) {
+        const struct variant variant = {"", 1, 1.0, settings[k], false};
+        struct running *run = open_case(sounding, &variant);
+        struct mpm_parameters parameters;
+        memcpy(&parameters, run->input->solver.value, sizeof parameters);
+        parameters.shape = SHAPE_LINEAR;
+        struct error *error = run->solver->create(&run->mpm, &run->simulation, &parameters);
+        assert_non_null(error);
+        assert_int_equal(error_kind(error), ERROR_INPUT);
+        assert_non_null(strstr(error_message(error, 0), "unstable with `shape: linear`"));
+        error_free(error);
+        end(run);
+    }
+}
+
 /* A block that flies at another, half a cell away. */
 static void surfaces_that_do_not_meet_are_left_alone(void **state)
 {
@@ -260,6 +303,8 @@ int main(void)
         cmocka_unit_test(a_gas_at_rest_between_walls_stays_at_rest),
         cmocka_unit_test(a_gas_at_rest_about_the_axis_stays_at_rest),
         cmocka_unit_test(a_wall_between_planes_of_the_grid_is_a_mistake),
+        cmocka_unit_test(a_node_of_next_to_no_mass_is_stable),
+        cmocka_unit_test(affine_transfers_want_functions_whose_slopes_do_not_jump),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
