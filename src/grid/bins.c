@@ -29,11 +29,15 @@ static struct error *out_of_memory(const struct binned *p)
     return error_new(ERROR_SYSTEM, "out of memory for the cells of %d particles", p->count);
 }
 
+int64_t bins_reach(int dimension)
+{
+    return (int64_t)block_cells(dimension) * (BLOCK_MIDDLE - 2) - 1;
+}
+
 /* The index of the cell along AXIS. */
 static inline int64_t cell_along(const struct binned *p, int axis, double x)
 {
-    const int64_t limit = (int64_t)block_cells(p->dimension) * (BLOCK_MIDDLE - 2);
-    int64_t index = cell_index(x, p->edge, limit);
+    int64_t index = cell_index(x, p->edge, bins_reach(p->dimension) + 1);
     index = index < p->low[axis] ? p->low[axis] : index;
     return index > p->high[axis] ? p->high[axis] : index;
 }
@@ -89,15 +93,16 @@ static int64_t count_moved(struct bins *bins, const struct binned *p, int thread
 static struct error *place_stray(struct bins *bins, const struct binned *p, int32_t i,
                                  struct stray *stray)
 {
-    const int64_t cells = block_cells(p->dimension), limit = cells * (BLOCK_MIDDLE - 2) - 1;
+    const int64_t cells = block_cells(p->dimension), limit = bins_reach(p->dimension);
     int64_t at[3] = {0, 0, 0}, cell = 0;
     for (int axis = 0; axis < p->dimension; axis++) {
         int64_t index = cell_along(p, axis, p->position[i][axis]);
         if (!(index > -limit) || index >= limit)
             return error_new(ERROR_STATE,
-                             "particle %llu at (%.6g, %.6g, %.6g) m is too far away for the grid",
+                             "particle %llu at (%.6g, %.6g, %.6g) m is beyond the grid: with cells "
+                             "of %.6g m it reaches %.6g m from zero",
                              (unsigned long long)p->id[i], p->position[i][0], p->position[i][1],
-                             p->position[i][2]);
+                             p->position[i][2], p->edge, p->edge * (double)limit);
         at[axis] = block_of_cell(index, cells);
         cell = cell * cells + index - at[axis] * cells;
     }

@@ -32,6 +32,9 @@ struct binned {
     const uint16_t *body;
 };
 
+/* Cells and planes between them have indices within this distance from zero. */
+int64_t bins_reach(int dimension);
+
 struct stray;
 struct candidate;
 

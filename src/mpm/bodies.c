@@ -1,26 +1,10 @@
-/* What the material point method takes from the bodies of a case, and what it refuses; gravity in the ledger. */
+/* What the material point method takes from the bodies of a case; gravity in the ledger. */
 #include <string.h>
 
 #include "base/memory.h"
 #include "model/generate.h"
 #include "model/held.h"
 #include "mpm/mpm_internal.h"
-
-struct error *mpm_refuse(const struct simulation *simulation)
-{
-    const struct simulation_case *input = simulation->input;
-    struct error *error = NULL;
-    if (simulation->geometry == GEOMETRY_PLANE_STRESS)
-        error = input_error(input, "geometry", NULL, "the solver mpm knows no plane stress");
-    for (int c = 0; c < input->contacts.count; c++)
-        for (int side = 0; side < 2; side++)
-            if (case_body(input, case_contact(input, c)->body[side])->frozen)
-                error = error_join(
-                    error,
-                    input_error(input, "contacts", input->contacts.names[c],
-                                "by the solver mpm a frozen body sticks to what it touches"));
-    return error;
-}
 
 /* The layer of a contact group for bodies that are HELD or not, a frozen one's own; it becomes one if there is none yet.
  * BIN_GROUPS when there are too many. */
@@ -90,9 +74,13 @@ void mpm_move_held(struct simulation *simulation, double dt)
     if (!any_body(simulation, body_is_held))
         return;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < p->count; i++)
-        for (int k = 0; k < simulation->dimension && body_is_held(simulation, p->body[i]); k++)
+    for (int32_t i = 0; i < p->count; i++) {
+        if (!body_is_held(simulation, p->body[i]))
+            continue;
+        for (int k = 0; k < simulation->dimension; k++)
             p->position[i][k] += dt * p->velocity[i][k];
+        mpm_keep_before_walls(simulation, p->position[i]);
+    }
 }
 
 /* The density that decides from which mass on a node's velocity counts. */

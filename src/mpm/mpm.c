@@ -42,8 +42,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     struct mpm *mpm = solver;
     mpm->parameters = mpm_settled(parameters, simulation);
     mpm->edge = mpm->parameters.cell;
-    TRY(mpm_refuse_parameters(&mpm->parameters, simulation));
-    TRY(error_join(mpm_refuse(simulation),
+    TRY(error_join(mpm_refuse(parameters, mpm->edge, simulation),
                    error_join(mpm_note_bodies(mpm, simulation), mpm_find_planes(mpm, simulation))));
     TRY(mpm_share_layers(mpm, simulation));
     start_layers(mpm, simulation);
@@ -331,8 +330,7 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
 {
     const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
     const struct particles *p = &simulation->particles;
-    const bool held = layer->held;
-    if (layer->frozen)
+    if (layer->held) /* nothing strains it; held bodies that meet would strain each other */
         return;
 #pragma omp parallel num_threads(simulation->threads)
     {
@@ -347,8 +345,8 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
                 grid_spread(&layer->grid, &layer->back, b);
                 of = grid_patch(&layer->grid, &layer->back, b);
             }
-            transfer_gradient(&transfer, b, dt, of, of_main ? NODE_STRIDE : BACK_STRIDE,
-                              move && !held, (struct rates){rate, (size_t)mpm->rate_capacity});
+            transfer_gradient(&transfer, b, dt, of, of_main ? NODE_STRIDE : BACK_STRIDE, move,
+                              (struct rates){rate, (size_t)mpm->rate_capacity});
             const int32_t found = mpm_update_points(mpm, simulation, layer, b, dt, rate);
             if (found >= 0 && (own < 0 || p->id[found] < p->id[own]))
                 own = found;

@@ -91,16 +91,16 @@ void mpm_free_halo(struct mpm *mpm);
 struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
                                   const struct simulation *simulation);
 
-/* A located error where SETTLED parameters do not go together. */
-struct error *mpm_refuse_parameters(const struct mpm_parameters *settled,
-                                    const struct simulation *simulation);
-/* What the method cannot do, located in the case. */
-struct error *mpm_refuse(const struct simulation *simulation);
+/* What the method cannot do, with parameters as they are given and cells of EDGE; located in the case. */
+struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
+                         const struct simulation *simulation);
 /* Which bodies share a layer; those that stop change it then. */
 struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulation);
 void mpm_stop_bodies(struct mpm *mpm, struct simulation *simulation);
 /* Fresh particles that carry a gradient of velocity get that of their body's velocity over their size. */
 void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulation);
+/* Neither rounding nor what holds a body takes a particle at X through a wall. */
+void mpm_keep_before_walls(const struct simulation *simulation, double x[3]);
 /* Held bodies move by their velocities in a step of DT. */
 void mpm_move_held(struct simulation *simulation, double dt);
 

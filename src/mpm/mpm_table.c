@@ -90,8 +90,8 @@ const struct parameter mpm_table[] = {
      .above = 0.0,
      .below = 1.0,
      .closed = true,
-     .help = "Q of the damping of shear modes in cells of fluid, as a viscosity 4 Q c h; at most "
-             "1/(8 K)"},
+     .help = "Q of the damping of shear modes in cells of fluid, as a viscosity 4 Q c h; stable "
+             "at 1/(8 K) and less"},
     {.key = "damping",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, damping),
@@ -124,22 +124,4 @@ struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
     if (settled.transfer != MPM_FLIP)
         settled.flip = 0.0;
     return settled;
-}
-
-/* Particles that keep a gradient keep the velocities of their nodes. A node that a single particle reaches, w cells beyond
- * another, has the mass w m and the stiffness m (c/h)^2, so that steps of more than 2 sqrt(w) h/c are unstable, in all of
- * its motion: sooner or later there is such a particle at a free surface. Other functions have less slope where they are
- * small. See M. Steffen, R. M. Kirby, M. Berzins, IJNME 76 (2008) 922, on functions whose slopes jump, and the choice of
- * C. Jiang et al., The material point method for simulating continuum materials, SIGGRAPH 2016 Courses. */
-struct error *mpm_refuse_parameters(const struct mpm_parameters *settled,
-                                    const struct simulation *simulation)
-{
-    if (settled->transfer == MPM_FLIP || settled->shape != SHAPE_LINEAR)
-        return NULL;
-    return input_error(
-        simulation->input, "solver", "mpm.transfer",
-        "%s is unstable with `shape: linear`: a particle that keeps a gradient hands "
-        "on the velocity of nodes that it hardly reaches; quadratic, cubic and gimp "
-        "go with it",
-        transfer_names[settled->transfer]);
 }

@@ -3,22 +3,35 @@
  * A wall lies on a plane of nodes, where the normal velocity is zero. Shape functions that reach beyond it do as if the
  * particles had images behind it: what a node behind the wall gets is added, mirrored, to the node that it is the image
  * of, and both then have the same velocity, mirrored. */
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "mpm/mpm_internal.h"
 
 /* The wall at AT across AXIS does not lie on a plane of nodes. */
-static struct error *between_planes(const struct simulation *simulation, int axis, double at,
-                                    double edge)
+static struct error *between_planes(const struct simulation_case *input, int axis, bool high,
+                                    double at, double edge)
 {
-    return input_error(
-        simulation->input, "walls", NULL,
-        "the wall at %c = %.9g m lies between planes of the grid: with cells of %.6g "
-        "m they are at %.9g m and %.9g m; with cells of %.6g m (cell of the solver "
-        "mpm) there is one at the wall",
-        "xyz"[axis], at, edge, floor(at / edge) * edge, ceil(at / edge) * edge,
-        fabs(at) / ceil(fabs(at / edge)));
+    const double below = floor(at / edge) * edge, above = ceil(at / edge) * edge;
+    const double cells = maximum(1.0, nearbyint(fabs(at / edge)));
+    const double reach = edge * (double)bins_reach((int)input->dimension);
+    char key[128] = "", advice[96] = "";
+    for (int i = 0; i < input->walls.count; i++)
+        if (case_wall(input, i)->axis == axis && (case_wall(input, i)->side == WALL_HIGH) == high)
+            snprintf(key, sizeof key, "%.120s.at", input->walls.names[i]);
+    if (!(fabs(at) < reach))
+        return input_error(input, "walls", key,
+                           "%.6g m is beyond the grid of the solver mpm: with cells of %.6g m it "
+                           "reaches %.6g m from zero",
+                           at, edge, reach);
+    if (fabs(at) / cells > input->resolution * (1.0 - 1e-6))
+        snprintf(advice, sizeof advice, "; with `cell: %.9g m/%.0f` there is one at the wall",
+                 fabs(at), cells);
+    return input_error(input, "walls", key,
+                       "%.9g m lies between planes of the grid of the solver mpm: with cells of "
+                       "%.6g m they are at %.9g m and %.9g m%s",
+                       at, edge, below + 0.0, above + 0.0 /* no -0 */, advice);
 }
 
 struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulation)
@@ -27,13 +40,16 @@ struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulati
     for (int axis = 0; axis < simulation->dimension; axis++)
         for (int side = 0; side < 2; side++) {
             const double at = side ? simulation->mirrors.high[axis] : simulation->mirrors.low[axis];
-            const double plane = nearbyint(at / mpm->edge);
+            const double index = at / mpm->edge, plane = nearbyint(index);
             mpm->has_plane[axis][side] = !isnan(at);
             if (isnan(at))
                 continue;
-            mpm->plane[axis][side] = (int64_t)plane;
-            if (fabs(at / mpm->edge - plane) > 1e-6)
-                error = error_join(error, between_planes(simulation, axis, at, mpm->edge));
+            if (fabs(index - plane) <= 1e-6 &&
+                fabs(plane) < (double)bins_reach(simulation->dimension))
+                mpm->plane[axis][side] = (int64_t)plane;
+            else
+                error = error_join(
+                    error, between_planes(simulation->input, axis, side == 1, at, mpm->edge));
         }
     return error;
 }

@@ -64,8 +64,7 @@ static void update_point(const struct point_loop *loop, const struct simulation 
     s[5] = point.deviator.zx;
 }
 
-/* Rounding must not take a particle through a wall. */
-static void keep_before_walls(const struct simulation *simulation, double x[3])
+void mpm_keep_before_walls(const struct simulation *simulation, double x[3])
 {
     for (int axis = 0; axis < simulation->dimension; axis++) {
         const double low = simulation->mirrors.low[axis], high = simulation->mirrors.high[axis];
@@ -135,9 +134,9 @@ int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
     const int32_t count = layer->bins.bin[bin].cell[BLOCK_CELLS];
     bool possible = true;
     int32_t impossible = -1;
-    if (simulation->input->walls.count > 0)
+    if (simulation->input->walls.count > 0 || simulation->geometry == GEOMETRY_AXISYMMETRIC)
         for (int32_t k = 0; k < count; k++)
-            keep_before_walls(simulation, p->position[list[k]]);
+            mpm_keep_before_walls(simulation, p->position[list[k]]);
     for (int32_t begin = 0, end; begin < count; begin = end) {
         const uint16_t material = p->material[list[begin]];
         for (end = begin + 1; end < count && p->material[list[end]] == material;)

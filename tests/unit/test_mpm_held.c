@@ -102,6 +102,29 @@ static void a_driven_body_moves_by_its_velocity(void **state)
     end(run);
 }
 
+static void held_bodies_that_meet_do_not_strain_each_other(void **state)
+{
+    (void)state;
+    static const char die[] =
+        "format: 1\ndimension: 2\nresolution: 1 mm\nsolver: mpm\n"
+        "materials:\n" METAL "bodies:\n"
+        "  die: {material: metal, box: {from: [0 mm, 0 mm], to: [12 mm, 4 mm]}, stop: 0 s}\n"
+        "  piston: {material: metal, box: {from: [0 mm, 4 mm], to: [6 mm, 10 mm]}, driven: yes, "
+        "velocity: [500 m/s, -100 m/s]}\n"
+        "walls: {end: {mirror: x, at: 12 mm, side: high}}\n"
+        "run: {until: 1 s}\n";
+    struct running *run = begin_fresh(die, &plain);
+    const struct particles *p = &run->simulation.particles;
+    while (run->simulation.time < 20e-6) /* the piston has come to the wall */
+        step(run, 1);
+    for (int32_t i = 0; i < p->count; i++) {
+        assert_true(p->density[i] == 2700.0 && p->energy[i] == 0.0);
+        assert_true(p->position[i][0] <= 12e-3);
+    }
+    assert_velocity(run, 1, 500.0, -100.0);
+    end(run);
+}
+
 static void frozen_bodies_keep_their_state(void **state)
 {
     (void)state;
@@ -165,6 +188,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_piston_keeps_its_velocity_until_it_stops),
         cmocka_unit_test(a_driven_body_moves_by_its_velocity),
+        cmocka_unit_test(held_bodies_that_meet_do_not_strain_each_other),
         cmocka_unit_test(frozen_bodies_keep_their_state),
         cmocka_unit_test(waves_run_out_of_frozen_ends),
         cmocka_unit_test(bits_do_not_depend_on_threads_storage_or_a_resume),

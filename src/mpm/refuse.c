@@ -1,0 +1,74 @@
+/* What of a case the material point method cannot do, told where it stands in the case. */
+#include "model/shape.h"
+#include "mpm/mpm_internal.h"
+
+/* Particles that keep a gradient keep the velocities of their nodes. A node that a single particle reaches, w cells beyond
+ * another, has the mass w m and the stiffness m (c/h)^2, so that steps of more than 2 sqrt(w) h/c are unstable, in all of
+ * its motion: sooner or later there is such a particle at a free surface. Other functions have less slope where they are
+ * small. See M. Steffen, R. M. Kirby, M. Berzins, IJNME 76 (2008) 922, on functions whose slopes jump, and the choice of
+ * C. Jiang et al., The material point method for simulating continuum materials, SIGGRAPH 2016 Courses. */
+static struct error *refuse_transfer(const struct mpm_parameters *given,
+                                     const struct simulation_case *input)
+{
+    struct error *error = NULL;
+    if (given->transfer == MPM_FLIP)
+        return NULL;
+    if (given->shape == SHAPE_LINEAR)
+        error = input_error(
+            input, "solver", "mpm.transfer",
+            "an affine transfer is unstable with `shape: linear`: a particle that keeps a gradient "
+            "hands on the velocity of nodes that it hardly reaches; quadratic, cubic and gimp go "
+            "with it");
+    if (given->flip != 1.0)
+        error = error_join(error, input_error(input, "solver", "mpm.flip",
+                                              "this belongs to `transfer: flip`: leave it out"));
+    return error;
+}
+
+static struct error *refuse_contacts(const struct simulation_case *input)
+{
+    struct error *error = NULL;
+    for (int c = 0; c < input->contacts.count; c++)
+        for (int side = 0; side < 2; side++)
+            if (case_body(input, case_contact(input, c)->body[side])->frozen)
+                error = error_join(
+                    error,
+                    input_error(input, "contacts", input->contacts.names[c],
+                                "by the solver mpm a frozen body sticks to what it touches"));
+    return error;
+}
+
+/* The indices of cells are finite. */
+static struct error *refuse_far_bodies(double edge, const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    const double reach = edge * (double)bins_reach(simulation->dimension);
+    struct error *error = NULL;
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
+        const double ends[] = {bounds.low.x,  bounds.low.y,  bounds.low.z,
+                               bounds.high.x, bounds.high.y, bounds.high.z};
+        double far = 0.0;
+        for (int k = 0; k < 6; k++)
+            far = k % 3 < simulation->dimension ? maximum(far, fabs(ends[k])) : far;
+        if (far >= reach)
+            error = error_join(error,
+                               input_error(input, "bodies", input->bodies.names[b],
+                                           "a place at %.6g m is beyond the grid of the solver "
+                                           "mpm: with cells of %.6g m it reaches %.6g m from zero",
+                                           far, edge, reach));
+    }
+    return error;
+}
+
+struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
+                         const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    struct error *error = NULL;
+    if (simulation->geometry == GEOMETRY_PLANE_STRESS)
+        error = input_error(input, "geometry", NULL, "the solver mpm knows no plane stress");
+    error = error_join(error, refuse_transfer(given, input));
+    error = error_join(error, refuse_contacts(input));
+    return error_join(error, refuse_far_bodies(edge, simulation));
+}
