@@ -277,11 +277,26 @@ static void check_lit(struct checking *checking, int body)
     case_wrong(checking, "", "nothing lights this explosive: name a place in `detonations`");
 }
 
+/* What is said of a surface must act there. */
+static void check_surface(struct checking *checking, const struct contact_input *contact)
+{
+    const bool opens = contact->tension == TENSION_NONE, slips = contact->shear == SHEAR_SLIP;
+    if (contact->friction > 0.0 && !slips)
+        case_wrong(checking, "friction", "bodies that stick have no friction: give `shear: slip`");
+    if (contact->touch == TOUCH_SURFACES && !opens)
+        case_wrong(checking, "touch", "this is for bodies that may part: give `tension: none`");
+    if (contact->normal != NORMAL_MEAN && !slips && !opens)
+        case_wrong(checking, "normal",
+                   "this is for bodies that slip or may part: give `shear: slip` or `tension: "
+                   "none`");
+}
+
 static void check_contact(struct checking *checking, int index)
 {
     struct simulation_case *input = checking->input;
     struct contact_input *contact = case_contact(input, index);
     contact->body[0] = contact->body[1] = -1;
+    check_surface(checking, contact);
     if (contact->between.count == 0 && case_is_wrong(checking, ""))
         return;
     if (contact->between.count != 2) {
@@ -434,9 +449,19 @@ static void check_map(struct checking *checking, const char *key, const struct n
     checking->name = NULL;
 }
 
+static void check_geometry(struct checking *checking)
+{
+    checking->map = "geometry";
+    if (case_dimension_known(checking) && checking->input->geometry != GEOMETRY_PLANE_STRAIN &&
+        checking->input->dimension != 2)
+        case_wrong(checking, "", "this is of two dimensions: the case has %d",
+                   (int)checking->input->dimension);
+}
+
 struct error *case_check_meaning(struct simulation_case *input)
 {
     struct checking checking = {.input = input};
+    check_geometry(&checking);
     check_map(&checking, "materials", &input->materials, check_material);
     if (input->bodies.count == 0 && !document_is_wrong(input->document, "")) {
         checking.map = "bodies";

@@ -38,6 +38,24 @@ void case_check_outflow(struct checking *checking, int index)
     case_check_axis(checking, "across", outflow->axis);
     if (input->geometry == GEOMETRY_AXISYMMETRIC && outflow->axis == 0 && outflow->side == WALL_LOW)
         case_wrong(checking, "side", "nothing flows out through the axis of symmetry");
+    for (int i = 0; i < input->walls.count; i++)
+        if (case_wall(input, i)->axis == outflow->axis &&
+            case_wall(input, i)->side == outflow->side)
+            case_wrong(checking, "side",
+                       "the wall \"%s\" closes this end: leave one of the two out",
+                       input->walls.names[i]);
+    for (int i = 0; i < index; i++) {
+        const struct outflow_input *other = case_outflow(input, i);
+        const double low = outflow->side == WALL_LOW ? outflow->at : other->at;
+        const double high = outflow->side == WALL_LOW ? other->at : outflow->at;
+        if (other->axis != outflow->axis)
+            continue;
+        if (other->side == outflow->side)
+            case_wrong(checking, "side", "\"%s\" is an outflow of this end already",
+                       input->outflows.names[i]);
+        else if (low >= high)
+            case_wrong(checking, "at", "the low outflow does not lie below the high one");
+    }
 }
 
 void case_check_load(struct checking *checking, int index)
@@ -47,6 +65,14 @@ void case_check_load(struct checking *checking, int index)
     load->body = -1;
     if (load->on)
         load->body = case_find_name(checking, &input->bodies, "body", load->on, "on");
+    if (load->body >= 0) {
+        const struct body_input *body = case_body(input, load->body);
+        if (body->driven || body->frozen || body->stop <= 0.0)
+            case_wrong(checking, "on", "this body keeps its velocity whatever pushes: `%s`",
+                       body->driven   ? "driven"
+                       : body->frozen ? "frozen"
+                                      : "stop");
+    }
     case_check_axis(checking, "axis", load->axis);
     case_check_between(checking, &load->between);
     if (case_is_wrong(checking, ""))

@@ -172,17 +172,23 @@ static double depth_at(const struct simulation_case *input, struct vec3 place)
     return input->geometry == GEOMETRY_AXISYMMETRIC ? place.x : 1.0;
 }
 
-/* The wall that PLACE lies behind, -1 for none, the number of walls for the axis of symmetry. A particle on a wall
- * would meet its own image. */
+/* The wall that PLACE lies behind, -1 for none, the number of walls for the axis of symmetry, and beyond that the
+ * outflow that it lies beyond. A particle on a wall would meet its own image. */
 static int wall_before(const struct simulation_case *input, struct vec3 place)
 {
     const double at[3] = {place.x, place.y, place.z};
-    for (int i = 0; i < input->walls.count; i++) {
+    const int walls = input->walls.count;
+    for (int i = 0; i < walls; i++) {
         const struct wall_input *wall = case_wall(input, i);
         if (wall->side == WALL_LOW ? at[wall->axis] <= wall->at : at[wall->axis] >= wall->at)
             return i;
     }
-    return depth_at(input, place) > 0.0 ? -1 : input->walls.count;
+    for (int i = 0; i < input->outflows.count; i++) {
+        const struct outflow_input *face = case_outflow(input, i);
+        if (face->side == WALL_LOW ? at[face->axis] < face->at : at[face->axis] > face->at)
+            return walls + 1 + i;
+    }
+    return depth_at(input, place) > 0.0 ? -1 : walls;
 }
 
 /* What one walk over a body found. */
@@ -190,7 +196,7 @@ struct finding {
     struct body_summary summary; /* without the diameter */
     double volume;               /* of all particles, m^dimension */
     double sound;                /* in summary.fastest */
-    int wall;                    /* that a particle lies behind, -1: none */
+    int wall;                    /* that a particle lies behind, as wall_before says */
     struct vec3 wall_place;
     int conflict;
     struct vec3 conflict_place;
@@ -262,7 +268,7 @@ static struct error *explore_body(const struct simulation_case *input, int body,
     struct error *error = walk_begin(&walk, input, body, ranks);
     int64_t site;
     struct vec3 place;
-    while (!error && walk_next(&walk, &site, &place)) {
+    while (!error && summary->particles <= INT32_MAX && walk_next(&walk, &site, &place)) {
         summary->particles++;
         finding->volume += walk.row.volume;
         explore_start(input, body, place, walk.row.volume * depth_at(input, place), finding);
@@ -283,17 +289,20 @@ static struct error *judge_body(const struct simulation_case *input, int body,
 {
     const struct finding *finding = &findings[body];
     const char *name = input->bodies.names[body];
-    const int other = finding->conflict;
+    const int other = finding->conflict, walls = input->walls.count;
     char place[PLACE_TEXT];
     struct error *error = NULL;
-    if (finding->wall == input->walls.count)
+    if (finding->wall == walls)
         error = input_error(input, "bodies", name,
                             "the particle at %s does not lie at x > 0: x is the radius",
                             place_text(input, finding->wall_place, place));
     else if (finding->wall >= 0)
-        error = input_error(input, "bodies", name, "the particle at %s lies behind wall \"%s\"",
-                            place_text(input, finding->wall_place, place),
-                            input->walls.names[finding->wall]);
+        error =
+            input_error(input, "bodies", name, "the particle at %s lies behind %s \"%s\"",
+                        place_text(input, finding->wall_place, place),
+                        finding->wall < walls ? "wall" : "outflow",
+                        finding->wall < walls ? input->walls.names[finding->wall]
+                                              : input->outflows.names[finding->wall - walls - 1]);
     if (other >= 0 && !(other < body && findings[other].conflict == body))
         error = error_join(
             error, input_error(input, "bodies", name,
@@ -331,8 +340,7 @@ static struct error *explore(const struct simulation_case *input, const struct r
     }
     if (total > INT32_MAX)
         error = error_join(error, input_error(input, "resolution", NULL,
-                                              "%lld particles on one rank, more than %d",
-                                              (long long)total, INT32_MAX));
+                                              "more than %d particles on one rank", INT32_MAX));
     return ranks_agree(ranks, error);
 }
 

@@ -124,9 +124,11 @@ struct row {
     struct range density, pressure, speed;
 };
 
+/* Of no particle there are no extremes. */
 static struct range over_ranks(const struct ranks *ranks, struct range range)
 {
-    return (struct range){ranks_minimum(ranks, range.low), ranks_maximum(ranks, range.high)};
+    const struct range all = {ranks_minimum(ranks, range.low), ranks_maximum(ranks, range.high)};
+    return all.low <= all.high ? all : (struct range){NAN, NAN};
 }
 
 static void find_extremes(const struct simulation *simulation, struct row *row)

@@ -187,7 +187,7 @@ static struct error *watch_energy(struct run *run)
     return error_new(ERROR_STATE,
                      "step %lld, t = %.6g s: the total energy has drifted by %.3g of the largest "
                      "energy of the case; "
-                     "`run.energy_drift` allows %.3g",
+                     "`run.energy_drift` allows %.3g (0: any)",
                      (long long)run->simulation.step, run->simulation.time, drift, allowed);
 }
 

@@ -1,20 +1,38 @@
 /* What acts on particles from outside, as the ledger books it: walls, the axis of symmetry, what holds bodies,
  * pistons that keep their velocity whatever pushes back, strikers that stop, and ends that keep all their state; gravity. */
+#include <stdio.h>
 #include <string.h>
 
 #include "sph/sph_internal.h"
 
+/* What of a contact only the solver mpm knows. */
+static struct error *refuse_contact(const struct simulation_case *input, int c)
+{
+    const struct contact_input *contact = case_contact(input, c);
+    const char *key = contact->friction > 0.0          ? "friction"
+                      : contact->touch != TOUCH_NODES  ? "touch"
+                      : contact->normal != NORMAL_MEAN ? "normal"
+                                                       : NULL;
+    char path[128];
+    if (!key)
+        return NULL;
+    snprintf(path, sizeof path, "%.100s.%s", input->contacts.names[c], key);
+    return input_error(input, "contacts", path,
+                       "the solver sph knows none: bodies slip or stick where they meet; use mpm");
+}
+
 struct error *sph_refuse(const struct simulation *simulation)
 {
+    static const char text[] = "the solver sph has none: use mpm";
     const struct simulation_case *input = simulation->input;
-    for (int i = 0; i < input->contacts.count; i++)
-        if (case_contact(input, i)->friction > 0.0)
-            return input_error(input, "contacts", input->contacts.names[i],
-                               "the solver sph knows no friction: bodies slip or stick");
-    if (input->outflows.count || input->loads.count)
-        return input_error(input, input->loads.count ? "loads" : "outflows", NULL,
-                           "the solver sph has none: use mpm");
-    return NULL;
+    struct error *error = NULL;
+    for (int c = 0; c < input->contacts.count; c++)
+        error = error_join(error, refuse_contact(input, c));
+    if (input->loads.count)
+        error = error_join(error, input_error(input, "loads", NULL, "%s", text));
+    if (input->outflows.count)
+        error = error_join(error, input_error(input, "outflows", NULL, "%s", text));
+    return error;
 }
 
 static struct vec3 vector_of(const double v[3]) { return vec3_make(v[0], v[1], v[2]); }

@@ -142,6 +142,24 @@ static void all_mistakes_of_a_case_come_in_one_go(void **state)
     assert_refused(&w, 3, "bodies.flyer: no particle");
 }
 
+static void a_body_beyond_an_outflow_is_refused(void **state)
+{
+    (void)state;
+    struct workshop w;
+    struct shape_box box = {VECTOR(0.0, 0.0), VECTOR(1.0, 1.0)};
+    struct outflow_input face = {.axis = 1, .side = WALL_HIGH, .at = 0.95};
+    open_workshop(&w, 2, 0.1);
+    add_body(&w, "box", &box);
+    w.input.outflows = (struct named_map){1, (char *[]){"top"}, &face};
+    const struct ranks alone = ranks_alone();
+    struct simulation simulation;
+    assert_made(&w, &alone, &simulation); /* the last row stands on the face */
+    simulation_destroy(&simulation);
+    face.at = 0.85;
+    assert_refused(&w, 1,
+                   "bodies.matrix: the particle at [0.05 m, 0.95 m] lies behind outflow \"top\"");
+}
+
 static void a_lattice_beyond_the_ids_is_refused(void **state)
 {
     (void)state;
@@ -175,6 +193,7 @@ int main(void)
         cmocka_unit_test(an_overlap_without_replacement_is_told_once),
         cmocka_unit_test(bodies_that_touch_do_not_overlap),
         cmocka_unit_test(all_mistakes_of_a_case_come_in_one_go),
+        cmocka_unit_test(a_body_beyond_an_outflow_is_refused),
         cmocka_unit_test(a_lattice_beyond_the_ids_is_refused),
         cmocka_unit_test(the_slices_of_three_ranks_make_the_particles_of_one),
     };
