@@ -215,7 +215,7 @@ static void a_wall_between_planes_of_the_grid_is_a_mistake(void **state)
     assert_non_null(error);
     assert_int_equal(error_kind(error), ERROR_INPUT);
     assert_non_null(strstr(error_message(error, 0), "walls"));
-    assert_non_null(strstr(error_message(error, 0), "-0.002 m and -0 m"));
+    assert_non_null(strstr(error_message(error, 0), "-0.002 m and 0 m"));
     error_free(error);
     end(run);
 }
