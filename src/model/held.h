@@ -1,4 +1,4 @@
-/* Bodies that something outside holds: pistons that keep their velocity whatever pushes back (`driven`), strikers that stop
+/* Bodies that something outside holds, and the loop over their particles: pistons that keep their velocity whatever pushes back (`driven`), strikers that stop
  * (`stop`), and ends that keep all of their state (`frozen`). */
 #ifndef BOLIDE_HELD_H
 #define BOLIDE_HELD_H
@@ -10,8 +10,22 @@ bool body_stands(const struct simulation *simulation, int body);
 bool body_is_frozen(const struct simulation *simulation, int body);
 bool body_is_held(const struct simulation *simulation, int body);
 
+/* Whether gravity pulls BODY: that of the case does, and nothing holds it. */
+bool body_is_heavy(const struct simulation *simulation, int body);
+
 /* Whether IS holds for any body. */
 bool any_body(const struct simulation *simulation, bool (*is)(const struct simulation *, int));
+
+BOLIDE_INLINE struct vec3 vector_at(const double v[3]) { return vec3_make(v[0], v[1], v[2]); }
+
+/* What happens to particle I, and is booked. */
+typedef void particle_act(struct simulation *simulation, const void *of, int32_t i,
+                          struct ledger *ledger);
+
+/* Calls ACT with OF for every particle whose body IS says so of, or for all where that is NULL, on all threads; what they
+ * book joins the ledger. */
+void act_on_particles(struct simulation *simulation, bool (*is)(const struct simulation *, int),
+                      particle_act *act, const void *of);
 
 /* Brings bodies to rest whose time has come, and books what that takes. */
 void stop_bodies(struct simulation *simulation);

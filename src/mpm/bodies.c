@@ -125,29 +125,26 @@ struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulati
     return error;
 }
 
+/* A part of a step. */
+struct weight {
+    double dt;
+    bool begin;
+};
+
 /* Work goes with the mean velocity of the step, so that free fall keeps its energy to rounding. */
-void mpm_book_gravity(struct simulation *simulation, double dt, bool begin)
+static void book_weight(struct simulation *simulation, const void *of, int32_t i,
+                        struct ledger *ledger)
 {
     const struct particles *p = &simulation->particles;
-    const double *g = simulation->gravity;
-    if (!simulation_has_gravity(simulation))
-        return;
-#pragma omp parallel num_threads(simulation->threads)
-    {
-        struct ledger own = {0};
-#pragma omp for schedule(static)
-        for (int32_t i = 0; i < p->count; i++) {
-            const double *x = p->position[i], *u = p->velocity[i];
-            if (body_is_held(simulation, p->body[i]))
-                continue;
-            const struct vec3 impulse = vec3_scale(dt * p->mass[i], vec3_make(g[0], g[1], g[2]));
-            const double work = 0.5 * vec3_dot(impulse, vec3_make(u[0], u[1], u[2]));
-            ledger_book(&own, LEDGER_GRAVITY, 0.0, begin ? impulse : vec3_make(0.0, 0.0, 0.0),
-                        vec3_make(x[0], x[1], x[2]), work);
-        }
-#pragma omp critical(bolide_mpm_gravity)
-        ledger_join(&simulation->ledger, &own);
-    }
+    const struct weight *weight = of;
+    const struct vec3 impulse = vec3_scale(weight->dt * p->mass[i], vector_at(simulation->gravity));
+    ledger_book(ledger, LEDGER_GRAVITY, 0.0, weight->begin ? impulse : vec3_make(0.0, 0.0, 0.0),
+                vector_at(p->position[i]), 0.5 * vec3_dot(impulse, vector_at(p->velocity[i])));
+}
+
+void mpm_book_gravity(struct simulation *simulation, double dt, bool begin)
+{
+    act_on_particles(simulation, body_is_heavy, book_weight, &(struct weight){dt, begin});
 }
 
 void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulation)
