@@ -185,7 +185,8 @@ static int wall_before(const struct simulation_case *input, struct vec3 place)
     }
     for (int i = 0; i < input->outflows.count; i++) {
         const struct outflow_input *face = case_outflow(input, i);
-        if (face->side == WALL_LOW ? at[face->axis] < face->at : at[face->axis] > face->at)
+        const double beyond = at[face->axis] - face->at;
+        if ((face->side == WALL_LOW ? -beyond : beyond) > 1e-9 * input->resolution)
             return walls + 1 + i;
     }
     return depth_at(input, place) > 0.0 ? -1 : walls;

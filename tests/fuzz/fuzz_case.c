@@ -1,6 +1,7 @@
 /* The reader of cases under libFuzzer: whatever the bytes, it returns a case or an error and gives all
  * memory back. What stands behind a first zero byte is a setting as of --set. A case that is right is
- * read again as a run of its sweep, and as the program would write it, which must be right too. */
+ * looked at as a run does before it makes particles, and read again as a run of its sweep, and as the
+ * program would write it, which must be right too. */
 #define _GNU_SOURCE /* memfd_create */
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +10,7 @@
 
 #include "model/case.h"
 #include "run/catalogue.h"
+#include "run/run.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -22,6 +24,14 @@ static void insist(bool holds, const char *what)
     abort();
 }
 
+/* Every message of an error says something. */
+static void look_at(struct error *error)
+{
+    for (int i = 0; error && i < error_count(error); i++)
+        insist(error_message(error, i)[0], "an empty message");
+    error_free(error);
+}
+
 /* Reads the file behind DESCRIPTOR; NULL when it is no case. */
 static struct simulation_case *read_case(int descriptor, struct case_options options, bool must_be)
 {
@@ -32,11 +42,8 @@ static struct simulation_case *read_case(int descriptor, struct case_options opt
     struct simulation_case *input = NULL;
     struct error *error = case_read(path, &options, &bolide_catalogue, &input);
     insist(!error == !!input, "neither a case nor an error, or both");
-    for (int i = 0; error && i < error_count(error); i++) {
-        insist(error_message(error, i)[0], "an empty message");
-        insist(!must_be, error_message(error, i));
-    }
-    error_free(error);
+    insist(!must_be || !error, error ? error_message(error, 0) : "");
+    look_at(error);
     return input;
 }
 
@@ -66,6 +73,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     insist(write(descriptor, data, length) == (ssize_t)length, "no file in memory");
     struct simulation_case *input = read_case(descriptor, options, false);
     if (input) {
+        look_at(run_foresee(input));
         read_as_written(input);
         options.sweep_run = input->sweep_runs;
         if (options.sweep_run)
