@@ -49,19 +49,30 @@ static void find_normals(const struct mpm *mpm, const struct simulation *simulat
     mpm_fold_vectors(mpm, layer, &layer->normal);
 }
 
-/* A half-space whose surface lies s cells beyond a node has there mass per gradient of M(s)/N(s) cells, M the integral of
- * the shape function N up to s. */
+/* Mass per gradient of it, in cells, of a half-space of particles of a SIZE that fill it up to S beyond a node. */
+static double ratio_at(enum grid_shape shape, double s, double size)
+{
+    double mass = 0.0, slope = 0.0;
+    for (double r = s - 0.5 * size; r > -SURFACE_REACH; r -= size) {
+        mass += size * shape_value(shape, r, 0.5 * size);
+        slope += size * shape_slope(shape, r, 0.5 * size);
+    }
+    return slope > 1e-9 ? mass / slope : s < 0.0 ? 0.0 : (double)INFINITY;
+}
+
+/* Particles are those of the first body of a layer. Slopes that jump from particle to particle do not tell s, so that for
+ * linear functions they are endlessly small, and it is M(s)/N(s), M the integral of the function N. */
 void mpm_note_surfaces(struct mpm *mpm)
 {
-    enum { PARTS = 64 };
     const enum grid_shape shape = (enum grid_shape)mpm->parameters.shape;
-    const double step = 2.0 * SURFACE_REACH / SURFACES / PARTS, half = mpm->half_size[0];
-    double mass = 0.0, s = -SURFACE_REACH;
-    for (int k = 0; k <= SURFACES; k++) {
-        const double value = shape_value(shape, s, half);
-        mpm->surface[k] = value > 0.0 ? mass / value : s < 0.0 ? 0.0 : (double)INFINITY;
-        for (int part = 0; part < PARTS; part++, s += step)
-            mass += step * shape_value(shape, s + 0.5 * step, half);
+    for (int g = 0; g < mpm->layers; g++) {
+        int b = 0;
+        while (mpm->layer_of_body[b] != g && mpm->layer_at_rest[b] != g)
+            b++;
+        const double size = shape == SHAPE_LINEAR ? 1.0 / 64 : 2.0 * mpm->half_size[b];
+        for (int k = 0; k <= SURFACES; k++)
+            mpm->layer[g].surface[k] =
+                ratio_at(shape, SURFACE_REACH * (2.0 * k / SURFACES - 1.0), size);
     }
 }
 
@@ -95,23 +106,24 @@ struct meeting {
     int touch;  /* enum contact_touch */
     enum held_side held;
     bool frozen;
-    const double *surface; /* of struct mpm */
     double edge;
 };
 
-/* How far the surface of a body lies beyond a node, in cells, from the mass that it has there and its gradient. */
-static double surface_beyond(const struct meeting *m, const double *node, struct vec3 gradient)
+/* How far the surface of a layer lies beyond a node, in cells, from the mass that it has there and its gradient. */
+static double surface_beyond(const struct meeting *m, const struct layer *layer, const double *node,
+                             struct vec3 gradient)
 {
     const double ratio = node[NODE_MASS] / (m->edge * sqrt(vec3_dot(gradient, gradient)));
+    const double *surface = layer->surface;
     int low = 0, high = SURFACES;
     while (high - low > 1) {
         const int middle = (low + high) / 2;
-        if (m->surface[middle] > ratio)
+        if (surface[middle] >= ratio) /* of infinite ones the least: s is no less */
             high = middle;
         else
             low = middle;
     }
-    const double part = (ratio - m->surface[low]) / (m->surface[high] - m->surface[low]);
+    const double part = (ratio - surface[low]) / (surface[high] - surface[low]);
     return SURFACE_REACH * (2.0 * (low + minimum(part, 1.0)) / SURFACES - 1.0);
 }
 
@@ -125,9 +137,10 @@ static struct vec3 normal_at(const struct meeting *m, int k)
     const struct vec3 g = m->normal == NORMAL_FIRST    ? first
                           : m->normal == NORMAL_SECOND ? turned
                                                        : vec3_add(first, turned);
-    const double *node = m->normal == NORMAL_SECOND ? grid_node(&m->b->main, m->in_b, k)
-                                                    : grid_node(&m->a->main, m->in_a, k);
-    if (m->normal != NORMAL_MEAN && surface_beyond(m, node, g) > 1.0)
+    const bool by_second = m->normal == NORMAL_SECOND;
+    const struct layer *layer = by_second ? m->b : m->a;
+    const double *node = grid_node(&layer->main, by_second ? m->in_b : m->in_a, k);
+    if (m->normal != NORMAL_MEAN && surface_beyond(m, layer, node, g) > 1.0)
         return vec3_make(0.0, 0.0, 0.0);
     const double length = sqrt(vec3_dot(g, g));
     return length > 0.0 ? vec3_scale(1.0 / length, g) : vec3_make(0.0, 0.0, 0.0);
@@ -138,8 +151,8 @@ static bool is_apart(const struct meeting *m, int k)
 {
     const double *first = grid_node(&m->a->main, m->in_a, k),
                  *second = grid_node(&m->b->main, m->in_b, k);
-    return surface_beyond(m, first, vector_at(grid_node(&m->a->normal, m->in_a, k))) +
-               surface_beyond(m, second, vector_at(grid_node(&m->b->normal, m->in_b, k))) <
+    return surface_beyond(m, m->a, first, vector_at(grid_node(&m->a->normal, m->in_a, k))) +
+               surface_beyond(m, m->b, second, vector_at(grid_node(&m->b->normal, m->in_b, k))) <
            0.0;
 }
 
@@ -295,7 +308,6 @@ static void meet_pair(struct mpm *mpm, const struct simulation *simulation, int 
                                                 : second ? HELD_SECOND
                                                          : HELD_NONE,
                                         .frozen = frozen,
-                                        .surface = mpm->surface,
                                         .edge = mpm->edge};
         if (other >= 0 && dt > 0.0)
             meet_block(&meeting, law ? mpm->least_mass : 0.0, dt);

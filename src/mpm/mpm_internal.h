@@ -14,6 +14,9 @@ struct wall_node {
     double sum[NODE_STRIDE]; /* of the particles alone, before what is behind the wall is added */
 };
 
+/* Distances of a surface from a node that are told apart, and the largest in cells. */
+enum { SURFACES = 256, SURFACE_REACH = 2 };
+
 /* The nodes of bodies that share their velocities: of all bodies where the case names no contacts and holds none, else of
  * each contact group and each way to be held. */
 struct layer {
@@ -26,6 +29,7 @@ struct layer {
     struct grid_field main, back;
     struct grid_field
         normal; /* gradient of mass, and how it touches other layers; of several layers only */
+    double surface[SURFACES + 1]; /* mass per gradient of it, of a surface so far beyond a node */
     struct wall_node *wall;
     int32_t walls;
     int64_t wall_capacity;
@@ -46,16 +50,11 @@ struct halo {
     int64_t received_capacity;
 };
 
-/* Distances of a surface from a node that are told apart, and the largest in cells. */
-enum { SURFACES = 256, SURFACE_REACH = 2 };
-
 struct mpm {
     struct mpm_parameters parameters;
     double edge;       /* of a cell, m */
     double *half_size; /* of the particles of each body, in cells */
     double *gauge;     /* of each material, Pa */
-    double surface[SURFACES +
-                   1]; /* mass per gradient of it, where a surface is so far beyond a node */
     double least_mass; /* of a node whose velocity counts in strain, kg */
     int64_t plane[3][2];
     bool has_plane[3][2]; /* node index of the low and the high wall across each axis */

@@ -292,11 +292,42 @@ static void surfaces_that_do_not_meet_are_left_alone(void **state)
     }
 }
 
+/* The same block and a plate of one particle a cell, or of two. */
+static void surfaces_meet_where_they_are_however_coarse_the_particles(void **state)
+{
+    (void)state;
+    static const char blocks[] =
+        "format: 1\ndimension: 2\nresolution: 1 mm\nsolver: {mpm: {cell: 2 mm}}\n" MATERIALS
+        "bodies:\n"
+        "  flyer: {material: aluminium, box: {from: [-9 mm, 0 mm], to: [-1 mm, 8 mm]}, velocity: "
+        "[100 m/s, 0 m/s]}\n"
+        "  plate: {material: aluminium, box: {from: [0 mm, 0 mm], to: [8 mm, 8 mm]}}\n"
+        "contacts: {faces: {between: [flyer, plate], tension: none, touch: surfaces}}\n"
+        "run: {until: 1 s}\n";
+    static const char *const settings[] = {"bodies.plate.resolution=1 mm",
+                                           "bodies.plate.resolution=2 mm",
+                                           "bodies.flyer.resolution=2 mm"};
+    for (size_t k = 0; k < COUNT_OF(settings); k++) {
+        const struct variant variant = {"", 1, 1.0, settings[k], false};
+        struct running *run = begin_fresh(blocks, &variant);
+        double moved = 0.0;
+        while (moved == 0.0) {
+            step(run, 1);
+            moved = particles_totals(&run->simulation.particles, &run->ranks, 1)
+                        .entry[LEDGER_MOMENTUM_X];
+        }
+        /* they touch at 1e-5 s; a twentieth of a cell takes 1e-6 s */
+        assert_near(run->simulation.time, 1e-5, 1e-6);
+        end(run);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_do_not_depend_on_threads_storage_or_a_resume),
         cmocka_unit_test(surfaces_that_do_not_meet_are_left_alone),
+        cmocka_unit_test(surfaces_meet_where_they_are_however_coarse_the_particles),
         cmocka_unit_test(mass_and_momentum_stay_in_contacts),
         cmocka_unit_test(mass_and_momentum_stay_but_for_what_walls_push),
         cmocka_unit_test(usf_gains_energy_and_usl_loses_more_than_musl),
