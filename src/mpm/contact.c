@@ -118,7 +118,7 @@ static double surface_beyond(const struct meeting *m, const struct layer *layer,
     int low = 0, high = SURFACES;
     while (high - low > 1) {
         const int middle = (low + high) / 2;
-        if (surface[middle] >= ratio) /* of infinite ones the least: s is no less */
+        if (surface[middle] > ratio)
             high = middle;
         else
             low = middle;
@@ -146,14 +146,17 @@ static struct vec3 normal_at(const struct meeting *m, int k)
     return length > 0.0 ? vec3_scale(1.0 / length, g) : vec3_make(0.0, 0.0, 0.0);
 }
 
-/* Whether there is room between the surfaces of two bodies at a node. */
+/* Whether there is room between the surfaces of two bodies at a node. Farther beyond it than a cell there may be no slope to
+ * tell how far. */
 static bool is_apart(const struct meeting *m, int k)
 {
     const double *first = grid_node(&m->a->main, m->in_a, k),
                  *second = grid_node(&m->b->main, m->in_b, k);
-    return surface_beyond(m, m->a, first, vector_at(grid_node(&m->a->normal, m->in_a, k))) +
-               surface_beyond(m, m->b, second, vector_at(grid_node(&m->b->normal, m->in_b, k))) <
-           0.0;
+    const double a = surface_beyond(m, m->a, first,
+                                    vector_at(grid_node(&m->a->normal, m->in_a, k))),
+                 b = surface_beyond(m, m->b, second,
+                                    vector_at(grid_node(&m->b->normal, m->in_b, k)));
+    return minimum(a, 1.0) + minimum(b, 1.0) < 0.0;
 }
 
 /* How a node of layer a touches others is a number of two bits for each of them, in the last number of its normal. */
