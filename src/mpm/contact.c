@@ -123,12 +123,14 @@ static double surface_beyond(const struct meeting *m, const struct layer *layer,
         else
             low = middle;
     }
-    const double part = (ratio - surface[low]) / (surface[high] - surface[low]);
-    return SURFACE_REACH * (2.0 * (low + minimum(part, 1.0)) / SURFACES - 1.0);
+    const double part = isinf(surface[high]) /* hardly any slope, or none */
+                            ? 1.0
+                            : (ratio - surface[low]) / (surface[high] - surface[low]);
+    return SURFACE_REACH * (2.0 * (low + part) / SURFACES - 1.0);
 }
 
-/* Out of the first body at node K, from both gradients of mass; zero where there is none. A body whose surface is more
- * than a cell beyond the node has none. */
+/* Out of the first body at node K, from both gradients of mass; zero where there is none. A body whose surface is a cell
+ * or more beyond the node has none: there may be no slope but rounding. */
 static struct vec3 normal_at(const struct meeting *m, int k)
 {
     const struct vec3 first = vector_at(grid_node(&m->a->normal, m->in_a, k)),
@@ -140,14 +142,13 @@ static struct vec3 normal_at(const struct meeting *m, int k)
     const bool by_second = m->normal == NORMAL_SECOND;
     const struct layer *layer = by_second ? m->b : m->a;
     const double *node = grid_node(&layer->main, by_second ? m->in_b : m->in_a, k);
-    if (m->normal != NORMAL_MEAN && surface_beyond(m, layer, node, g) > 1.0)
+    if (m->normal != NORMAL_MEAN && surface_beyond(m, layer, node, g) > 0.99)
         return vec3_make(0.0, 0.0, 0.0);
     const double length = sqrt(vec3_dot(g, g));
     return length > 0.0 ? vec3_scale(1.0 / length, g) : vec3_make(0.0, 0.0, 0.0);
 }
 
-/* Whether there is room between the surfaces of two bodies at a node. Farther beyond it than a cell there may be no slope to
- * tell how far. */
+/* Whether there is room between the surfaces of two bodies at a node. */
 static bool is_apart(const struct meeting *m, int k)
 {
     const double *first = grid_node(&m->a->main, m->in_a, k),
