@@ -151,6 +151,7 @@ void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulat
 {
     const struct particles *p = &simulation->particles;
     double(*gradient)[9] = particles_field(p, "velocity_gradient");
+    assert(simulation->dimension <= 3);
     for (int32_t i = 0; i < p->count; i++) {
         const struct field_list *velocity = &case_body(simulation->input, p->body[i])->velocity;
         const double *x = p->position[i], away = mpm->half_size[p->body[i]] * mpm->edge;
@@ -158,11 +159,14 @@ void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulat
             double low[3] = {x[0], x[1], x[2]}, high[3] = {x[0], x[1], x[2]};
             low[j] -= away;
             high[j] += away;
-            for (int k = 0; k < velocity->count; k++)
-                gradient[i][3 * k + j] =
+            for (int k = 0; k < velocity->count; k++) {
+                const double slope =
                     (field_at(&velocity->at[k], vec3_make(high[0], high[1], high[2])) -
                      field_at(&velocity->at[k], vec3_make(low[0], low[1], low[2]))) /
                     (2.0 * away);
+                /* rounding may have left where the expression has a value */
+                gradient[i][3 * k + j] = isfinite(slope) ? slope : 0.0;
+            }
         }
     }
 }
