@@ -184,6 +184,9 @@ static struct error *watch_energy(struct run *run)
     run->result->energy_drift = drift;
     if (drift <= allowed || (allowed == 0.0 && !isnan(drift)))
         return NULL;
+    if (isnan(drift))
+        return error_new(ERROR_STATE, "step %lld, t = %.6g s: the total energy is not finite",
+                         (long long)run->simulation.step, run->simulation.time);
     return error_new(ERROR_STATE,
                      "step %lld, t = %.6g s: the total energy has drifted by %.3g of the largest "
                      "energy of the case; "
