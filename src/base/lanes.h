@@ -14,4 +14,7 @@ enum { LANES = 8 };
 #define INLINE static inline __attribute__((always_inline))
 #endif
 
+/* What few particles need stays out of the way of what all do: of registers, and of the time to compile. */
+#define APART static __attribute__((noinline))
+
 #endif

@@ -166,14 +166,15 @@ INLINE void add_slopes(struct muscl_kind kind, const double *own, const struct l
     }
 }
 
-/* What lies between the two of a pair, along n and across, and which shares of it their slopes carry. */
-INLINE void find_changes(struct muscl_kind kind, bool with_law, const double *own,
+/* What lies between the two of a pair, along n and across, and which shares of it their slopes carry: none but between two
+ * particles of the material MATTER. */
+INLINE void find_changes(struct muscl_kind kind, double matter, const double *own,
                          const struct lanes *lanes, struct pairs *pairs)
 {
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
     const int u = record_velocity(dimension), s = record_stress(dimension);
-    const int z = muscl_impedance(kind), q = muscl_bend(kind), matter = muscl_material(kind);
+    const int z = muscl_impedance(kind), q = muscl_bend(kind), other = muscl_material(kind);
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
@@ -181,8 +182,7 @@ INLINE void find_changes(struct muscl_kind kind, bool with_law, const double *ow
         const struct vec3 du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
                                         vector_from(dimension, own + u, 1));
         const double along_u = vec3_dot(du, n), speed = fabs(along_u);
-        const bool smooth = !with_law && own[matter] == lanes->field[matter][k] &&
-                            speed * own[q] < own[z] &&
+        const bool smooth = matter == lanes->field[other][k] && speed * own[q] < own[z] &&
                             speed * lanes->field[q][k] < lanes->field[z][k];
         const double near = pairs->near[k], near_i = smooth ? near : 0.0,
                      near_j = smooth ? 2.0 - near : 0.0;
@@ -332,6 +332,7 @@ INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool
     const struct lane_records records = {loop->record, muscl_stride(kind), kind.dimension,
                                          loop->empty,  loop->smoothing,    loop->place};
     const double *own = loop->record + (size_t)i * (size_t)records.stride;
+    const double matter = with_law ? -1.0 : own[muscl_material(kind)]; /* no material is -1 */
     struct lane_walk walk;
     struct lanes lanes[GROUPS];
     struct pairs pairs[GROUPS];
@@ -354,29 +355,36 @@ INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool
                 for (int m = 0; m < groups; m++)
                     walk_rows(kind, own, &lanes[m], &pairs[m], sums->row);
             for (int m = 0; m < groups; m++)
-                find_changes(kind, with_law, own, &lanes[m], &pairs[m]);
-            for (int m = 0; m < groups; m++)
-                add_contacts(kind, with_law, own, &lanes[m], &pairs[m], sums->lane);
+                find_changes(kind, matter, own, &lanes[m], &pairs[m]);
+            if (with_law)
+                for (int m = 0; m < groups; m++)
+                    add_contacts(kind, true, own, &lanes[m], &pairs[m], sums->lane);
+            else
+                for (int m = 0; m < groups; m++)
+                    add_contacts(kind, false, own, &lanes[m], &pairs[m], sums->lane);
             for (int m = 0; m < groups; m++)
                 add_slopes(kind, own, &lanes[m], &pairs[m], sums->lane);
         }
 }
 
-/* Adds the entries from BEGIN on of the row's parts FIRST and FIRST + 1 (the same under a contact law); returns where
- * the next part begins. */
-INLINE int add_parts(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                     const uint32_t *entry, int count, int begin, unsigned first, struct sums *sums)
+/* An instance of add_part out of line. */
+typedef void add_apart(const struct muscl_loop *loop, bool with_law, int32_t i,
+                       const uint32_t *entry, int count, struct sums *sums);
+
+/* Adds the entries from BEGIN on that are of part PART; returns where the next part begins. */
+static int add_other_part(const struct muscl_loop *loop, add_apart *add, int32_t i,
+                          const uint32_t *entry, int begin, int count, unsigned part,
+                          struct sums *sums)
 {
-    int middle = lanes_part(entry, begin, count, first);
-    int end = lanes_part(entry, middle, count, first | PART_LAW);
-    if (middle > begin)
-        add_part(loop, kind, false, i, entry + begin, middle - begin, sums);
-    if (end > middle)
-        add_part(loop, kind, true, i, entry + middle, end - middle, sums);
+    const int end = lanes_part(entry, begin, count, part);
+    if (end > begin)
+        add(loop, part & PART_LAW, i, entry + begin, end - begin, sums);
     return end;
 }
 
-INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i)
+/* Most rows have but the first part, which nothing stands in the way of. */
+INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, add_apart *add,
+                      int32_t i)
 {
     const struct layout at = layout_of(kind);
     int count;
@@ -389,11 +397,16 @@ INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, int
     struct sums sums = nothing;
     double all[TOTALS], images[TOTALS];
     const double *of_images = none;
-    int done = add_parts(loop, kind, i, entry, count, 0, 0, &sums);
+    int done = lanes_part(entry, 0, count, 0);
+    if (done > 0)
+        add_part(loop, kind, false, i, entry, done, &sums);
+    if (done < count)
+        done = add_other_part(loop, add, i, entry, done, count, PART_LAW, &sums);
     sums_totals(kind, &sums, all);
     if (done < count) {
         sums = nothing;
-        add_parts(loop, kind, i, entry, count, done, PART_IMAGE, &sums);
+        done = add_other_part(loop, add, i, entry, done, count, PART_IMAGE, &sums);
+        add_other_part(loop, add, i, entry, done, count, PART_IMAGE | PART_LAW, &sums);
         sums_totals(kind, &sums, images);
         for (int a = 0; a < at.count; a++)
             all[a] += images[a];
@@ -403,12 +416,18 @@ INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, int
 }
 
 /* Each body of the rows' loop is an instance; its name says of which kind. */
-#define INSTANCE(name, ...)                                                     \
-    static void name(const struct muscl_loop *loop, int32_t begin, int32_t end) \
-    {                                                                           \
-        const struct muscl_kind kind = {__VA_ARGS__};                           \
-        for (int32_t i = begin; i < end; i++)                                   \
-            row_rates(loop, kind, i);                                           \
+#define INSTANCE(name, ...)                                                                 \
+    APART void name##_part(const struct muscl_loop *loop, bool with_law, int32_t i,         \
+                           const uint32_t *entry, int count, struct sums *sums)             \
+    {                                                                                       \
+        struct sums copy = *sums; /* that nothing else points at */                         \
+        add_part(loop, (struct muscl_kind){__VA_ARGS__}, with_law, i, entry, count, &copy); \
+        *sums = copy;                                                                       \
+    }                                                                                       \
+    static void name(const struct muscl_loop *loop, int32_t begin, int32_t end)             \
+    {                                                                                       \
+        for (int32_t i = begin; i < end; i++)                                               \
+            row_rates(loop, (struct muscl_kind){__VA_ARGS__}, name##_part, i);              \
     }
 
 INSTANCE(line, 1, false, false)

@@ -71,61 +71,142 @@ INLINE void find_places(struct pair_kind kind, double smoothing, const double *o
     }
 }
 
-/* Solves their contact problems and adds up what they give. */
-INLINE void add_contacts(struct pair_kind kind, bool with_law, const double *own,
-                         const struct lanes *lanes, const struct pairs *pairs, struct sums *sums)
+/* What lies between the two of a pair: velocity and tractions, and their parts along it. */
+struct between {
+    struct vec3 du, ti, tj;
+    double u, i, j;
+};
+
+INLINE struct between between_of(struct pair_kind kind, const double *own,
+                                 const struct lanes *lanes, int k, struct vec3 e)
+{
+    const int dimension = kind.dimension;
+    const int u = record_velocity(dimension), s = record_stress(dimension);
+    struct between b = {.i = own[s], .j = lanes->field[s][k]};
+    b.du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
+                    vector_from(dimension, own + u, 1));
+    b.u = vec3_dot(b.du, e);
+    if (kind.shear && dimension > 1) {
+        b.ti = traction_of(dimension, stress_from(dimension, own + s, 1), e);
+        b.tj = traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), e);
+        b.i = vec3_dot(b.ti, e);
+        b.j = vec3_dot(b.tj, e);
+    }
+    return b;
+}
+
+/* Contact problems that are not the usual ones, along the pairs of eight lanes, and how parts across them meet. */
+struct contacts {
+    double u[LANES] ALIGNED, i[LANES] ALIGNED, j[LANES] ALIGNED;
+    double stress[LANES] ALIGNED, jump[LANES] ALIGNED;
+    double left[LANES] ALIGNED, right[LANES] ALIGNED;
+    double compliance[LANES] ALIGNED, impedance[LANES] ALIGNED;
+};
+
+/* Impedances stand at Z and, across, at ACROSS_Z, density and bend from Q on. STAR is a constant where this is inlined. */
+INLINE void solve_by(enum pair_star star, const double *own, const struct lanes *lanes, int z,
+                     int across_z, int q, struct contacts *c)
+{
+#pragma omp simd simdlen(8)
+    for (int k = 0; k < LANES; k++) {
+        const struct two_inverses inverse =
+            inverses_of_sums(own[z], lanes->field[z][k], own[across_z], lanes->field[across_z][k]);
+        struct contact_weights along = riemann_mean_weights(), across = along;
+        if (star != STAR_MEAN) {
+            along = contact_weights_of(own[z], lanes->field[z][k], inverse.first);
+            across = contact_weights_of(own[across_z], lanes->field[across_z][k], inverse.second);
+        }
+        c->left[k] = across.left;
+        c->right[k] = across.right;
+        c->compliance[k] = across.compliance;
+        c->impedance[k] = across.impedance;
+        if (star == STAR_DUKOWICZ || star == STAR_EXACT_GAS) {
+            struct side left = {own[z], 0.0, c->i[k], own[q], own[q + 1]};
+            struct side right = {lanes->field[z][k], c->u[k], c->j[k], lanes->field[q][k],
+                                 lanes->field[q + 1][k]};
+            struct contact contact = star == STAR_DUKOWICZ ? riemann_dukowicz(left, right)
+                                                           : riemann_exact_gas(left, right);
+            c->stress[k] = contact.stress;
+            c->jump[k] = contact.velocity;
+        } else {
+            c->stress[k] = contact_stress(along, c->i[k], c->j[k], c->u[k]);
+            c->jump[k] = contact_velocity_jump(along, c->u[k], c->j[k] - c->i[k]);
+        }
+    }
+}
+
+/* One for all kinds. */
+static void solve_contacts(struct pair_kind kind, const double *own, const struct lanes *lanes,
+                           struct contacts *contacts)
+{
+    const bool shear = kind.shear && kind.dimension > 1;
+    const int z = record_impedance(kind.dimension, shear), across_z = shear ? z + 1 : z;
+    const int q = record_bend(kind.dimension, shear);
+    switch (kind.star) {
+    case STAR_ACOUSTIC:
+        solve_by(STAR_ACOUSTIC, own, lanes, z, across_z, q, contacts);
+        break;
+    case STAR_MEAN:
+        solve_by(STAR_MEAN, own, lanes, z, across_z, q, contacts);
+        break;
+    case STAR_DUKOWICZ:
+        solve_by(STAR_DUKOWICZ, own, lanes, z, across_z, q, contacts);
+        break;
+    case STAR_EXACT_GAS:
+        solve_by(STAR_EXACT_GAS, own, lanes, z, across_z, q, contacts);
+    }
+}
+
+INLINE void find_contacts(struct pair_kind kind, const double *own, const struct lanes *lanes,
+                          const struct pairs *pairs, struct contacts *contacts)
+{
+#pragma omp simd simdlen(8)
+    for (int k = 0; k < LANES; k++) {
+        const struct vec3 e = vector_from(kind.dimension, &pairs->e[0][k], LANES);
+        const struct between b = between_of(kind, own, lanes, k, e);
+        contacts->u[k] = b.u;
+        contacts->i[k] = b.i;
+        contacts->j[k] = b.j;
+    }
+    solve_contacts(kind, own, lanes, contacts);
+}
+
+/* Adds up what contacts give. The USUAL ones, acoustic and under no law, are solved on the way; others stand in CONTACTS. */
+INLINE void add_contacts(struct pair_kind kind, bool usual, const double *own,
+                         const struct lanes *lanes, const struct pairs *pairs,
+                         const struct contacts *contacts, struct sums *sums)
 {
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
-    const int d = record_diameter(dimension);
-    const int u = record_velocity(dimension), s = record_stress(dimension);
-    const int z = record_impedance(dimension, shear);
+    const int d = record_diameter(dimension), z = record_impedance(dimension, shear);
     const int depth = record_depth(kind), spin = record_spin(kind);
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const double r = pairs->r[k], weight = pairs->weight[k];
         const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
-        const struct vec3 du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
-                                        vector_from(dimension, own + u, 1));
-        struct vec3 ti = {0.0, 0.0, 0.0}, tj = {0.0, 0.0, 0.0};
-        if (shear) {
-            ti = traction_of(dimension, stress_from(dimension, own + s, 1), e);
-            tj = traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), e);
-        }
-        double along_i = shear ? vec3_dot(ti, e) : own[s];
-        double along_j = shear ? vec3_dot(tj, e) : lanes->field[s][k];
-        double along_u = vec3_dot(du, e);
-
-        double stress, jump;
-        const int across_z = shear ? z + 1 : z;
-        const struct two_inverses inverse =
-            inverses_of_sums(own[z], lanes->field[z][k], own[across_z], lanes->field[across_z][k]);
-        if (record_has_bend(kind)) {
-            const int q = record_bend(dimension, shear);
-            struct side left = {own[z], 0.0, along_i, own[q], own[q + 1]};
-            struct side right = {lanes->field[z][k], along_u, along_j, lanes->field[q][k],
-                                 lanes->field[q + 1][k]};
-            struct contact contact = kind.star == STAR_DUKOWICZ ? riemann_dukowicz(left, right)
-                                                                : riemann_exact_gas(left, right);
-            stress = contact.stress;
-            jump = contact.velocity;
+        const struct between b = between_of(kind, own, lanes, k, e);
+        double stress, jump, opened = 0.0;
+        struct contact_weights across;
+        if (usual) {
+            const int across_z = shear ? z + 1 : z;
+            const struct two_inverses inverse = inverses_of_sums(
+                own[z], lanes->field[z][k], own[across_z], lanes->field[across_z][k]);
+            const struct contact_weights along =
+                contact_weights_of(own[z], lanes->field[z][k], inverse.first);
+            across = contact_weights_of(own[across_z], lanes->field[across_z][k], inverse.second);
+            stress = contact_stress(along, b.i, b.j, b.u);
+            jump = contact_velocity_jump(along, b.u, b.j - b.i);
         } else {
-            struct contact_weights along =
-                kind.star == STAR_MEAN
-                    ? riemann_mean_weights()
-                    : contact_weights_of(own[z], lanes->field[z][k], inverse.first);
-            stress = contact_stress(along, along_i, along_j, along_u);
-            jump = contact_velocity_jump(along, along_u, along_j - along_i);
-        }
-        double opened = 0.0;
-        if (with_law) {
+            across = (struct contact_weights){contacts->left[k], contacts->right[k],
+                                              contacts->compliance[k], contacts->impedance[k]};
+            stress = contacts->stress[k];
             opened = stress > 0.0 ? lanes->open[k] : 0.0;
-            jump = opened > 0.0 ? -along_i / own[z] : jump;
+            jump = opened > 0.0 ? -b.i / own[z] : contacts->jump[k];
             stress = opened > 0.0 ? 0.0 : stress;
         }
         struct vec3 t = vec3_scale(stress, e), w = vec3_scale(jump, e);
         if (dimension > 1) {
-            struct vec3 across_u = vec3_sub(du, vec3_scale(along_u, e));
+            struct vec3 across_u = vec3_sub(b.du, vec3_scale(b.u, e));
             struct vec3 own_turn = {0.0, 0.0, 0.0}; /* what the spin of i adds at the contact */
             if (kind.turn) {
                 double share = own[d] / (own[d] + lanes->field[d][k]);
@@ -137,19 +218,15 @@ INLINE void add_contacts(struct pair_kind kind, bool with_law, const double *own
                     vec3_add(own_turn, vec3_scale((1.0 - share) * r, vec3_cross(spin_j, e))));
             }
             if (shear) {
-                struct vec3 ai = vec3_sub(ti, vec3_scale(along_i, e));
-                struct vec3 aj = vec3_sub(tj, vec3_scale(along_j, e));
+                struct vec3 ai = vec3_sub(b.ti, vec3_scale(b.i, e));
+                struct vec3 aj = vec3_sub(b.tj, vec3_scale(b.j, e));
                 struct vec3 da = vec3_sub(aj, ai);
-                struct contact_weights across =
-                    kind.star == STAR_MEAN
-                        ? riemann_mean_weights()
-                        : contact_weights_of(own[z + 1], lanes->field[z + 1][k], inverse.second);
                 struct vec3 ta =
                     vec3_add(vec3_add(vec3_scale(across.left, aj), vec3_scale(across.right, ai)),
                              vec3_scale(across.impedance, across_u));
                 struct vec3 wa =
                     vec3_add(vec3_scale(across.right, across_u), vec3_scale(across.compliance, da));
-                if (with_law) {
+                if (!usual) {
                     bool free = opened > 0.0 || lanes->slip[k] > 0.0;
                     double still = own[z + 1] > 0.0 ? -1.0 / own[z + 1] : 0.0;
                     ta = vec3_scale(free ? 0.0 : 1.0, ta);
@@ -177,7 +254,7 @@ INLINE void add_contacts(struct pair_kind kind, bool with_law, const double *own
         t = vec3_scale(force_weight, t);
         w = vec3_scale(weight, w);
         sums->power[k] += power;
-        if (kind.drift) {
+        if (!usual) {
             sums->weight[k] += weight;
             sums->drift[0][k] += w.x;
             sums->drift[1][k] += w.y;
@@ -202,7 +279,8 @@ INLINE void add_contacts(struct pair_kind kind, bool with_law, const double *own
     }
 }
 
-INLINE struct totals_of_row totals_of_sums(struct pair_kind kind, const struct sums *sums)
+INLINE struct totals_of_row totals_of_sums(struct pair_kind kind, bool drift,
+                                           const struct sums *sums)
 {
     double lane[TOTALS][LANES] ALIGNED, total[TOTALS];
     struct totals_of_row totals = {0};
@@ -210,8 +288,8 @@ INLINE struct totals_of_row totals_of_sums(struct pair_kind kind, const struct s
         totals.traction[0] = across_lanes(sums->traction[0]);
         totals.gradient[0] = across_lanes(sums->gradient[0]);
         totals.power = across_lanes(sums->power);
-        totals.weight = kind.drift ? across_lanes(sums->weight) : 0.0;
-        totals.drift[0] = kind.drift ? across_lanes(sums->drift[0]) : 0.0;
+        totals.weight = drift ? across_lanes(sums->weight) : 0.0;
+        totals.drift[0] = drift ? across_lanes(sums->drift[0]) : 0.0;
         return totals;
     }
     memcpy(lane, sums, sizeof lane);
@@ -221,8 +299,8 @@ INLINE struct totals_of_row totals_of_sums(struct pair_kind kind, const struct s
 }
 
 /* Adds the entries of one part of a row. */
-INLINE void add_part(const struct pair_loop *loop, struct pair_kind kind, bool with_law, int32_t i,
-                     const uint32_t *entry, int count, struct sums *sums)
+INLINE void add_part(const struct pair_loop *loop, struct pair_kind kind, bool usual, bool with_law,
+                     int32_t i, const uint32_t *entry, int count, struct sums *sums)
 {
     const struct lane_records records = {loop->record, record_stride(kind), kind.dimension,
                                          loop->empty,  loop->smoothing,     NULL};
@@ -230,6 +308,7 @@ INLINE void add_part(const struct pair_loop *loop, struct pair_kind kind, bool w
     struct lane_walk walk;
     struct lanes lanes[GROUPS];
     struct pairs pairs[GROUPS];
+    struct contacts contacts;
     walk.looked_at = walk.ready = walk.waiting = 0;
     while (lanes_walk(&walk, records, own, entry, count))
         for (int first = 0; first < walk.ready; first += GROUPS * LANES) {
@@ -240,10 +319,17 @@ INLINE void add_part(const struct pair_loop *loop, struct pair_kind kind, bool w
                 if (with_law)
                     stage_laws(loop->neighbours, loop->groups, loop->body, i, list, lanes[m].slip,
                                lanes[m].open);
+                else if (!usual) {
+                    memset(lanes[m].slip, 0, sizeof lanes[m].slip);
+                    memset(lanes[m].open, 0, sizeof lanes[m].open);
+                }
                 find_places(kind, loop->smoothing, own, &lanes[m], &pairs[m]);
             }
-            for (int m = 0; m < groups; m++)
-                add_contacts(kind, with_law, own, &lanes[m], &pairs[m], sums);
+            for (int m = 0; m < groups; m++) {
+                if (!usual)
+                    find_contacts(kind, own, &lanes[m], &pairs[m], &contacts);
+                add_contacts(kind, usual, own, &lanes[m], &pairs[m], &contacts, sums);
+            }
         }
 }
 
@@ -278,116 +364,108 @@ INLINE void write_rates(const struct pair_rates *rates, int32_t i, double factor
     rates->spin[i][2] = g[1] - g[3];
 }
 
-INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, int32_t i)
+/* An instance of add_part out of line, for contacts that are not the usual ones. */
+typedef void add_apart(const struct pair_loop *loop, bool usual, bool with_law, int32_t i,
+                       const uint32_t *entry, int count, struct sums *sums);
+
+/* Adds the entries from BEGIN on that are of part PART; returns where the next part begins. */
+static int add_other_part(const struct pair_loop *loop, add_apart *add, bool usual, int32_t i,
+                          const uint32_t *entry, int begin, int count, unsigned part,
+                          struct sums *sums)
+{
+    const int end = lanes_part(entry, begin, count, part);
+    if (end > begin)
+        add(loop, usual, part & PART_LAW, i, entry + begin, end - begin, sums);
+    return end;
+}
+
+/* Most rows have but the first part, which nothing stands in the way of. */
+INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, add_apart *add,
+                      int32_t i)
 {
     int count, done = 0;
     const uint32_t *entry = neighbours_walk(loop->neighbours, i, &count);
-    const double *own = loop->record + (size_t)i * (size_t)record_stride(kind);
+    const bool drift = loop->kind.drift;
+    const bool usual = !kind.turn && loop->kind.star == STAR_ACOUSTIC && !drift;
+    const double *own = loop->record + (size_t)i * (size_t)record_stride(loop->kind);
     double factor =
-        -2.0 / (kind.depth ? loop->density[i] * own[record_depth(kind)] : loop->density[i]);
+        -2.0 / (kind.depth ? loop->density[i] * own[record_depth(loop->kind)] : loop->density[i]);
     struct sums sums = {0};
     static const struct totals_of_row none;
+    const struct totals_of_row *of_images = &none;
     struct totals_of_row all, images;
-    const bool seen = count > 0 && entry[count - 1] >> ENTRY_PART_SHIFT >= PART_IMAGE;
-    for (unsigned part = 0; part < (seen ? 4 : PART_IMAGE); part++) {
-        int begin = done;
-        done = lanes_part(entry, begin, count, part);
-        if (part == PART_IMAGE) {
-            all = totals_of_sums(kind, &sums);
-            memset(&sums, 0, sizeof sums);
-        }
-        if (done > begin && part & PART_LAW)
-            add_part(loop, kind, true, i, entry + begin, done - begin, &sums);
-        else if (done > begin)
-            add_part(loop, kind, false, i, entry + begin, done - begin, &sums);
+    if (usual) {
+        done = lanes_part(entry, 0, count, 0);
+        if (done > 0)
+            add_part(loop, kind, true, false, i, entry, done, &sums);
+    } else {
+        done = add_other_part(loop, add, usual, i, entry, 0, count, 0, &sums);
     }
-    if (!seen) {
-        all = totals_of_sums(kind, &sums);
-        write_rates(&loop->rates, i, factor, &all, &none);
-        return;
+    if (done < count)
+        done = add_other_part(loop, add, usual, i, entry, done, count, PART_LAW, &sums);
+    all = totals_of_sums(kind, drift, &sums);
+    if (done < count) {
+        memset(&sums, 0, sizeof sums);
+        done = add_other_part(loop, add, usual, i, entry, done, count, PART_IMAGE, &sums);
+        add_other_part(loop, add, usual, i, entry, done, count, PART_IMAGE | PART_LAW, &sums);
+        images = totals_of_sums(kind, drift, &sums);
+        for (int a = 0; a < 3; a++)
+            all.traction[a] += images.traction[a];
+        for (int a = 0; a < 9; a++)
+            all.gradient[a] += images.gradient[a];
+        all.power += images.power;
+        all.weight += images.weight;
+        for (int a = 0; a < 3; a++)
+            all.drift[a] += images.drift[a];
+        for (int a = 0; a < 3; a++)
+            all.hoop[a] += images.hoop[a];
+        of_images = &images;
     }
-    images = totals_of_sums(kind, &sums);
-    for (int a = 0; a < 3; a++)
-        all.traction[a] += images.traction[a];
-    for (int a = 0; a < 9; a++)
-        all.gradient[a] += images.gradient[a];
-    all.power += images.power;
-    all.weight += images.weight;
-    for (int a = 0; a < 3; a++)
-        all.drift[a] += images.drift[a];
-    for (int a = 0; a < 3; a++)
-        all.hoop[a] += images.hoop[a];
-    write_rates(&loop->rates, i, factor, &all, &images);
+    write_rates(&loop->rates, i, factor, &all, of_images);
 }
 
-/* Each body of the rows' loop is an instance; its name says of which kind. */
-#define INSTANCE(name, ...)                                                    \
-    static void name(const struct pair_loop *loop, int32_t begin, int32_t end) \
-    {                                                                          \
-        const struct pair_kind kind = {__VA_ARGS__};                           \
-        for (int32_t i = begin; i < end; i++)                                  \
-            row_rates(loop, kind, i);                                          \
+/* Each body of the rows' loop is an instance; its name says of which kind. How the two of a pair meet along it and whether
+ * the drift is wanted is asked in the other instance of the part, out of line. */
+#define INSTANCE(name, dimension, shear, depth, turn)                                          \
+    APART void name##_part(const struct pair_loop *loop, bool usual, bool with_law, int32_t i, \
+                           const uint32_t *entry, int count, struct sums *sums)                \
+    {                                                                                          \
+        const struct pair_kind kind = {dimension, shear, STAR_ACOUSTIC, false, depth, turn};   \
+        const struct pair_kind any = {dimension,        shear, loop->kind.star,                \
+                                      loop->kind.drift, depth, turn};                          \
+        struct sums copy = *sums; /* that nothing else points at */                            \
+        if (!turn && usual && !with_law)                                                       \
+            add_part(loop, kind, true, false, i, entry, count, &copy);                         \
+        else                                                                                   \
+            add_part(loop, any, false, with_law, i, entry, count, &copy);                      \
+        *sums = copy;                                                                          \
+    }                                                                                          \
+    static void name(const struct pair_loop *loop, int32_t begin, int32_t end)                 \
+    {                                                                                          \
+        const struct pair_kind kind = {dimension, shear, STAR_ACOUSTIC, false, depth, turn};   \
+        for (int32_t i = begin; i < end; i++)                                                  \
+            row_rates(loop, kind, name##_part, i);                                             \
     }
 
-#define INSTANCES(medium, dimension, shear, depth)                                         \
-    INSTANCE(medium##_acoustic, dimension, shear, STAR_ACOUSTIC, false, depth, false)      \
-    INSTANCE(medium##_mean, dimension, shear, STAR_MEAN, false, depth, false)              \
-    INSTANCE(medium##_dukowicz, dimension, shear, STAR_DUKOWICZ, false, depth, false)      \
-    INSTANCE(medium##_acoustic_drift, dimension, shear, STAR_ACOUSTIC, true, depth, false) \
-    INSTANCE(medium##_mean_drift, dimension, shear, STAR_MEAN, true, depth, false)         \
-    INSTANCE(medium##_dukowicz_drift, dimension, shear, STAR_DUKOWICZ, true, depth, false)
-
-#define GAS_INSTANCES(medium, dimension, depth)                                         \
-    INSTANCE(medium##_exact_gas, dimension, false, STAR_EXACT_GAS, false, depth, false) \
-    INSTANCE(medium##_exact_gas_drift, dimension, false, STAR_EXACT_GAS, true, depth, false)
-
-#define TURN_INSTANCES(medium, dimension, depth)                                \
-    INSTANCE(medium##_turn, dimension, true, STAR_ACOUSTIC, false, depth, true) \
-    INSTANCE(medium##_turn_drift, dimension, true, STAR_ACOUSTIC, true, depth, true)
-
-INSTANCES(line, 1, false, false)
-INSTANCES(plane_fluid, 2, false, false)
-INSTANCES(plane_solid, 2, true, false)
-INSTANCES(deep_fluid, 2, false, true)
-INSTANCES(deep_solid, 2, true, true)
-INSTANCES(space_fluid, 3, false, false)
-INSTANCES(space_solid, 3, true, false)
-GAS_INSTANCES(line, 1, false)
-GAS_INSTANCES(plane_fluid, 2, false)
-GAS_INSTANCES(deep_fluid, 2, true)
-GAS_INSTANCES(space_fluid, 3, false)
-TURN_INSTANCES(plane_solid, 2, false)
-TURN_INSTANCES(deep_solid, 2, true)
-TURN_INSTANCES(space_solid, 3, false)
+INSTANCE(line, 1, false, false, false)
+INSTANCE(plane_fluid, 2, false, false, false)
+INSTANCE(plane_solid, 2, true, false, false)
+INSTANCE(plane_turn, 2, true, false, true)
+INSTANCE(deep_fluid, 2, false, true, false)
+INSTANCE(deep_solid, 2, true, true, false)
+INSTANCE(deep_turn, 2, true, true, true)
+INSTANCE(space_fluid, 3, false, false, false)
+INSTANCE(space_solid, 3, true, false, false)
+INSTANCE(space_turn, 3, true, false, true)
 
 ISA_KERNEL(void, pair_loop_run, const struct pair_loop *loop, int32_t begin, int32_t end)
 {
     typedef void instance(const struct pair_loop *, int32_t, int32_t);
-#define STARS(medium, gas)                                                                  \
-    {                                                                                       \
-        {medium##_acoustic, medium##_acoustic_drift}, {medium##_mean, medium##_mean_drift}, \
-            {medium##_dukowicz, medium##_dukowicz_drift}, gas                               \
-    }
-#define GAS(medium)                                  \
-    {                                                \
-        medium##_exact_gas, medium##_exact_gas_drift \
-    }
-#define NO_GAS     \
-    {              \
-        NULL, NULL \
-    }
     enum { DEEP = 3 }; /* behind the dimensions */
-    static instance *const table[4][2][4][2] = {
-        {STARS(line, GAS(line)), STARS(line, GAS(line))},
-        {STARS(plane_fluid, GAS(plane_fluid)), STARS(plane_solid, NO_GAS)},
-        {STARS(space_fluid, GAS(space_fluid)), STARS(space_solid, NO_GAS)},
-        {STARS(deep_fluid, GAS(deep_fluid)), STARS(deep_solid, NO_GAS)}};
-    static instance *const turning[4][2] = {{NULL, NULL},
-                                            {plane_solid_turn, plane_solid_turn_drift},
-                                            {space_solid_turn, space_solid_turn_drift},
-                                            {deep_solid_turn, deep_solid_turn_drift}};
+    static instance *const table[4][3] = {{line, line, line},
+                                          {plane_fluid, plane_solid, plane_turn},
+                                          {space_fluid, space_solid, space_turn},
+                                          {deep_fluid, deep_solid, deep_turn}};
     const struct pair_kind kind = loop->kind;
-    const int space = kind.depth ? DEEP : kind.dimension - 1;
-    (kind.turn ? turning[space][kind.drift]
-               : table[space][kind.shear][kind.star][kind.drift])(loop, begin, end);
+    table[kind.depth ? DEEP : kind.dimension - 1][kind.shear + kind.turn](loop, begin, end);
 }
