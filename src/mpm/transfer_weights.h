@@ -72,14 +72,13 @@ INLINE void weigh_axis(struct kind kind, enum grid_shape shape, const double *xi
         }
 }
 
-INLINE void weigh(const struct transfer *t, struct kind kind, const struct cell_walk *walk,
-                  int32_t begin, struct chunk *chunk)
+INLINE void weigh_chunk(const struct transfer *t, struct kind kind, const struct cell_walk *walk,
+                        int32_t begin, int32_t count, struct chunk *chunk)
 {
     const double per_edge = 1.0 / t->edge;
     ALIGNED double xi[LANES], half[LANES];
-    chunk->count = walk->count - begin < kind.lanes ? walk->count - begin : kind.lanes;
     for (int lane = 0; lane < kind.lanes; lane++)
-        chunk->index[lane] = walk->list[begin + (lane < chunk->count ? lane : chunk->count - 1)];
+        chunk->index[lane] = walk->list[begin + (lane < count ? lane : count - 1)];
     for (int lane = 0; lane < kind.lanes; lane++)
         half[lane] = t->shape == SHAPE_GIMP || t->axisymmetric
                          ? t->half_size[t->body[chunk->index[lane]]]
@@ -108,11 +107,39 @@ INLINE void weigh(const struct transfer *t, struct kind kind, const struct cell_
             for (int lane = 0; lane < kind.lanes; lane++)
                 chunk->around[k][lane] = shape_around(t->shape, xi[lane] - (first + k), half[lane]);
         for (int k = 0; k < kind.window; k++)
-            for (int lane = 0; lane < kind.lanes; lane++) {
+            for (int lane = 0; lane < kind.lanes; lane++)
                 slope[k][lane] *= per_edge;
+        for (int k = 0; t->affine && k < kind.window; k++)
+            for (int lane = 0; lane < kind.lanes; lane++)
                 chunk->away[axis][k][lane] = ((first + k) - xi[lane]) * t->edge;
-            }
     }
+}
+
+/* Of wide windows there is one body a dimension, which all loops call. */
+#define WEIGH_WIDE(dimension)                                                                   \
+    APART void weigh_wide_##dimension(const struct transfer *t, const struct cell_walk *walk,   \
+                                      int32_t begin, int32_t count, struct chunk *chunk)        \
+    {                                                                                           \
+        weigh_chunk(t, (struct kind){dimension, 4, 1 << dimension}, walk, begin, count, chunk); \
+    }
+WEIGH_WIDE(1)
+WEIGH_WIDE(2)
+WEIGH_WIDE(3)
+#undef WEIGH_WIDE
+
+INLINE void weigh(const struct transfer *t, struct kind kind, const struct cell_walk *walk,
+                  int32_t begin, struct chunk *chunk)
+{
+    const int32_t left = walk->count - begin, count = left < kind.lanes ? left : kind.lanes;
+    if (kind.window == 2)
+        weigh_chunk(t, kind, walk, begin, count, chunk);
+    else if (kind.dimension == 1)
+        weigh_wide_1(t, walk, begin, count, chunk);
+    else if (kind.dimension == 2)
+        weigh_wide_2(t, walk, begin, count, chunk);
+    else
+        weigh_wide_3(t, walk, begin, count, chunk);
+    chunk->count = count;
 }
 
 /* The node at a, b, c of a window; nodes of axes that there are not count as one. */

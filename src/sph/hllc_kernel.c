@@ -393,10 +393,13 @@ INLINE void row_forces(const struct hllc_loop *loop, struct hllc_kind kind, int3
     int count = (int)loop->neighbours->row[i].count, matter = count;
     while (matter > 0 && entry[matter - 1] >> ENTRY_PART_SHIFT == PART_IMAGE)
         matter--;
-    struct forces all = part_forces(loop, kind, i, entry, matter),
-                  images = {{0.0, 0.0, 0.0}, 0.0, 0.0, 0.0};
-    if (matter < count)
-        images = part_forces(loop, kind, i, entry + matter, count - matter);
+    struct forces part[2] = {{{0.0, 0.0, 0.0}, 0.0, 0.0, 0.0}};
+    for (int k = 0, begin = 0; k < 2 && begin < count; k++) {
+        const int end = k ? count : matter;
+        part[k] = part_forces(loop, kind, i, entry + begin, end - begin);
+        begin = end;
+    }
+    const struct forces all = part[0], images = part[1];
     double density = own[hllc_density(kind.dimension)];
     double factor = 2.0 / (kind.depth ? density * fabs(own[hllc_depth(kind)]) : density);
     for (int a = 0; a < 3; a++) {
