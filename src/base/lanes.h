@@ -1,4 +1,5 @@
-/* For the files that are compiled once an instruction set: eight numbers at once, each in a lane of its own. */
+/* Eight numbers at once, each in a lane of its own; and how the files that are compiled once an instruction set are
+ * inlined. */
 #ifndef BOLIDE_LANES_H
 #define BOLIDE_LANES_H
 

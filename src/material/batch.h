@@ -6,12 +6,13 @@
 
 #include <string.h>
 
+#include "base/lanes.h"
 #include "material/material.h"
 
-enum { BATCH = 64, BATCH_LANES = 8 };
+enum { BATCH = 64 };
 
 /* Points before and after a step, and what the step does to them; see struct point and struct motion. COUNT is a multiple
- * of BATCH_LANES; what fills it up must only be some point. */
+ * of LANES; what fills it up must only be some point. */
 struct batch {
     int count;
     double dt;
@@ -76,31 +77,30 @@ BOLIDE_INLINE void batch_flow(const struct strength_johnson_cook *solid, const s
                               const double *trial, const double *slow, const double *softening,
                               double *flow)
 {
-    int flowing[BATCH + BATCH_LANES], count = 0;
+    int flowing[BATCH + LANES], count = 0;
     for (int k = 0; k < b->count; k++) {
         flowing[count] = k;
         count += trial[k] > slow[k];
     }
-    for (int lane = 0; lane < BATCH_LANES; lane++)
+    for (int lane = 0; lane < LANES; lane++)
         flowing[count + lane] = flowing[count > 0 ? count - 1 : 0];
-    for (int first = 0; first < count; first += BATCH_LANES) {
+    for (int first = 0; first < count; first += LANES) {
         const int *at = flowing + first;
         struct johnson_cook_points p;
-        for (int lane = 0; lane < BATCH_LANES; lane++) {
+        for (int lane = 0; lane < LANES; lane++) {
             p.trial[lane] = trial[at[lane]];
             p.strain[lane] = b->plastic_strain[at[lane]];
             p.slow[lane] = slow[at[lane]];
             p.softening[lane] = softening[at[lane]];
         }
-        johnson_cook_flow(solid, BATCH_LANES, b->dt, &p);
-        for (int lane = 0; lane < BATCH_LANES; lane++)
+        johnson_cook_flow(solid, LANES, b->dt, &p);
+        for (int lane = 0; lane < LANES; lane++)
             flow[at[lane]] = p.flow[lane];
     }
 }
 
 BOLIDE_INLINE void batch_johnson_cook(const struct strength_johnson_cook *solid, struct batch *b)
 {
-    static_assert((int)BATCH_LANES <= (int)JOHNSON_COOK_LANES, "a group of points");
     double trial[BATCH], slow[BATCH], softening[BATCH], flow[BATCH];
     const bool softens = johnson_cook_softens(solid);
     for (int k = 0; k < b->count; k++) {

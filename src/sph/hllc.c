@@ -30,6 +30,12 @@ static const char *wrong_parameter(const struct sph_parameters *parameters, int 
     return NULL;
 }
 
+struct hllc_kind hllc_kind_of(const struct sph_parameters *parameters, int dimension, bool depth)
+{
+    return (struct hllc_kind){dimension, depth, parameters->method == SPH_MONAGHAN,
+                              parameters->reconstruction != SPH_RECONSTRUCTION_NONE};
+}
+
 struct error *hllc_choose(struct sph *sph, const struct simulation *simulation, bool laws)
 {
     const char *key;
@@ -48,13 +54,11 @@ struct error *hllc_choose(struct sph *sph, const struct simulation *simulation, 
     parameters->contact = SPH_CONTACT_ACOUSTIC;
     sph->kind = (struct pair_kind){.dimension = simulation->dimension,
                                    .depth = sph_axisymmetric(simulation)};
-    sph->hllc = (struct hllc_kind){simulation->dimension, sph_axisymmetric(simulation),
-                                   parameters->method == SPH_MONAGHAN,
-                                   parameters->reconstruction != SPH_RECONSTRUCTION_NONE};
+    sph->hllc = hllc_kind_of(parameters, simulation->dimension, sph_axisymmetric(simulation));
     return NULL;
 }
 
-int hllc_declare(const struct sph *sph, struct field_declaration *fields)
+int hllc_declare(const struct sph_parameters *parameters, struct field_declaration *fields)
 {
     static const struct field_declaration table[HLLC_FIELDS] = {
         {"correction", NULL, "inverse second moment of the kernel", NUMBER_DOUBLE, 6,
@@ -67,7 +71,7 @@ int hllc_declare(const struct sph *sph, struct field_declaration *fields)
         {"slopes", NULL, "gradients of density, pressure, deviator", NUMBER_DOUBLE, 3,
          FIELD_DERIVED}};
     int count =
-        sph->parameters.reconstruction == SPH_RECONSTRUCTION_ALL ? HLLC_FIELDS : HLLC_FIELDS - 1;
+        parameters->reconstruction == SPH_RECONSTRUCTION_ALL ? HLLC_FIELDS : HLLC_FIELDS - 1;
     memcpy(fields, table, (size_t)count * sizeof *table);
     return count;
 }

@@ -214,7 +214,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     }
     if (sph_corrected(sph)) { /* supports are those of the start */
         own[DIAMETER_FIELD].kind = FIELD_STATE;
-        count += hllc_declare(sph, fields + count);
+        count += hllc_declare(&sph->parameters, fields + count);
         if (history)
             fields[count++] = level_history_field;
     }
@@ -445,6 +445,12 @@ static double sph_bytes(const void *parameters, int dimension)
         int slopes = tensor_components(dimension) + dimension * (dimension + muscl_stresses(kind));
         fields += (slopes + (dimension > 1 ? 8 : 3)) * sizeof(double);
         record = (muscl_stride(kind) + PLACE_STRIDE) * sizeof(double);
+    }
+    if (sph->method == SPH_HLLC || sph->method == SPH_MONAGHAN) {
+        struct field_declaration level[HLLC_FIELDS];
+        for (int k = hllc_declare(sph, level) - 1; k >= 0; k--)
+            fields += level[k].components * sizeof(double);
+        record = hllc_stride(hllc_kind_of(sph, dimension, false)) * sizeof(double);
     }
     double rows = sizeof(struct row) + 1.25 * neighbours * sizeof(uint32_t);
     const double near_skin = sph_near_skin(sph, dimension);

@@ -138,7 +138,8 @@ BOLIDE_INLINE bool sph_corrected(const struct sph *sph)
  * HLLC_FIELDS at most; what follows from the state at the start; rates and the longest step; both stages. */
 enum { HLLC_FIELDS = 6 };
 struct error *hllc_choose(struct sph *sph, const struct simulation *simulation, bool laws);
-int hllc_declare(const struct sph *sph, struct field_declaration *fields);
+struct hllc_kind hllc_kind_of(const struct sph_parameters *parameters, int dimension, bool depth);
+int hllc_declare(const struct sph_parameters *parameters, struct field_declaration *fields);
 void hllc_start(const struct sph *sph, struct simulation *simulation);
 void hllc_prepare(struct sph *sph, struct simulation *simulation, struct limit *limit);
 struct error *hllc_advance(struct sph *sph, struct simulation *simulation, double dt);

@@ -88,7 +88,7 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
     for (size_t m = 0; m < COUNT_OF(forms) * COUNT_OF(strengths) * 20; m++) {
         const struct material material = {.eos = forms[m % COUNT_OF(forms)],
                                           .strength = strengths[m / COUNT_OF(forms) % 4]};
-        struct batch batch = {.count = BATCH_LANES * (1 + dice_below(&dice, 8)), .dt = 1e-8};
+        struct batch batch = {.count = LANES * (1 + dice_below(&dice, 8)), .dt = 1e-8};
         struct point point[BATCH];
         struct motion motion[BATCH];
         assert_true(batch_takes(&material));

@@ -1,4 +1,4 @@
-/* What `bolide check` tells of a mixture, and of shapes and lattices that cannot be. */
+/* What `bolide check` tells of a mixture, of memory, and of shapes and lattices that cannot be. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,8 +8,11 @@
 
 #include <cmocka.h>
 
+#include "model/generate.h"
 #include "run/catalogue.h"
 #include "run/estimate.h"
+#include "sph/lanes.h"
+#include "sph/sph_internal.h"
 
 static const char strip[] =
     "format: 1\n"
@@ -132,11 +135,57 @@ static void a_shape_or_lattice_that_cannot_be_is_told_in_its_place(void **state)
         "ball or shell, cut or not, or their `center`");
 }
 
+/* Bytes that a step of a square of the method takes, a particle. */
+static double bytes_taken(const char *method, double *foreseen)
+{
+    char more[400];
+    snprintf(more, sizeof more,
+             "format: 1\ndimension: 2\nresolution: 1 mm\nsolver: {sph: {method: %s}}\n"
+             "materials: {iron: {library: aluminium}}\nrun: {until: 1 ns}\n"
+             "bodies: {plate: {material: iron, box: {from: [0, 0], to: [60 mm, 60 mm]}}}\n",
+             method);
+    struct simulation_case *input;
+    struct simulation simulation = {0};
+    struct sph sph = {0};
+    struct limit limit;
+    const struct ranks alone = ranks_alone();
+    assert_null(read_text("", more, &input));
+    const struct solver_class *class = input->solver.choice->thing;
+    assert_null(simulation_create(input, &alone, 1, &simulation));
+    assert_null(class->create(&sph, &simulation, input->solver.value));
+    assert_null(generate_particles(&simulation));
+    assert_null(class->start(&sph, &simulation));
+    assert_null(class->prepare(&sph, &simulation, &limit));
+    const struct particles *p = &simulation.particles;
+    const double taken =
+        (double)particles_bytes(p) +
+        ((double)p->scratch.size + (double)sph.place_capacity * PLACE_STRIDE * sizeof(double) +
+         (double)neighbours_bytes(&sph.neighbours)) /
+            p->count;
+    *foreseen = class->bytes(input->solver.value, 2);
+    class->destroy(&sph);
+    simulation_destroy(&simulation);
+    case_free(input);
+    return taken;
+}
+
+static void the_bytes_foreseen_are_those_taken(void **state)
+{
+    (void)state;
+    const char *const methods[] = {"contact", "muscl", "hllc", "monaghan"};
+    for (size_t k = 0; k < COUNT_OF(methods); k++) {
+        double foreseen, taken = bytes_taken(methods[k], &foreseen);
+        if (!(fabs(foreseen / taken - 1.0) < 0.15))
+            fail_msg("%s: %.0f bytes foreseen, %.0f taken", methods[k], foreseen, taken);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mixture_has_a_mean_density_and_a_mass_of_each_material),
         cmocka_unit_test(two_walls_bound_the_mean_density_of_their_axis),
+        cmocka_unit_test(the_bytes_foreseen_are_those_taken),
         cmocka_unit_test(a_shape_or_lattice_that_cannot_be_is_told_in_its_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,6 +14,7 @@
 #define BOLIDE_STRENGTH_JOHNSON_COOK_H
 
 #include "base/exponential.h"
+#include "base/lanes.h"
 #include "material/strength/elastic.h"
 
 enum johnson_cook_return { JOHNSON_COOK_IMPLICIT, JOHNSON_COOK_EXPLICIT };
@@ -84,13 +85,12 @@ BOLIDE_INLINE double strength_johnson_cook_yield(const struct strength_johnson_c
 }
 
 /* Up to eight points that flow, each on its own: what it does for one does not depend on the others. */
-enum { JOHNSON_COOK_LANES = 8 };
 struct johnson_cook_points {
-    double trial[JOHNSON_COOK_LANES];     /* Mises stress of the elastic trial, beyond SLOW */
-    double strain[JOHNSON_COOK_LANES];    /* plastic, before the step */
-    double slow[JOHNSON_COOK_LANES];      /* Y of slow flow before the step */
-    double softening[JOHNSON_COOK_LANES]; /* 1 - T*^m */
-    double flow[JOHNSON_COOK_LANES];      /* the plastic strain of the step: found */
+    double trial[LANES];     /* Mises stress of the elastic trial, beyond SLOW */
+    double strain[LANES];    /* plastic, before the step */
+    double slow[LANES];      /* Y of slow flow before the step */
+    double softening[LANES]; /* 1 - T*^m */
+    double flow[LANES];      /* the plastic strain of the step: found */
 };
 
 /* A first guess of what a step of DT flows, from the hardening along its slope ALONG:
@@ -113,15 +113,15 @@ BOLIDE_INLINE double johnson_cook_guess(const struct strength_johnson_cook *soli
     return minimum(a * w * (1.0 + rest / up * (much - rest) / (much - 2.0 * rest)), beyond / stiff);
 }
 
-/* What LANES points flow in a step of DT. What is left of the trial stress falls with the flow and Y grows, and Y bends
+/* What COUNT points flow in a step of DT. What is left of the trial stress falls with the flow and Y grows, and Y bends
  * down on either side of the reference rate: from the left Newton's method does not overshoot, from the right it comes
  * to the left. It stops over where Y has its kink. */
-BOLIDE_INLINE void johnson_cook_flow(const struct strength_johnson_cook *solid, int lanes,
+BOLIDE_INLINE void johnson_cook_flow(const struct strength_johnson_cook *solid, int count,
                                      double dt, struct johnson_cook_points *p)
 {
     const double triple = 3.0 * solid->shear_modulus, kink = solid->rate * dt;
-    int64_t going[JOHNSON_COOK_LANES], left = lanes;
-    for (int k = 0; k < lanes; k++) {
+    int64_t going[LANES], left = count;
+    for (int k = 0; k < count; k++) {
         const double strain = p->strain[k], hardening = p->slow[k] - solid->a * p->softening[k];
         going[k] = 1;
         p->flow[k] = johnson_cook_guess(solid, dt, p->trial[k], p->slow[k],
@@ -129,7 +129,7 @@ BOLIDE_INLINE void johnson_cook_flow(const struct strength_johnson_cook *solid, 
     }
     for (int round = 0; round < 60 && left > 0; round++) {
         left = 0;
-        for (int k = 0; k < lanes; k++) {
+        for (int k = 0; k < count; k++) {
             const double flow = p->flow[k], now = p->strain[k] + flow;
             const double hardening = solid->b * p->softening[k] * power(now, solid->n);
             const double stress = solid->a * p->softening[k] + hardening;
