@@ -183,6 +183,7 @@ static inline void meet(const struct grid *grid, int code, double *node, double 
 {
     const int dimension = grid->dimension, cells = block_cells(dimension);
     const struct grid_overlap o = grid->overlap[code];
+    assert(dimension >= 1 && dimension <= 3);
     /* rows run along the last axis; the axes before it are A and B */
     const int rows_a = dimension > 1 ? o.count[0] : 1, rows_b = dimension > 2 ? o.count[1] : 1;
     const int length = o.count[dimension - 1] * stride;

@@ -300,6 +300,7 @@ BOLIDE_INLINE void update_run(const struct material *material, bool plain, struc
         if (f->thickness) { /* by copies: the other branch keeps its values in registers */
             struct material own = *material;
             struct point thin = point;
+            motion.viscous_pressure = 0.0; /* of those who find the energy from work */
             struct motion within = motion;
             r = sph_thin_step(&own, divergence, &thin, &within, &f->thickness[i]);
             point = thin;
