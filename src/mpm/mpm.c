@@ -218,6 +218,7 @@ static struct error *reserve_fields(struct mpm *mpm)
         if (mpm->layers > 1)
             TRY(grid_field_reserve(&layer->normal, &layer->grid));
     }
+    TRY(mpm_reserve_order(mpm));
     if (mpm->layers > 1)
         TRY(mpm_find_meetings(mpm));
     if (mpm->halo.far)
@@ -367,6 +368,8 @@ static struct error *update_states(struct mpm *mpm, struct simulation *simulatio
     int32_t failed = -1;
     for (int g = 0; g < mpm->layers && !of_main; g++)
         mpm_find_velocities(mpm, simulation, &mpm->layer[g], first);
+    if (!of_main)
+        mpm_raise_order(mpm, simulation, dt, false);
     if (mpm->layers > 1 && !of_main)
         mpm_join_velocities(mpm, simulation);
     const double started = clock_seconds();
@@ -393,6 +396,7 @@ static struct error *mpm_advance(void *solver, struct simulation *simulation, do
         mpm_meet(mpm, simulation, dt);
     for (int g = 0; g < mpm->layers; g++)
         mpm_advance_nodes(mpm, simulation, &mpm->layer[g], dt);
+    mpm_raise_order(mpm, simulation, dt, true);
     simulation_spend(simulation, "nodes", clock_seconds() - begin);
     find_velocities(mpm, simulation, dt, scheme == MPM_MUSL, scheme == MPM_USF);
     mpm_book_gravity(simulation, dt, false);
@@ -433,6 +437,7 @@ static void mpm_destroy(void *solver)
         struct layer *layer = &mpm->layer[g];
         free(layer->wall);
         free(layer->meets);
+        mpm_free_order(layer);
         grid_free(&layer->grid);
         grid_field_free(&layer->main);
         grid_field_free(&layer->back);
@@ -453,7 +458,8 @@ static double mpm_bytes(const void *parameters, int dimension)
     /* Blocks full of cells of two particles an axis. */
     struct grid grid;
     grid_start(&grid, dimension, shape_reach((enum grid_shape)of->shape));
-    const double numbers = (NODE_STRIDE + BACK_STRIDE) * (double)(BLOCK_CELLS + grid.patch);
+    const int stride = NODE_STRIDE + BACK_STRIDE + (of->order > 1 ? 2 * NODE_STRIDE : 0);
+    const double numbers = stride * (double)(BLOCK_CELLS + grid.patch);
     const double particles = BLOCK_CELLS * pow(2.0, dimension);
     return fields + (double)particles_sort_bytes() + sizeof(int32_t) + 2.0 +
            numbers * sizeof(double) / particles;

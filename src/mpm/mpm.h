@@ -13,7 +13,7 @@ enum mpm_damping { MPM_DAMPING_PLAIN, MPM_DAMPING_SYMMETRIC };
 struct mpm_parameters {
     double cell; /* NAN: twice the spacing of particles */
     int shape;   /* enum grid_shape */
-    int scheme, transfer;
+    int scheme, transfer, order;
     double flip;
     double courant; /* NAN: by the materials */
     int rotation;

@@ -9,9 +9,11 @@
 /* A node on a wall or, where shape functions reach beyond walls, next to one. */
 struct wall_node {
     double *node, *back, *normal; /* in the fields; normal: NULL where there is one layer */
+    double *mapped;               /* NULL where velocities are of the first order */
     int64_t at[3];
     bool booked;             /* by this rank: the first patch that covers it is its own */
     double sum[NODE_STRIDE]; /* of the particles alone, before what is behind the wall is added */
+    double raised[NODE_STRIDE]; /* the same of the field `mapped` */
 };
 
 /* Distances of a surface from a node that are told apart, and the largest in cells. */
@@ -29,7 +31,8 @@ struct layer {
     struct grid_field main, back;
     struct grid_field
         normal; /* gradient of mass, and how it touches other layers; of several layers only */
-    double surface[SURFACES + 1]; /* mass per gradient of it, of a surface so far beyond a node */
+    double surface[SURFACES + 1];   /* mass per gradient of it, of a surface so far beyond a node */
+    struct grid_field left, mapped; /* of velocities of higher order only, see order.c */
     struct wall_node *wall;
     int32_t walls;
     int64_t wall_capacity;
@@ -132,6 +135,12 @@ void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, str
 /* Velocities of the second field: of momenta summed from its patches, or with PLAIN of those in the main field. */
 void mpm_find_velocities(const struct mpm *mpm, const struct simulation *simulation,
                          struct layer *layer, bool plain);
+
+/* Velocities of higher order, see order.c: their fields; and collective, in a step of DT: velocities of the second field of
+ * all layers, or with ACCELERATIONS those and accelerations of the main one, to the order of the case. */
+struct error *mpm_reserve_order(struct mpm *mpm);
+void mpm_free_order(struct layer *layer);
+void mpm_raise_order(struct mpm *mpm, struct simulation *simulation, double dt, bool accelerations);
 
 /* Adds to the forces at nodes those that stand in the second field, summed over patches; walls know of them. */
 void mpm_add_forces(const struct mpm *mpm, const struct simulation *simulation,

@@ -49,6 +49,16 @@ const struct parameter mpm_table[] = {
      .closed = true,
      .help = "part of accelerations in `transfer: flip`; less than 1 damps what the grid does not "
              "resolve"},
+    {.key = "order",
+     .kind = PARAMETER_INTEGER,
+     .offset = offsetof(struct mpm_parameters, order),
+     .standard = "1",
+     .above = 1,
+     .below = 20,
+     .closed = true,
+     .help =
+         "of the inverse of the full mass matrix that velocities and accelerations of nodes are "
+         "found by; 1: of the lumped one; with `flip: 0` the method FMPM of this order"},
     {.key = "courant",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, courant),

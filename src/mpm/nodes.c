@@ -123,6 +123,7 @@ static struct error *collect_block(const struct mpm *mpm, struct layer *layer, i
         wall->booked = !mpm_is_far(mpm, layer, layer->grid.touch[block][0].bin);
         wall->back = grid_node(&layer->back, block, k);
         wall->normal = layer->normal.node ? grid_node(&layer->normal, block, k) : NULL;
+        wall->mapped = layer->mapped.node ? grid_node(&layer->mapped, block, k) : NULL;
         memcpy(wall->sum, node, sizeof wall->sum);
         layer->walls++;
     }
@@ -161,16 +162,17 @@ static void fold_onto(double *node, double *onto, int axis, int count, const int
 static void fold(const struct mpm *mpm, struct layer *layer, const struct grid_field *field)
 {
     static const int main_vectors[] = {NODE_MOMENTUM, NODE_FORCE}, back_vectors[] = {0};
-    const bool is_main = field == &layer->main;
+    const bool is_main = field == &layer->main || field == &layer->mapped;
     const int count = is_main ? 2 : 1;
     const int *vectors = is_main ? main_vectors : back_vectors;
     for (int axis = 0; axis < layer->grid.dimension; axis++)
         for (int side = 0; side < 2 && layer->walls; side++)
             for (int32_t w = 0; w < layer->walls && mpm->has_plane[axis][side]; w++) {
                 const struct wall_node *wall = &layer->wall[w];
-                double *node = is_main                 ? wall->node
-                               : field == &layer->back ? wall->back
-                                                       : wall->normal;
+                double *node = field == &layer->main     ? wall->node
+                               : field == &layer->mapped ? wall->mapped
+                               : field == &layer->back   ? wall->back
+                                                         : wall->normal;
                 const int64_t far = behind(mpm, axis, side, wall->at[axis]);
                 if (far == 0)
                     for (int v = 0; v < count; v++)

@@ -25,6 +25,32 @@ static struct error *refuse_transfer(const struct mpm_parameters *given,
     return error;
 }
 
+static struct error *refuse_order(const struct mpm_parameters *given,
+                                  const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    struct error *error = NULL;
+    bool burns = false;
+    for (int m = 0; m < simulation->materials; m++)
+        burns |= material_burns(&simulation->material[m]);
+    if (given->order == 1)
+        return NULL;
+    if (given->transfer != MPM_FLIP || given->shape == SHAPE_LINEAR)
+        error = input_error(
+            input, "solver", "mpm.order",
+            "%d goes with `transfer: flip`, as what affine particles give to nodes is not "
+            "smoothed, and not with `shape: linear`, whose nodes of next to no mass get unstable",
+            given->order);
+    /* what has yet to burn has neither stiffness nor viscosity against what overshoots */
+    if (burns)
+        error = error_join(
+            error,
+            input_error(input, "solver", "mpm.order",
+                        "%d is unstable at the front of an explosive that burns: 1 goes there",
+                        given->order));
+    return error;
+}
+
 static struct error *refuse_contacts(const struct simulation_case *input)
 {
     struct error *error = NULL;
@@ -69,6 +95,7 @@ struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
     if (simulation->geometry == GEOMETRY_PLANE_STRESS)
         error = input_error(input, "geometry", NULL, "the solver mpm knows no plane stress");
     error = error_join(error, refuse_transfer(given, input));
+    error = error_join(error, refuse_order(given, simulation));
     error = error_join(error, refuse_contacts(input));
     return error_join(error, refuse_far_bodies(edge, simulation));
 }

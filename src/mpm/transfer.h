@@ -51,6 +51,11 @@ void transfer_slopes(const struct transfer *transfer, int32_t bin);
 void transfer_velocity(const struct transfer *transfer, int32_t bin, double dt, bool scatter,
                        bool move);
 
+/* Particles of BIN get the velocities, and with ACCELERATIONS those too, that the nodes of the patch FROM have, and give them
+ * back to the patch TO with their masses; both are laid out as that of the main field. */
+void transfer_again(const struct transfer *transfer, int32_t bin, const double *from,
+                    bool accelerations, double *to);
+
 /* Where the rates of a bin's particles go: number c of the k-th at to[c * stride + k]; each row has room for seven more, which
  * are written too. */
 struct rates {

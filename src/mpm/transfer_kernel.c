@@ -171,41 +171,7 @@ INLINE void scatter_slopes(const struct transfer *t, struct kind kind, int32_t b
     }
 }
 
-/* The shape functions of the lanes of a chunk at all nodes of the window. */
-INLINE void find_weights(struct kind kind, const struct chunk *chunk, double (*weight)[LANES])
-{
-    FOR_NODES(kind, a, b, c)
-    {
-        for (int lane = 0; lane < kind.lanes; lane++) {
-            double w = chunk->value[0][a][lane];
-            if (kind.dimension > 1)
-                w *= chunk->value[1][b][lane];
-            if (kind.dimension > 2)
-                w *= chunk->value[2][c][lane];
-            (*weight)[lane] = w;
-        }
-        weight++;
-    }
-}
-
-/* For the lanes of a chunk: the sums over nodes, with their WEIGHT, of COUNT numbers at DATA, STRIDE a node. */
-INLINE void gather(const struct transfer *t, struct kind kind, const double (*weight)[LANES],
-                   size_t base, const double *data, int stride, int count, double (*sum)[LANES])
-{
-    for (int k = 0; k < count; k++)
-        for (int lane = 0; lane < kind.lanes; lane++)
-            sum[k][lane] = 0.0;
-    FOR_NODES(kind, a, b, c)
-    {
-        const double *node = data + node_of(t, kind, base, a, b, c) * (size_t)stride;
-        for (int k = 0; k < count; k++)
-            for (int lane = 0; lane < kind.lanes; lane++)
-                sum[k][lane] += (*weight)[lane] * node[k];
-        weight++;
-    }
-}
-
-/* The same of the sums with slopes: sum[i][j] is d data_i / d x_j. */
+/* The same as `gather` with slopes: sum[i][j] is d data_i / d x_j. */
 INLINE void gather_slopes(const struct transfer *t, struct kind kind, const struct chunk *chunk,
                           size_t base, const double *data, int stride, double (*sum)[3][LANES])
 {
@@ -341,6 +307,45 @@ INLINE void velocity(const struct transfer *t, struct kind kind, int32_t bin, do
     }
 }
 
+INLINE void again(const struct transfer *t, struct kind kind, int32_t bin, const double *from,
+                  bool accelerations, double *to)
+{
+    memset(to, 0, (size_t)(t->grid->patch * NODE_STRIDE) * sizeof *to);
+    const struct corner corner = corner_of(t, kind, bin);
+    ALIGNED double got[NODE_STRIDE][LANES] = {{0.0}}, weight[NODES_MAX][LANES];
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
+        struct chunk chunk;
+        vector8 sum[NODES_MAX];
+        for (int n = 0; n < nodes_of(kind) && walk.count; n++)
+            sum[n] = (vector8){0.0};
+        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
+            weigh(t, kind, &walk, begin, &chunk);
+            find_weights(kind, &chunk, weight);
+            gather(t, kind, weight, walk.base, from + NODE_VELOCITY, NODE_STRIDE, kind.dimension,
+                   got + NODE_VELOCITY);
+            if (accelerations)
+                gather(t, kind, weight, walk.base, from + NODE_ACCELERATION, NODE_STRIDE,
+                       kind.dimension, got + NODE_ACCELERATION);
+            for (int lane = 0; lane < chunk.count; lane++) {
+                const double m = t->mass[chunk.index[lane]];
+                const vector8 record = {0.0,
+                                        m * got[1][lane],
+                                        m * got[2][lane],
+                                        m * got[3][lane],
+                                        m * got[4][lane],
+                                        m * got[5][lane],
+                                        m * got[6][lane],
+                                        0.0};
+                for (int n = 0; n < nodes_of(kind); n++)
+                    sum[n] += weight[n][lane] * record;
+            }
+        }
+        if (walk.count)
+            add_sums(t, kind, walk.base, sum, NODE_STRIDE, to);
+    }
+}
+
 /* Strain and spin of the lanes of a chunk from the gradients of velocity SUM; AROUND is the velocity away from the
  * axis. */
 INLINE void keep_rates(const struct transfer *t, struct kind kind, const struct chunk *chunk,
@@ -445,6 +450,14 @@ ISA_KERNEL(void, transfer_velocity, const struct transfer *t, int32_t bin, doubl
            bool scatter_back, bool move){
 #define CALL(dimension, window) \
     velocity(t, (struct kind){dimension, window, 1 << dimension}, bin, dt, scatter_back, move)
+    BY_KIND(t, CALL)
+#undef CALL
+}
+
+ISA_KERNEL(void, transfer_again, const struct transfer *t, int32_t bin, const double *from,
+           bool accelerations, double *to){
+#define CALL(dimension, window) \
+    again(t, (struct kind){dimension, window, 1 << dimension}, bin, from, accelerations, to)
     BY_KIND(t, CALL)
 #undef CALL
 }

@@ -10,6 +10,11 @@ ISA_CHOOSE(void, transfer_velocity,
            (const struct transfer *transfer, int32_t bin, double dt, bool scatter, bool move),
            (transfer, bin, dt, scatter, move))
 
+ISA_CHOOSE(void, transfer_again,
+           (const struct transfer *transfer, int32_t bin, const double *from, bool accelerations,
+            double *to),
+           (transfer, bin, from, accelerations, to))
+
 ISA_CHOOSE(void, transfer_gradient,
            (const struct transfer *transfer, int32_t bin, double dt, const double *velocity,
             int stride, bool move, struct rates rates),

@@ -179,4 +179,38 @@ INLINE struct weight weight_of(struct kind kind, const struct chunk *chunk, int 
     return (struct weight){va * vb * vc, {sa * vb * vc, va * sb * vc, va * vb * sc}};
 }
 
+/* The shape functions of the lanes of a chunk at all nodes of the window. */
+INLINE void find_weights(struct kind kind, const struct chunk *chunk, double (*weight)[LANES])
+{
+    FOR_NODES(kind, a, b, c)
+    {
+        for (int lane = 0; lane < kind.lanes; lane++) {
+            double w = chunk->value[0][a][lane];
+            if (kind.dimension > 1)
+                w *= chunk->value[1][b][lane];
+            if (kind.dimension > 2)
+                w *= chunk->value[2][c][lane];
+            (*weight)[lane] = w;
+        }
+        weight++;
+    }
+}
+
+/* For the lanes of a chunk: the sums over nodes, with their WEIGHT, of COUNT numbers at DATA, STRIDE a node. */
+INLINE void gather(const struct transfer *t, struct kind kind, const double (*weight)[LANES],
+                   size_t base, const double *data, int stride, int count, double (*sum)[LANES])
+{
+    for (int k = 0; k < count; k++)
+        for (int lane = 0; lane < kind.lanes; lane++)
+            sum[k][lane] = 0.0;
+    FOR_NODES(kind, a, b, c)
+    {
+        const double *node = data + node_of(t, kind, base, a, b, c) * (size_t)stride;
+        for (int k = 0; k < count; k++)
+            for (int lane = 0; lane < kind.lanes; lane++)
+                sum[k][lane] += (*weight)[lane] * node[k];
+        weight++;
+    }
+}
+
 #endif

@@ -90,7 +90,8 @@ static void bits_do_not_depend_on_threads_storage_or_a_resume(void **state)
     (void)state;
     static const char *const settings[] = {
         "solver.mpm.scheme=musl", "solver.mpm.scheme=usl",    "solver.mpm.scheme=usf",
-        "solver.mpm.shape=gimp",  "solver.mpm.transfer=apic", "solver.mpm.shear_damping=0.1"};
+        "solver.mpm.shape=gimp",  "solver.mpm.transfer=apic", "solver.mpm.shear_damping=0.1",
+        "solver.mpm.order=2"};
     static const char *const few[] = {"solver.mpm.shape=linear", "solver.mpm.shape=cubic"};
     check_bits(plane_case, settings, COUNT_OF(settings));
     check_bits(space_case, few, COUNT_OF(few));
@@ -114,7 +115,7 @@ static void mass_and_momentum_stay_in_contacts(void **state)
 {
     (void)state;
     static const char *const settings[] = {"solver.mpm.shape=linear", "solver.mpm.shape=cubic",
-                                           "solver.mpm.scheme=usf"};
+                                           "solver.mpm.scheme=usf", "solver.mpm.order=2"};
     for (size_t k = 0; k < COUNT_OF(settings); k++) {
         const struct variant variant = {"", 1, 1.0, settings[k], false};
         struct running *run = begin_fresh(contact_case, &variant);
@@ -130,9 +131,11 @@ static void mass_and_momentum_stay_but_for_what_walls_push(void **state)
 {
     (void)state;
     static const char *const settings[] = {
-        "solver.mpm.shape=linear", "solver.mpm.shape=gimp",       "solver.mpm.shape=quadratic",
-        "solver.mpm.shape=cubic",  "solver.mpm.scheme=usl",       "solver.mpm.scheme=usf",
-        "solver.mpm.flip=0.5",     "solver.mpm.shear_damping=0.1"};
+        "solver.mpm.shape=linear",    "solver.mpm.shape=gimp",
+        "solver.mpm.shape=quadratic", "solver.mpm.shape=cubic",
+        "solver.mpm.scheme=usl",      "solver.mpm.scheme=usf",
+        "solver.mpm.flip=0.5",        "solver.mpm.shear_damping=0.1",
+        "solver.mpm.order=3",         "solver.mpm={cell: 2 mm, order: 2, flip: 0.5}"};
     for (size_t k = 0; k < COUNT_OF(settings); k++) {
         const struct variant variant = {"", 1, 1.0, settings[k], false};
         struct running *run = begin_fresh(plane_case, &variant);
