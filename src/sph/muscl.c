@@ -29,7 +29,15 @@ static const char *wrong_parameter(const struct sph_parameters *parameters, int 
 struct error *muscl_check(const struct sph *sph, const struct simulation *simulation)
 {
     const char *key, *wrong = wrong_parameter(&sph->parameters, simulation->dimension, &key);
-    return wrong ? input_error(simulation->input, "solver", key, "%s", wrong) : NULL;
+    const struct simulation_case *input = simulation->input;
+    struct error *error = wrong ? input_error(input, "solver", key, "%s", wrong) : NULL;
+    for (int c = 0; c < input->contacts.count; c++)
+        for (int side = 0; side < 2; side++)
+            if (case_body(input, case_contact(input, c)->body[side])->frozen)
+                error = error_join(error,
+                                   input_error(input, "contacts", input->contacts.names[c],
+                                               "by muscl a frozen body sticks to what it touches"));
+    return error;
 }
 
 struct muscl_kind muscl_kind_of(const struct sph *sph)
@@ -167,7 +175,8 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     for (int axis = 0; axis < dimension; axis++)
         record[k++] = p->position[i][axis];
     record[k++] = sph_support(f, i);
-    record[k++] = sph_volume(simulation, f, i);
+    /* frozen ones are no matter of the sums: see frozen.c */
+    record[k++] = body_is_frozen(simulation, p->body[i]) ? 0.0 : sph_volume(simulation, f, i);
     for (int axis = 0; axis < dimension; axis++)
         record[k++] = p->velocity[i][axis] + velocity[axis];
     const double at[6] = {s[0] - pressure, s[1] - pressure, s[2] - pressure, s[3], s[4], s[5]};

@@ -412,6 +412,7 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation, d
     struct sph_fields f = sph_fields_of(sph, simulation);
     if (f.rates.wall)
         sph_book_walls(simulation, &f, dt);
+    frozen_book(sph, simulation, dt);
     sph_hold_bodies(simulation, &f, dt);
     struct failure failure = {false, 0, 0};
     if (sph_still(sph)) {

@@ -68,5 +68,7 @@ struct error *sph_refresh_rows(struct sph *sph, struct simulation *simulation)
     struct error *error = conduction_on(sph) ? conduction_reserve(sph, simulation) : NULL;
     if (!error)
         error = reserve_records(sph, simulation);
+    if (!error)
+        error = frozen_find(sph, simulation);
     return ranks_agree(simulation->ranks, error);
 }

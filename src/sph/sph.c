@@ -328,6 +328,7 @@ static void sum_pairs_ahead(struct sph *sph, struct simulation *simulation,
         }
     }
     sph->neighbours.prune = false;
+    frozen_push(sph, simulation, fields);
     if (sph_axisymmetric(simulation))
         sph_add_hoop(sph, simulation, fields);
     simulation_spend(simulation, "pairs", clock_seconds() - begin);
@@ -423,6 +424,7 @@ static void sph_destroy(void *solver)
     neighbours_free(&sph->neighbours);
     conduction_destroy(sph);
     free(sph->place);
+    free(sph->end);
 }
 
 static double sph_bytes(const void *parameters, int dimension)

@@ -25,6 +25,12 @@ struct sph_fields {
     double (*force)[3];
 };
 
+/* A particle beside frozen ones, and what these add to it: force and power, N and W. */
+struct end {
+    int32_t index;
+    double force[3], power;
+};
+
 struct sph {
     struct sph_parameters parameters;
     struct pair_kind kind;
@@ -39,6 +45,9 @@ struct sph {
     double *record, *place;
     int64_t place_capacity; /* in records */
     struct conduction conduction;
+    int32_t ends;
+    int64_t end_capacity;
+    struct end *end;
 };
 
 struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *simulation);
@@ -153,6 +162,13 @@ struct sph_parameters sph_settled(const struct sph_parameters *parameters);
 /* Of near rows. None are kept on a line, where rows are short, nor where Heun's step moves particles between two walks or
  * nothing moves. */
 double sph_near_skin(const struct sph_parameters *settled, int dimension);
+
+/* Of frozen.c, second order: finds particles beside frozen ones when rows are built again; adds to their sums what these
+ * push, and leaves frozen ones none; books that for a step of DT. */
+struct error *frozen_find(struct sph *sph, const struct simulation *simulation);
+void frozen_push(struct sph *sph, const struct simulation *simulation,
+                 const struct sph_fields *fields);
+void frozen_book(const struct sph *sph, struct simulation *simulation, double dt);
 
 /* Pressure and sound speeds of particle I as it stands; what its material says of them. */
 BOLIDE_INLINE struct response sph_evaluate_point(struct simulation *simulation,
