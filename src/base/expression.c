@@ -70,10 +70,14 @@ static bool is_function(const char *word, size_t length)
     return false;
 }
 
-/* 1, 2, 3 for x, y, z; 0 for any other word. */
-static int coordinate(const char *word, size_t length)
+/* 1, 2, 3 for x, y, z, and 4 for t, among ARGUMENTS; 0 for any other word. */
+static int argument(unsigned arguments, const char *word, size_t length)
 {
-    return length == 1 && *word >= 'x' && *word <= 'z' ? *word - 'x' + 1 : 0;
+    if (length == 1 && *word == 't' && arguments & ARGUMENT_TIME)
+        return ARGUMENT_T + 1;
+    return length == 1 && *word >= 'x' && *word <= 'z' && arguments & ARGUMENT_POSITION
+               ? *word - 'x' + 1
+               : 0;
 }
 
 static struct error *parse_unit(const char *start, const char *end, struct unit *unit)
@@ -110,8 +114,8 @@ static const char *scan_factor(const struct expression_reading *reading, const c
             return NULL;
         end++;
     } else {
-        end = word_end(at);
-        if (!is_unit(at, end))
+        end = word_end(at); /* t is the time, not a tonne, where it may be */
+        if (!is_unit(at, end) || argument(reading->arguments, at, (size_t)(end - at)))
             return NULL;
         if (find_name(reading, at, (size_t)(end - at)))
             *ambiguous = at;
@@ -155,8 +159,8 @@ static struct error *scan_unit(const struct expression_reading *reading, const c
     if (word > at) {
         int length = (int)(word - at);
         bool known = find_name(reading, at, (size_t)length) || is_function(at, (size_t)length) ||
-                     (reading->of_position && coordinate(at, (size_t)length));
-        if (!is_unit(at, word) && (known || is_word(at, (size_t)length, "pi")))
+                     is_word(at, (size_t)length, "pi");
+        if ((known && !is_unit(at, word)) || argument(reading->arguments, at, (size_t)length))
             return error_new(ERROR_INPUT,
                              "\"%.*s\" behind a number is no unit: put \"*\" between them", length,
                              at);
@@ -206,7 +210,7 @@ static void emit_variable(struct expression_reading *reading, struct quantity qu
 {
     int index = reading->variables++;
     reading->quantities[index] = quantity;
-    reading->axis[index] = 0;
+    reading->argument[index] = 0;
     char name[VARIABLE_NAME];
     expression_variable(index, name);
     emit(reading, ' ', origin);
@@ -289,10 +293,14 @@ static struct error *unknown_word(const struct expression_reading *reading, cons
     size_t length = (size_t)(end - word);
     if (is_function(word, length))
         return error_new(ERROR_INPUT, "the function \"%.*s\" lacks its \"(\"", (int)length, word);
+    if (is_word(word, length, "t"))
+        return error_new(ERROR_INPUT,
+                         "unknown name \"t\" (as the time it stands only in loads and in "
+                         "the velocity of a driven body)");
     if (is_unit(word, end))
         return error_new(ERROR_INPUT, "unknown name \"%.*s\" (a unit needs a number: \"1 %.*s\")",
                          (int)length, word, (int)length, word);
-    if (coordinate(word, length))
+    if (argument(ARGUMENT_POSITION, word, length))
         return error_new(ERROR_INPUT,
                          "unknown name \"%c\" (as a position it stands only in what a body has at "
                          "the start)",
@@ -323,19 +331,21 @@ static struct error *read_word(struct expression_reading *reading)
     const char *word = reading->at, *end = word_end(word);
     size_t length = (size_t)(end - word);
     const struct named_quantity *name = find_name(reading, word, length);
+    const int index = argument(reading->arguments, word, length);
     reading->at = end;
     if (is_function(word, length) && *skip_blanks(end) == '(') {
         for (const char *c = word; c < end; c++)
             emit(reading, *c, c);
         reading->at = skip_blanks(end);
-    } else if (reading->of_position && coordinate(word, length)) {
-        static const struct dimension metre = {.length = 1};
+    } else if (index) {
+        static const struct dimension metre = {.length = 1}, second = {.time = 1};
+        const bool time = index > ARGUMENT_T;
         if (name)
             return error_new(ERROR_INPUT,
-                             "\"%c\" is the position here: call the name of let something else",
-                             *word);
-        emit_variable(reading, (struct quantity){0.0, metre}, word);
-        reading->axis[reading->variables - 1] = (int8_t)coordinate(word, length);
+                             "\"%c\" is the %s here: call the name of let something else", *word,
+                             time ? "time" : "position");
+        emit_variable(reading, (struct quantity){0.0, time ? second : metre}, word);
+        reading->argument[reading->variables - 1] = (int8_t)index;
     } else if (name) {
         emit_variable(reading, name->quantity, word);
     } else if (is_word(word, length, "pi")) {
@@ -355,7 +365,7 @@ static struct error *read_text(struct expression_reading *reading)
             TRY(read_literal(reading));
         else if (is_letter(c))
             TRY(read_word(reading));
-        else if (is_blank(c) || strchr(reading->of_position ? "+-*/^(),<>" : "+-*/^(),", c)) {
+        else if (is_blank(c) || strchr(reading->arguments ? "+-*/^(),<>" : "+-*/^(),", c)) {
             emit(reading, is_blank(c) ? ' ' : c, reading->at);
             reading->at++;
             if ((c == '<' || c == '>') && *reading->at == '=') {
@@ -369,7 +379,7 @@ static struct error *read_text(struct expression_reading *reading)
 }
 
 struct error *expression_read(const char *text, const struct named_quantity *names, int count,
-                              bool of_position, struct expression_reading **reading)
+                              unsigned arguments, struct expression_reading **reading)
 {
     *reading = NULL;
     if (!*skip_blanks(text))
@@ -382,7 +392,7 @@ struct error *expression_read(const char *text, const struct named_quantity *nam
     made->text = made->at = text;
     made->names = names;
     made->names_count = count;
-    made->of_position = of_position;
+    made->arguments = arguments;
     struct error *error = read_text(made);
     if (error)
         free(made);

@@ -23,25 +23,32 @@ struct named_quantity {
 struct error *expression_evaluate(const char *text, const struct named_quantity *names, int count,
                                   struct quantity *result);
 
-/* An expression of the position x, y, z of a place: `Omega*y`, `300 K + 700 K*(x > 1 mm)`. */
-struct position_expression;
+/* An expression of the position x, y, z of a place or of the time t: `Omega*y`, `300 K + 700 K*(x > 1 mm)`,
+ * `10 MPa*exp(-t/1 ms)`. */
+struct varying_expression;
 
-/* Like expression_evaluate for a TEXT that may name the position, three lengths x, y, z, and compare with
- * < > <= >=, which gives 1 or 0. Where it names the position *EXPRESSION holds it and RESULT its dimension
- * with the value NAN; else *EXPRESSION is NULL. A coordinate that is one of NAMES too is an error. */
-struct error *position_expression_compile(const char *text, const struct named_quantity *names,
-                                          int count, struct quantity *result,
-                                          struct position_expression **expression);
+/* What an expression may name, as a sum: the position, three lengths x, y, z; the time t. */
+enum expression_arguments { ARGUMENT_POSITION = 1, ARGUMENT_TIME = 2 };
 
-/* The value in SI units at PLACE (m), perhaps not finite. Not for two threads at once. */
-double position_expression_at(const struct position_expression *expression, struct vec3 place);
+/* Like expression_evaluate for a TEXT that may name ARGUMENTS, and compare with < > <= >=, which gives 1 or 0. Where it
+ * names one *EXPRESSION holds it and RESULT its dimension with the value NAN; else *EXPRESSION is NULL. One of NAMES that
+ * is called like an argument is an error where it is used. */
+struct error *varying_expression_compile(const char *text, unsigned arguments,
+                                         const struct named_quantity *names, int count,
+                                         struct quantity *result,
+                                         struct varying_expression **expression);
 
-/* True when it names the coordinate of AXIS, 0 to 2. */
-bool position_expression_uses(const struct position_expression *expression, int axis);
+/* The value in SI units at PLACE (m) and TIME (s), perhaps not finite. Not for two threads at once. */
+double varying_expression_at(const struct varying_expression *expression, struct vec3 place,
+                             double time);
+
+/* True when it names the argument INDEX: 0 to 2 the coordinates, 3 the time. */
+enum { ARGUMENT_T = 3 };
+bool varying_expression_uses(const struct varying_expression *expression, int index);
 
 /* Names and units written out in SI: compiled without names this gives the same bits. */
-const char *position_expression_text(const struct position_expression *expression);
+const char *varying_expression_text(const struct varying_expression *expression);
 
-void position_expression_free(struct position_expression *expression);
+void varying_expression_free(struct varying_expression *expression);
 
 #endif

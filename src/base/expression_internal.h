@@ -13,19 +13,19 @@ struct expression_reading {
     const char *text, *at;
     const struct named_quantity *names;
     int names_count;
-    bool of_position;     /* x, y, z and comparisons may stand in the text */
+    unsigned arguments;   /* which may stand in the text, and comparisons with them */
     const char *unit_end; /* of the last literal that had a unit */
     int length, variables;
     char formula[FORMULA_SIZE];
     int origin[FORMULA_SIZE]; /* the byte of `text` that a byte of the formula comes from */
     struct quantity quantities[LONGEST_EXPRESSION];
-    int8_t axis[LONGEST_EXPRESSION];   /* 1, 2, 3 where a variable is x, y, z */
-    double values[LONGEST_EXPRESSION]; /* what muparser sees of them */
+    int8_t argument[LONGEST_EXPRESSION]; /* 1, 2, 3, 4 where a variable is x, y, z, t */
+    double values[LONGEST_EXPRESSION];   /* what muparser sees of them */
 };
 
 /* Turns TEXT into a formula of variables; free() frees *READING, which holds nothing else. */
 struct error *expression_read(const char *text, const struct named_quantity *names, int count,
-                              bool of_position, struct expression_reading **reading);
+                              unsigned arguments, struct expression_reading **reading);
 
 /* The name of variable INDEX in the formula: v000, v001, ... */
 void expression_variable(int index, char name[VARIABLE_NAME]);
@@ -38,8 +38,8 @@ void expression_give(const struct expression_reading *reading, muParserHandle_t 
 struct error *expression_try(const struct expression_reading *reading, muParserHandle_t parser,
                              double *value);
 
-/* The dimension of a formula of no position, at the first numbers that serve; of one of the position, whose
- * pieces may differ, the same at all of many numbers. */
+/* The dimension of a formula without arguments, at the first numbers that serve; of one with them, whose pieces may
+ * differ, the same at all of many numbers. */
 struct error *expression_dimension(struct expression_reading *reading, muParserHandle_t parser,
                                    struct dimension *dimension);
 

@@ -46,16 +46,16 @@ static double any_number(int index, int trial)
 
 /* The dimension must not hang on the values: 0 mm is a length, U0 - U0 a velocity, and in 1 nm +
  * 200 GPa the first term drowns. So each quantity takes any number of its sign instead of its
- * value, and each occurrence of a name another one, of a coordinate one of any sign. Pure numbers keep theirs, for they may be
+ * value, and each occurrence of a name another one, of an argument one of any sign. Pure numbers keep theirs, for they may be
  * exponents. Where that gives zero or leaves the domain of a function another trial follows:
  * first with zeros as they are, then with zeros replaced as well (0*plate), at last with the
  * true values. */
-enum { TRIALS = 8, LAST_TRIAL = 2 * TRIALS, POSITION_TRIALS = 64 };
+enum { TRIALS = 8, LAST_TRIAL = 2 * TRIALS, ARGUMENT_TRIALS = 64 };
 
 static double trial_value(const struct expression_reading *reading, int index, int trial)
 {
     struct quantity quantity = reading->quantities[index];
-    if (reading->axis[index])
+    if (reading->argument[index])
         return any_number(index + LONGEST_EXPRESSION, trial) < 1.25 ? any_number(index, trial)
                                                                     : -any_number(index, trial);
     bool pure = dimension_equal(quantity.dimension, (struct dimension){0});
@@ -111,7 +111,7 @@ struct error *expression_dimension(struct expression_reading *reading, muParserH
     /* Zero whatever the values: like a bare 0 it has no dimension. */
     *dimension = (struct dimension){0};
     bool known = false;
-    int trials = reading->of_position ? POSITION_TRIALS : LAST_TRIAL + 1;
+    int trials = reading->arguments ? ARGUMENT_TRIALS : LAST_TRIAL + 1;
     for (int trial = 0; trial < trials; trial++) {
         struct dimension shown;
         double plain = evaluate_scaled(reading, parser, trial, (const int[4]){0});
@@ -122,7 +122,7 @@ struct error *expression_dimension(struct expression_reading *reading, muParserH
             return different_dimensions();
         *dimension = shown;
         known = true;
-        if (!reading->of_position)
+        if (!reading->arguments)
             break;
     }
     return NULL;
@@ -170,7 +170,7 @@ struct error *expression_evaluate(const char *text, const struct named_quantity 
                                   struct quantity *result)
 {
     struct expression_reading *reading;
-    TRY(expression_read(text, names, count, false, &reading));
+    TRY(expression_read(text, names, count, 0, &reading));
     muParserHandle_t parser = mupCreate(muBASETYPE_FLOAT);
     struct error *error = evaluate(reading, parser, result);
     mupRelease(parser);

@@ -31,8 +31,8 @@ static void names_release(int count, char **names)
 
 static void field_release(struct field_value *field)
 {
-    position_expression_free(field->of_position);
-    field->of_position = NULL;
+    varying_expression_free(field->varying);
+    field->varying = NULL;
 }
 
 static void one_of_release(struct one_of *one_of)

@@ -14,7 +14,7 @@
  *   CHOICE     one of `names`                            int, the index in `names`
  *   VECTOR     a list of 1 to 3 expressions              struct vector_value (count 0: not given)
  *   VECTORS    a list of such lists                      struct vector_list
- *   FIELD      an expression that may name the position  struct field_value; constant NAN when not given
+ *   FIELD      an expression that may name `arguments`   struct field_value; constant NAN when not given
  *   FIELDS     a list of 1 to 6 such expressions         struct field_list (count 0: not given)
  *   NAMES      a list of scalars, or one scalar          struct name_list
  *   TABLE      a map with the keys of `table`            the nested struct itself
@@ -70,6 +70,7 @@ struct parameter {
     size_t size;               /* MAP: bytes of one item's struct */
     const char *const *names;  /* CHOICE: the names, ended by NULL */
     const char *kind_of_thing; /* ONE_OF, LIST: a kind of the catalogue: "eos", "shape", ... */
+    unsigned arguments;        /* FIELD(S): what it may name, a sum of enum expression_arguments */
 };
 
 /* The last entry of every table. */
@@ -89,10 +90,10 @@ struct vector_list {
     struct vector_value *items;
 };
 
-/* A number, or an expression of the position. */
+/* A number, or an expression of the position or the time. */
 struct field_value {
     double constant;
-    struct position_expression *of_position; /* NULL: the number */
+    struct varying_expression *varying; /* NULL: the number */
 };
 
 enum { FIELD_COMPONENTS = 6 };
@@ -103,12 +104,18 @@ struct field_list {
 
 static inline bool field_is_given(const struct field_value *field)
 {
-    return field->of_position || !isnan(field->constant);
+    return field->varying || !isnan(field->constant);
 }
 
-static inline double field_at(const struct field_value *field, struct vec3 place)
+static inline double field_at(const struct field_value *field, struct vec3 place, double time)
 {
-    return field->of_position ? position_expression_at(field->of_position, place) : field->constant;
+    return field->varying ? varying_expression_at(field->varying, place, time) : field->constant;
+}
+
+/* Whether it names the time. */
+static inline bool field_is_of_time(const struct field_value *field)
+{
+    return field->varying && varying_expression_uses(field->varying, ARGUMENT_T);
 }
 
 struct name_list {

@@ -70,9 +70,9 @@ struct outflow_input {
 /* loads: NAME: {on: bar, pressure: 1 MPa}: what pushes on the surface of a body. */
 struct load_input {
     char *on;
-    double pressure; /* NAN: not given */
-    struct vector_value
-        traction; /* on the surface that looks to `side` of `axis`; count 0: not given */
+    struct field_value pressure; /* of the time */
+    struct field_list
+        traction; /* of the time, on the surface that looks to `side` of `axis`; count 0: not given */
     int axis, side;
     struct vector_value between; /* positions along `axis`; count 0: everywhere */
     double after, before;        /* s; before NAN: to the end */

@@ -117,10 +117,10 @@ static void check_position(struct checking *checking, const char *key,
                            const struct field_value *field)
 {
     const struct simulation_case *input = checking->input;
-    if (!field->of_position || !case_dimension_known(checking))
+    if (!field->varying || !case_dimension_known(checking))
         return;
     for (int axis = (int)input->dimension; axis < 3; axis++)
-        if (position_expression_uses(field->of_position, axis))
+        if (varying_expression_uses(field->varying, axis))
             case_wrong(checking, key, "the case has %d dimension%s, and no position %c",
                        (int)input->dimension, input->dimension == 1 ? "" : "s", "xyz"[axis]);
 }
@@ -132,6 +132,25 @@ static void check_positions(struct checking *checking, const char *key,
     for (int i = 0; i < list->count; i++) {
         snprintf(item, sizeof item, "%s.%d", key, i + 1);
         check_position(checking, item, &list->at[i]);
+    }
+}
+
+/* What is driven may follow the time, all of it alike. */
+static void check_driven(struct checking *checking, const struct body_input *body)
+{
+    char key[PATH_TEXT];
+    for (int i = 0; i < body->velocity.count; i++) {
+        const struct field_value *velocity = &body->velocity.at[i];
+        snprintf(key, sizeof key, "velocity.%d", i + 1);
+        if (!field_is_of_time(velocity))
+            continue;
+        if (!body->driven)
+            case_wrong(checking, key,
+                       "only a body with `driven: yes` has a velocity of the time t");
+        for (int axis = 0; axis < 3; axis++)
+            if (varying_expression_uses(velocity->varying, axis))
+                case_wrong(checking, key, "this names the time t, and with it no position %c",
+                           "xyz"[axis]);
     }
 }
 
@@ -149,7 +168,7 @@ static void check_stress(struct checking *checking, const struct body_input *bod
         case_wrong(checking, "stress", "%s is wanted in %d dimension%s", forms[dimension - 1],
                    (int)dimension, dimension == 1 ? "" : "s");
     else if (checking->input->geometry == GEOMETRY_PLANE_STRESS &&
-             (across->of_position || across->constant != 0.0))
+             (across->varying || across->constant != 0.0))
         case_wrong(checking, "stress.3", "in plane stress the stress zz is zero");
 }
 
@@ -160,6 +179,7 @@ static void check_start_keys(struct checking *checking, const struct body_input 
     check_position(checking, "energy", &body->energy);
     check_position(checking, "temperature", &body->temperature);
     check_positions(checking, "velocity", &body->velocity);
+    check_driven(checking, body);
     check_positions(checking, "stress", &body->stress);
     check_stress(checking, body);
 }

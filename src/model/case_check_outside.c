@@ -77,7 +77,7 @@ void case_check_load(struct checking *checking, int index)
     case_check_between(checking, &load->between);
     if (case_is_wrong(checking, ""))
         return;
-    if (isnan(load->pressure) == (load->traction.count == 0))
+    if (field_is_given(&load->pressure) == (load->traction.count > 0))
         case_wrong(checking, "", "one of `pressure` and `traction` is wanted");
     else if (load->traction.count && load->between.count == 0)
         case_wrong(checking, "traction",

@@ -141,10 +141,10 @@ const char *start_state(const struct start_given *given, const struct material *
 
 bool body_varies(const struct body_input *body)
 {
-    bool varies = body->density.of_position || body->pressure.of_position ||
-                  body->energy.of_position || body->temperature.of_position;
+    bool varies = body->density.varying || body->pressure.varying || body->energy.varying ||
+                  body->temperature.varying;
     for (int i = 0; i < body->stress.count; i++)
-        varies = varies || body->stress.at[i].of_position;
+        varies = varies || body->stress.at[i].varying;
     return varies;
 }
 
@@ -175,9 +175,9 @@ const char *body_start_wrong(const struct body_input *body, const struct materia
 static const char *value_at(const struct field_value *field, const char *name, struct vec3 place,
                             double least, double *value, const char **key)
 {
-    *value = field_at(field, place);
+    *value = field_at(field, place, 0.0);
     *key = name;
-    if (field->of_position && !isfinite(*value))
+    if (field->varying && !isfinite(*value))
         return "the value is not finite";
     return *value <= least ? "the value must be more than zero" : NULL;
 }

@@ -161,10 +161,10 @@ static const char *setting_text(const struct reading *reading, const char *text,
     return buffer;
 }
 
-/* Any expression; it may name the position where FIELD is not NULL. */
+/* Any expression; it may name ARGUMENTS where FIELD is not NULL. */
 static bool read_expression(struct reading *reading, const struct node *node,
-                            const struct path *path, const char *wanted, struct quantity *quantity,
-                            struct position_expression **field)
+                            const struct path *path, const char *wanted, unsigned arguments,
+                            struct quantity *quantity, struct varying_expression **field)
 {
     if (node->kind != NODE_SCALAR || node_is_empty(node)) {
         complain_kind(reading, node, path, wanted);
@@ -176,7 +176,8 @@ static bool read_expression(struct reading *reading, const struct node *node,
     }
     const struct named_quantity *names = reading->names;
     struct error *error =
-        field ? position_expression_compile(node->text, names, reading->name_count, quantity, field)
+        field ? varying_expression_compile(node->text, arguments, names, reading->name_count,
+                                           quantity, field)
               : expression_evaluate(node->text, names, reading->name_count, quantity);
     char from[TEXT_MAX];
     for (int i = 0; error && i < error_count(error); i++)
@@ -189,7 +190,7 @@ static bool read_expression(struct reading *reading, const struct node *node,
 bool read_quantity(struct reading *reading, const struct node *node, const struct path *path,
                    const char *wanted, struct quantity *quantity)
 {
-    return read_expression(reading, node, path, wanted, quantity, NULL);
+    return read_expression(reading, node, path, wanted, 0, quantity, NULL);
 }
 
 static struct dimension unit_dimension(const char *unit)
@@ -201,15 +202,16 @@ static struct dimension unit_dimension(const char *unit)
     return parsed.dimension;
 }
 
-/* An expression of the dimension of UNIT; a bare zero has every dimension. FIELD is as above. */
+/* An expression of the dimension that PARAMETER has; a bare zero has every dimension. FIELD is as above. */
 static bool read_dimensioned(struct reading *reading, const struct node *node,
-                             const struct path *path, const char *unit, double *value,
-                             struct position_expression **field)
+                             const struct path *path, const struct parameter *parameter,
+                             double *value, struct varying_expression **field)
 {
-    struct dimension wanted = unit_dimension(unit);
+    struct dimension wanted = unit_dimension(parameter->unit);
     struct quantity quantity;
     char buffer[TEXT_MAX], other[TEXT_MAX], from[TEXT_MAX];
-    if (!read_expression(reading, node, path, quantity_text(wanted, buffer), &quantity, field))
+    if (!read_expression(reading, node, path, quantity_text(wanted, buffer), parameter->arguments,
+                         &quantity, field))
         return false;
     bool zero = quantity.value == 0.0 && dimension_equal(quantity.dimension, unit_dimension(""));
     if (!zero && !dimension_equal(quantity.dimension, wanted)) {
@@ -248,7 +250,7 @@ static void read_number(struct reading *reading, const struct node *node, const 
                         const struct parameter *parameter, double *value)
 {
     double number;
-    if (!read_dimensioned(reading, node, path, parameter->unit, &number, NULL))
+    if (!read_dimensioned(reading, node, path, parameter, &number, NULL))
         return;
     *value = number;
     check_range(reading, node, path, parameter, number);
@@ -348,18 +350,17 @@ static void read_vectors(struct reading *reading, const struct node *node, const
     }
 }
 
-/* What an expression of the position may come to is judged where it is evaluated. */
+/* What an expression of arguments may come to is judged where it is evaluated. */
 static void read_field(struct reading *reading, const struct node *node, const struct path *path,
                        const struct parameter *parameter, struct field_value *value)
 {
     struct field_value field = {NAN, NULL};
-    if (read_dimensioned(reading, node, path, parameter->unit, &field.constant,
-                         &field.of_position)) {
+    if (read_dimensioned(reading, node, path, parameter, &field.constant, &field.varying)) {
         *value = field;
-        if (!field.of_position)
+        if (!field.varying)
             check_range(reading, node, path, parameter, field.constant);
     } else {
-        position_expression_free(field.of_position);
+        varying_expression_free(field.varying);
     }
 }
 

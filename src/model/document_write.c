@@ -158,8 +158,8 @@ static void write_vectors(FILE *file, const struct vector_list *list, const char
 
 static void write_field(FILE *file, const struct field_value *field, const char *unit)
 {
-    if (field->of_position)
-        write_text(file, position_expression_text(field->of_position));
+    if (field->varying)
+        write_text(file, varying_expression_text(field->varying));
     else
         write_number(file, field->constant, unit);
 }

@@ -63,3 +63,58 @@ void stop_bodies(struct simulation *simulation)
 {
     act_on_particles(simulation, body_stands, stop_particle, NULL);
 }
+
+/* A body, and its new velocity after a step; NAN: the component stays. */
+struct drive {
+    int body;
+    double dt, velocity[3];
+};
+
+/* The place in the middle of the step is where the impulse has the moment that the particle gains. */
+static void drive_particle(struct simulation *simulation, const void *of, int32_t i,
+                           struct ledger *ledger)
+{
+    const struct particles *p = &simulation->particles;
+    const struct drive *drive = of;
+    const struct vec3 before = vector_at(p->velocity[i]), place = vector_at(p->position[i]);
+    if (p->body[i] != drive->body)
+        return;
+    for (int axis = 0; axis < simulation->dimension; axis++)
+        if (!isnan(drive->velocity[axis])) {
+            const double change = drive->velocity[axis] - p->velocity[i][axis];
+            p->position[i][axis] += 0.5 * drive->dt * change;
+            p->velocity[i][axis] = drive->velocity[axis];
+        }
+    const struct vec3 after = vector_at(p->velocity[i]);
+    const struct vec3 impulse = vec3_scale(p->mass[i], vec3_sub(after, before));
+    ledger_book(ledger, LEDGER_PISTONS, 0.0, impulse,
+                vec3_sub(place, vec3_scale(0.5 * drive->dt, before)),
+                0.5 * vec3_dot(impulse, vec3_add(before, after)));
+}
+
+static bool follows_time(const struct simulation *simulation, int body)
+{
+    const struct field_list *velocity = &case_body(simulation->input, body)->velocity;
+    for (int k = 0; k < velocity->count; k++)
+        if (field_is_of_time(&velocity->at[k]))
+            return !body_stands(simulation, body);
+    return false;
+}
+
+struct error *drive_bodies(struct simulation *simulation, double dt)
+{
+    static const char *const keys[] = {"velocity.1", "velocity.2", "velocity.3"};
+    const struct simulation_case *input = simulation->input;
+    for (int b = 0; b < input->bodies.count; b++) {
+        struct drive drive = {b, dt, {NAN, NAN, NAN}};
+        const struct field_list *velocity = &case_body(input, b)->velocity;
+        if (!follows_time(simulation, b))
+            continue;
+        for (int k = 0; k < velocity->count; k++)
+            if (field_is_of_time(&velocity->at[k]))
+                TRY(simulation_value_at(simulation, simulation->time + dt, &velocity->at[k],
+                                        input->bodies.names[b], keys[k], &drive.velocity[k]));
+        act_on_particles(simulation, follows_time, drive_particle, &drive);
+    }
+    return NULL;
+}

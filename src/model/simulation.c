@@ -280,6 +280,18 @@ struct error *simulation_impossible(const struct simulation *simulation, int32_t
         p->pressure[i], p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
 }
 
+struct error *simulation_value_at(const struct simulation *simulation, double time,
+                                  const struct field_value *field, const char *name,
+                                  const char *key, double *value)
+{
+    *value = field_at(field, vec3_make(0.0, 0.0, 0.0), time);
+    if (isfinite(*value))
+        return NULL;
+    return error_new(ERROR_STATE, "step %lld: %s of %s, \"%s\", is not finite at t = %.6g s",
+                     (long long)simulation->step + 1, key, name,
+                     varying_expression_text(field->varying), time);
+}
+
 struct error *simulation_visit(struct simulation *simulation, struct visitor *visitor)
 {
     TRY(visitor->visit(visitor, "time", NUMBER_DOUBLE, &simulation->time, 1, 1));

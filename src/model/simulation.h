@@ -80,6 +80,11 @@ void simulation_spend(struct simulation *simulation, const char *name, double se
 /* The error that names particle INDEX, whose new state is impossible. */
 struct error *simulation_impossible(const struct simulation *simulation, int32_t index);
 
+/* The value at TIME of a FIELD of the time, KEY of NAME in the case; ERROR_STATE where it is not finite. */
+struct error *simulation_value_at(const struct simulation *simulation, double time,
+                                  const struct field_value *field, const char *name,
+                                  const char *key, double *value);
+
 /* Time, step, ledger and particles. */
 struct error *simulation_visit(struct simulation *simulation, struct visitor *visitor);
 

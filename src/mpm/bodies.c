@@ -161,8 +161,8 @@ void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulat
             high[j] += away;
             for (int k = 0; k < velocity->count; k++) {
                 const double slope =
-                    (field_at(&velocity->at[k], vec3_make(high[0], high[1], high[2])) -
-                     field_at(&velocity->at[k], vec3_make(low[0], low[1], low[2]))) /
+                    (field_at(&velocity->at[k], vec3_make(high[0], high[1], high[2]), 0.0) -
+                     field_at(&velocity->at[k], vec3_make(low[0], low[1], low[2]), 0.0)) /
                     (2.0 * away);
                 /* rounding may have left where the expression has a value */
                 gradient[i][3 * k + j] = isfinite(slope) ? slope : 0.0;

@@ -11,6 +11,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "model/generate.h"
+#include "model/held.h"
 #include "mpm/mpm_internal.h"
 
 static const struct field_declaration mpm_field_table[] = {
@@ -391,7 +392,7 @@ static struct error *mpm_advance(void *solver, struct simulation *simulation, do
     }
     const double begin = clock_seconds();
     mpm_damp_shear(mpm, simulation, dt);
-    mpm_push_surfaces(mpm, simulation, dt);
+    TRY(mpm_push_surfaces(mpm, simulation, dt));
     if (mpm->layers > 1)
         mpm_meet(mpm, simulation, dt);
     for (int g = 0; g < mpm->layers; g++)
@@ -402,6 +403,7 @@ static struct error *mpm_advance(void *solver, struct simulation *simulation, do
     mpm_book_gravity(simulation, dt, false);
     struct error *error = scheme == MPM_USF ? NULL : update_states(mpm, simulation, dt, false);
     mpm_move_held(simulation, dt);
+    error = error_join(error, drive_bodies(simulation, dt));
     mpm_lose_particles(simulation);
     return error;
 }

@@ -146,8 +146,8 @@ void mpm_raise_order(struct mpm *mpm, struct simulation *simulation, double dt, 
 void mpm_add_forces(const struct mpm *mpm, const struct simulation *simulation,
                     struct layer *layer);
 
-/* Collective: loads and faces of outflow push in a step of DT. */
-void mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt);
+/* Collective: loads, as they are in its middle, and faces of outflow push in a step of DT. ERROR_STATE: a load is not finite. */
+struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt);
 /* Marks particles that have left through a face, and books what they had. */
 void mpm_lose_particles(struct simulation *simulation);
 

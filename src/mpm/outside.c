@@ -63,6 +63,7 @@ struct surface {
     struct given (*of)(const struct mpm *, const struct simulation *, const struct surface *,
                        int32_t i);
     const struct load_input *load;
+    double pressure, traction[3]; /* of the load in the middle of the step */
     const struct outflow_input *outflow;
 };
 
@@ -77,9 +78,9 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
     (void)mpm;
     for (int k = 0; k < simulation->dimension; k++)
         if (load->traction.count)
-            given.by_slope[k][load->axis] = sign * load->traction.at[k];
+            given.by_slope[k][load->axis] = sign * surface->traction[k];
         else
-            given.by_slope[k][k] = -volume * load->pressure;
+            given.by_slope[k][k] = -volume * surface->pressure;
     return given;
 }
 
@@ -261,7 +262,21 @@ static void push_surface(struct mpm *mpm, struct simulation *simulation,
     }
 }
 
-void mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt)
+/* Fills in what the load NAME is at TIME. */
+static struct error *find_load(const struct simulation *simulation, const char *name, double time,
+                               struct surface *surface)
+{
+    static const char *const keys[] = {"traction.1", "traction.2", "traction.3"};
+    const struct load_input *load = surface->load;
+    for (int k = 0; k < load->traction.count; k++)
+        TRY(simulation_value_at(simulation, time, &load->traction.at[k], name, keys[k],
+                                &surface->traction[k]));
+    return load->traction.count ? NULL
+                                : simulation_value_at(simulation, time, &load->pressure, name,
+                                                      "pressure", &surface->pressure);
+}
+
+struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt)
 {
     static const double reaches[] = {
         [SHAPE_LINEAR] = 1.0, [SHAPE_GIMP] = 1.5, [SHAPE_QUADRATIC] = 1.5, [SHAPE_CUBIC] = 2.0};
@@ -270,15 +285,16 @@ void mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt
     for (int i = 0; i < input->loads.count; i++) {
         const struct load_input *load = case_load(input, i);
         const bool part = load->between.count > 0;
-        const struct surface surface = {
-            .body = load->body,
-            .low = part ? load->between.at[0] / mpm->edge : -(double)INFINITY,
-            .high = part ? load->between.at[1] / mpm->edge : (double)INFINITY,
-            .axis = load->axis,
-            .of = by_load,
-            .load = load};
-        if (simulation->time >= load->after && !(simulation->time >= load->before))
-            push_surface(mpm, simulation, &surface, dt);
+        struct surface surface = {.body = load->body,
+                                  .low = part ? load->between.at[0] / mpm->edge : -(double)INFINITY,
+                                  .high = part ? load->between.at[1] / mpm->edge : (double)INFINITY,
+                                  .axis = load->axis,
+                                  .of = by_load,
+                                  .load = load};
+        if (simulation->time < load->after || simulation->time >= load->before)
+            continue;
+        TRY(find_load(simulation, input->loads.names[i], simulation->time + 0.5 * dt, &surface));
+        push_surface(mpm, simulation, &surface, dt);
     }
     for (int i = 0; i < input->outflows.count; i++) {
         const struct outflow_input *outflow = case_outflow(input, i);
@@ -290,6 +306,7 @@ void mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt
                                         .outflow = outflow};
         push_surface(mpm, simulation, &surface, dt);
     }
+    return NULL;
 }
 
 void mpm_lose_particles(struct simulation *simulation)

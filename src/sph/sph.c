@@ -396,12 +396,14 @@ static struct error *sph_advance(void *solver, struct simulation *simulation, do
 {
     struct sph *sph = solver;
     sph->steps_since_build++;
-    if (sph_corrected(sph))
-        return hllc_advance(sph, simulation, dt);
+    if (sph_corrected(sph)) {
+        TRY(hllc_advance(sph, simulation, dt));
+        return drive_bodies(simulation, dt);
+    }
     double begin = clock_seconds();
     struct error *error = sph_update(sph, simulation, dt);
     simulation_spend(simulation, "points", clock_seconds() - begin);
-    return error;
+    return error_join(error, drive_bodies(simulation, dt));
 }
 
 static struct error *sph_state(void *solver, struct visitor *visitor)

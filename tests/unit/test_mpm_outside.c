@@ -98,6 +98,60 @@ static void a_traction_gives_its_force_while_it_acts(void **state)
     end(run);
 }
 
+/* A block that a pulse pulls, free in space. */
+static const char pulse[] =
+    "format: 1\ndimension: 2\nresolution: 1 mm\nsolver: mpm\n" MATERIALS "bodies:\n"
+    "  block: {material: metal, box: {from: [0 mm, 0 mm], to: [20 mm, 10 mm]}}\n"
+    "loads:\n"
+    "  pull: {on: block, traction: ['50 MPa*sin(pi*t/0.8 us)', 20 MPa], side: high, between: [10 "
+    "mm, 40 mm], "
+    "before: 0.8 us}\n"
+    "run: {until: 1 s}\n";
+
+/* Half a sine has the impulse 2 T t/pi; that of the steps, each with what its middle has, is booked to rounding. */
+static void a_load_follows_the_time(void **state)
+{
+    (void)state;
+    const double area = 0.01, t = 0.8e-6, pi = acos(-1.0);
+    struct running *run = begin_fresh(pulse, &plain);
+    const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    double impulse = 0.0;
+    while (run->simulation.time < t) {
+        const double before = run->simulation.time;
+        step_of(run, t - before);
+        const double dt = run->simulation.time - before;
+        impulse += dt * 50e6 * area * sin(pi * (before + 0.5 * dt) / t);
+        check_kept(run, &start);
+    }
+    const struct totals loads = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_LOADS);
+    assert_near(loads.entry[LEDGER_MOMENTUM_X], impulse, 2e-3 * impulse); /* of the surface */
+    assert_near(loads.entry[LEDGER_MOMENTUM_Y] / loads.entry[LEDGER_MOMENTUM_X],
+                20e6 * t / (50e6 * 2.0 * t / pi), 2e-3);
+    assert_near(impulse, 50e6 * area * 2.0 * t / pi, 1e-2 * impulse);
+    end(run);
+}
+
+static void a_load_that_is_not_finite_ends_the_run(void **state)
+{
+    (void)state;
+    const struct variant variant = {"", 1, 1.0,
+                                    "loads.pull.traction=[1 MPa*sqrt(1 - t/0.1 us), 0]", false};
+    struct running *run = begin_fresh(pulse, &variant);
+    struct error *error = NULL;
+    while (!error) {
+        assert_true(run->simulation.time < 1e-7);
+        assert_success(run->solver->prepare(&run->sph, &run->simulation, &run->limit));
+        error = run->solver->advance(&run->sph, &run->simulation, run->limit.dt);
+        run->simulation.time += run->limit.dt;
+    }
+    assert_int_equal(error_kind(error), ERROR_STATE);
+    assert_non_null(
+        strstr(error_message(error, 0), "traction.1 of pull, \"(1000000 Pa)*sqrt(1-t/"));
+    assert_non_null(strstr(error_message(error, 0), "is not finite at t = "));
+    error_free(error);
+    end(run);
+}
+
 static void what_leaves_is_booked(void **state)
 {
     (void)state;
@@ -154,7 +208,7 @@ static uint64_t hash_of(const char *text, const struct variant *variant)
 static void bits_do_not_depend_on_threads_storage_or_a_resume(void **state)
 {
     (void)state;
-    const char *const texts[] = {pulled, leaving};
+    const char *const texts[] = {pulled, leaving, pulse};
     for (size_t k = 0; k < COUNT_OF(texts); k++) {
         const struct variant others[] = {{"three threads", 3, 1.0, NULL, false},
                                          {"other storage", 2, 1.7, NULL, false},
@@ -170,6 +224,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pressure_around_balances_pressure_within),
         cmocka_unit_test(a_traction_gives_its_force_while_it_acts),
+        cmocka_unit_test(a_load_follows_the_time),
+        cmocka_unit_test(a_load_that_is_not_finite_ends_the_run),
         cmocka_unit_test(what_leaves_is_booked),
         cmocka_unit_test(a_fast_stream_leaves_as_it_came),
         cmocka_unit_test(bits_do_not_depend_on_threads_storage_or_a_resume),

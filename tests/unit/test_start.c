@@ -82,7 +82,8 @@ static struct field_value field(const char *text)
 {
     struct quantity result;
     struct field_value value;
-    assert_null(position_expression_compile(text, NULL, 0, &result, &value.of_position));
+    assert_null(
+        varying_expression_compile(text, ARGUMENT_POSITION, NULL, 0, &result, &value.varying));
     value.constant = result.value;
     return value;
 }
@@ -103,10 +104,10 @@ static struct body_input *add_varied(struct workshop *w, struct shape_box *box)
 
 static void release(struct body_input *body)
 {
-    position_expression_free(body->density.of_position);
-    position_expression_free(body->temperature.of_position);
+    varying_expression_free(body->density.varying);
+    varying_expression_free(body->temperature.varying);
     for (int i = 0; i < body->velocity.count; i++)
-        position_expression_free(body->velocity.at[i].of_position);
+        varying_expression_free(body->velocity.at[i].varying);
 }
 
 static void every_particle_has_the_state_of_its_place(void **state)
@@ -146,13 +147,13 @@ static void a_state_that_is_none_is_told_at_the_key_with_its_first_place(void **
     struct workshop w;
     struct shape_box box = {VECTOR(0.0, 0.0), VECTOR(1.0, 1.0)};
     struct body_input *body = add_varied(&w, &box);
-    position_expression_free(body->density.of_position);
+    varying_expression_free(body->density.varying);
     body->density = field("2700 kg/m^3*(x < 0.5 m)");
     assert_refused(&w, 1,
                    "bodies.matrix.density: the value must be more than zero (at [0.5625 m, 0.0625 "
                    "m])");
-    position_expression_free(body->velocity.at[1].of_position);
-    position_expression_free(body->density.of_position);
+    varying_expression_free(body->velocity.at[1].varying);
+    varying_expression_free(body->density.varying);
     body->density = (struct field_value){2700.0, NULL};
     body->velocity.at[1] = field("1 m/s*sqrt((y - 0.5 m)/(1 m))");
     assert_refused(&w, 1, "bodies.matrix.velocity: the value is not finite (at [0.0625 m, 0.0625");

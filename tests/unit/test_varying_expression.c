@@ -1,4 +1,4 @@
-/* Expressions of the position: values, dimensions over all their pieces, and the text that is written. */
+/* Expressions of the position and of the time: values, dimensions over all their pieces, and the text that is written. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,13 +17,13 @@ static const struct named_quantity names[] = {
     {"z", {1.0, {0}}},
 };
 
-static struct position_expression *compiled(const char *text, const char *unit_text)
+static struct varying_expression *compiled(const char *text, const char *unit_text)
 {
-    struct position_expression *expression;
+    struct varying_expression *expression;
     struct quantity result;
     struct unit unit;
-    struct error *error =
-        position_expression_compile(text, names, (int)COUNT_OF(names), &result, &expression);
+    struct error *error = varying_expression_compile(text, ARGUMENT_POSITION, names,
+                                                     (int)COUNT_OF(names), &result, &expression);
     if (error)
         fail_msg("%s: %s", text, error_message(error, 0));
     assert_non_null(expression);
@@ -35,19 +35,19 @@ static struct position_expression *compiled(const char *text, const char *unit_t
 
 static void assert_at(const char *text, struct vec3 place, double value, const char *unit)
 {
-    struct position_expression *expression = compiled(text, unit);
-    double found = position_expression_at(expression, place);
+    struct varying_expression *expression = compiled(text, unit);
+    double found = varying_expression_at(expression, place, 0.0);
     if (found != value)
         fail_msg("%s: %.17g, not %.17g", text, found, value);
-    position_expression_free(expression);
+    varying_expression_free(expression);
 }
 
 static void assert_refused(const char *text, const char *message)
 {
-    struct position_expression *expression;
+    struct varying_expression *expression;
     struct quantity result;
-    struct error *error =
-        position_expression_compile(text, names, (int)COUNT_OF(names), &result, &expression);
+    struct error *error = varying_expression_compile(text, ARGUMENT_POSITION, names,
+                                                     (int)COUNT_OF(names), &result, &expression);
     if (!error)
         fail_msg("\"%s\" was accepted", text);
     assert_null(expression);
@@ -66,12 +66,11 @@ static void an_expression_follows_the_position(void **state)
     assert_at("sqrt(x^2 + y^2)", place, sqrt(13.0), "m");
     assert_at("p0*x*y/plate^2", place, 2e9 * 2.0 * -3.0 / (0.003 * 0.003), "Pa");
     assert_at("1 km/s*exp(-(x - 2 m)/plate)", place, 1000.0, "m/s");
-    struct position_expression *expression = compiled("x + 1 m", "m");
-    assert_true(position_expression_at(expression, place) == 3.0);
-    assert_true(position_expression_at(expression, vec3_make(-1.0, 0.0, 0.0)) == 0.0);
-    assert_true(position_expression_uses(expression, 0) &&
-                !position_expression_uses(expression, 1));
-    position_expression_free(expression);
+    struct varying_expression *expression = compiled("x + 1 m", "m");
+    assert_true(varying_expression_at(expression, place, 0.0) == 3.0);
+    assert_true(varying_expression_at(expression, vec3_make(-1.0, 0.0, 0.0), 0.0) == 0.0);
+    assert_true(varying_expression_uses(expression, 0) && !varying_expression_uses(expression, 1));
+    varying_expression_free(expression);
 }
 
 static void comparisons_make_pieces(void **state)
@@ -119,14 +118,72 @@ static void mistakes_are_told_as_in_any_expression(void **state)
 static void a_text_without_position_is_a_constant(void **state)
 {
     (void)state;
-    struct position_expression *expression;
+    struct varying_expression *expression;
     struct quantity result;
-    assert_null(position_expression_compile("2*plate + 1 mm", names, (int)COUNT_OF(names), &result,
-                                            &expression));
+    assert_null(varying_expression_compile("2*plate + 1 mm", ARGUMENT_POSITION, names,
+                                           (int)COUNT_OF(names), &result, &expression));
     assert_null(expression);
     struct quantity plain;
     assert_null(expression_evaluate("2*plate + 1 mm", names, (int)COUNT_OF(names), &plain));
     assert_true(result.value == plain.value);
+}
+
+/* At 0.25 s, of an expression of the time alone. */
+static void assert_then(const char *text, const char *unit_text, double value)
+{
+    struct varying_expression *expression, *again;
+    struct quantity result;
+    struct unit unit;
+    struct error *error = varying_expression_compile(text, ARGUMENT_TIME, names,
+                                                     (int)COUNT_OF(names), &result, &expression);
+    if (error)
+        fail_msg("%s: %s", text, error_message(error, 0));
+    assert_null(unit_parse(unit_text, &unit));
+    assert_true(dimension_equal(result.dimension, unit.dimension));
+    const char *written = varying_expression_text(expression);
+    assert_null(varying_expression_compile(written, ARGUMENT_TIME, NULL, 0, &result, &again));
+    const struct vec3 nowhere = {NAN, NAN, NAN};
+    assert_true(varying_expression_at(expression, nowhere, 0.25) == value);
+    assert_true(varying_expression_at(again, nowhere, 0.25) == value);
+    assert_true(varying_expression_uses(again, ARGUMENT_T) && !varying_expression_uses(again, 0));
+    varying_expression_free(expression);
+    varying_expression_free(again);
+}
+
+static void an_expression_follows_the_time(void **state)
+{
+    (void)state;
+    assert_then("10 MPa*exp(-t/1 ms)", "Pa", 1e7 * exp(-0.25 / 0.001));
+    assert_then("10 m/s*sin(2*t/1 s)*(t < 1 s)", "m/s", 10.0 * sin(2.0 * 0.25 / 1.0) * 1.0);
+    assert_then("p0*(t >= 0.25 s)", "Pa", 2e9);
+}
+
+/* Behind a unit it is no tonne. */
+static void t_is_the_time(void **state)
+{
+    (void)state;
+    assert_then("8 m/s^2*t", "m/s", 2.0);
+    assert_then("8 MPa/t*t^2/(1 s)", "Pa", 2e6);
+    static const struct named_quantity own[] = {{"t", {1.0, {0}}}};
+    static const char *const texts[] = {"3 t", "2*x", "sin(t)", "t*1 Pa", "4*x + t"};
+    static const char *const messages[] = {
+        "\"t\" behind a number is no unit: put \"*\" between them",
+        "unknown name \"x\" (as a position it stands only in what a body has at the start)",
+        "different dimensions are added or compared, or a function such as exp is taken of a value "
+        "that has a dimension",
+        "\"t\" is the time here: call the name of let something else",
+        "unknown name \"t\" (as the time it stands only in loads and in the velocity of a driven "
+        "body)"};
+    for (size_t i = 0; i < COUNT_OF(texts); i++) {
+        struct varying_expression *expression;
+        struct quantity result;
+        struct error *error = varying_expression_compile(
+            texts[i], i < 4 ? ARGUMENT_TIME : ARGUMENT_POSITION, own, i == 3, &result, &expression);
+        if (!error)
+            fail_msg("\"%s\" was accepted", texts[i]);
+        assert_string_equal(error_message(error, 0), messages[i]);
+        error_free(error);
+    }
 }
 
 /* Compiled again without names it is the same text and gives the same bits. */
@@ -143,22 +200,23 @@ static void the_written_text_gives_the_same_bits(void **state)
         "p0*(1 - x/(7*plate))",
     };
     for (size_t i = 0; i < COUNT_OF(texts); i++) {
-        struct position_expression *expression, *again;
+        struct varying_expression *expression, *again;
         struct quantity result;
-        assert_null(position_expression_compile(texts[i], names, (int)COUNT_OF(names), &result,
-                                                &expression));
-        const char *written = position_expression_text(expression);
-        struct error *error = position_expression_compile(written, NULL, 0, &result, &again);
+        assert_null(varying_expression_compile(texts[i], ARGUMENT_POSITION, names,
+                                               (int)COUNT_OF(names), &result, &expression));
+        const char *written = varying_expression_text(expression);
+        struct error *error =
+            varying_expression_compile(written, ARGUMENT_POSITION, NULL, 0, &result, &again);
         if (error)
             fail_msg("%s: %s", written, error_message(error, 0));
-        assert_string_equal(written, position_expression_text(again));
+        assert_string_equal(written, varying_expression_text(again));
         for (int k = 1; k < 20; k++) {
             const struct vec3 place = vec3_make(0.1 * k, -0.37 / k, 0.0);
-            assert_true(position_expression_at(expression, place) ==
-                        position_expression_at(again, place));
+            assert_true(varying_expression_at(expression, place, 0.0) ==
+                        varying_expression_at(again, place, 0.0));
         }
-        position_expression_free(expression);
-        position_expression_free(again);
+        varying_expression_free(expression);
+        varying_expression_free(again);
     }
 }
 
@@ -179,21 +237,22 @@ static void random_texts_are_taken_and_written_or_refused(void **state)
             strcat(text, i % 2 ? operators[(seed >> 16) % COUNT_OF(operators)]
                                : operands[(seed >> 16) % COUNT_OF(operands)]);
         }
-        struct position_expression *expression, *again;
+        struct varying_expression *expression, *again;
         struct quantity result;
-        struct error *error = position_expression_compile(text, names, (int)COUNT_OF(names) - 1,
-                                                          &result, &expression);
+        struct error *error = varying_expression_compile(
+            text, ARGUMENT_POSITION, names, (int)COUNT_OF(names) - 1, &result, &expression);
         if (!error && expression) {
-            const char *written = position_expression_text(expression);
-            error = position_expression_compile(written, NULL, 0, &result, &again);
+            const char *written = varying_expression_text(expression);
+            error =
+                varying_expression_compile(written, ARGUMENT_POSITION, NULL, 0, &result, &again);
             if (error)
                 fail_msg("%s, written as %s: %s", text, written, error_message(error, 0));
             const struct vec3 place = vec3_make(0.3, -1.7, 2.2);
-            double value = position_expression_at(expression, place);
-            double same = position_expression_at(again, place);
+            double value = varying_expression_at(expression, place, 0.0);
+            double same = varying_expression_at(again, place, 0.0);
             assert_true(value == same || (isnan(value) && isnan(same)));
-            position_expression_free(expression);
-            position_expression_free(again);
+            varying_expression_free(expression);
+            varying_expression_free(again);
             taken++;
         }
         error_free(error);
@@ -209,6 +268,8 @@ int main(void)
         cmocka_unit_test(every_piece_has_the_same_dimension),
         cmocka_unit_test(mistakes_are_told_as_in_any_expression),
         cmocka_unit_test(a_text_without_position_is_a_constant),
+        cmocka_unit_test(an_expression_follows_the_time),
+        cmocka_unit_test(t_is_the_time),
         cmocka_unit_test(the_written_text_gives_the_same_bits),
         cmocka_unit_test(random_texts_are_taken_and_written_or_refused),
     };

@@ -1,4 +1,5 @@
-/* Expressions of the position, for fields at the start: compiled once, evaluated at every particle. */
+/* Expressions of the position, for fields at the start, and of the time, for what acts from outside: compiled once,
+ * evaluated at every particle or step. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,12 +7,12 @@
 #include "base/expression_internal.h"
 #include "base/memory.h"
 
-/* A variable of the formula that is a coordinate. */
+/* A variable of the formula that is an argument. */
 struct occurrence {
-    int variable, axis;
+    int variable, argument;
 };
 
-struct position_expression {
+struct varying_expression {
     muParserHandle_t parser;
     double *values; /* of the formula's variables */
     int occurrences;
@@ -56,8 +57,8 @@ static struct error *write_out(const struct expression_reading *reading, char **
         in += VARIABLE_NAME - 1;
         size_t used = (size_t)(out - *text);
         bool enclosed = used > 0 && out[-1] == '(' && in[1] == ')';
-        if (reading->axis[variable])
-            *out++ = (char)('x' + reading->axis[variable] - 1);
+        if (reading->argument[variable])
+            *out++ = "xyzt"[reading->argument[variable] - 1];
         else
             out += write_quantity(reading->quantities[variable], enclosed, out, size - used);
         variable++;
@@ -70,25 +71,25 @@ static struct error *write_out(const struct expression_reading *reading, char **
                : NULL;
 }
 
-/* The formula of READING, which has COUNT coordinates, for many evaluations. */
+/* The formula of READING, which has COUNT arguments, for many evaluations. */
 static struct error *keep(const struct expression_reading *reading, int count,
-                          struct position_expression *expression)
+                          struct varying_expression *expression)
 {
     expression->values = calloc((size_t)reading->variables + 1, sizeof *expression->values);
     expression->occurrence = calloc((size_t)count + 1, sizeof *expression->occurrence);
     if (!expression->values || !expression->occurrence)
         return error_new(ERROR_SYSTEM, "out of memory");
     for (int i = 0; i < reading->variables; i++)
-        if (reading->axis[i])
+        if (reading->argument[i])
             expression->occurrence[expression->occurrences++] =
-                (struct occurrence){i, reading->axis[i] - 1};
+                (struct occurrence){i, reading->argument[i] - 1};
     expression_give(reading, expression->parser, expression->values);
     return write_out(reading, &expression->text);
 }
 
-/* Of a text that names the position: its dimension, with a parser of its own, and what is kept. */
+/* Of a text that names arguments: its dimension, with a parser of its own, and what is kept. */
 static struct error *compile(struct expression_reading *reading, int count,
-                             struct dimension *dimension, struct position_expression *expression)
+                             struct dimension *dimension, struct varying_expression *expression)
 {
     double value;
     muParserHandle_t parser = mupCreate(muBASETYPE_FLOAT);
@@ -100,29 +101,30 @@ static struct error *compile(struct expression_reading *reading, int count,
     return error ? error : keep(reading, count, expression);
 }
 
-struct error *position_expression_compile(const char *text, const struct named_quantity *names,
-                                          int count, struct quantity *result,
-                                          struct position_expression **expression)
+struct error *varying_expression_compile(const char *text, unsigned arguments,
+                                         const struct named_quantity *names, int count,
+                                         struct quantity *result,
+                                         struct varying_expression **expression)
 {
     *expression = NULL;
     struct expression_reading *reading;
-    TRY(expression_read(text, names, count, true, &reading));
-    int coordinates = 0;
+    TRY(expression_read(text, names, count, arguments, &reading));
+    int named = 0;
     for (int i = 0; i < reading->variables; i++)
-        coordinates += reading->axis[i] != 0;
-    if (coordinates == 0) {
+        named += reading->argument[i] != 0;
+    if (named == 0) {
         free(reading);
         return expression_evaluate(text, names, count, result);
     }
-    struct position_expression *made = memory_allocate(sizeof *made);
+    struct varying_expression *made = memory_allocate(sizeof *made);
     struct error *error = made ? NULL : error_new(ERROR_SYSTEM, "out of memory");
     if (made) {
         made->parser = mupCreate(muBASETYPE_FLOAT);
-        error = compile(reading, coordinates, &result->dimension, made);
+        error = compile(reading, named, &result->dimension, made);
     }
     free(reading);
     if (error) {
-        position_expression_free(made);
+        varying_expression_free(made);
         return error;
     }
     result->value = NAN;
@@ -130,28 +132,30 @@ struct error *position_expression_compile(const char *text, const struct named_q
     return NULL;
 }
 
-double position_expression_at(const struct position_expression *expression, struct vec3 place)
+double varying_expression_at(const struct varying_expression *expression, struct vec3 place,
+                             double time)
 {
-    const double at[3] = {place.x, place.y, place.z};
+    const double at[] = {place.x, place.y, place.z, time};
     for (int i = 0; i < expression->occurrences; i++)
-        expression->values[expression->occurrence[i].variable] = at[expression->occurrence[i].axis];
+        expression->values[expression->occurrence[i].variable] =
+            at[expression->occurrence[i].argument];
     return mupEval(expression->parser);
 }
 
-bool position_expression_uses(const struct position_expression *expression, int axis)
+bool varying_expression_uses(const struct varying_expression *expression, int index)
 {
     for (int i = 0; i < expression->occurrences; i++)
-        if (expression->occurrence[i].axis == axis)
+        if (expression->occurrence[i].argument == index)
             return true;
     return false;
 }
 
-const char *position_expression_text(const struct position_expression *expression)
+const char *varying_expression_text(const struct varying_expression *expression)
 {
     return expression->text;
 }
 
-void position_expression_free(struct position_expression *expression)
+void varying_expression_free(struct varying_expression *expression)
 {
     if (!expression)
         return;
