@@ -1,4 +1,4 @@
-/* What the material point method takes from the bodies of a case; gravity in the ledger. */
+/* What the material point method takes from the bodies of a case; gravity and the hoop stress in the ledger. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -145,6 +145,67 @@ static void book_weight(struct simulation *simulation, const void *of, int32_t i
 void mpm_book_gravity(struct simulation *simulation, double dt, bool begin)
 {
     act_on_particles(simulation, body_is_heavy, book_weight, &(struct weight){dt, begin});
+}
+
+/* A step, and pressures of materials and particles. */
+struct hoop {
+    const double *gauge, *viscosity;
+    double dt;
+};
+
+static bool is_free(const struct simulation *simulation, int body)
+{
+    return !body_is_held(simulation, body);
+}
+
+/* Shape functions sum to one, those around the axis too. */
+static void book_hoop(struct simulation *simulation, const void *of, int32_t i,
+                      struct ledger *ledger)
+{
+    const struct particles *p = &simulation->particles;
+    const struct hoop *hoop = of;
+    const double stress =
+        p->deviator[i][2] - p->pressure[i] - hoop->viscosity[i] + hoop->gauge[p->material[i]];
+    const double force = -p->mass[i] / p->density[i] * stress / p->position[i][0];
+    ledger_book(ledger, LEDGER_AXIS, 0.0, vec3_make(hoop->dt * force, 0.0, 0.0),
+                vector_at(p->position[i]), 0.0);
+}
+
+/* Nodes without mass, which shape functions around the axis reach and others do not, give their forces to nothing. */
+static void unbook_lost(const struct mpm *mpm, const struct layer *layer, int32_t block, double dt,
+                        struct ledger *ledger)
+{
+    int64_t corner[3], at[3];
+    grid_corner(&layer->grid, block, corner);
+    for (int k = 0; k < BLOCK_CELLS; k++) {
+        const double *node = grid_node(&layer->main, block, k);
+        if (node[NODE_MASS] > 0.0 || node[NODE_FORCE] == 0.0)
+            continue;
+        mpm_node_index(layer->grid.dimension, corner, k, at);
+        ledger_book(ledger, LEDGER_AXIS, 0.0, vec3_make(-dt * node[NODE_FORCE], 0.0, 0.0),
+                    vec3_scale(mpm->edge, vec3_make((double)at[0], (double)at[1], 0.0)), 0.0);
+    }
+}
+
+void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double dt)
+{
+    if (simulation->geometry != GEOMETRY_AXISYMMETRIC)
+        return;
+    const struct hoop hoop = {mpm->gauge, particles_field(&simulation->particles, "viscosity"), dt};
+    act_on_particles(simulation, is_free, book_hoop, &hoop);
+    for (int g = 0; g < mpm->layers; g++) {
+        const struct layer *layer = &mpm->layer[g];
+#pragma omp parallel num_threads(simulation->threads)
+        {
+            struct ledger own = {0};
+#pragma omp for schedule(static)
+            for (int32_t n = 0; n < layer->grid.blocks; n++)
+                if (!layer->held && !mpm_is_far(mpm, layer, layer->grid.touch[n][0].bin))
+                    unbook_lost(mpm, layer, n, dt, &own);
+#pragma omp critical(bolide_mpm_hoop)
+            ledger_join(&simulation->ledger, &own);
+        }
+    }
 }
 
 void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulation)

@@ -390,6 +390,7 @@ static struct error *mpm_advance(void *solver, struct simulation *simulation, do
         TRY(ranks_agree(simulation->ranks, update_states(mpm, simulation, dt, true)));
         TRY(sum_particles(mpm, simulation));
     }
+    mpm_book_hoop(mpm, simulation, dt);
     const double begin = clock_seconds();
     mpm_damp_shear(mpm, simulation, dt);
     TRY(mpm_push_surfaces(mpm, simulation, dt));

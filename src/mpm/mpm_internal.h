@@ -113,6 +113,9 @@ struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulati
  * once velocities are those of the end. */
 void mpm_book_gravity(struct simulation *simulation, double dt, bool begin);
 
+/* Books what the hoop stress pushes in a step of DT by the forces that nodes have from particles alone. */
+void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double dt);
+
 struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simulation,
                                 struct layer *layer);
 

@@ -230,6 +230,13 @@ void mpm_add_forces(const struct mpm *mpm, const struct simulation *simulation, 
                 grid_node(&layer->main, n, k)[NODE_FORCE + c] += grid_node(&layer->back, n, k)[c];
 }
 
+/* Whether the plane across x that a node is at is the axis of symmetry. */
+static bool is_at_axis(const struct mpm *mpm, const struct simulation *simulation, int64_t x)
+{
+    return simulation->geometry == GEOMETRY_AXISYMMETRIC &&
+           !(mpm->has_plane[0][1] && mpm->plane[0][1] - x < x - mpm->plane[0][0]);
+}
+
 /* A wall changes the momentum of particles by what they get from a node in excess of what they have put into it. */
 static void book_walls(const struct mpm *mpm, struct simulation *simulation,
                        const struct layer *layer, double dt)
@@ -240,16 +247,22 @@ static void book_walls(const struct mpm *mpm, struct simulation *simulation,
         const double *sum = wall->sum, *node = wall->node, mass = sum[NODE_MASS];
         if (!wall->booked)
             continue;
-        double push[3], place[3];
+        double push[3];
         for (int k = 0; k < 3; k++) {
             const double gain =
                 flip * dt * mass * node[NODE_ACCELERATION + k] +
                 (1.0 - flip) * (mass * node[NODE_VELOCITY + k] - sum[NODE_MOMENTUM + k]);
             push[k] = gain - dt * sum[NODE_FORCE + k];
-            place[k] = (double)wall->at[k] * mpm->edge;
+        }
+        const struct vec3 place = vec3_scale(
+            mpm->edge, vec3_make((double)wall->at[0], (double)wall->at[1], (double)wall->at[2]));
+        if (is_at_axis(mpm, simulation, wall->at[0])) {
+            ledger_book(&simulation->ledger, LEDGER_AXIS, 0.0, vec3_make(push[0], 0.0, 0.0), place,
+                        0.0);
+            push[0] = 0.0;
         }
         ledger_book(&simulation->ledger, LEDGER_WALLS, 0.0, vec3_make(push[0], push[1], push[2]),
-                    vec3_make(place[0], place[1], place[2]), 0.0);
+                    place, 0.0);
     }
 }
 
