@@ -135,25 +135,6 @@ static void check_positions(struct checking *checking, const char *key,
     }
 }
 
-/* What is driven may follow the time, all of it alike. */
-static void check_driven(struct checking *checking, const struct body_input *body)
-{
-    char key[PATH_TEXT];
-    for (int i = 0; i < body->velocity.count; i++) {
-        const struct field_value *velocity = &body->velocity.at[i];
-        snprintf(key, sizeof key, "velocity.%d", i + 1);
-        if (!field_is_of_time(velocity))
-            continue;
-        if (!body->driven)
-            case_wrong(checking, key,
-                       "only a body with `driven: yes` has a velocity of the time t");
-        for (int axis = 0; axis < 3; axis++)
-            if (varying_expression_uses(velocity->varying, axis))
-                case_wrong(checking, key, "this names the time t, and with it no position %c",
-                           "xyz"[axis]);
-    }
-}
-
 /* As many components as a stress has in the dimension of the case; a thin plate bears none across. */
 static void check_stress(struct checking *checking, const struct body_input *body)
 {
@@ -179,7 +160,7 @@ static void check_start_keys(struct checking *checking, const struct body_input 
     check_position(checking, "energy", &body->energy);
     check_position(checking, "temperature", &body->temperature);
     check_positions(checking, "velocity", &body->velocity);
-    check_driven(checking, body);
+    case_check_driven(checking, body);
     check_positions(checking, "stress", &body->stress);
     check_stress(checking, body);
 }

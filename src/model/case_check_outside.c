@@ -1,4 +1,5 @@
-/* What the tables cannot say of what acts on a case from outside: walls, outflows, loads, gravity. */
+/* What the tables cannot say of what acts on a case from outside: walls, outflows, loads, driven
+ * bodies, gravity. */
 #include "model/case_checking.h"
 #include "model/document_internal.h"
 
@@ -90,6 +91,24 @@ void case_check_load(struct checking *checking, int index)
                    load->traction.count);
     if (load->before <= load->after)
         case_wrong(checking, "before", "this does not lie behind `after`");
+}
+
+void case_check_driven(struct checking *checking, const struct body_input *body)
+{
+    char key[PATH_TEXT];
+    for (int i = 0; i < body->velocity.count; i++) {
+        const struct field_value *velocity = &body->velocity.at[i];
+        snprintf(key, sizeof key, "velocity.%d", i + 1);
+        if (!field_is_of_time(velocity))
+            continue;
+        if (!body->driven)
+            case_wrong(checking, key,
+                       "only a body with `driven: yes` has a velocity of the time t");
+        for (int axis = 0; axis < 3; axis++)
+            if (varying_expression_uses(velocity->varying, axis))
+                case_wrong(checking, key, "this names the time t, and with it no position %c",
+                           "xyz"[axis]);
+    }
 }
 
 void case_check_gravity(struct checking *checking)

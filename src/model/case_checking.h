@@ -36,6 +36,8 @@ void case_check_between(struct checking *checking, const struct vector_value *be
 void case_check_wall(struct checking *checking, int index);
 void case_check_outflow(struct checking *checking, int index);
 void case_check_load(struct checking *checking, int index);
+/* What is driven may follow the time, all of it alike. */
+void case_check_driven(struct checking *checking, const struct body_input *body);
 void case_check_gravity(struct checking *checking);
 
 #endif
