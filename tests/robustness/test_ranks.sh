@@ -25,6 +25,7 @@ same_but_for_order() { same "$1" "$2" -x snapshots; }
 names=$(grep -v '^#' "$BOLIDE_SOURCE_DIR/tests/data/kinds.txt")
 cases=
 for name in $names; do cases="$cases $BOLIDE_SOURCE_DIR/examples/$name/case.yaml"; done
+rm -rf one two four
 few=(verify $cases --short --set run.max_steps=41 --set run.energy_drift=0 --set "output.pictures=[density]")
 "$BOLIDE" "${few[@]}" --output one >one.log 2>&1
 on 2 "${few[@]}" --output two >two.log 2>&1
