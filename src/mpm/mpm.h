@@ -13,7 +13,8 @@ enum mpm_damping { MPM_DAMPING_PLAIN, MPM_DAMPING_SYMMETRIC };
 struct mpm_parameters {
     double cell; /* NAN: twice the spacing of particles */
     int shape;   /* enum grid_shape */
-    int scheme, transfer, order;
+    int scheme, transfer;
+    int64_t order; /* of velocities of nodes */
     double flip;
     double courant; /* NAN: by the materials */
     int rotation;

@@ -125,7 +125,7 @@ void mpm_raise_order(struct mpm *mpm, struct simulation *simulation, double dt, 
     for (int g = 0; g < mpm->layers && mpm->parameters.order > 1; g++)
         if (!mpm->layer[g].held)
             start_series(simulation, &mpm->layer[g], accelerations);
-    for (int order = 1; order < mpm->parameters.order; order++) {
+    for (int64_t order = 1; order < mpm->parameters.order; order++) {
         const double started = clock_seconds();
         for (int g = 0; g < mpm->layers; g++)
             if (!mpm->layer[g].held)

@@ -38,16 +38,13 @@ static struct error *refuse_order(const struct mpm_parameters *given,
     if (given->transfer != MPM_FLIP || given->shape == SHAPE_LINEAR)
         error = input_error(
             input, "solver", "mpm.order",
-            "%d goes with `transfer: flip`, as what affine particles give to nodes is not "
-            "smoothed, and not with `shape: linear`, whose nodes of next to no mass get unstable",
-            given->order);
+            "more than 1 goes with `transfer: flip`, as what affine particles give to nodes is not "
+            "smoothed, and not with `shape: linear`, whose nodes of next to no mass get unstable");
     /* what has yet to burn has neither stiffness nor viscosity against what overshoots */
     if (burns)
         error = error_join(
-            error,
-            input_error(input, "solver", "mpm.order",
-                        "%d is unstable at the front of an explosive that burns: 1 goes there",
-                        given->order));
+            error, input_error(input, "solver", "mpm.order",
+                               "more than 1 is unstable at the front of an explosive that burns"));
     return error;
 }
 
