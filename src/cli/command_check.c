@@ -3,13 +3,12 @@
 #include <stdlib.h>
 
 #include "cli/cli.h"
-#include "output/history.h"
 #include "run/estimate.h"
 #include "run/sweep.h"
 
 static const char *mass_unit(const struct simulation_case *input)
 {
-    return history_unit(LEDGER_MASS, (int)input->dimension, (enum case_geometry)input->geometry);
+    return ledger_unit(LEDGER_MASS, (int)input->dimension, (enum case_geometry)input->geometry);
 }
 
 static void print_bodies(const struct simulation_case *input, const struct estimate *estimate)

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "case/library.h"
 #include "cli/cli.h"
-#include "model/library.h"
 
 static const char row_format[] = "%-26s %-21s %-15s %9s %8s %8s  %s\n";
 

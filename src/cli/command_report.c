@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/file.h"
 #include "cli/cli.h"
-#include "output/file.h"
 #include "output/page.h"
 
 static struct error *report_folder(const char *folder)

@@ -1,8 +1,8 @@
 /* bolide schema: what a case file may hold, as JSON Schema. */
 #include <stdio.h>
 
+#include "case/schema.h"
 #include "cli/cli.h"
-#include "model/schema.h"
 
 int command_schema(const struct cli_options *options)
 {

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/memory.h"
 #include "cli/cli.h"
-#include "output/file.h"
 #include "run/convergence.h"
 
 static void run_ended(void *context, const struct verify_case *verified)

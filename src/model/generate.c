@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "model/case_internal.h"
+#include "case/internal.h"
 
 /* An id keeps the index of a site in 48 bits. */
 static const double sites_limit = 281474976710656.0;

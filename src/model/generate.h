@@ -2,8 +2,8 @@
 #ifndef BOLIDE_GENERATE_H
 #define BOLIDE_GENERATE_H
 
-#include "model/lattice.h"
 #include "model/simulation.h"
+#include "shape/lattice.h"
 
 struct range {
     double low, high;

@@ -5,6 +5,7 @@
 
 #include "base/vector.h"
 #include "base/visitor.h"
+#include "case/case.h"
 #include "parallel/ranks.h"
 #include "particle/particles.h"
 
@@ -47,6 +48,11 @@ struct totals {
 };
 
 const char *ledger_cause_name(enum ledger_cause cause);
+
+/* Name of an entry, and its unit in columns: of mass "kg/m^2", "kg/m" or "kg", in axisymmetry
+ * "kg/rad". */
+const char *ledger_entry_name(enum ledger_entry entry);
+const char *ledger_unit(enum ledger_entry entry, int dimension, enum case_geometry geometry);
 
 /* Books COUNT entries' worth of one particle's gain. */
 void ledger_book(struct ledger *ledger, enum ledger_cause cause, double mass, struct vec3 momentum,

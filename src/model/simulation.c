@@ -299,3 +299,13 @@ struct error *simulation_visit(struct simulation *simulation, struct visitor *vi
     TRY(ledger_visit(&simulation->ledger, simulation->ranks, visitor));
     return particles_visit(&simulation->particles, visitor);
 }
+
+bool interval_is_due(double time, double interval, int64_t *due)
+{
+    if (isnan(interval) || time < (double)*due * interval)
+        return false;
+    *due = (int64_t)floor(time / interval) + 1;
+    if (time >= (double)*due * interval) /* the quotient was rounded down */
+        ++*due;
+    return true;
+}

@@ -2,7 +2,7 @@
 #ifndef BOLIDE_SIMULATION_H
 #define BOLIDE_SIMULATION_H
 
-#include "model/case.h"
+#include "case/case.h"
 #include "model/ledger.h"
 #include "parallel/ghosts.h"
 #include "particle/particles.h"
@@ -87,5 +87,9 @@ struct error *simulation_value_at(const struct simulation *simulation, double ti
 
 /* Time, step, ledger and particles. */
 struct error *simulation_visit(struct simulation *simulation, struct visitor *visitor);
+
+/* True when TIME has reached the next multiple of INTERVAL, of which DUE have been, and counts it. An
+ * INTERVAL that is not a number never comes. */
+bool interval_is_due(double time, double interval, int64_t *due);
 
 #endif

@@ -1,6 +1,6 @@
 /* What of a case the material point method cannot do, told where it stands in the case. */
-#include "model/shape.h"
 #include "mpm/mpm_internal.h"
+#include "shape/shape.h"
 
 /* Particles that keep a gradient keep the velocities of their nodes. A node that a single particle reaches, w cells beyond
  * another, has the mass w m and the stiffness m (c/h)^2, so that steps of more than 2 sqrt(w) h/c are unstable, in all of

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/memory.h"
-#include "output/file.h"
 
 /* A file that a full disk kept from closing would crash HDF5's own clean-up at exit; files are
  * closed here, so that the clean-up has nothing to do but harm. The call works before HDF5's first

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/csv.h"
 #include "base/memory.h"
-#include "output/csv.h"
 
 struct history {
     FILE *file;
@@ -71,31 +71,12 @@ static void column(struct line *line, const char *name, const char *part, const 
     csv_put_number(line->file, value);
 }
 
-/* What the entries of a ledger are called, and their units in 1-D, 2-D, 3-D and axisymmetry. */
-static const struct {
-    const char *name, *unit[4];
-} entries[LEDGER_ENTRIES] = {
-    [LEDGER_MASS] = {"mass", {"kg/m^2", "kg/m", "kg", "kg/rad"}},
-    [LEDGER_MOMENTUM_X] = {"momentum.x", {"kg/(m*s)", "kg/s", "kg*m/s", "kg*m/(rad*s)"}},
-    [LEDGER_MOMENTUM_Y] = {"momentum.y", {"kg/(m*s)", "kg/s", "kg*m/s", "kg*m/(rad*s)"}},
-    [LEDGER_MOMENTUM_Z] = {"momentum.z", {"kg/(m*s)", "kg/s", "kg*m/s", "kg*m/(rad*s)"}},
-    [LEDGER_ANGULAR_X] = {"angular_momentum.x", {"kg/s", "kg*m/s", "kg*m^2/s", "kg*m^2/(rad*s)"}},
-    [LEDGER_ANGULAR_Y] = {"angular_momentum.y", {"kg/s", "kg*m/s", "kg*m^2/s", "kg*m^2/(rad*s)"}},
-    [LEDGER_ANGULAR_Z] = {"angular_momentum.z", {"kg/s", "kg*m/s", "kg*m^2/s", "kg*m^2/(rad*s)"}},
-    [LEDGER_ENERGY] = {"energy", {"J/m^2", "J/m", "J", "J/rad"}},
-};
-
-const char *history_unit(enum ledger_entry entry, int dimension, enum case_geometry geometry)
-{
-    return entries[entry].unit[geometry == GEOMETRY_AXISYMMETRIC ? 3 : dimension - 1];
-}
-
 static void totals_columns(struct line *line, const char *prefix, const struct totals *totals,
                            const struct simulation *simulation)
 {
     for (int i = 0; i < LEDGER_ENTRIES; i++)
-        column(line, prefix, entries[i].name,
-               history_unit((enum ledger_entry)i, simulation->dimension, simulation->geometry),
+        column(line, prefix, ledger_entry_name((enum ledger_entry)i),
+               ledger_unit((enum ledger_entry)i, simulation->dimension, simulation->geometry),
                totals->entry[i]);
 }
 
@@ -163,7 +144,7 @@ static struct row find_row(const struct simulation *simulation, double dt,
 static void write_line(FILE *file, bool head, const struct row *row)
 {
     const struct simulation *simulation = row->simulation;
-    const char *joule = history_unit(LEDGER_ENERGY, simulation->dimension, simulation->geometry);
+    const char *joule = ledger_unit(LEDGER_ENERGY, simulation->dimension, simulation->geometry);
     struct line line = {file, head, false};
     column(&line, "time", "", "s", simulation->time);
     column(&line, "step", "", "", (double)simulation->step);

@@ -17,9 +17,6 @@ struct error *history_open(const char *path, int64_t keep, struct history **hist
 struct error *history_row(struct history *history, const struct simulation *simulation, double dt,
                           const struct totals *start);
 
-/* The unit of a total in its column: of mass, "kg/m^2", "kg/m" or "kg", in axisymmetry "kg/rad". */
-const char *history_unit(enum ledger_entry entry, int dimension, enum case_geometry geometry);
-
 int64_t history_rows(const struct history *history);
 struct error *history_close(struct history *history);
 

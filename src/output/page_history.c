@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/memory.h"
-#include "output/file.h"
 #include "output/page_internal.h"
 
 struct column {

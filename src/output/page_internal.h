@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "output/csv.h"
+#include "base/csv.h"
 #include "output/picture_scale.h"
 
 struct page {

@@ -1,8 +1,8 @@
 /* convergence.html: what a reviewer wants of a convergence study, on one page. */
 #include <stdlib.h>
 
+#include "base/file.h"
 #include "base/memory.h"
-#include "output/file.h"
 #include "output/page_internal.h"
 #include "output/study.h"
 

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/memory.h"
-#include "output/file.h"
 #include "output/picture_internal.h"
 
 static const struct colour frame_colour = {0.35, 0.35, 0.35};

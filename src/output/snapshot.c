@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/memory.h"
-#include "output/file.h"
 #include "output/hdf5_file.h"
 #include "output/rows.h"
 

@@ -3,11 +3,11 @@
 
 #include "exact/choices.h"
 #include "material/choices.h"
-#include "model/lattice.h"
-#include "model/shape_kinds.h"
+#include "measure/measure.h"
+#include "measure/probes.h"
 #include "mpm/mpm.h"
-#include "run/measure.h"
-#include "run/probes.h"
+#include "shape/kinds.h"
+#include "shape/lattice.h"
 #include "sph/sph.h"
 
 #define COUNT_SHAPE(identifier, help) +1

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/memory.h"
-#include "output/file.h"
 #include "run/checks_internal.h"
 
 static const struct measure_class *class_of(const struct check_input *check)

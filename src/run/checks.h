@@ -3,7 +3,7 @@
 #ifndef BOLIDE_CHECKS_H
 #define BOLIDE_CHECKS_H
 
-#include "run/measure.h"
+#include "measure/measure.h"
 
 enum check_verdict {
     CHECK_FAILED,

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/csv.h"
+#include "base/file.h"
 #include "base/memory.h"
-#include "output/csv.h"
-#include "output/file.h"
 #include "output/picture.h"
 #include "run/checks_internal.h"
 

@@ -52,8 +52,4 @@ struct error *run_foresee(const struct simulation_case *input);
  * the last two steps, so that no tiny step comes last. */
 double step_towards(double limit, double time, double until);
 
-/* True when TIME has reached the next multiple of INTERVAL, of which DUE have been, and counts it. An
- * INTERVAL that is not a number never comes. */
-bool output_is_due(double time, double interval, int64_t *due);
-
 #endif

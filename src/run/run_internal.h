@@ -2,10 +2,10 @@
 #ifndef BOLIDE_RUN_INTERNAL_H
 #define BOLIDE_RUN_INTERNAL_H
 
+#include "measure/probes.h"
+#include "measure/profiles.h"
 #include "output/checkpoint.h"
 #include "output/history.h"
-#include "run/probes.h"
-#include "run/profiles.h"
 #include "run/run.h"
 
 struct run {

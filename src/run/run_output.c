@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/file.h"
 #include "base/memory.h"
-#include "output/file.h"
 #include "output/picture.h"
 #include "output/snapshot.h"
 #include "run/run_internal.h"
@@ -164,16 +164,6 @@ static double history_interval(const struct run *run)
     return isnan(given) ? 0.01 * run->input->run.until : given;
 }
 
-bool output_is_due(double time, double interval, int64_t *due)
-{
-    if (isnan(interval) || time < (double)*due * interval)
-        return false;
-    *due = (int64_t)floor(time / interval) + 1;
-    if (time >= (double)*due * interval) /* the quotient was rounded down */
-        ++*due;
-    return true;
-}
-
 /* Energy that appears from nowhere is an impossible state. */
 static struct error *watch_energy(struct run *run)
 {
@@ -261,9 +251,9 @@ struct error *run_watch(struct run *run, bool last)
 {
     double clock = clock_seconds(), time = run->simulation.time;
     bool first = run->snapshots == 0;
-    bool row = output_is_due(time, history_interval(run), &run->history_due) || last;
+    bool row = interval_is_due(time, history_interval(run), &run->history_due) || last;
     bool snapshot =
-        output_is_due(time, run->input->output.every, &run->snapshots_due) || last || first;
+        interval_is_due(time, run->input->output.every, &run->snapshots_due) || last || first;
     struct error *error = row ? watch_energy(run) : NULL;
     if (!error && row && run->history)
         error = history_row(run->history, &run->simulation, run->step, &run->start);

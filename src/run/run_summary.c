@@ -6,9 +6,9 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/csv.h"
+#include "base/file.h"
 #include "base/memory.h"
-#include "output/csv.h"
-#include "output/file.h"
 #include "output/page.h"
 #include "run/run_internal.h"
 
@@ -84,7 +84,7 @@ static void put_body(FILE *file, const struct run *run, int index)
     const struct body_input *body = case_body(input, index);
     const char *name = input->bodies.names[index];
     const char *mass =
-        history_unit(LEDGER_MASS, run->simulation.dimension, run->simulation.geometry);
+        ledger_unit(LEDGER_MASS, run->simulation.dimension, run->simulation.geometry);
     struct totals totals = particles_totals(particles, &run->ranks, index);
     int64_t count = 0;
     for (int32_t i = 0; i < particles->count; i++)

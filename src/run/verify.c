@@ -5,8 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "base/memory.h"
-#include "output/file.h"
 #include "run/sweep.h"
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }

@@ -8,7 +8,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "model/case.h"
+#include "case/case.h"
 #include "run/catalogue.h"
 #include "run/run.h"
 

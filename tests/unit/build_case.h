@@ -4,9 +4,9 @@
 
 #include <string.h>
 
-#include "model/case.h"
-#include "model/lattice.h"
-#include "model/shape_kinds.h"
+#include "case/case.h"
+#include "shape/kinds.h"
+#include "shape/lattice.h"
 
 /* The shape NAME with the parameters in VALUE. */
 static inline struct one_of shape_of(const char *name, void *value)

@@ -3,9 +3,9 @@
 #ifndef BOLIDE_TESTS_SMALL_CATALOGUE_H
 #define BOLIDE_TESTS_SMALL_CATALOGUE_H
 
+#include "case/case.h"
 #include "material/choices.h"
-#include "model/case.h"
-#include "model/lattice.h"
+#include "shape/lattice.h"
 
 struct box {
     struct vector_value from, to;

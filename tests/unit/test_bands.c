@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "run/bands.h"
+#include "measure/bands.h"
 
 enum { POINTS = 2000 };
 

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
-#include "model/document.h"
+#include "case/document.h"
 
 struct point {
     double x, y;

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
-#include "model/library.h"
+#include "case/library.h"
 #include "small_catalogue.h"
 
 enum { MATERIALS = 256 };

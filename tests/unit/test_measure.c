@@ -9,8 +9,8 @@
 
 #include "exact/choices.h"
 #include "exact/gas_riemann.h"
-#include "model/shape_kinds.h"
 #include "run/checks.h"
+#include "shape/kinds.h"
 
 /* Two bodies on [0, 0.5) and [0.5, 1) m, 20 particles each, at rest. */
 enum { BODIES = 2, EACH = 20, ALL = BODIES * EACH };

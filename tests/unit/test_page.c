@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "output/file.h"
+#include "base/file.h"
 #include "output/page.h"
 #include "output/page_internal.h"
 

@@ -9,10 +9,10 @@
 
 #include <unistd.h>
 
-#include "output/csv.h"
+#include "base/csv.h"
+#include "measure/probes.h"
+#include "measure/profiles.h"
 #include "run/checks.h"
-#include "run/probes.h"
-#include "run/profiles.h"
 
 /* Two bodies of EACH x EACH particles in a plane, or EACH^3 in space, 0.1 m apart, side by side along x. */
 enum { BODIES = 2, EACH = 4 };

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "model/case_internal.h"
+#include "case/internal.h"
 #include "workshop.h"
 
 static const struct start_given nothing = {

@@ -10,8 +10,8 @@
 
 #include <unistd.h>
 
-#include "output/csv.h"
-#include "output/file.h"
+#include "base/csv.h"
+#include "base/file.h"
 #include "output/study.h"
 
 static char folder[64];

@@ -8,9 +8,9 @@
 
 #include <cmocka.h>
 
+#include "base/csv.h"
+#include "base/file.h"
 #include "base/memory.h"
-#include "output/csv.h"
-#include "output/file.h"
 #include "run/catalogue.h"
 #include "run/sweep.h"
 

@@ -1,0 +1,179 @@
+/* Reading and writing a case. Its tables stand in case_table.c; what a case means is checked in
+ * case_check.c. */
+#include "case/case.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "case/document_internal.h"
+#include "case/internal.h"
+#include "case/library.h"
+
+static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
+
+/* Before anything else: a file of another format would only give misleading messages. */
+static struct error *check_format(const struct document *document)
+{
+    const struct node *format = node_entry(document->root, "format");
+    if (!format)
+        return document_error(document, "", "\"format: %d\" is missing: is this a case?",
+                              CASE_FORMAT);
+    char *end = NULL;
+    if (format->kind == NODE_SCALAR && strtol(format->text, &end, 10) == CASE_FORMAT && !*end)
+        return NULL;
+    return document_error(document, "format", "%s is not known; this program reads format %d",
+                          format->kind == NODE_SCALAR ? format->text : "a map or list",
+                          CASE_FORMAT);
+}
+
+/* The name of the folder for a `case.yaml`, else the file's name without its ending. */
+static char *case_name(const char *path)
+{
+    char *whole = realpath(path, NULL);
+    const char *slash = whole ? strrchr(whole, '/') : NULL;
+    const char *start = slash ? slash + 1 : path;
+    const char *end = start + strlen(start);
+    if (slash && slash > whole && !strcmp(start, "case.yaml")) {
+        end = slash;
+        for (start = slash; start > whole && start[-1] != '/';)
+            start--;
+    } else if (end - start > 5 && !strcmp(end - 5, ".yaml")) {
+        end -= 5;
+    }
+    char *name = text_copy_part(start, (size_t)(end - start));
+    free(whole);
+    return name;
+}
+
+static struct error *no_such_material(const struct case_options *options,
+                                      const struct node *library, const char *path)
+{
+    char *text = library_unknown(options->library_paths, options->library_count, library->text);
+    struct error *error = text ? place_error(library->place, path, "%s", text) : out_of_memory();
+    free(text);
+    return error;
+}
+
+/* Fills MATERIAL, an entry of `materials`, from the library file that it names, if any. */
+static struct error *include_material(struct document *document, struct node *material,
+                                      const struct case_options *options)
+{
+    const struct node *library = node_entry(material, "library");
+    if (!library || library->kind != NODE_SCALAR || node_is_empty(library))
+        return NULL;
+    char *file = library_file(options->library_paths, options->library_count, library->text);
+    if (!file) {
+        char *path = text_format("materials.%s.library", material->key);
+        struct error *error = path ? no_such_material(options, library, path) : out_of_memory();
+        free(path);
+        return error;
+    }
+    struct document *other = NULL;
+    struct error *error = document_open(file, NULL, 0, NULL, &other);
+    free(file);
+    if (error)
+        return error;
+    error = document_include(document, material, other);
+    document_free(other);
+    return error;
+}
+
+/* A material that the library does not give is broken, so that its parts are not told as missing. */
+static struct error *include_library(struct document *document, const struct case_options *options)
+{
+    struct node *materials = node_entry(document->root, "materials");
+    struct error *all = NULL;
+    for (int i = 0; materials && materials->kind == NODE_MAP && i < materials->count; i++) {
+        struct node *material = materials->child[i];
+        struct error *error =
+            material->kind == NODE_MAP ? include_material(document, material, options) : NULL;
+        material->broken = error != NULL;
+        all = error_join(all, error);
+    }
+    return all;
+}
+
+static struct error *read_document(struct simulation_case *input,
+                                   const struct case_options *options)
+{
+    TRY(check_format(input->document));
+    struct error *error = case_take_sweep(input, options->convergence ? 0 : options->sweep_run);
+    error = error_join(error, case_take_study(input, options));
+    error = error_join(error, include_library(input->document, options));
+    error = error_join(error,
+                       document_read_partly(input->document, case_table, input->catalogue, input));
+    error = error_join(error, case_check_meaning(input));
+    if (!error)
+        case_measure_sweep(input);
+    return error;
+}
+
+struct error *case_read(const char *path, const struct case_options *options,
+                        const struct catalogue *catalogue, struct simulation_case **result)
+{
+    *result = NULL;
+    struct simulation_case *input = memory_allocate(sizeof *input);
+    if (!input)
+        return out_of_memory();
+    input->catalogue = catalogue;
+    input->name = case_name(path);
+    struct error *error = input->name
+                              ? document_open(path, options->settings, options->setting_count,
+                                              options->form, &input->document)
+                              : out_of_memory();
+    if (!error)
+        error = read_document(input, options);
+    if (error)
+        case_free(input);
+    else
+        *result = input;
+    return error;
+}
+
+void case_free(struct simulation_case *input)
+{
+    if (!input)
+        return;
+    parameters_release(case_table, input);
+    sweep_values_free(input->sweep, input->sweep_values);
+    document_free(input->document);
+    free(input->name);
+    free(input);
+}
+
+/* The table of what is written: without the study, whose values may be those of names that are gone. */
+static void written_table(struct parameter *table)
+{
+    for (const struct parameter *p = case_table; !PARAMETER_IS_END(p); p++)
+        if (p->offset != offsetof(struct simulation_case, convergence))
+            *table++ = *p;
+    *table = (struct parameter)PARAMETER_END;
+}
+
+/* The materials stand in full in what is written, so that the file needs no library. */
+struct error *case_write(const struct simulation_case *input, FILE *file)
+{
+    struct simulation_case whole = *input;
+    size_t size = (size_t)input->materials.count * sizeof(struct material_input);
+    struct material_input *materials = memory_allocate(size);
+    if (!materials)
+        return out_of_memory();
+    memcpy(materials, input->materials.items, size);
+    for (int i = 0; i < input->materials.count; i++)
+        materials[i].library = NULL;
+    whole.materials.items = materials;
+    struct parameter table[KEYS_MAX];
+    written_table(table);
+    struct error *error = document_write(file, table, &whole);
+    free(materials);
+    return error;
+}
+
+int case_find_body(const struct simulation_case *input, const char *name)
+{
+    for (int i = 0; name && i < input->bodies.count; i++)
+        if (!strcmp(input->bodies.names[i], name))
+            return i;
+    return -1;
+}

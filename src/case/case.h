@@ -1,0 +1,288 @@
+/* A case: what a user asks to be computed, as the case file says it, in SI units. The tables of case.c
+ * declare every key of it. */
+#ifndef BOLIDE_CASE_H
+#define BOLIDE_CASE_H
+
+#include "base/parameter.h"
+#include "case/document.h"
+#include "material/material.h"
+
+/* materials: NAME: {library: aluminium-wilkins} or {eos: ..., strength: ...}; keys beside `library`
+ * replace those of the library's file. */
+struct material_input {
+    char *library;
+    char *description, *source; /* for people; NULL: not given */
+    struct one_of eos;          /* "eos" */
+    struct one_of strength;     /* "strength"; not given: a fluid */
+    struct one_of burn;         /* "burn"; not given: instant */
+    struct material material;   /* filled by case_read from the above */
+};
+
+/* bodies: NAME: {material, a shape, velocity, ...} */
+struct body_input {
+    char *material;
+    struct one_of shape;   /* "shape", inline */
+    struct one_of lattice; /* "lattice" */
+    struct field_list velocity;
+    struct field_value density, pressure, energy, temperature;
+    struct field_list stress;  /* xx, yy, zz, xy, yz, zx, as many as the dimension has */
+    double resolution;         /* NAN: the case's */
+    struct name_list replaces; /* bodies whose particles give way inside this shape */
+    bool driven;               /* keeps its velocity whatever pushes back */
+    bool frozen;               /* keeps all of its state, and moves with its velocity */
+    double stop;               /* s, from then on it stands still; NAN: never */
+    int material_index;        /* filled by case_read */
+    bool varies;        /* filled by case_read: its state at the start is one of the position */
+    struct point start; /* filled by case_read, unless it varies: the state at the start */
+};
+
+/* walls: NAME: {mirror: x, at: 0 mm, side: low}: a rigid slip wall normal to an axis; the material is on
+ * its high side for `low`, on its low side for `high`. */
+enum wall_side { WALL_LOW, WALL_HIGH };
+struct wall_input {
+    int axis; /* 0, 1, 2 */
+    int side; /* enum wall_side */
+    double at;
+};
+
+/* contacts: NAME: {between: [cube, plate], shear: slip, tension: none}: the law where two bodies meet.
+ * Pairs that no contact names stick in shear and carry tension. */
+enum contact_shear { SHEAR_STICK, SHEAR_SLIP };
+enum contact_tension { TENSION_CARRIED, TENSION_NONE };
+enum contact_touch { TOUCH_NODES, TOUCH_SURFACES };
+enum contact_normal { NORMAL_MEAN, NORMAL_FIRST, NORMAL_SECOND };
+struct contact_input {
+    struct name_list between; /* two bodies */
+    int shear, tension;
+    double friction; /* where they slip */
+    int normal;      /* whose surface it is taken from */
+    int touch;       /* enum contact_touch */
+    int body[2];     /* filled by case_read */
+};
+
+/* outflows: NAME: {across: x, at: 1 m, side: high}: a face behind which particles leave the case. */
+struct outflow_input {
+    int axis, side; /* side: enum wall_side */
+    double at;
+    double pressure; /* of what is behind it; NAN: that of what leaves */
+};
+
+/* loads: NAME: {on: bar, pressure: 1 MPa}: what pushes on the surface of a body. */
+struct load_input {
+    char *on;
+    struct field_value pressure; /* of the time */
+    struct field_list
+        traction; /* of the time, on the surface that looks to `side` of `axis`; count 0: not given */
+    int axis, side;
+    struct vector_value between; /* positions along `axis`; count 0: everywhere */
+    double after, before;        /* s; before NAN: to the end */
+    int body;                    /* filled by case_read */
+};
+
+/* detonations: NAME: {at: [0 mm, 0 mm], of: charge}: where and when explosives are lit. */
+struct detonation_input {
+    struct vector_value at, to; /* to.count 0: a point */
+    double time;
+    char *of; /* a body; NULL: all that burn */
+    int body; /* filled by case_read; -1: all */
+};
+
+/* probes: NAME: {a probe, of: body, fields: [...], every: ...}: what is recorded while the case runs. */
+struct probe_input {
+    struct one_of probe;         /* "probe", inline: `tracer: [1 mm, 0 mm]`, `body: plate` */
+    char *of;                    /* a body; NULL: all */
+    struct name_list fields;     /* count 0: all */
+    int axis;                    /* 0, 1, 2; -1: not given */
+    struct vector_value between; /* positions along `axis`; count 0: everywhere */
+    double every;                /* s; NAN: every step */
+};
+
+/* profiles: NAME: {fields: [...], along: x, bins: 100}: means over bins at every snapshot. */
+enum profile_by { PROFILE_BY_NOTHING, PROFILE_BY_MATERIAL, PROFILE_BY_BODY };
+enum { PROFILE_BINS = 100000 };
+struct profile_input {
+    struct name_list fields;
+    int along;                   /* an axis */
+    int64_t bins;                /* where no width is given */
+    double width;                /* m, of a bin; NAN: not given */
+    char *of;                    /* a body; NULL: all */
+    struct vector_value between; /* positions along the axis; count 0: everywhere */
+    int by;                      /* enum profile_by */
+};
+
+/* output: {every, pictures: [pressure, ...], ...} */
+struct output_input {
+    double every;              /* s, between snapshots; NAN: only the first and the last state */
+    double history;            /* s, between rows of history.csv; NAN: a hundredth of the run */
+    double checkpoint;         /* s of wall clock between checkpoints; 0: at the end only */
+    struct name_list pictures; /* fields to draw at every snapshot */
+    bool snapshots;            /* write VTKHDF files */
+};
+
+struct run_input {
+    double until;        /* s */
+    int64_t max_steps;   /* 0: no limit */
+    int64_t rebalance;   /* steps; 0: when needed */
+    double energy_drift; /* relative, stops the run when exceeded; 0: never */
+};
+
+/* checks: NAME: {a measure, of: body, between: [a, b], axis: x, is: ..., within: ...} */
+struct check_input {
+    struct one_of measure;       /* "measure", inline: `mean: pressure`, `conserved: momentum` */
+    char *of;                    /* a body; NULL: all */
+    struct vector_value between; /* positions along `axis`; count 0: everywhere */
+    int axis;
+    struct vector_value about; /* positions are distances from this point; count 0: along `axis` */
+    struct one_of against;     /* "exact"; not given: the case's own */
+    struct quantity is;        /* wanted value; NAN: none */
+    struct quantity within;    /* allowed distance from `is`: a fraction of it, or a quantity */
+    struct quantity at_most, at_least;
+    double at; /* s, when it is measured; NAN: at the end */
+    char *
+        relative; /* what the value is divided by: "start", its own then, or a check; NULL: nothing */
+    int relative_check;    /* filled by case_read: that check; -1: none */
+    struct quantity scale; /* divides error norms; NAN: the exact solution's own range */
+    char *source;          /* where the wanted value comes from, shown in the table */
+    char *falls_short;     /* why the limit is not met; NULL: it must be */
+    double falls_short_if; /* above 0: `falls_short` holds */
+};
+
+/* convergence: order: CHECK: {at_least: 0.8}: what order of accuracy is wanted. */
+struct order_input {
+    double at_least, at_most; /* NAN: not given */
+    char *source, *falls_short;
+};
+
+/* convergence: {vary: n, values: [250, 500, 1000]}: a study of the case on several resolutions. */
+struct convergence_input {
+    char *vary;                /* a name of let or a path */
+    struct name_list values;   /* count 0: the resolution times 4, 2 and 1 */
+    struct name_list of;       /* checks; count 0: all that have an exact value */
+    struct name_list estimate; /* checks without an exact value */
+    struct named_map order;    /* struct order_input, by check */
+};
+
+/* sweep: {U0: [500 m/s, 1 km/s]}: one value that a run of the sweep, or of a study, takes. */
+struct sweep_value {
+    int entry;        /* of the sweep, from 0; values of keys that change together share it */
+    char *key, *text; /* as they stand in the case */
+    struct quantity quantity; /* what the text comes to; value NAN: it is no quantity */
+};
+
+/* What a case of two dimensions stands for. */
+enum case_geometry { GEOMETRY_PLANE_STRAIN, GEOMETRY_PLANE_STRESS, GEOMETRY_AXISYMMETRIC };
+
+struct simulation_case {
+    int64_t format;
+    char *title;
+    int64_t dimension;
+    int geometry; /* enum case_geometry; plane strain unless the dimension is 2 */
+    double resolution;
+    struct one_of solver;         /* "solver" */
+    struct named_map materials;   /* struct material_input */
+    struct named_map bodies;      /* struct body_input */
+    struct named_map walls;       /* struct wall_input */
+    struct named_map outflows;    /* struct outflow_input */
+    struct named_map loads;       /* struct load_input */
+    struct named_map contacts;    /* struct contact_input */
+    struct named_map detonations; /* struct detonation_input */
+    struct vector_value gravity;  /* m/s^2; count 0: none */
+    struct run_input run;
+    struct output_input output;
+    struct named_map probes;   /* struct probe_input */
+    struct named_map profiles; /* struct profile_input */
+    struct one_of exact;       /* "exact": what checks measure against; not given: nothing */
+    struct named_map checks;   /* struct check_input */
+    struct convergence_input convergence;
+    int sweep_runs;   /* filled by case_read: runs that a sweep asks for; 0: it has none */
+    int sweep_values; /* of this run of it; 0: the case itself */
+    struct sweep_value *sweep;
+    char *name; /* filled by case_read: the name of the case's folder or file */
+    const struct catalogue *catalogue;
+    struct document *document; /* for located messages; owned */
+};
+
+/* Options of the command line that shape a case. */
+struct case_options {
+    const char *const *settings; /* --set */
+    int setting_count;
+    const char *form; /* "short" or "long": that form of it; NULL: neither */
+    int sweep_run;    /* the run of the case's sweep, from 1; 0: the case itself */
+    bool convergence; /* the runs of its convergence study take the place of those of its sweep */
+    const char *const *library_paths; /* folders with material files */
+    int library_count;
+};
+
+/* The table of a whole case file, for help and reference. */
+extern const struct parameter case_table[];
+
+/* Keys that shape a case before that table reads it: include, let, short, long, sweep. For help. */
+extern const struct parameter case_shaping_table[];
+
+/* Reads and checks PATH. Materials are resolved, start states found, references between names checked;
+ * every mistake comes in one ERROR_INPUT. */
+struct error *case_read(const char *path, const struct case_options *options,
+                        const struct catalogue *catalogue, struct simulation_case **result);
+
+void case_free(struct simulation_case *input);
+void sweep_values_free(struct sweep_value *values, int count);
+
+/* Writes the case as run: YAML with every default filled in, that case_read takes again. */
+struct error *case_write(const struct simulation_case *input, FILE *file);
+
+/* The index of the body called NAME; -1 when there is none, or NAME is NULL. */
+int case_find_body(const struct simulation_case *input, const char *name);
+
+/* Whether detonation INDEX lights BODY. */
+bool detonation_lights(const struct simulation_case *input, int index, int body);
+
+/* When the first of the detonations that light BODY arrives at PLACE, s; zero where nothing does. */
+double detonation_arrival(const struct simulation_case *input, int body, struct vec3 place);
+
+/* The items of a case's maps. */
+static inline struct material_input *case_material(const struct simulation_case *c, int index)
+{
+    return (struct material_input *)c->materials.items + index;
+}
+static inline struct body_input *case_body(const struct simulation_case *c, int index)
+{
+    return (struct body_input *)c->bodies.items + index;
+}
+static inline struct wall_input *case_wall(const struct simulation_case *c, int index)
+{
+    return (struct wall_input *)c->walls.items + index;
+}
+static inline struct outflow_input *case_outflow(const struct simulation_case *c, int index)
+{
+    return (struct outflow_input *)c->outflows.items + index;
+}
+static inline struct load_input *case_load(const struct simulation_case *c, int index)
+{
+    return (struct load_input *)c->loads.items + index;
+}
+static inline struct contact_input *case_contact(const struct simulation_case *c, int index)
+{
+    return (struct contact_input *)c->contacts.items + index;
+}
+static inline struct detonation_input *case_detonation(const struct simulation_case *c, int index)
+{
+    return (struct detonation_input *)c->detonations.items + index;
+}
+static inline struct probe_input *case_probe(const struct simulation_case *c, int index)
+{
+    return (struct probe_input *)c->probes.items + index;
+}
+static inline struct profile_input *case_profile(const struct simulation_case *c, int index)
+{
+    return (struct profile_input *)c->profiles.items + index;
+}
+static inline struct order_input *case_order(const struct simulation_case *c, int index)
+{
+    return (struct order_input *)c->convergence.order.items + index;
+}
+static inline struct check_input *case_check(const struct simulation_case *c, int index)
+{
+    return (struct check_input *)c->checks.items + index;
+}
+
+#endif

@@ -1,0 +1,487 @@
+/* What the tables cannot say of a case: names that must exist, numbers of components, states at the
+ * start, limits of checks; and what follows from them. */
+#include <string.h>
+
+#include "case/checking.h"
+#include "case/document_internal.h"
+#include "shape/lattice.h"
+
+static const char *path_of(const struct checking *checking, const char *key, char *path)
+{
+    snprintf(path, PATH_TEXT, "%s%s%s%s%s", checking->map, checking->name ? "." : "",
+             checking->name ? checking->name : "", key[0] ? "." : "", key);
+    return path;
+}
+
+bool case_is_wrong(const struct checking *checking, const char *key)
+{
+    char path[PATH_TEXT];
+    return document_is_wrong(checking->input->document, path_of(checking, key, path));
+}
+
+void case_wrong(struct checking *checking, const char *key, const char *format, ...)
+{
+    char path[PATH_TEXT], message[1024];
+    path_of(checking, key, path);
+    if (key[0] && case_is_wrong(checking, key))
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    checking->error =
+        error_join(checking->error, document_error(checking->input->document, path, "%s", message));
+}
+
+int case_find_name(struct checking *checking, const struct named_map *map, const char *what,
+                   const char *name, const char *key)
+{
+    for (int i = 0; i < map->count; i++)
+        if (!strcmp(map->names[i], name))
+            return i;
+    if (map->count == 0 && document_is_wrong(checking->input->document, ""))
+        return -1;
+    const char *near = nearest_name(name, (const char *const *)map->names, map->count);
+    char known[512];
+    list_text((const char *const *)map->names, map->count, known, sizeof known);
+    if (near)
+        case_wrong(checking, key, "there is no %s \"%s\" (did you mean \"%s\"?)", what, name, near);
+    else
+        case_wrong(checking, key, "there is no %s \"%s\" (known: %s)", what, name, known);
+    return -1;
+}
+
+bool case_dimension_known(const struct checking *checking)
+{
+    return checking->input->dimension > 0 &&
+           !document_is_wrong(checking->input->document, "dimension");
+}
+
+void case_check_axis(struct checking *checking, const char *key, int axis)
+{
+    if (case_dimension_known(checking) && axis >= checking->input->dimension)
+        case_wrong(checking, key, "the case has %d dimension%s", (int)checking->input->dimension,
+                   checking->input->dimension == 1 ? "" : "s");
+}
+
+/* The material as plain data: the index of a choice is the enum of its model. */
+void case_fill_material(struct material_input *material)
+{
+    struct material *plain = &material->material;
+    memset(&plain->eos, 0, sizeof plain->eos);
+    memset(&plain->strength, 0, sizeof plain->strength);
+    plain->eos.kind = (enum eos_kind)material->eos.index;
+    memcpy(&plain->eos.of, material->eos.value, material->eos.choice->size);
+    memset(&plain->burn, 0, sizeof plain->burn);
+    plain->strength.kind = STRENGTH_NONE;
+    if (material->strength.value) {
+        plain->strength.kind = (enum strength_kind)material->strength.index;
+        memcpy(&plain->strength.of, material->strength.value, material->strength.choice->size);
+    }
+    if (material->burn.value) {
+        plain->burn.kind = (enum burn_kind)material->burn.index;
+        memcpy(&plain->burn.of, material->burn.value, material->burn.choice->size);
+    }
+}
+
+static void check_material(struct checking *checking, int index)
+{
+    struct material_input *material = case_material(checking->input, index);
+    char path[PATH_TEXT];
+    const char *key, *text;
+    if (!material->eos.value)
+        return;
+    case_fill_material(material);
+    if ((text = eos_wrong(&material->material.eos, &key))) {
+        snprintf(path, sizeof path, "eos.%s.%s", material->eos.choice->name, key);
+        case_wrong(checking, path, "%s", text);
+    }
+    if ((text = strength_wrong(&material->material.strength, &key))) {
+        snprintf(path, sizeof path, "strength.%s.%s", material->strength.choice->name, key);
+        case_wrong(checking, path, "%s", text);
+    }
+}
+
+static void check_replaces(struct checking *checking, const struct body_input *body, int index)
+{
+    for (int i = 0; i < body->replaces.count; i++) {
+        int other = case_find_name(checking, &checking->input->bodies, "body",
+                                   body->replaces.names[i], "replaces");
+        if (other == index)
+            case_wrong(checking, "replaces", "a body cannot replace itself");
+    }
+}
+
+/* A coordinate that the case has not would be zero everywhere, and is a mistake. */
+static void check_position(struct checking *checking, const char *key,
+                           const struct field_value *field)
+{
+    const struct simulation_case *input = checking->input;
+    if (!field->varying || !case_dimension_known(checking))
+        return;
+    for (int axis = (int)input->dimension; axis < 3; axis++)
+        if (varying_expression_uses(field->varying, axis))
+            case_wrong(checking, key, "the case has %d dimension%s, and no position %c",
+                       (int)input->dimension, input->dimension == 1 ? "" : "s", "xyz"[axis]);
+}
+
+static void check_positions(struct checking *checking, const char *key,
+                            const struct field_list *list)
+{
+    char item[PATH_TEXT];
+    for (int i = 0; i < list->count; i++) {
+        snprintf(item, sizeof item, "%s.%d", key, i + 1);
+        check_position(checking, item, &list->at[i]);
+    }
+}
+
+/* As many components as a stress has in the dimension of the case; a thin plate bears none across. */
+static void check_stress(struct checking *checking, const struct body_input *body)
+{
+    static const char *const forms[] = {"[xx, yy, zz]", "[xx, yy, zz, xy]",
+                                        "[xx, yy, zz, xy, yz, zx]"};
+    static const int counts[] = {3, 4, 6};
+    const int64_t dimension = checking->input->dimension;
+    const struct field_value *across = &body->stress.at[2];
+    if (body->stress.count == 0 || !case_dimension_known(checking))
+        return;
+    if (body->stress.count != counts[dimension - 1])
+        case_wrong(checking, "stress", "%s is wanted in %d dimension%s", forms[dimension - 1],
+                   (int)dimension, dimension == 1 ? "" : "s");
+    else if (checking->input->geometry == GEOMETRY_PLANE_STRESS &&
+             (across->varying || across->constant != 0.0))
+        case_wrong(checking, "stress.3", "in plane stress the stress zz is zero");
+}
+
+static void check_start_keys(struct checking *checking, const struct body_input *body)
+{
+    check_position(checking, "density", &body->density);
+    check_position(checking, "pressure", &body->pressure);
+    check_position(checking, "energy", &body->energy);
+    check_position(checking, "temperature", &body->temperature);
+    check_positions(checking, "velocity", &body->velocity);
+    case_check_driven(checking, body);
+    check_positions(checking, "stress", &body->stress);
+    check_stress(checking, body);
+}
+
+/* A state that varies is judged where the particles are. */
+static void check_start(struct checking *checking, struct body_input *body)
+{
+    const char *key;
+    char path[PATH_TEXT];
+    struct simulation_case *input = checking->input;
+    const struct material_input *material = case_material(input, body->material_index);
+    snprintf(path, sizeof path, "materials.%s", input->materials.names[body->material_index]);
+    if (case_is_wrong(checking, "") || document_is_wrong(input->document, path))
+        return;
+    const struct material *plain = &material->material;
+    const char *text = heat_wrong(&plain->heat, &plain->eos);
+    if (text && field_is_given(&body->temperature)) {
+        case_wrong(checking, "temperature", "the material \"%s\" has no temperature: %s",
+                   body->material, text);
+        return;
+    }
+    text = body_start_wrong(body, plain, &key);
+    if (!text && !body->varies)
+        text = body_state_at(body, plain, (struct vec3){0}, &body->start, &key);
+    if (text)
+        case_wrong(checking, key, "%s", text);
+}
+
+static void check_shape(struct checking *checking, const struct body_input *body)
+{
+    const struct choice *shape = body->shape.choice;
+    if (!shape || !case_dimension_known(checking) || case_is_wrong(checking, shape->name))
+        return;
+    const int dimension = (int)checking->input->dimension;
+    const char *text = shape_wrong(&body->shape, dimension);
+    if (text) {
+        case_wrong(checking, shape->name, "%s", text);
+        return;
+    }
+    const struct bounds bounds = shape_bounds(&body->shape);
+    if (!bounds_finite(&bounds)) {
+        case_wrong(checking, shape->name,
+                   "this shape has no end: an intersection with another bounds it");
+        return;
+    }
+    if (!body->lattice.choice || case_is_wrong(checking, "lattice"))
+        return;
+    text = lattice_wrong(&body->lattice, &body->shape, dimension);
+    if (text)
+        case_wrong(checking, "lattice", "%s", text);
+}
+
+static void check_body(struct checking *checking, int index)
+{
+    struct simulation_case *input = checking->input;
+    struct body_input *body = case_body(input, index);
+    body->material_index = -1;
+    if (body->material)
+        body->material_index =
+            case_find_name(checking, &input->materials, "material", body->material, "material");
+    body->varies = body_varies(body);
+    check_start_keys(checking, body);
+    if (body->material_index >= 0)
+        check_start(checking, body);
+    check_shape(checking, body);
+    if (body->velocity.count == 0)
+        body->velocity.count = case_dimension_known(checking) ? (int)input->dimension : 0;
+    else if (case_dimension_known(checking) && body->velocity.count != input->dimension)
+        case_wrong(checking, "velocity", "%d component%s wanted, one a dimension; found %d",
+                   (int)input->dimension, input->dimension == 1 ? " is" : "s are",
+                   body->velocity.count);
+    if (body->frozen && (body->driven || !isnan(body->stop)))
+        case_wrong(checking, "frozen", "a frozen body keeps its velocity: leave `%s` out",
+                   body->driven ? "driven" : "stop");
+    check_replaces(checking, body, index);
+}
+
+static void check_detonation(struct checking *checking, int index)
+{
+    const struct simulation_case *input = checking->input;
+    struct detonation_input *detonation = case_detonation(input, index);
+    const struct vector_value *ends[] = {&detonation->at, &detonation->to};
+    const char *const keys[] = {"at", "to"};
+    bool same = detonation->to.count == detonation->at.count;
+    for (int end = 0; end < 2 && case_dimension_known(checking); end++)
+        if (ends[end]->count && ends[end]->count != input->dimension)
+            case_wrong(checking, keys[end], "%d component%s wanted, one a dimension; found %d",
+                       (int)input->dimension, input->dimension == 1 ? " is" : "s are",
+                       ends[end]->count);
+    for (int k = 0; k < detonation->at.count; k++)
+        same = same && detonation->to.at[k] == detonation->at.at[k];
+    if (same && !case_is_wrong(checking, ""))
+        case_wrong(checking, "to", "both ends are the same place: leave this out");
+    detonation->body = -1;
+    if (!detonation->of)
+        return;
+    detonation->body = case_find_name(checking, &input->bodies, "body", detonation->of, "of");
+    if (detonation->body >= 0 && !case_is_wrong(checking, "of") &&
+        case_body(input, detonation->body)->material_index >= 0 &&
+        !detonation_lights(input, index, detonation->body))
+        case_wrong(checking, "of", "the material of this body has no `burn` that waits to be lit");
+}
+
+/* Every body that burns is lit by something. */
+static void check_lit(struct checking *checking, int body)
+{
+    const struct simulation_case *input = checking->input;
+    const int material = case_body(input, body)->material_index;
+    if (material < 0 || !material_burns(&case_material(input, material)->material) ||
+        document_is_wrong(input->document, "detonations"))
+        return;
+    for (int i = 0; i < input->detonations.count; i++)
+        if (detonation_lights(input, i, body))
+            return;
+    case_wrong(checking, "", "nothing lights this explosive: name a place in `detonations`");
+}
+
+/* What is said of a surface must act there. */
+static void check_surface(struct checking *checking, const struct contact_input *contact)
+{
+    const bool opens = contact->tension == TENSION_NONE, slips = contact->shear == SHEAR_SLIP;
+    if (contact->friction > 0.0 && !slips)
+        case_wrong(checking, "friction", "bodies that stick have no friction: give `shear: slip`");
+    if (contact->touch == TOUCH_SURFACES && !opens)
+        case_wrong(checking, "touch", "this is for bodies that may part: give `tension: none`");
+    if (contact->normal != NORMAL_MEAN && !slips && !opens)
+        case_wrong(checking, "normal",
+                   "this is for bodies that slip or may part: give `shear: slip` or `tension: "
+                   "none`");
+}
+
+static void check_contact(struct checking *checking, int index)
+{
+    struct simulation_case *input = checking->input;
+    struct contact_input *contact = case_contact(input, index);
+    contact->body[0] = contact->body[1] = -1;
+    check_surface(checking, contact);
+    if (contact->between.count == 0 && case_is_wrong(checking, ""))
+        return;
+    if (contact->between.count != 2) {
+        case_wrong(checking, "between", "two bodies are wanted, found %d", contact->between.count);
+        return;
+    }
+    for (int i = 0; i < 2; i++)
+        contact->body[i] =
+            case_find_name(checking, &input->bodies, "body", contact->between.names[i], "between");
+    if (contact->body[0] < 0 || contact->body[1] < 0)
+        return;
+    if (contact->body[0] == contact->body[1])
+        case_wrong(checking, "between", "two different bodies are wanted");
+    for (int i = 0; i < index; i++) {
+        const struct contact_input *other = case_contact(input, i);
+        if ((other->body[0] == contact->body[0] && other->body[1] == contact->body[1]) ||
+            (other->body[0] == contact->body[1] && other->body[1] == contact->body[0]))
+            case_wrong(checking, "between", "\"%s\" already names these two",
+                       input->contacts.names[i]);
+    }
+}
+
+static bool is_given(const struct quantity *quantity) { return !isnan(quantity->value); }
+
+static bool is_number(const struct quantity *quantity)
+{
+    return dimension_equal(quantity->dimension, (struct dimension){0});
+}
+
+/* The measure's own dimension is compared with these when the check is prepared. */
+static void check_limits(struct checking *checking, const struct check_input *check)
+{
+    const struct quantity *is = &check->is, *within = &check->within;
+    if (is_given(is) && !is_given(within))
+        case_wrong(checking, "is", "this needs `within` beside it");
+    else if (!is_given(within) && !is_given(&check->at_most) && !is_given(&check->at_least))
+        case_wrong(checking, "", "a limit is missing: `is` and `within`, `at_most` or `at_least`");
+    if (!is_given(within))
+        return;
+    if (within->value < 0.0)
+        case_wrong(checking, "within", "this cannot be negative");
+    if (is_given(is) && is->value != 0.0 && !is_number(within) &&
+        !dimension_equal(is->dimension, within->dimension))
+        case_wrong(checking, "within",
+                   "a fraction, or a quantity of the dimension of `is`, is wanted");
+}
+
+void case_check_between(struct checking *checking, const struct vector_value *between)
+{
+    if (between->count != 0 && !(between->count == 2 && between->at[0] < between->at[1]))
+        case_wrong(checking, "between", "two positions are wanted, the smaller first");
+}
+
+/* A chain of ratios would hide what is compared with what. */
+static void check_relative(struct checking *checking, struct check_input *check, int index)
+{
+    const struct simulation_case *input = checking->input;
+    check->relative_check = -1;
+    if (!check->relative || !strcmp(check->relative, "start"))
+        return;
+    const int other =
+        case_find_name(checking, &input->checks, "check", check->relative, "relative");
+    if (other == index)
+        case_wrong(checking, "relative", "a check cannot be relative to itself");
+    else if (other >= 0 && case_check(input, other)->relative)
+        case_wrong(checking, "relative", "the check \"%s\" is relative itself", check->relative);
+    check->relative_check = other;
+}
+
+static void check_check(struct checking *checking, int index)
+{
+    struct check_input *check = case_check(checking->input, index);
+    if (check->of)
+        case_find_name(checking, &checking->input->bodies, "body", check->of, "of");
+    case_check_between(checking, &check->between);
+    case_check_axis(checking, "axis", check->axis);
+    if (check->about.count != 0 && case_dimension_known(checking) &&
+        check->about.count != checking->input->dimension)
+        case_wrong(checking, "about", "%d component%s wanted, one a dimension; found %d",
+                   (int)checking->input->dimension,
+                   checking->input->dimension == 1 ? " is" : "s are", check->about.count);
+    check_relative(checking, check, index);
+    if (check->at > checking->input->run.until &&
+        !document_is_wrong(checking->input->document, "run"))
+        case_wrong(checking, "at", "the run ends before, at %.9g s", checking->input->run.until);
+    if (check->falls_short && !check->falls_short[0])
+        case_wrong(checking, "falls_short", "the reason is wanted");
+    if (!check->falls_short && check->falls_short_if != 1.0)
+        case_wrong(checking, "falls_short_if", "this needs `falls_short` beside it");
+    if (!case_is_wrong(checking, ""))
+        check_limits(checking, check);
+}
+
+/* The name becomes that of a file. */
+static void check_file_name(struct checking *checking)
+{
+    if (strchr(checking->name, '/') || checking->name[0] == '.' || !checking->name[0])
+        case_wrong(checking, "", "its name becomes that of a file: no `/`, and no `.` in front");
+}
+
+static void check_probe(struct checking *checking, int index)
+{
+    const struct probe_input *probe = case_probe(checking->input, index);
+    check_file_name(checking);
+    if (probe->of)
+        case_find_name(checking, &checking->input->bodies, "body", probe->of, "of");
+    case_check_between(checking, &probe->between);
+    case_check_axis(checking, "axis", probe->axis);
+}
+
+static void check_profile(struct checking *checking, int index)
+{
+    const struct profile_input *profile = case_profile(checking->input, index);
+    check_file_name(checking);
+    if (profile->of)
+        case_find_name(checking, &checking->input->bodies, "body", profile->of, "of");
+    case_check_between(checking, &profile->between);
+    case_check_axis(checking, "along", profile->along);
+}
+
+/* NAMES of checks under KEY. */
+static void check_check_names(struct checking *checking, const struct name_list *names,
+                              const char *key)
+{
+    for (int i = 0; i < names->count; i++)
+        case_find_name(checking, &checking->input->checks, "check", names->names[i], key);
+}
+
+static void check_order(struct checking *checking, int index)
+{
+    const struct simulation_case *input = checking->input;
+    const struct order_input *order = case_order(input, index);
+    case_find_name(checking, &input->checks, "check", checking->name, "");
+    if (isnan(order->at_least) && isnan(order->at_most) && !case_is_wrong(checking, ""))
+        case_wrong(checking, "", "a limit is missing: `at_least` or `at_most`");
+    if (order->at_least > order->at_most)
+        case_wrong(checking, "at_least", "this lies above `at_most`");
+    if (order->falls_short && !order->falls_short[0])
+        case_wrong(checking, "falls_short", "the reason is wanted");
+}
+
+static void check_map(struct checking *checking, const char *key, const struct named_map *map,
+                      void (*check)(struct checking *, int))
+{
+    checking->map = key;
+    for (int i = 0; i < map->count; i++) {
+        checking->name = map->names[i];
+        check(checking, i);
+    }
+    checking->name = NULL;
+}
+
+static void check_geometry(struct checking *checking)
+{
+    checking->map = "geometry";
+    if (case_dimension_known(checking) && checking->input->geometry != GEOMETRY_PLANE_STRAIN &&
+        checking->input->dimension != 2)
+        case_wrong(checking, "", "this is of two dimensions: the case has %d",
+                   (int)checking->input->dimension);
+}
+
+struct error *case_check_meaning(struct simulation_case *input)
+{
+    struct checking checking = {.input = input};
+    check_geometry(&checking);
+    check_map(&checking, "materials", &input->materials, check_material);
+    if (input->bodies.count == 0 && !document_is_wrong(input->document, "")) {
+        checking.map = "bodies";
+        case_wrong(&checking, "", "one body at least is wanted");
+    }
+    check_map(&checking, "bodies", &input->bodies, check_body);
+    check_map(&checking, "walls", &input->walls, case_check_wall);
+    check_map(&checking, "contacts", &input->contacts, check_contact);
+    check_map(&checking, "detonations", &input->detonations, check_detonation);
+    check_map(&checking, "bodies", &input->bodies, check_lit);
+    check_map(&checking, "outflows", &input->outflows, case_check_outflow);
+    check_map(&checking, "loads", &input->loads, case_check_load);
+    case_check_gravity(&checking);
+    check_map(&checking, "probes", &input->probes, check_probe);
+    check_map(&checking, "profiles", &input->profiles, check_profile);
+    check_map(&checking, "checks", &input->checks, check_check);
+    checking.map = "convergence";
+    check_check_names(&checking, &input->convergence.of, "of");
+    check_check_names(&checking, &input->convergence.estimate, "estimate");
+    check_map(&checking, "convergence.order", &input->convergence.order, check_order);
+    return checking.error;
+}

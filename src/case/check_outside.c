@@ -1,0 +1,126 @@
+/* What the tables cannot say of what acts on a case from outside: walls, outflows, loads, driven
+ * bodies, gravity. */
+#include "case/checking.h"
+#include "case/document_internal.h"
+
+void case_check_wall(struct checking *checking, int index)
+{
+    static const char *const axes = "xyz";
+    const struct simulation_case *input = checking->input;
+    const struct wall_input *wall = case_wall(input, index);
+    case_check_axis(checking, "mirror", wall->axis);
+    if (input->geometry == GEOMETRY_AXISYMMETRIC && wall->axis == 0 &&
+        (wall->side == WALL_LOW ? wall->at != 0.0 : wall->at <= 0.0))
+        case_wrong(checking, "at", "the axis of symmetry bounds x from below, at 0 m: %s",
+                   wall->side == WALL_LOW ? "leave this wall out" : "put this wall beyond it");
+    for (int i = 0; i < index && !case_is_wrong(checking, ""); i++) {
+        const struct wall_input *other = case_wall(input, i);
+        char path[PATH_TEXT];
+        snprintf(path, sizeof path, "walls.%s", input->walls.names[i]);
+        if (other->axis != wall->axis || document_is_wrong(input->document, path))
+            continue;
+        double low = wall->side == WALL_LOW ? wall->at : other->at;
+        double high = wall->side == WALL_LOW ? other->at : wall->at;
+        if (other->side == wall->side)
+            case_wrong(checking, "side", "\"%s\" is a %s wall on the %c axis already",
+                       input->walls.names[i], wall->side == WALL_LOW ? "low" : "high",
+                       axes[wall->axis]);
+        else if (low >= high)
+            case_wrong(checking, "at",
+                       "the low wall on the %c axis does not lie below the high wall",
+                       axes[wall->axis]);
+    }
+}
+
+void case_check_outflow(struct checking *checking, int index)
+{
+    const struct simulation_case *input = checking->input;
+    const struct outflow_input *outflow = case_outflow(input, index);
+    case_check_axis(checking, "across", outflow->axis);
+    if (input->geometry == GEOMETRY_AXISYMMETRIC && outflow->axis == 0 && outflow->side == WALL_LOW)
+        case_wrong(checking, "side", "nothing flows out through the axis of symmetry");
+    for (int i = 0; i < input->walls.count; i++)
+        if (case_wall(input, i)->axis == outflow->axis &&
+            case_wall(input, i)->side == outflow->side)
+            case_wrong(checking, "side",
+                       "the wall \"%s\" closes this end: leave one of the two out",
+                       input->walls.names[i]);
+    for (int i = 0; i < index; i++) {
+        const struct outflow_input *other = case_outflow(input, i);
+        const double low = outflow->side == WALL_LOW ? outflow->at : other->at;
+        const double high = outflow->side == WALL_LOW ? other->at : outflow->at;
+        if (other->axis != outflow->axis)
+            continue;
+        if (other->side == outflow->side)
+            case_wrong(checking, "side", "\"%s\" is an outflow of this end already",
+                       input->outflows.names[i]);
+        else if (low >= high)
+            case_wrong(checking, "at", "the low outflow does not lie below the high one");
+    }
+}
+
+void case_check_load(struct checking *checking, int index)
+{
+    const struct simulation_case *input = checking->input;
+    struct load_input *load = case_load(input, index);
+    load->body = -1;
+    if (load->on)
+        load->body = case_find_name(checking, &input->bodies, "body", load->on, "on");
+    if (load->body >= 0) {
+        const struct body_input *body = case_body(input, load->body);
+        if (body->driven || body->frozen || body->stop <= 0.0)
+            case_wrong(checking, "on", "this body keeps its velocity whatever pushes: `%s`",
+                       body->driven   ? "driven"
+                       : body->frozen ? "frozen"
+                                      : "stop");
+    }
+    case_check_axis(checking, "axis", load->axis);
+    case_check_between(checking, &load->between);
+    if (case_is_wrong(checking, ""))
+        return;
+    if (field_is_given(&load->pressure) == (load->traction.count > 0))
+        case_wrong(checking, "", "one of `pressure` and `traction` is wanted");
+    else if (load->traction.count && load->between.count == 0)
+        case_wrong(checking, "traction",
+                   "this wants `between`: the body has another end, which a "
+                   "traction must not pull");
+    else if (load->traction.count && case_dimension_known(checking) &&
+             load->traction.count != input->dimension)
+        case_wrong(checking, "traction", "%d component%s wanted, one a dimension; found %d",
+                   (int)input->dimension, input->dimension == 1 ? " is" : "s are",
+                   load->traction.count);
+    if (load->before <= load->after)
+        case_wrong(checking, "before", "this does not lie behind `after`");
+}
+
+void case_check_driven(struct checking *checking, const struct body_input *body)
+{
+    char key[PATH_TEXT];
+    for (int i = 0; i < body->velocity.count; i++) {
+        const struct field_value *velocity = &body->velocity.at[i];
+        snprintf(key, sizeof key, "velocity.%d", i + 1);
+        if (!field_is_of_time(velocity))
+            continue;
+        if (!body->driven)
+            case_wrong(checking, key,
+                       "only a body with `driven: yes` has a velocity of the time t");
+        for (int axis = 0; axis < 3; axis++)
+            if (varying_expression_uses(velocity->varying, axis))
+                case_wrong(checking, key, "this names the time t, and with it no position %c",
+                           "xyz"[axis]);
+    }
+}
+
+void case_check_gravity(struct checking *checking)
+{
+    const struct simulation_case *input = checking->input;
+    const struct vector_value *gravity = &input->gravity;
+    checking->map = "gravity";
+    if (!case_dimension_known(checking) || gravity->count == 0)
+        return;
+    if (gravity->count != input->dimension)
+        case_wrong(checking, "", "%d component%s wanted, one a dimension; found %d",
+                   (int)input->dimension, input->dimension == 1 ? " is" : "s are", gravity->count);
+    else if (input->geometry == GEOMETRY_AXISYMMETRIC && gravity->at[0] != 0.0)
+        case_wrong(checking, "1", "gravity that is symmetric about the axis points along it");
+}

@@ -1,0 +1,43 @@
+/* What the checks of a case's meaning share. Private to case_check*.c. */
+#ifndef BOLIDE_CASE_CHECKING_H
+#define BOLIDE_CASE_CHECKING_H
+
+#include "case/internal.h"
+
+/* Where a check stands: a path, to which a key may be added. */
+struct checking {
+    struct simulation_case *input;
+    struct error *error;
+    const char *map, *name; /* "bodies", "flyer" */
+};
+
+enum { PATH_TEXT = 512 };
+
+/* True when the reader complained about KEY or something in it: what it means is not known. */
+bool case_is_wrong(const struct checking *checking, const char *key);
+
+/* A complaint about KEY, unless the reader had one already. */
+void case_wrong(struct checking *checking, const char *key, const char *format, ...)
+    BOLIDE_PRINTF(3, 4);
+
+/* The index of NAME in MAP; -1 after a complaint. WHAT is `body` or `material`. */
+int case_find_name(struct checking *checking, const struct named_map *map, const char *what,
+                   const char *name, const char *key);
+
+bool case_dimension_known(const struct checking *checking);
+
+/* The case must have AXIS. */
+void case_check_axis(struct checking *checking, const char *key, int axis);
+
+/* BETWEEN is nothing or two positions. */
+void case_check_between(struct checking *checking, const struct vector_value *between);
+
+/* Of what acts from outside (case_check_outside.c). */
+void case_check_wall(struct checking *checking, int index);
+void case_check_outflow(struct checking *checking, int index);
+void case_check_load(struct checking *checking, int index);
+/* What is driven may follow the time, all of it alike. */
+void case_check_driven(struct checking *checking, const struct body_input *body);
+void case_check_gravity(struct checking *checking);
+
+#endif

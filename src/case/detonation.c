@@ -1,0 +1,75 @@
+/* Where and when a case's explosives are lit: its keys, and when the detonation arrives where. */
+#include <math.h>
+
+#include "case/internal.h"
+
+const struct parameter case_detonation_table[] = {
+    {.key = "at",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct detonation_input, at),
+     .unit = "m",
+     .standard = PARAMETER_REQUIRED,
+     .help = "the place, one value a dimension"},
+    {.key = "to",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct detonation_input, to),
+     .unit = "m",
+     .standard = PARAMETER_OPTIONAL,
+     .help = "the other end of a line that is lit all along"},
+    {.key = "time",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct detonation_input, time),
+     .unit = "s",
+     .standard = "0 s",
+     .below = INFINITY,
+     .closed = true,
+     .help = "when"},
+    {.key = "of",
+     .kind = PARAMETER_TEXT,
+     .offset = offsetof(struct detonation_input, of),
+     .standard = PARAMETER_OPTIONAL,
+     .help = "the body that it lights; all whose material burns when not given"},
+    PARAMETER_END,
+};
+
+bool detonation_lights(const struct simulation_case *input, int index, int body)
+{
+    const struct material_input *material =
+        case_material(input, case_body(input, body)->material_index);
+    const int of = case_detonation(input, index)->body;
+    return material->material.burn.kind != BURN_INSTANT && (of < 0 || of == body);
+}
+
+static struct vec3 vector(const struct vector_value *value)
+{
+    return vec3_make(value->at[0], value->count > 1 ? value->at[1] : 0.0,
+                     value->count > 2 ? value->at[2] : 0.0);
+}
+
+/* How far PLACE is from the point or line of DETONATION. */
+static double distance(const struct detonation_input *detonation, struct vec3 place)
+{
+    const struct vec3 from = vector(&detonation->at), way = vec3_sub(place, from);
+    double share = 0.0;
+    struct vec3 line = {0.0, 0.0, 0.0};
+    if (detonation->to.count) {
+        line = vec3_sub(vector(&detonation->to), from);
+        share = maximum(0.0, minimum(1.0, vec3_dot(way, line) / vec3_dot(line, line)));
+    }
+    const struct vec3 rest = vec3_sub(way, vec3_scale(share, line));
+    return sqrt(vec3_dot(rest, rest));
+}
+
+double detonation_arrival(const struct simulation_case *input, int body, struct vec3 place)
+{
+    const struct burn *burn =
+        &case_material(input, case_body(input, body)->material_index)->material.burn;
+    double arrival = INFINITY;
+    for (int i = 0; i < input->detonations.count; i++) {
+        const struct detonation_input *detonation = case_detonation(input, i);
+        if (detonation_lights(input, i, body))
+            arrival =
+                minimum(arrival, detonation->time + distance(detonation, place) / burn->of.speed);
+    }
+    return isfinite(arrival) ? arrival : 0.0;
+}

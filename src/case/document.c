@@ -1,0 +1,397 @@
+/* A document: lay the short or long form and the settings over it, find the node of a path, and tell where a
+ * mistake stands. */
+#include "case/document.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "case/document_internal.h"
+
+/* The overlays that a document may carry, taken away whether they are wanted or not. */
+static const char *const overlay_keys[] = {"short", "long"};
+
+static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
+
+struct error *place_verror(struct place place, const char *path, const char *format,
+                           va_list arguments)
+{
+    char *message = text_vformat(format, arguments);
+    if (!message)
+        return out_of_memory();
+    struct error *error = error_new(ERROR_INPUT, "%s", message);
+    free(message);
+    if (path[0])
+        error = error_context(error, "%s", path);
+    return place.line > 0 ? error_context(error, "%s:%d:%d", place.origin, place.line, place.column)
+                          : error_context(error, "%s", place.origin);
+}
+
+struct error *place_error(struct place place, const char *path, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    struct error *error = place_verror(place, path, format, arguments);
+    va_end(arguments);
+    return error;
+}
+
+bool node_is_empty(const struct node *node)
+{
+    return node->kind == NODE_SCALAR && node->plain &&
+           (!node->text[0] || !strcmp(node->text, "~") || !strcmp(node->text, "null"));
+}
+
+static int entry_index(const struct node *map, const char *key)
+{
+    for (int i = 0; map->kind == NODE_MAP && i < map->count; i++)
+        if (!strcmp(map->child[i]->key, key))
+            return i;
+    return -1;
+}
+
+struct node *node_entry(const struct node *map, const char *key)
+{
+    int index = entry_index(map, key);
+    return index < 0 ? NULL : map->child[index];
+}
+
+struct place node_place(const struct node *node)
+{
+    return node->kind == NODE_MAP ? node->key_place : node->place;
+}
+
+/* The child of NODE that the start of PATH names; *length tells how much of PATH it takes. A key may
+ * hold dots: the longest that fits is meant. */
+static int path_step(const struct node *node, const char *path, size_t *length)
+{
+    int found = -1;
+    *length = 0;
+    if (node->kind == NODE_LIST) {
+        char *end;
+        long item = strtol(path, &end, 10);
+        if (end > path && (*end == '.' || !*end) && item >= 1 && item <= node->count) {
+            *length = (size_t)(end - path);
+            found = (int)item - 1;
+        }
+    }
+    for (int i = 0; node->kind == NODE_MAP && i < node->count; i++) {
+        size_t size = strlen(node->child[i]->key);
+        if (size >= *length && !strncmp(path, node->child[i]->key, size) &&
+            (path[size] == '.' || !path[size])) {
+            *length = size;
+            found = i;
+        }
+    }
+    return found;
+}
+
+const struct node *document_find(const struct document *document, const char *path, bool *exact)
+{
+    const struct node *node = document->root;
+    while (*path) {
+        size_t length;
+        int child = path_step(node, path, &length);
+        if (child < 0)
+            break;
+        node = node->child[child];
+        path += length;
+        path += *path == '.';
+    }
+    *exact = !*path;
+    return node;
+}
+
+bool document_is_wrong(const struct document *document, const char *path)
+{
+    size_t length = strlen(path);
+    for (int i = 0; i < document->wrong_count; i++) {
+        const char *wrong = document->wrong[i];
+        if (!length || (!strncmp(wrong, path, length) && (!wrong[length] || wrong[length] == '.')))
+            return true;
+    }
+    return false;
+}
+
+bool document_has(const struct document *document, const char *path)
+{
+    bool exact;
+    document_find(document, path, &exact);
+    return exact;
+}
+
+struct error *document_error(const struct document *document, const char *path, const char *format,
+                             ...)
+{
+    bool exact;
+    const struct node *node = document_find(document, path, &exact);
+    va_list arguments;
+    va_start(arguments, format);
+    struct error *error = place_verror(node_place(node), path, format, arguments);
+    va_end(arguments);
+    return error;
+}
+
+const char *document_keep(struct document *document, char *text)
+{
+    char **grown =
+        realloc(document->origins, ((size_t)document->origin_count + 1) * sizeof(char *));
+    if (!grown || !text) {
+        document->origins = grown ? grown : document->origins;
+        free(text);
+        return NULL;
+    }
+    document->origins = grown;
+    grown[document->origin_count++] = text;
+    return text;
+}
+
+struct error *node_merge(struct node *base, struct node *over)
+{
+    while (over->count > 0) {
+        struct node *entry = node_take(over, 0);
+        int index = entry_index(base, entry->key);
+        struct node *old = index < 0 ? NULL : base->child[index];
+        if (old && old->kind == NODE_MAP && entry->kind == NODE_MAP) {
+            struct error *error = node_merge(old, entry);
+            node_free(entry);
+            TRY(error);
+        } else if (old) {
+            node_free(old);
+            base->child[index] = entry;
+        } else if (!node_append(base, entry)) {
+            return out_of_memory();
+        }
+    }
+    return NULL;
+}
+
+static bool share_a_key(const struct node *a, const struct node *b)
+{
+    for (int i = 0; i < a->count; i++)
+        if (node_entry(b, a->child[i]->key))
+            return true;
+    return false;
+}
+
+/* Two models of a kind share no key: the own one then replaces the library's. WITHIN a model all its keys go together. */
+static struct error *fill_in(struct node *map, struct node *library, bool within)
+{
+    while (library->count > 0) {
+        struct node *entry = node_take(library, 0);
+        struct node *own = node_entry(map, entry->key);
+        struct error *error = NULL;
+        if (!own) {
+            error = node_append(map, entry) ? NULL : out_of_memory();
+        } else {
+            if (own->kind == NODE_MAP && entry->kind == NODE_MAP &&
+                (within || share_a_key(own, entry)))
+                error = fill_in(own, entry, true);
+            node_free(entry);
+        }
+        TRY(error);
+    }
+    return NULL;
+}
+
+struct error *document_include(struct document *document, struct node *map,
+                               struct document *library)
+{
+    while (library->origin_count > 0) {
+        if (!document_keep(document, library->origins[--library->origin_count]))
+            return out_of_memory();
+    }
+    return fill_in(map, library->root, false);
+}
+
+/* The wanted one is merged when all are taken, so that none of them can bring another. */
+static struct error *merge_overlay(struct document *document, const char *wanted)
+{
+    struct node *overlay[COUNT_OF(overlay_keys)];
+    struct error *error = NULL;
+    for (size_t i = 0; i < COUNT_OF(overlay_keys); i++) {
+        int index = entry_index(document->root, overlay_keys[i]);
+        overlay[i] = index < 0 ? NULL : node_take(document->root, index);
+    }
+    for (size_t i = 0; i < COUNT_OF(overlay_keys); i++) {
+        if (overlay[i] && overlay[i]->kind != NODE_MAP)
+            error = error_join(
+                error, place_error(overlay[i]->place, overlay_keys[i], "a map is wanted here"));
+        else if (overlay[i] && wanted && !strcmp(overlay_keys[i], wanted))
+            error = error_join(error, node_merge(document->root, overlay[i]));
+        node_free(overlay[i]);
+    }
+    return error;
+}
+
+/* Nothing in MAP is called what PATH starts with: suggest, when the word looks like a slip. */
+static struct error *no_such_key(const struct node *map, const char *path, const char *segment,
+                                 struct place place)
+{
+    const char **names = malloc(((size_t)map->count + 1) * sizeof *names);
+    if (!names)
+        return out_of_memory();
+    for (int i = 0; i < map->count; i++)
+        names[i] = map->child[i]->key;
+    const char *near = nearest_name(segment, names, map->count);
+    struct error *error = NULL;
+    if (near)
+        error =
+            place_error(place, path, "there is no \"%s\" (did you mean \"%s\"?)", segment, near);
+    free(names);
+    return error;
+}
+
+/* Makes the entry that the rest of a setting's path starts with: a map if the path goes on, else the
+ * value, of which *VALUE is then taken. */
+static struct error *add_entry(struct node *map, const char *path, const char *rest,
+                               struct node **value, struct place place)
+{
+    const char *dot = strchr(rest, '.');
+    char *key = text_copy_part(rest, dot ? (size_t)(dot - rest) : strlen(rest));
+    struct error *error = key && dot ? no_such_key(map, path, key, place) : NULL;
+    if (error) {
+        free(key);
+        return error;
+    }
+    struct node *entry = dot ? node_new(NODE_MAP, place) : *value;
+    if (!key || !entry) {
+        free(key);
+        if (dot)
+            node_free(entry);
+        return out_of_memory();
+    }
+    entry->implied = dot != NULL;
+    entry->key = key;
+    entry->key_place = place;
+    if (!dot)
+        *value = NULL;
+    return node_append(map, entry) ? NULL : out_of_memory();
+}
+
+/* A scalar on the way of a setting's path: an empty one or the name of the next thing becomes a map
+ * (`solver: sph` before `--set solver.sph.contact=acoustic`). */
+static bool becomes_map(struct node *node, const char *rest)
+{
+    size_t length = node->kind == NODE_SCALAR ? strlen(node->text) : 0;
+    bool names_next = length && !strncmp(rest, node->text, length) && rest[length] == '.';
+    if (node->kind != NODE_SCALAR || (!node_is_empty(node) && !names_next))
+        return false;
+    free(node->text);
+    node->text = NULL;
+    node->kind = NODE_MAP;
+    return true;
+}
+
+/* Puts *VALUE (taken) at PATH. */
+static struct error *set_value(struct node *root, const char *path, struct node **value)
+{
+    struct node *node = root;
+    struct place place = (*value)->place;
+    const char *rest = path;
+    while (*value) {
+        size_t length;
+        int child = path_step(node, rest, &length);
+        if (child >= 0 && !rest[length]) {
+            struct node *old = node->child[child];
+            (*value)->key = old->key;
+            (*value)->key_place = place;
+            old->key = NULL;
+            node->child[child] = *value;
+            *value = NULL;
+            node_free(old);
+        } else if (child >= 0) {
+            node = node->child[child];
+            rest += length + 1;
+        } else if (node->kind == NODE_MAP) {
+            if (!*rest || *rest == '.')
+                return place_error(place, "", "the path has an empty name");
+            TRY(add_entry(node, path, rest, value, place));
+        } else if (node->kind == NODE_LIST) {
+            return place_error(place, path, "the list has items 1 to %d", node->count);
+        } else if (!becomes_map(node, rest)) {
+            return place_error(place, path, "\"%s\" is a value without keys", node->text);
+        }
+    }
+    return NULL;
+}
+
+struct error *document_set(struct document *document, const char *path, struct node **value)
+{
+    return set_value(document->root, path, value);
+}
+
+static struct error *apply_setting(struct document *document, const char *setting)
+{
+    const char *origin = document_keep(document, text_format("--set %s", setting));
+    if (!origin)
+        return out_of_memory();
+    struct place place = {origin, 0, 0};
+    const char *equals = strchr(setting, '=');
+    if (!equals || equals == setting)
+        return place_error(place, "", "a setting is path.to.key=value");
+    struct node *value;
+    TRY(node_parse(equals + 1, strlen(equals + 1), origin, false, &value));
+    char *path = text_copy_part(setting, (size_t)(equals - setting));
+    struct error *error = path ? set_value(document->root, path, &value) : out_of_memory();
+    free(path);
+    node_free(value);
+    return error;
+}
+
+static struct error *document_new(struct document **document)
+{
+    *document = calloc(1, sizeof **document);
+    return *document ? NULL : out_of_memory();
+}
+
+/* Lays the overlay and the settings over *DOCUMENT, which was read with ERROR; on an error frees it. */
+static struct error *finish(struct error *error, const char *const *settings, int count,
+                            const char *overlay, struct document **document)
+{
+    if (!error) {
+        error = merge_overlay(*document, overlay);
+        for (int i = 0; i < count; i++)
+            error = error_join(error, apply_setting(*document, settings[i]));
+    }
+    if (error) {
+        document_free(*document);
+        *document = NULL;
+    }
+    return error;
+}
+
+struct error *document_open_text(const char *text, const char *name, const char *const *settings,
+                                 int count, const char *overlay, struct document **document)
+{
+    TRY(document_new(document));
+    const char *origin = document_keep(*document, text_copy(name));
+    struct error *error =
+        origin ? node_parse(text, strlen(text), origin, true, &(*document)->root) : out_of_memory();
+    if (!error && (*document)->root->kind != NODE_MAP)
+        error =
+            place_error((*document)->root->place, "", "a map of keys and values is wanted here");
+    return finish(error, settings, count, overlay, document);
+}
+
+struct error *document_open(const char *path, const char *const *settings, int count,
+                            const char *overlay, struct document **document)
+{
+    TRY(document_new(document));
+    struct error *error = document_load(*document, path);
+    return finish(error, settings, count, overlay, document);
+}
+
+void document_free(struct document *document)
+{
+    if (!document)
+        return;
+    node_free(document->root);
+    for (int i = 0; i < document->origin_count; i++)
+        free(document->origins[i]);
+    free(document->origins);
+    for (int i = 0; i < document->wrong_count; i++)
+        free(document->wrong[i]);
+    free(document->wrong);
+    free(document);
+}

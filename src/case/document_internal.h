@@ -1,0 +1,139 @@
+/* A document as a tree of nodes, each of which knows where it stands in which file. Private to the
+ * document_*.c files and to the reader of cases. */
+#ifndef BOLIDE_DOCUMENT_INTERNAL_H
+#define BOLIDE_DOCUMENT_INTERNAL_H
+
+#include "case/document.h"
+
+enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
+
+/* Origin is a file's name or a whole setting (`--set run.until=3 us`, whose line is 0). Lines and
+ * columns count from 1. */
+struct place {
+    const char *origin;
+    int line, column;
+};
+
+struct node {
+    enum node_kind kind;
+    bool plain;   /* SCALAR without quotes */
+    bool implied; /* MAP that a setting's path made on its way */
+    bool broken;  /* MAP whose mistake has been told: known by its name, not read */
+    char *text;   /* SCALAR */
+    char *key;    /* of an entry of a map */
+    struct place place, key_place;
+    int count;
+    struct node **child; /* LIST, MAP */
+};
+
+struct document {
+    struct node *root;
+    int origin_count;
+    char **origins; /* what the places point to */
+    int wrong_count;
+    char **wrong; /* paths that a reading complained about */
+};
+
+/* A path as the reader descends: `bodies.flyer.velocity`, items of lists by number from 1. */
+struct path {
+    const struct path *parent;
+    const char *key; /* NULL: an item of a list */
+    int item;
+};
+
+/* Parses TEXT as one YAML document. LOCATED says whether lines of TEXT mean something to the user. */
+struct error *node_parse(const char *text, size_t length, const char *origin, bool located,
+                         struct node **root);
+void node_free(struct node *node);
+
+struct node *node_new(enum node_kind kind, struct place place);
+
+/* Appends CHILD, which PARENT then owns; false (and CHILD freed) when memory is out. */
+bool node_append(struct node *parent, struct node *child);
+
+/* The entry KEY of a map, NULL if there is none. */
+struct node *node_entry(const struct node *map, const char *key);
+
+/* Takes the entry or item at INDEX out of PARENT. */
+struct node *node_take(struct node *parent, int index);
+
+/* True for a scalar that says nothing: empty, `~` or `null`. */
+bool node_is_empty(const struct node *node);
+
+/* TEXT (taken, NULL: memory was out), which then lives as long as the document; NULL when memory is out. */
+const char *document_keep(struct document *document, char *text);
+
+/* Reads the file PATH, and the files that it includes below its own entries, into the document's root.
+ * Mistakes of any of them come joined. */
+struct error *document_load(struct document *document, const char *path);
+
+/* Puts the entries of OVER, which is emptied, over those of BASE; maps within maps merge. */
+struct error *node_merge(struct node *base, struct node *over);
+
+/* ERROR_INPUT at PLACE: `file:line:column: path: message`. PATH may be empty. */
+struct error *place_error(struct place place, const char *path, const char *format, ...)
+    BOLIDE_PRINTF(3, 4);
+struct error *place_verror(struct place place, const char *path, const char *format,
+                           va_list arguments);
+
+/* The node at PATH or its nearest ancestor; *exact tells which. */
+const struct node *document_find(const struct document *document, const char *path, bool *exact);
+
+/* Puts *VALUE, which it takes, at PATH as a setting does. */
+struct error *document_set(struct document *document, const char *path, struct node **value);
+
+/* What TEXT comes to with the names of `let`. */
+struct error *document_evaluate(const struct document *document, const char *text,
+                                struct quantity *quantity);
+
+/* Where to point for a node: at the key of a map, at the value of anything else. */
+struct place node_place(const struct node *node);
+
+/* Puts under the map at PATH, an entry of the document, the entries of LIBRARY that it lacks. Where both
+ * have a map they merge in the same way if they share a key; else that of the document stands alone, so
+ * that another choice replaces the library's. LIBRARY is emptied, its places live on in DOCUMENT. */
+struct error *document_include(struct document *document, struct node *map,
+                               struct document *library);
+
+/* A reading in progress: what it looks things up in, and the mistakes found so far. */
+struct reading {
+    struct document *document;
+    const struct catalogue *catalogue;
+    struct named_quantity *names; /* of `let`; the value NAN: its expression is wrong */
+    int name_count;
+    const struct node *let; /* where they stand; NULL: nowhere */
+    struct error *error;
+};
+
+/* Names that a map may have for its keys, and bytes of a piece of a message. */
+enum { KEYS_MAX = 64, TEXT_MAX = 256 };
+
+/* Notes that PATH has a mistake, told here or elsewhere (document_is_wrong). */
+void mark_wrong(struct reading *reading, const struct path *path);
+
+/* Adds a mistake at PLACE of PATH. */
+void complain(struct reading *reading, struct place place, const struct path *path,
+              const char *format, ...) BOLIDE_PRINTF(4, 5);
+void complain_memory(struct reading *reading);
+
+/* "WANTED is wanted, found a list". */
+void complain_kind(struct reading *reading, const struct node *node, const struct path *path,
+                   const char *wanted);
+
+/* "WHAT "word" (did you mean "world"?)", or the names that are known. */
+void complain_unknown(struct reading *reading, struct place place, const struct path *path,
+                      const char *what, const char *word, const char *const *names, int count);
+
+/* Writes `material, box, velocity`. */
+void list_text(const char *const *names, int count, char *text, size_t size);
+
+/* Any expression. WANTED says what, for a node that is none. False after a complaint,
+ * or where the expression rests on a name that was complained about. */
+bool read_quantity(struct reading *reading, const struct node *node, const struct path *path,
+                   const char *wanted, struct quantity *quantity);
+
+/* A value that stands by itself: every kind but TABLE, ONE_OF, LIST and MAP. */
+void read_scalar(struct reading *reading, const struct node *node, const struct path *path,
+                 const struct parameter *parameter, void *value);
+
+#endif

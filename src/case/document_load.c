@@ -1,0 +1,177 @@
+/* The files of a document: the one that is opened and those that it includes, joined in one tree. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/memory.h"
+#include "case/document_internal.h"
+
+static const char include_key[] = "include";
+
+/* Files that a document may include: a list that names a file twice, whose file does so too, would
+ * never end otherwise. */
+enum { INCLUDED_MAX = 64 };
+
+/* A file on the way from the first to the one that is read, and where it is asked for. */
+struct source {
+    const struct source *by; /* the file that includes it */
+    const char *path;
+    struct place place; /* of its name there; of the first file: unused */
+    dev_t device;
+    ino_t number;
+};
+
+struct loading {
+    struct document *document;
+    int included;
+};
+
+static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
+
+/* The whole of FILE, NULL when it cannot be read (errno tells why). */
+static char *read_all(FILE *file, size_t *length)
+{
+    char *text = NULL;
+    size_t capacity = 0, got = 1;
+    int why = 0;
+    *length = 0;
+    while (got > 0 && !why) {
+        if (*length == capacity) {
+            capacity = capacity ? 2 * capacity : 1 << 14;
+            char *grown = realloc(text, capacity);
+            why = grown ? 0 : ENOMEM;
+            text = grown ? grown : text;
+        }
+        got = why ? 0 : fread(text + *length, 1, capacity - *length, file);
+        *length += got;
+        why = ferror(file) ? errno : why;
+    }
+    if (why) {
+        free(text);
+        errno = why;
+        return NULL;
+    }
+    return text;
+}
+
+/* SOURCE cannot be taken: told where its name stands. */
+static struct error *refuse(const struct source *source, const char *why)
+{
+    if (!source->by)
+        return error_new(ERROR_INPUT, "%s: %s", source->path, why);
+    return place_error(source->place, include_key, "%s: %s", source->path, why);
+}
+
+/* Opens SOURCE and says which file it is. What is included must be a plain file, which has an end. */
+static struct error *open_source(struct source *source, FILE **file)
+{
+    struct stat status;
+    *file = fopen(source->path, "rbe");
+    if (!*file || fstat(fileno(*file), &status))
+        return refuse(source, strerror(errno));
+    source->device = status.st_dev;
+    source->number = status.st_ino;
+    if (source->by && !S_ISREG(status.st_mode))
+        return refuse(source, "this is no plain file");
+    for (const struct source *above = source->by; above; above = above->by)
+        if (above->device == source->device && above->number == source->number)
+            return refuse(source, "a file cannot include itself");
+    return NULL;
+}
+
+static struct error *read_source(struct loading *loading, struct source *source, struct node **root)
+{
+    FILE *file = NULL;
+    char *text = NULL;
+    size_t length = 0;
+    struct error *error = open_source(source, &file);
+    if (!error && !(text = read_all(file, &length)))
+        error = refuse(source, strerror(errno));
+    if (file)
+        fclose(file);
+    const char *origin = error ? NULL : document_keep(loading->document, text_copy(source->path));
+    if (!error)
+        error = origin ? node_parse(text, length, origin, true, root) : out_of_memory();
+    free(text);
+    assert(error || *root);
+    if (!error && (*root)->kind != NODE_MAP)
+        error = place_error((*root)->place, "", "a map of keys and values is wanted here");
+    return error;
+}
+
+static struct error *load(struct loading *loading, struct source *source, struct node **root);
+
+/* NAME as seen from the file BY. */
+static char *path_from(const struct source *by, const char *name)
+{
+    const char *slash = strrchr(by->path, '/');
+    if (name[0] == '/' || !slash)
+        return text_copy(name);
+    return text_format("%.*s%s", (int)(slash + 1 - by->path), by->path, name);
+}
+
+/* Lays the file that NAME, a node, names over what BASE holds of the files before it. */
+static struct error *include_one(struct loading *loading, const struct source *by,
+                                 const struct node *name, struct node *base)
+{
+    if (name->kind != NODE_SCALAR || node_is_empty(name) || !name->text[0])
+        return place_error(name->place, include_key, "a file or a list of files is wanted");
+    if (++loading->included > INCLUDED_MAX)
+        return place_error(name->place, include_key, "these are more than %d files", INCLUDED_MAX);
+    char *path = path_from(by, name->text);
+    struct source source = {.by = by, .path = path, .place = name->place};
+    struct node *root = NULL;
+    struct error *error = path ? load(loading, &source, &root) : out_of_memory();
+    if (!error)
+        error = node_merge(base, root);
+    node_free(root);
+    free(path);
+    return error;
+}
+
+/* What INCLUDE, a scalar or a list, asks for, under the entries of OWN. */
+static struct error *include_all(struct loading *loading, const struct source *by,
+                                 const struct node *include, struct node *own)
+{
+    struct node *base = node_new(NODE_MAP, own->place);
+    if (!base)
+        return out_of_memory();
+    struct error *error = NULL;
+    if (include->kind != NODE_LIST)
+        error = include_one(loading, by, include, base);
+    for (int i = 0; include->kind == NODE_LIST && i < include->count; i++)
+        error = error_join(error, include_one(loading, by, include->child[i], base));
+    if (!error)
+        error = node_merge(base, own);
+    if (!error) { /* OWN stays the root, so that what is missing is told to be missing there */
+        struct node emptied = *own;
+        own->child = base->child;
+        own->count = base->count;
+        base->child = emptied.child;
+        base->count = 0;
+    }
+    node_free(base);
+    return error;
+}
+
+static struct error *load(struct loading *loading, struct source *source, struct node **root)
+{
+    TRY(read_source(loading, source, root));
+    for (int i = 0; i < (*root)->count; i++) {
+        if (strcmp((*root)->child[i]->key, include_key) != 0)
+            continue;
+        struct node *include = node_take(*root, i);
+        struct error *error = include_all(loading, source, include, *root);
+        node_free(include);
+        return error;
+    }
+    return NULL;
+}
+
+struct error *document_load(struct document *document, const char *path)
+{
+    struct loading loading = {.document = document};
+    struct source source = {.path = path};
+    return load(&loading, &source, &document->root);
+}

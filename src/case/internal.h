@@ -1,0 +1,69 @@
+/* Between the reader of cases and its check of meaning. */
+#ifndef BOLIDE_CASE_INTERNAL_H
+#define BOLIDE_CASE_INTERNAL_H
+
+#include "case/case.h"
+
+/* The format that this program reads. */
+enum { CASE_FORMAT = 1 };
+
+/* An entry of `materials`, and a file of the library. */
+extern const struct parameter case_material_table[];
+extern const struct parameter case_detonation_table[];  /* struct detonation_input */
+extern const struct parameter case_contact_table[];     /* struct contact_input */
+extern const struct parameter case_outflow_table[];     /* struct outflow_input */
+extern const struct parameter case_load_table[];        /* struct load_input */
+extern const struct parameter case_probe_table[];       /* struct probe_input */
+extern const struct parameter case_profile_table[];     /* struct profile_input */
+extern const struct parameter case_convergence_table[]; /* struct convergence_input */
+
+/* Fills material->material, plain data, from what was read. */
+void case_fill_material(struct material_input *material);
+
+/* Takes the sweep out of the document and tells its mistakes; puts the values of its run RUN, 1 to
+ * sweep_runs, where they belong. 0: none of them. */
+struct error *case_take_sweep(struct simulation_case *input, int run);
+
+/* Looks at what `convergence` varies and tells its mistakes. With OPTIONS->convergence its runs are those of
+ * the sweep, and the value of the run that is asked for is put where it belongs. */
+struct error *case_take_study(struct simulation_case *input, const struct case_options *options);
+
+/* Fills the quantities of the values of a case that has been read. */
+void case_measure_sweep(struct simulation_case *input);
+
+/* Checks what the tables cannot say of a case that has been read, names of materials and bodies, numbers
+ * of components, states at the start, and fills what follows from it. All mistakes come joined. Of a case
+ * that was read with mistakes it checks the rest. */
+struct error *case_check_meaning(struct simulation_case *input);
+
+/* What is given of a state at the start; NAN: not given. */
+struct start_given {
+    double density, pressure, energy, temperature;
+    bool stressed; /* a stress in place of the pressure */
+    struct sym3 stress;
+};
+
+/* The functions below return NULL, or a text (static) that tells what is wrong; *key is then the key of a
+ * body that it is about, "" for the body as a whole. */
+
+/* The state that follows from what is GIVEN, of density, pressure and energy two at most. */
+const char *start_state(const struct start_given *given, const struct material *material,
+                        struct point *result, const char **key);
+
+/* What is wrong with the choice of what BODY gives, whatever the values. */
+const char *body_start_wrong(const struct body_input *body, const struct material *material,
+                             const char **key);
+
+/* True when BODY gives its state by expressions of the position. */
+bool body_varies(const struct body_input *body);
+
+/* The state that the keys of BODY give at PLACE. */
+const char *body_state_at(const struct body_input *body, const struct material *material,
+                          struct vec3 place, struct point *point, const char **key);
+
+/* State and velocity, as many components as the case has, at PLACE of a BODY that has been checked. */
+const char *body_start_at(const struct body_input *body, const struct material *material,
+                          struct vec3 place, struct point *point, double velocity[3],
+                          const char **key);
+
+#endif

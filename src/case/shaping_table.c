@@ -1,0 +1,27 @@
+/* The keys that shape a case before its table reads it. */
+#include "case/internal.h"
+
+const struct parameter case_shaping_table[] = {
+    {.key = "include",
+     .kind = PARAMETER_NAMES,
+     .standard = PARAMETER_OPTIONAL,
+     .help = "files whose maps lie below this file's own keys; paths start at this file's folder"},
+    {.key = "let",
+     .kind = PARAMETER_MAP,
+     .standard = PARAMETER_OPTIONAL,
+     .help = "names for expressions, in order: {speed: 1 km/s, plate: 4 mm, way: 2*plate}"},
+    {.key = "short",
+     .kind = PARAMETER_TABLE,
+     .standard = PARAMETER_OPTIONAL,
+     .help = "keys of the case, merged over it by --short: {resolution: 1 mm, let: {plate: 2 mm}}"},
+    {.key = "long",
+     .kind = PARAMETER_TABLE,
+     .standard = PARAMETER_OPTIONAL,
+     .help = "keys of the case, merged over it by --long: a form for which there is time"},
+    {.key = "sweep",
+     .kind = PARAMETER_MAP,
+     .standard = PARAMETER_OPTIONAL,
+     .help = "names of let, or paths, each with the values to run with: {speed: [1 km/s, 2 km/s]}; "
+             "those that change together in a map: {gas: {gamma: [1.4, 3], front: [2 mm, 3 mm]}}"},
+    PARAMETER_END,
+};

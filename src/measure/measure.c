@@ -1,0 +1,251 @@
+/* The list of measures, and what they share: which particles a check speaks of, and the exact state
+ * that belongs to a particle. */
+#include "measure/measure.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "shape/shape.h"
+
+#define FIELD measure_field_table, sizeof(struct measure_field)
+
+const struct parameter measure_field_table[] = {
+    {.key = "field",
+     .kind = PARAMETER_TEXT,
+     .offset = offsetof(struct measure_field, field),
+     .standard = PARAMETER_REQUIRED,
+     .help = "a field of the particles, or one component of it: pressure, velocity.x, stress.xx"},
+    PARAMETER_END,
+};
+
+/* The names are keys of a check. */
+const struct choice measure_choices[MEASURES] = {
+    {"mean", "mean of a field over particles", FIELD, &measure_mean},
+    {"minimum", "smallest value of a field", FIELD, &measure_minimum},
+    {"maximum", "largest value of a field", FIELD, &measure_maximum},
+    {"l1", "mean distance of a field from the exact solution, by volume, over `scale`", FIELD,
+     &measure_l1},
+    {"rms", "root of the mean square distance from the exact solution, by volume, over `scale`",
+     FIELD, &measure_rms},
+    {"max_error", "largest distance from the exact solution, over `scale`", FIELD,
+     &measure_max_error},
+    {"contact_max", "largest |f/f* - 1| of the 10 particles nearest the contact on either side",
+     FIELD, &measure_contact_max},
+    {"contact_rms", "root mean square of f/f* - 1 of the same 20 particles", FIELD,
+     &measure_contact_rms},
+    {"front", "place where a field first crosses a value, seen from one end", measure_front_table,
+     sizeof(struct measure_front), &measure_front},
+    {"width", "number of particles in a front, between 10 and 90 % of its jump",
+     measure_width_table, sizeof(struct measure_width), &measure_width},
+    {"conserved", "relative change of a total since the start, less what the ledger booked",
+     measure_conserved_table, sizeof(struct measure_conserved), &measure_conserved},
+    {"total", "a sum over particles: momentum.x, kinetic_energy", measure_total_table,
+     sizeof(struct measure_total), &measure_total},
+    {"decay", "rate at which such a sum falls: the logarithm of start over now, over the time",
+     measure_total_table, sizeof(struct measure_total), &measure_decay},
+    {"spread", "standard deviation of a field over particles", FIELD, &measure_spread},
+    {"extent", "width of a body along an axis between its outermost particles, or its radius",
+     measure_extent_table, sizeof(struct measure_extent), &measure_extent},
+    {"turn", "angle by which a body has turned since the start, within half a turn",
+     measure_turn_table, sizeof(struct measure_turn), &measure_turn},
+    {"pieces", "number of pieces into which bodies are broken", measure_pieces_table,
+     sizeof(struct measure_pieces), &measure_pieces},
+    {"asymmetry", "largest difference of a field from its mirror image, over its largest value",
+     measure_asymmetry_table, sizeof(struct measure_asymmetry), &measure_asymmetry},
+    {"radius", "radius of a circle or sphere of matter, told by the particles beside it",
+     measure_radius_table, sizeof(struct measure_radius), &measure_radius},
+    {"shear_layer", "viscosity with which two streams mix that slide over each other",
+     measure_shear_layer_table, sizeof(struct measure_shear_layer), &measure_shear_layer},
+    {"recorded", "number from what a probe has recorded", measure_recorded_table,
+     sizeof(struct measure_recorded), &measure_recorded},
+    {"finite", "number of particles whose field is not a finite number", FIELD, &measure_finite},
+};
+
+struct error *measure_error(const struct measurement *measurement, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char *text = text_vformat(format, arguments);
+    va_end(arguments);
+    struct error *error = input_error(measurement->simulation->input, "checks", measurement->name,
+                                      "%s", text ? text : "");
+    free(text);
+    return error;
+}
+
+struct error *measure_located(const struct measurement *measurement, struct error *error)
+{
+    if (!error)
+        return NULL;
+    struct error *told = measure_error(measurement, "%s", error_message(error, 0));
+    error_free(error);
+    return told;
+}
+
+static const char *field_of(const struct measurement *measurement)
+{
+    const struct measure_field *parameters = measurement->check->measure.value;
+    return parameters->field;
+}
+
+static struct error *find_field(const struct measurement *measurement, const struct view **view,
+                                int *component)
+{
+    struct error *error =
+        views_choose(measurement->views, field_of(measurement), NULL, 0, view, component);
+    return measure_located(measurement, error);
+}
+
+struct error *measure_field_unit(const struct measurement *measurement, const char **unit)
+{
+    const struct view *view;
+    int component;
+    TRY(find_field(measurement, &view, &component));
+    *unit = view->unit;
+    return NULL;
+}
+
+struct error *measure_no_unit(const struct measurement *measurement, const char **unit)
+{
+    TRY(measure_field_unit(measurement, unit));
+    *unit = "";
+    return NULL;
+}
+
+int measure_body(const struct measurement *measurement)
+{
+    return case_find_body(measurement->simulation->input, measurement->check->of);
+}
+
+static bool selects(const struct selection *selection, double at, int body)
+{
+    const struct vector_value *between = &selection->between;
+    return (selection->body < 0 || body == selection->body) &&
+           (between->count != 2 || (at >= between->at[0] && at <= between->at[1]));
+}
+
+struct vec3 measure_center(const struct measurement *measurement, const double (*at)[3], int body)
+{
+    const struct particles *particles = &measurement->simulation->particles;
+    struct exact_sum sums[4] = {{{0}, 0, false}};
+    for (int32_t i = 0; i < particles->count; i++) {
+        if (body >= 0 && particles->body[i] != body)
+            continue;
+        exact_sum_add(&sums[3], particles->mass[i]);
+        for (int k = 0; k < 3; k++)
+            exact_sum_add(&sums[k], particles->mass[i] * at[i][k]);
+    }
+    ranks_sum_exact(measurement->simulation->ranks, sums, 4);
+    const double mass = exact_sum_value(&sums[3]);
+    return vec3_make(exact_sum_value(&sums[0]) / mass, exact_sum_value(&sums[1]) / mass,
+                     exact_sum_value(&sums[2]) / mass);
+}
+
+/* Where X lies on the axis of SELECTION, or how far from its point. */
+static double place_of(const struct selection *selection, const double x[3])
+{
+    const struct vector_value *about = &selection->about;
+    double sum = 0.0;
+    for (int axis = 0; axis < about->count; axis++)
+        sum += square(x[axis] - about->at[axis]);
+    return about->count > 0 ? sqrt(sum) : x[selection->axis];
+}
+
+bool measure_takes(const struct measurement *measurement, int body, int32_t i)
+{
+    const struct check_input *check = measurement->check;
+    const struct particles *p = &measurement->simulation->particles;
+    const struct selection selection = {body, check->axis, check->between, check->about};
+    return selects(&selection, place_of(&selection, p->position[i]), p->body[i]);
+}
+
+struct error *samples_select(const struct particles *particles, const struct view *view,
+                             int component, const struct selection *selection,
+                             struct samples *samples)
+{
+    size_t room = (size_t)particles->count + 1;
+    double *values = memory_allocate(room * sizeof *values);
+    *samples = (struct samples){0, memory_allocate(room * sizeof *samples->at)};
+    if (!values || !samples->at) {
+        free(values);
+        samples_free(samples);
+        return error_new(ERROR_SYSTEM, "out of memory for the values of %d particles",
+                         (int)particles->count);
+    }
+    view_read_component(view, component, 0, particles->count, values);
+    for (int32_t i = 0; i < particles->count; i++) {
+        double at = place_of(selection, particles->position[i]);
+        if (selects(selection, at, particles->body[i]))
+            samples->at[samples->count++] = (struct sample){
+                at, values[i], particles->mass[i] / particles->density[i], particles->body[i]};
+    }
+    free(values);
+    return NULL;
+}
+
+struct error *samples_take(const struct measurement *measurement, struct samples *samples)
+{
+    const struct simulation *simulation = measurement->simulation;
+    const struct check_input *check = measurement->check;
+    const struct selection selection = {measure_body(measurement), check->axis, check->between,
+                                        check->about};
+    const struct view *view;
+    int component;
+    *samples = (struct samples){0, NULL};
+    TRY(find_field(measurement, &view, &component));
+    struct error *error =
+        samples_select(&simulation->particles, view, component, &selection, samples);
+    error = ranks_agree(simulation->ranks, error);
+    if (error)
+        samples_free(samples);
+    return error;
+}
+
+void samples_free(struct samples *samples)
+{
+    free(samples->at);
+    *samples = (struct samples){0, NULL};
+}
+
+int sample_order(const struct sample *a, const struct sample *b)
+{
+    if (a->at != b->at)
+        return a->at > b->at ? 1 : -1;
+    return (a->value > b->value) - (a->value < b->value);
+}
+
+static int compare_samples(const void *first, const void *second)
+{
+    return sample_order(first, second);
+}
+
+void samples_sort(struct samples *samples)
+{
+    qsort(samples->at, (size_t)samples->count, sizeof *samples->at, compare_samples);
+}
+
+enum exact_side measure_side(const struct measurement *measurement, int body)
+{
+    const struct body_input *input = case_body(measurement->simulation->input, body);
+    struct bounds bounds = shape_bounds(&input->shape);
+    double middle = 0.5 * (bounds.low.x + bounds.high.x);
+    return exact_side_at(measurement->exact, measurement->solved, middle, 0.0);
+}
+
+double exact_field(const struct exact_state *state, const char *field)
+{
+    const struct {
+        const char *name;
+        double value;
+    } fields[] = {
+        {"density", state->density},      {"velocity.x", state->velocity},
+        {"speed", fabs(state->velocity)}, {"pressure", state->pressure},
+        {"energy", state->energy},        {"stress.xx", state->stress},
+        {"deviator.xx", state->deviator}, {"temperature", state->temperature},
+    };
+    for (size_t i = 0; i < COUNT_OF(fields); i++)
+        if (!strcmp(fields[i].name, field))
+            return fields[i].value;
+    return NAN;
+}

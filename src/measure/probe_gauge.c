@@ -1,0 +1,70 @@
+/* gauge: stands still. A field at its place is the mean over the particles within its radius, by volume,
+ * sum V f/sum V with V = m/rho; sums are exact. */
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "measure/probes.h"
+
+const struct parameter probe_gauge_table[] = {
+    {.key = "at",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct probe_gauge, at),
+     .unit = "m",
+     .standard = PARAMETER_REQUIRED,
+     .help = "its place"},
+    {.key = "radius",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct probe_gauge, radius),
+     .unit = "m",
+     .standard = PARAMETER_OPTIONAL,
+     .below = INFINITY,
+     .help = "within which particles count; the resolution of the case when not given"},
+    PARAMETER_END,
+};
+
+static struct error *prepare(struct probe *probe, const struct simulation *simulation,
+                             const struct views *views)
+{
+    const struct probe_gauge *gauge = probe->input->probe.value;
+    TRY(probe_check_place(probe, simulation, "gauge", &gauge->at));
+    probe_add_column(probe, "particles", "");
+    return probe_add_fields(probe, simulation, views);
+}
+
+/* Behind the sums of the fields come the count of particles and their volume. */
+static void add_particle(const struct probe *probe, const struct simulation *simulation,
+                         const struct views *views, int32_t index, struct exact_sum *sums)
+{
+    const struct particles *particles = &simulation->particles;
+    const int count = probe->fields->count;
+    double volume = particles->mass[index] / particles->density[index];
+    for (int i = 0; i < count; i++)
+        exact_sum_add(&sums[i], volume * field_value(views, &probe->fields->field[i], index));
+    exact_sum_add(&sums[count], 1.0);
+    exact_sum_add(&sums[count + 1], volume);
+}
+
+static struct error *sample(struct probe *probe, const struct simulation *simulation,
+                            const struct views *views, double *row)
+{
+    const struct probe_gauge *gauge = probe->input->probe.value;
+    const struct particles *particles = &simulation->particles;
+    const int count = probe->fields->count;
+    double radius = isnan(gauge->radius) ? simulation->input->resolution : gauge->radius;
+    struct exact_sum *sums = memory_allocate(((size_t)count + 2) * sizeof *sums);
+    TRY(ranks_agree(simulation->ranks,
+                    sums ? NULL : error_new(ERROR_SYSTEM, "out of memory for a gauge")));
+    for (int32_t i = 0; i < particles->count; i++)
+        if (distance_square(&gauge->at, particles->position[i]) <= square(radius) &&
+            (probe->selection.body < 0 || particles->body[i] == probe->selection.body))
+            add_particle(probe, simulation, views, i, sums);
+    ranks_sum_exact(simulation->ranks, sums, count + 2);
+    double volume = exact_sum_value(&sums[count + 1]);
+    row[0] = exact_sum_value(&sums[count]);
+    for (int i = 0; i < count; i++)
+        row[i + 1] = row[0] > 0.0 ? exact_sum_value(&sums[i]) / volume : NAN;
+    free(sums);
+    return NULL;
+}
+
+const struct probe_class probe_gauge = {PROBE_TAKES_OF | PROBE_TAKES_FIELDS, prepare, sample};

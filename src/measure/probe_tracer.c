@@ -1,0 +1,87 @@
+/* tracer: follows one particle, the nearest to a place at the start, by its id. */
+#include "measure/probes.h"
+
+const struct parameter probe_tracer_table[] = {
+    {.key = "at",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct probe_tracer, at),
+     .unit = "m",
+     .standard = PARAMETER_REQUIRED,
+     .help = "a place, to which the particle is nearest at the start; of equally near ones the "
+             "first made"},
+    PARAMETER_END,
+};
+
+/* The place comes first, whatever fields are named. */
+static struct error *prepare(struct probe *probe, const struct simulation *simulation,
+                             const struct views *views)
+{
+    const struct probe_tracer *tracer = probe->input->probe.value;
+    char position[] = "position", *name = position;
+    const struct name_list place = {1, &name};
+    TRY(probe_check_place(probe, simulation, "tracer", &tracer->at));
+    TRY(fields_choose(views, &place, simulation->dimension, probe->fields));
+    return probe_add_fields(probe, simulation, views);
+}
+
+/* The whole of ID from two halves that are numbers without rounding, each the smallest of all ranks. */
+static uint64_t smallest_id(const struct ranks *ranks, uint64_t id)
+{
+    double high = ranks_minimum(ranks, (double)(id >> 32));
+    double low =
+        ranks_minimum(ranks, (double)(id >> 32) == high ? (double)(id & 0xffffffff) : INFINITY);
+    return (uint64_t)high << 32 | (uint64_t)low;
+}
+
+/* The id of the particle that is nearest to the tracer's place; the smallest of several. */
+static uint64_t nearest_particle(const struct probe *probe, const struct simulation *simulation)
+{
+    const struct probe_tracer *tracer = probe->input->probe.value;
+    const struct particles *particles = &simulation->particles;
+    double nearest = INFINITY;
+    uint64_t id = UINT64_MAX;
+    for (int32_t i = 0; i < particles->count; i++) {
+        double distance = distance_square(&tracer->at, particles->position[i]);
+        if ((probe->selection.body >= 0 && particles->body[i] != probe->selection.body) ||
+            distance > nearest || (distance == nearest && particles->id[i] > id))
+            continue;
+        nearest = distance;
+        id = particles->id[i];
+    }
+    bool has_it = nearest == ranks_minimum(simulation->ranks, nearest);
+    return smallest_id(simulation->ranks, has_it ? id : UINT64_MAX);
+}
+
+/* Where the particle lies now on this rank; -1 when it is not here. */
+static int32_t find_particle(struct probe *probe, const struct particles *particles)
+{
+    if (probe->order == particles->order && probe->index >= 0 && probe->index < particles->count &&
+        particles->id[probe->index] == probe->id)
+        return probe->index;
+    probe->order = particles->order;
+    probe->index = -1;
+    for (int32_t i = 0; i < particles->count && probe->index < 0; i++)
+        if (particles->id[i] == probe->id)
+            probe->index = i;
+    return probe->index;
+}
+
+/* The rank that has the particle gives the numbers, the others zeros: the sum of all is exact. */
+static struct error *sample(struct probe *probe, const struct simulation *simulation,
+                            const struct views *views, double *row)
+{
+    if (probe->rows == 0)
+        probe->id = nearest_particle(probe, simulation);
+    int32_t index = find_particle(probe, &simulation->particles);
+    bool anywhere = ranks_maximum(simulation->ranks, index) >= 0.0;
+    for (int i = 0; i < probe->fields->count; i++) {
+        struct exact_sum sum = {0};
+        if (index >= 0)
+            exact_sum_add(&sum, field_value(views, &probe->fields->field[i], index));
+        ranks_sum_exact(simulation->ranks, &sum, 1);
+        row[i] = anywhere ? exact_sum_value(&sum) : NAN;
+    }
+    return NULL;
+}
+
+const struct probe_class probe_tracer = {PROBE_TAKES_OF | PROBE_TAKES_FIELDS, prepare, sample};

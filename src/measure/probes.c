@@ -1,0 +1,296 @@
+/* The list of kinds of probes, and what they share: their tables; see probes.h. */
+#include "measure/probes.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/csv.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "model/simulation.h"
+
+/* The names are keys of a probe. */
+const struct choice probe_choices[PROBES] = {
+    {"tracer", "fields of one particle, which it follows", probe_tracer_table,
+     sizeof(struct probe_tracer), &probe_tracer},
+    {"gauge", "fields at a place that stands still: means over the particles near it",
+     probe_gauge_table, sizeof(struct probe_gauge), &probe_gauge},
+    {"body", "motion of a body: mass, centre, momentum, rotation, energy, extents",
+     probe_body_table, sizeof(struct probe_body), &probe_body},
+    {"front", "place where a field first crosses a value, seen from one end", measure_front_table,
+     sizeof(struct measure_front), &probe_front},
+};
+
+static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
+
+static const struct probe_class *class_of(const struct probe *probe)
+{
+    return probe->input->probe.choice->thing;
+}
+
+struct error *probes_create(const struct simulation_case *input, struct probes *probes)
+{
+    *probes = (struct probes){
+        0, memory_allocate(((size_t)input->probes.count + 1) * sizeof *probes->item)};
+    if (!probes->item)
+        return out_of_memory();
+    for (; probes->count < input->probes.count; probes->count++) {
+        struct probe *probe = &probes->item[probes->count];
+        const struct probe_input *given = case_probe(input, probes->count);
+        probe->name = input->probes.names[probes->count];
+        probe->input = given;
+        probe->selection = (struct selection){.body = case_find_body(input, given->of),
+                                              .axis = given->axis < 0 ? 0 : given->axis,
+                                              .between = given->between};
+        probe->column = memory_allocate(PROBE_COLUMNS * sizeof *probe->column);
+        probe->fields = memory_allocate(sizeof *probe->fields);
+        probe->step = -1;
+        if (!probe->column || !probe->fields)
+            return out_of_memory();
+    }
+    return NULL;
+}
+
+void probes_free(struct probes *probes)
+{
+    for (int i = 0; i < probes->count; i++) {
+        free(probes->item[i].column);
+        free(probes->item[i].fields);
+        free(probes->item[i].value);
+        free(probes->item[i].path);
+    }
+    free(probes->item);
+    *probes = (struct probes){0, NULL};
+}
+
+struct error *probe_error(const struct probe *probe, const struct simulation *simulation,
+                          const char *key, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char *text = text_vformat(format, arguments);
+    va_end(arguments);
+    char *name = text_format("%s%s%s", probe->name, *key ? "." : "", key);
+    struct error *error =
+        name ? input_error(simulation->input, "probes", name, "%s", text ? text : "")
+             : out_of_memory();
+    free(text);
+    free(name);
+    return error;
+}
+
+void probe_add_column(struct probe *probe, const char *name, const char *unit)
+{
+    assert(probe->columns < PROBE_COLUMNS);
+    struct probe_column *column = &probe->column[probe->columns++];
+    struct unit parsed = {0};
+    snprintf(column->name, sizeof column->name, "%s", name);
+    snprintf(column->unit, sizeof column->unit, "%s", unit);
+    error_free(unit_parse(unit, &parsed));
+    parsed.dimension.time--;
+    dimension_text(parsed.dimension, column->rate);
+}
+
+struct error *probe_check_place(const struct probe *probe, const struct simulation *simulation,
+                                const char *key, const struct vector_value *place)
+{
+    if (place->count == simulation->dimension)
+        return NULL;
+    return probe_error(probe, simulation, key, "%d component%s wanted, one a dimension; found %d",
+                       simulation->dimension, simulation->dimension == 1 ? " is" : "s are",
+                       place->count);
+}
+
+struct error *probe_add_fields(struct probe *probe, const struct simulation *simulation,
+                               const struct views *views)
+{
+    struct chosen_fields *fields = probe->fields;
+    struct error *error =
+                     fields_choose(views, &probe->input->fields, simulation->dimension, fields),
+                 *told = NULL;
+    for (int i = 0; error && i < error_count(error); i++)
+        told = error_join(told,
+                          probe_error(probe, simulation, "fields", "%s", error_message(error, i)));
+    error_free(error);
+    for (int i = 0; i < fields->count && !told; i++)
+        probe_add_column(probe, fields->field[i].name, fields->field[i].unit);
+    return told;
+}
+
+/* A key that PROBE does not take. */
+static struct error *check_key(const struct probe *probe, const struct simulation *simulation,
+                               const char *key, bool given, enum probe_keys needed)
+{
+    if (!given || class_of(probe)->takes & needed)
+        return NULL;
+    return probe_error(probe, simulation, key, "this has no meaning for the probe `%s`",
+                       probe->input->probe.choice->name);
+}
+
+static struct error *prepare(struct probe *probe, const struct simulation *simulation,
+                             const struct views *views)
+{
+    const struct probe_input *input = probe->input;
+    TRY(check_key(probe, simulation, "of", input->of, PROBE_TAKES_OF));
+    TRY(check_key(probe, simulation, "fields", input->fields.count, PROBE_TAKES_FIELDS));
+    TRY(check_key(probe, simulation, "axis", input->axis >= 0, PROBE_TAKES_AXIS));
+    TRY(check_key(probe, simulation, "between", input->between.count, PROBE_TAKES_AXIS));
+    probe_add_column(probe, "time", "s");
+    return class_of(probe)->prepare(probe, simulation, views);
+}
+
+struct error *probes_prepare(struct probes *probes, const struct simulation *simulation,
+                             const struct views *views)
+{
+    struct error *error = NULL;
+    for (int i = 0; i < probes->count; i++)
+        error = error_join(error, prepare(&probes->item[i], simulation, views));
+    return error;
+}
+
+struct probe *probes_find(const struct probes *probes, const char *name)
+{
+    for (int i = 0; i < probes->count; i++)
+        if (!strcmp(probes->item[i].name, name))
+            return &probes->item[i];
+    return NULL;
+}
+
+/* The place of the row in the making, in memory that keeps all rows or just this one. */
+static double *row_of(struct probe *probe)
+{
+    int64_t before = probe->kept ? probe->rows * probe->columns : 0;
+    if (!memory_reserve((void **)&probe->value, &probe->room, before + probe->columns, before,
+                        sizeof *probe->value))
+        return NULL;
+    return probe->value + before;
+}
+
+/* The rows that an interrupted run took. */
+static struct error *read_back(struct probe *probe)
+{
+    struct csv csv;
+    TRY(csv_read(probe->path, &csv));
+    int64_t rows = probe->rows;
+    for (probe->rows = 0; probe->rows < rows; probe->rows++) {
+        double *row = row_of(probe);
+        if (!row) {
+            csv_free(&csv);
+            return out_of_memory();
+        }
+        for (int i = 0; i < probe->columns; i++)
+            row[i] = csv_number(&csv, probe->rows, i);
+    }
+    csv_free(&csv);
+    return NULL;
+}
+
+static struct error *open_one(struct probe *probe, const char *folder, bool resume, bool writes)
+{
+    char *name = text_format("%s.csv", probe->name);
+    probe->path = name ? path_join(folder, name) : NULL;
+    free(name);
+    if (!probe->path)
+        return out_of_memory();
+    if (writes)
+        TRY(csv_grow(probe->path, resume ? probe->rows : -1, &probe->file));
+    return resume && probe->kept ? read_back(probe) : NULL;
+}
+
+struct error *probes_open(struct probes *probes, const char *folder, bool resume, bool writes)
+{
+    if (probes->count == 0)
+        return NULL;
+    char *own = path_join(folder, "probes");
+    struct error *error = !own ? out_of_memory() : writes ? folder_make(own) : NULL;
+    for (int i = 0; i < probes->count && !error; i++)
+        error = open_one(&probes->item[i], own, resume, writes);
+    free(own);
+    return error;
+}
+
+static void write_row(struct probe *probe, const double *row)
+{
+    for (int i = 0; i < probe->columns && probe->rows == 0; i++) {
+        if (i)
+            putc(',', probe->file);
+        csv_put_head(probe->file, probe->column[i].name, probe->column[i].unit);
+    }
+    if (probe->rows == 0)
+        putc('\n', probe->file);
+    for (int i = 0; i < probe->columns; i++) {
+        if (i)
+            putc(',', probe->file);
+        csv_put_number(probe->file, row[i]);
+    }
+    putc('\n', probe->file);
+}
+
+static struct error *record(struct probe *probe, const struct simulation *simulation,
+                            const struct views *views)
+{
+    double *row = row_of(probe);
+    TRY(ranks_agree(simulation->ranks, row ? NULL : out_of_memory()));
+    row[0] = simulation->time;
+    TRY(ranks_agree(simulation->ranks, class_of(probe)->sample(probe, simulation, views, row + 1)));
+    if (probe->file)
+        write_row(probe, row);
+    probe->rows++;
+    probe->step = simulation->step;
+    return NULL;
+}
+
+struct error *probes_watch(struct probes *probes, const struct simulation *simulation,
+                           const struct views *views, bool last)
+{
+    struct error *error = NULL;
+    for (int i = 0; i < probes->count && !error; i++) {
+        struct probe *probe = &probes->item[i];
+        double every = probe->input->every;
+        bool due = isnan(every) || interval_is_due(simulation->time, every, &probe->due) || last;
+        if (due && probe->step < simulation->step)
+            error = record(probe, simulation, views);
+    }
+    return error;
+}
+
+struct error *probes_flush(struct probes *probes)
+{
+    for (int i = 0; i < probes->count; i++) {
+        struct probe *probe = &probes->item[i];
+        errno = 0;
+        if (probe->file && (fflush(probe->file) || ferror(probe->file)))
+            return error_new(ERROR_SYSTEM, "%s: %s", probe->path,
+                             errno ? strerror(errno) : "cannot be written");
+    }
+    return NULL;
+}
+
+struct error *probes_close(struct probes *probes)
+{
+    struct error *error = probes_flush(probes);
+    for (int i = 0; i < probes->count; i++) {
+        if (probes->item[i].file)
+            fclose(probes->item[i].file);
+        probes->item[i].file = NULL;
+    }
+    return error;
+}
+
+struct error *probes_visit(struct probes *probes, struct visitor *visitor)
+{
+    for (int i = 0; i < probes->count; i++) {
+        struct probe *probe = &probes->item[i];
+        int64_t numbers[3] = {probe->rows, probe->due, probe->step};
+        char name[64];
+        snprintf(name, sizeof name, "probes/%d/rows", i);
+        TRY(visitor->visit(visitor, name, NUMBER_INT64, numbers, 3, 1));
+        snprintf(name, sizeof name, "probes/%d/id", i);
+        TRY(visitor->visit(visitor, name, NUMBER_UINT64, &probe->id, 1, 1));
+        probe->rows = numbers[0];
+        probe->due = numbers[1];
+        probe->step = numbers[2];
+    }
+    return NULL;
+}

@@ -1,0 +1,121 @@
+/* Probes: what is recorded while a case runs, one table a probe: in memory where a check reads it, and as
+ * probes/NAME.csv. A probe is a choice of the catalogue's kind "probe"; its thing is a struct probe_class.
+ * To add one: its file probe_<name>.c, its class below, its line in probes.c.
+ * Source of what is recorded: Parshikov (2013), chapter 3: tracers, fronts at half amplitude. */
+#ifndef BOLIDE_PROBES_H
+#define BOLIDE_PROBES_H
+
+#include "measure/fields.h"
+#include "measure/measure.h"
+
+struct probe_column {
+    char name[72];
+    char unit[DIMENSION_TEXT], rate[DIMENSION_TEXT]; /* its own, and that of its rate of change */
+};
+
+enum { PROBE_COLUMNS = 1 + FIELDS_MAX };
+
+struct probe {
+    const char *name;
+    const struct probe_input *input;
+    struct selection selection; /* what `of`, `axis` and `between` say */
+    struct chosen_fields *fields;
+    int columns; /* the first is the time */
+    struct probe_column *column;
+    int64_t rows, due; /* taken; times that `every` has passed */
+    int64_t step;      /* of the last row */
+    uint64_t id;       /* tracer: of its particle, known from the first row on */
+    uint64_t order;    /* tracer: of the store, for which `index` holds */
+    int32_t index;
+    bool kept; /* a check reads the rows */
+    double *value;
+    int64_t room;
+    char *path;
+    FILE *file;
+};
+
+/* Keys of a probe that not every kind takes. */
+enum probe_keys { PROBE_TAKES_OF = 1, PROBE_TAKES_FIELDS = 2, PROBE_TAKES_AXIS = 4 };
+
+struct probe_class {
+    unsigned takes; /* enum probe_keys */
+    /* Adds the columns behind the time. ERROR_INPUT, located, for what makes no sense. */
+    struct error *(*prepare)(struct probe *probe, const struct simulation *simulation,
+                             const struct views *views);
+    /* Fills ROW, a number for each column behind the time; NAN where there is nothing. Collective. */
+    struct error *(*sample)(struct probe *probe, const struct simulation *simulation,
+                            const struct views *views, double *row);
+};
+
+struct probe_tracer {
+    struct vector_value at;
+};
+
+struct probe_gauge {
+    struct vector_value at;
+    double radius; /* m; NAN: the case's resolution */
+};
+
+struct probe_body {
+    char *name;
+};
+
+enum { PROBES = 4 };
+extern const struct choice probe_choices[PROBES];
+
+extern const struct parameter probe_tracer_table[], probe_gauge_table[], probe_body_table[];
+extern const struct probe_class probe_tracer, probe_gauge, probe_body, probe_front;
+
+/* All probes of a run. */
+struct probes {
+    int count;
+    struct probe *item;
+};
+
+/* Makes the probes of INPUT; probes_prepare then finds what they look at, with all mistakes joined in one
+ * ERROR_INPUT. */
+struct error *probes_create(const struct simulation_case *input, struct probes *probes);
+struct error *probes_prepare(struct probes *probes, const struct simulation *simulation,
+                             const struct views *views);
+void probes_free(struct probes *probes);
+
+/* Opens FOLDER/probes/NAME.csv of each where this rank WRITES; with RESUME behind the rows that were taken, which are
+ * read back where a check wants them. */
+struct error *probes_open(struct probes *probes, const char *folder, bool resume, bool writes);
+
+/* Takes the rows that are due at this step; those of the last step with LAST. Collective. */
+struct error *probes_watch(struct probes *probes, const struct simulation *simulation,
+                           const struct views *views, bool last);
+
+/* Hands all rows to the system: before a checkpoint that counts them; and closes the files. */
+struct error *probes_flush(struct probes *probes);
+struct error *probes_close(struct probes *probes);
+
+/* What a resumed run needs. */
+struct error *probes_visit(struct probes *probes, struct visitor *visitor);
+
+/* The probe called NAME, NULL when there is none. */
+struct probe *probes_find(const struct probes *probes, const char *name);
+
+/* The square of the distance between two places. */
+static inline double distance_square(const struct vector_value *place, const double at[3])
+{
+    double sum = 0.0;
+    for (int i = 0; i < place->count; i++)
+        sum += square(at[i] - place->at[i]);
+    return sum;
+}
+
+/* For the kinds: whether PLACE, which KEY gives, has a number a dimension; columns for the fields that the
+ * case names, which are chosen here, behind those that are chosen already. */
+struct error *probe_check_place(const struct probe *probe, const struct simulation *simulation,
+                                const char *key, const struct vector_value *place);
+struct error *probe_add_fields(struct probe *probe, const struct simulation *simulation,
+                               const struct views *views);
+
+/* For the kinds: a new column, and a mistake at KEY ("" for the probe as a whole) of PROBE. */
+void probe_add_column(struct probe *probe, const char *name, const char *unit);
+struct error *probe_error(const struct probe *probe, const struct simulation *simulation,
+                          const char *key, const char *format, ...) BOLIDE_PRINTF(4, 5);
+
+#endif

@@ -1,0 +1,126 @@
+/* radius: how far from a point a circle or sphere of matter now lies that lay at a given radius a_0 at the
+ * start, a surface for example, beside which no particle stands. Each particle that stood within a layer
+ * of it tells a place for it, as if the matter between the two had kept its volume:
+ *   a_i^d = a_0^d + r_i^d - R_i^d,   d = 2 in the plane, 3 in space and in axisymmetry,
+ * R_i at the start, r_i now. */
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "measure/measure.h"
+#include "model/start_place.h"
+
+enum { TAKE_MEAN, TAKE_SPREAD };
+static const char *const take_names[] = {"mean", "spread", NULL};
+
+const struct parameter measure_radius_table[] = {
+    {.key = "start",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct measure_radius, start),
+     .unit = "m",
+     .standard = PARAMETER_REQUIRED,
+     .below = INFINITY,
+     .help = "the radius at the start, that of a surface for example"},
+    {.key = "take",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct measure_radius, take),
+     .standard = "mean",
+     .names = take_names,
+     .help = "the mean, or the standard deviation of what the particles tell: the roundness"},
+    {.key = "layer",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct measure_radius, layer),
+     .unit = "m",
+     .standard = PARAMETER_OPTIONAL,
+     .below = INFINITY,
+     .help = "particles count that stood so near to it; the resolution of the case when not given"},
+    {.key = "center",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct measure_radius, center),
+     .unit = "m",
+     .standard = PARAMETER_OPTIONAL,
+     .help = "the point that it lies about; the origin when not given"},
+    PARAMETER_END,
+};
+
+static struct error *unit(const struct measurement *measurement, const char **unit)
+{
+    const struct measure_radius *parameters = measurement->check->measure.value;
+    const int dimension = measurement->simulation->dimension;
+    const int count = parameters->center.count;
+    if (count != 0 && count != dimension)
+        return measure_error(measurement,
+                             "`center`: %d components are wanted, one a dimension; found %d",
+                             dimension, count);
+    *unit = "m";
+    return NULL;
+}
+
+static double distance(const double a[3], const struct vector_value *center)
+{
+    return sqrt(square(a[0] - center->at[0]) + square(a[1] - center->at[1]) +
+                square(a[2] - center->at[2]));
+}
+
+/* The places that the owned particles tell; their number. */
+static int64_t radii(const struct measurement *measurement, const double (*start)[3], double *told)
+{
+    const struct measure_radius *parameters = measurement->check->measure.value;
+    const struct simulation *simulation = measurement->simulation;
+    const struct particles *p = &simulation->particles;
+    const double layer =
+        isnan(parameters->layer) ? simulation->input->resolution : parameters->layer;
+    const bool axisymmetric = simulation->geometry == GEOMETRY_AXISYMMETRIC;
+    const double power = axisymmetric ? 3.0 : (double)simulation->dimension;
+    const double own = pow(parameters->start, power);
+    const int body = measure_body(measurement);
+    int64_t count = 0;
+    for (int32_t i = 0; i < p->count; i++) {
+        if (body >= 0 && p->body[i] != body)
+            continue;
+        const double then = distance(start[i], &parameters->center);
+        const double now = distance(p->position[i], &parameters->center);
+        if (fabs(then - parameters->start) <= layer)
+            told[count++] =
+                pow(maximum(own + pow(now, power) - pow(then, power), 0.0), 1.0 / power);
+    }
+    return count;
+}
+
+static double mean_of(const struct ranks *ranks, const double *told, int64_t count)
+{
+    struct exact_sum sum = {0};
+    for (int64_t i = 0; i < count; i++)
+        exact_sum_add(&sum, told[i]);
+    ranks_sum_exact(ranks, &sum, 1);
+    const double all = (double)ranks_sum(ranks, count);
+    return all > 0.0 ? exact_sum_value(&sum) / all : NAN;
+}
+
+static struct error *measure(const struct measurement *measurement, double *value)
+{
+    const struct measure_radius *parameters = measurement->check->measure.value;
+    const struct simulation *simulation = measurement->simulation;
+    const size_t room = (size_t)simulation->particles.count + 1;
+    double(*start)[3] = memory_allocate(room * sizeof *start);
+    double *told = memory_allocate(room * sizeof *told);
+    struct error *error = NULL;
+    if (!start || !told)
+        error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles",
+                          (int)simulation->particles.count);
+    error = ranks_agree(simulation->ranks, error);
+    if (!error) {
+        start_places(simulation, 0, simulation->particles.count, start);
+        const int64_t count = radii(measurement, (const double(*)[3])start, told);
+        *value = mean_of(simulation->ranks, told, count);
+        if (parameters->take == TAKE_SPREAD) {
+            for (int64_t i = 0; i < count; i++)
+                told[i] = square(told[i] - *value);
+            *value = sqrt(mean_of(simulation->ranks, told, count));
+        }
+    }
+    free(start);
+    free(told);
+    return error;
+}
+
+const struct measure_class measure_radius = {.unit = unit, .measure = measure, .of_bodies = true};

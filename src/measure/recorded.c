@@ -1,0 +1,315 @@
+/* recorded: a number from what a probe has recorded. Between rows a column is linear, so that a window of
+ * time begins and ends where it says. `slope` is the line of least squares, `speed` that without its sign;
+ * `maxima` and `period` count the peaks from which the curve falls by more than `noise` on either side. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "measure/probes.h"
+
+enum take {
+    TAKE_LAST,
+    TAKE_MINIMUM,
+    TAKE_MAXIMUM,
+    TAKE_MEAN,
+    TAKE_RANGE,
+    TAKE_TIME_OF_MINIMUM,
+    TAKE_TIME_OF_MAXIMUM,
+    TAKE_SLOPE,
+    TAKE_SPEED,
+    TAKE_MAXIMA,
+    TAKE_PERIOD
+};
+static const char *const take_names[] = {"last",  "minimum",         "maximum",         "mean",
+                                         "range", "time_of_minimum", "time_of_maximum", "slope",
+                                         "speed", "maxima",          "period",          NULL};
+
+const struct parameter measure_recorded_table[] = {
+    {.key = "probe",
+     .kind = PARAMETER_TEXT,
+     .offset = offsetof(struct measure_recorded, probe),
+     .standard = PARAMETER_REQUIRED,
+     .help = "a name of probes"},
+    {.key = "column",
+     .kind = PARAMETER_TEXT,
+     .offset = offsetof(struct measure_recorded, column),
+     .standard = PARAMETER_REQUIRED,
+     .help = "a column of its table, without the unit: pressure, velocity.x, position"},
+    {.key = "take",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct measure_recorded, take),
+     .standard = "last",
+     .names = take_names,
+     .help = "the last, smallest, largest or mean value (over time), the range from smallest to "
+             "largest, the time of one of these, the slope of the line of least squares, the same "
+             "without its sign, the number of maxima, the mean time between them"},
+    {.key = "after",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct measure_recorded, after),
+     .unit = "s",
+     .standard = PARAMETER_OPTIONAL,
+     .help = "the time at which the window begins"},
+    {.key = "before",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct measure_recorded, before),
+     .unit = "s",
+     .standard = PARAMETER_OPTIONAL,
+     .help = "the time at which the window ends"},
+    {.key = "absolute",
+     .kind = PARAMETER_FLAG,
+     .offset = offsetof(struct measure_recorded, absolute),
+     .standard = "no",
+     .help = "whether values count without their sign"},
+    {.key = "noise",
+     .kind = PARAMETER_QUANTITY,
+     .offset = offsetof(struct measure_recorded, noise),
+     .standard = PARAMETER_OPTIONAL,
+     .help = "how far a curve falls on either side of a maximum that counts; a hundredth of its "
+             "range when not given"},
+    PARAMETER_END,
+};
+
+static struct error *find(const struct measurement *measurement, struct probe **probe, int *column)
+{
+    const struct measure_recorded *recorded = measurement->check->measure.value;
+    const struct named_map *probes = &measurement->simulation->input->probes;
+    const char *names[PROBE_COLUMNS];
+    *probe = measurement->probes ? probes_find(measurement->probes, recorded->probe) : NULL;
+    const char *near =
+        nearest_name(recorded->probe, (const char *const *)probes->names, probes->count);
+    if (!*probe)
+        return measure_error(measurement, "there is no probe \"%s\"%s%s%s", recorded->probe,
+                             near ? " (did you mean \"" : "", near ? near : "", near ? "\"?)" : "");
+    for (*column = 0; *column < (*probe)->columns; ++*column) {
+        names[*column] = (*probe)->column[*column].name;
+        if (!strcmp(names[*column], recorded->column))
+            return NULL;
+    }
+    /* A probe with a mistake of its own, which is told, has no columns behind the time. */
+    if ((*probe)->columns < 2)
+        return NULL;
+    near = nearest_name(recorded->column, names, (*probe)->columns);
+    char known[1024] = "";
+    for (int i = 0; i < (*probe)->columns && !near; i++) {
+        size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", names[i]);
+    }
+    return measure_error(measurement, "the probe \"%s\" has no column \"%s\" (%s%s%s)",
+                         recorded->probe, recorded->column,
+                         near ? "did you mean \"" : "known: ", near ? near : known,
+                         near ? "\"?" : "");
+}
+
+static struct error *check_keys(const struct measurement *measurement, const char *unit)
+{
+    const struct measure_recorded *recorded = measurement->check->measure.value;
+    struct unit parsed;
+    if (recorded->after > measurement->simulation->input->run.until)
+        return measure_error(measurement, "`after`: the run ends before, at %.9g s",
+                             measurement->simulation->input->run.until);
+    if (recorded->after >= recorded->before)
+        return measure_error(measurement, "`after` must be earlier than `before`");
+    if (isnan(recorded->noise.value))
+        return NULL;
+    if (recorded->take != TAKE_MAXIMA && recorded->take != TAKE_PERIOD)
+        return measure_error(measurement, "`noise` has no meaning for `take: %s`",
+                             take_names[recorded->take]);
+    TRY(unit_parse(unit, &parsed));
+    if (!dimension_equal(parsed.dimension, recorded->noise.dimension))
+        return measure_error(measurement, "`noise` must be in %s, as %s is",
+                             *unit ? unit : "plain numbers", recorded->column);
+    return NULL;
+}
+
+static struct error *unit(const struct measurement *measurement, const char **unit)
+{
+    const struct measure_recorded *recorded = measurement->check->measure.value;
+    struct probe *probe;
+    int column;
+    *unit = NULL;
+    TRY(find(measurement, &probe, &column));
+    if (column == probe->columns)
+        return NULL;
+    *unit = "";
+    probe->kept = true;
+    switch ((enum take)recorded->take) {
+    case TAKE_LAST:
+    case TAKE_MINIMUM:
+    case TAKE_MAXIMUM:
+    case TAKE_MEAN:
+    case TAKE_RANGE:
+        *unit = probe->column[column].unit;
+        break;
+    case TAKE_TIME_OF_MINIMUM:
+    case TAKE_TIME_OF_MAXIMUM:
+    case TAKE_PERIOD:
+        *unit = "s";
+        break;
+    case TAKE_SLOPE:
+    case TAKE_SPEED:
+        *unit = probe->column[column].rate;
+        break;
+    case TAKE_MAXIMA:
+        break;
+    }
+    return check_keys(measurement, probe->column[column].unit);
+}
+
+/* A column over time. */
+struct curve {
+    int64_t count;
+    double *time, *value;
+};
+
+static void curve_add(struct curve *curve, double time, double value)
+{
+    curve->time[curve->count] = time;
+    curve->value[curve->count++] = value;
+}
+
+/* The next row of PROBE from ROW on with a number in COLUMN; the count of rows where there is none. */
+static int64_t next_number(const struct probe *probe, int column, int64_t row)
+{
+    while (row < probe->rows && isnan(probe->value[row * probe->columns + column]))
+        row++;
+    return row;
+}
+
+/* The rows of the window that have numbers, and where the window cuts between two, what is there. */
+static void curve_fill(struct curve *curve, const struct probe *probe, int column,
+                       const struct measure_recorded *recorded)
+{
+    const double ends[2] = {recorded->after, recorded->before};
+    double earlier = NAN, before = NAN;
+    for (int64_t row = next_number(probe, column, 0); row < probe->rows;
+         row = next_number(probe, column, row + 1)) {
+        double time = probe->value[row * probe->columns];
+        double value = probe->value[row * probe->columns + column];
+        value = recorded->absolute ? fabs(value) : value;
+        for (int i = 0; i < 2; i++)
+            if (earlier < ends[i] && ends[i] < time)
+                curve_add(curve, ends[i],
+                          before + (value - before) * (ends[i] - earlier) / (time - earlier));
+        if (!(time < ends[0]) && !(time > ends[1]))
+            curve_add(curve, time, value);
+        earlier = time;
+        before = value;
+    }
+}
+
+/* The index of the first extreme of SIGN times the curve, which has one point at least. */
+static int64_t extreme(const struct curve *curve, double sign)
+{
+    int64_t found = 0;
+    for (int64_t i = 1; i < curve->count; i++)
+        if (sign * curve->value[i] > sign * curve->value[found])
+            found = i;
+    return found;
+}
+
+static double mean(const struct curve *curve)
+{
+    double area = 0.0, span = curve->time[curve->count - 1] - curve->time[0];
+    if (span == 0.0)
+        return curve->value[0];
+    for (int64_t i = 1; i < curve->count; i++)
+        area +=
+            0.5 * (curve->value[i] + curve->value[i - 1]) * (curve->time[i] - curve->time[i - 1]);
+    return area / span;
+}
+
+static double slope(const struct curve *curve)
+{
+    double time = 0.0, value = 0.0, both = 0.0, spread = 0.0;
+    for (int64_t i = 0; i < curve->count; i++) {
+        time += curve->time[i] / (double)curve->count;
+        value += curve->value[i] / (double)curve->count;
+    }
+    for (int64_t i = 0; i < curve->count; i++) {
+        both += (curve->time[i] - time) * (curve->value[i] - value);
+        spread += square(curve->time[i] - time);
+    }
+    return both / spread;
+}
+
+struct peaks {
+    int64_t count;
+    double first, last; /* times */
+};
+
+/* A peak is where the curve is highest between a rise and a fall of more than NOISE. */
+static struct peaks find_peaks(const struct curve *curve, double noise)
+{
+    struct peaks peaks = {0, NAN, NAN};
+    int64_t turn =
+        0; /* the extreme since the last turn: the highest when rising, else the lowest */
+    bool rising = false;
+    for (int64_t i = 1; i < curve->count; i++) {
+        double change = curve->value[i] - curve->value[turn];
+        if (rising ? change > 0.0 : change < 0.0)
+            turn = i;
+        else if (!rising && change > noise) {
+            rising = true;
+            turn = i;
+        } else if (rising && -change > noise) {
+            peaks.last = curve->time[turn];
+            peaks.first = peaks.count++ ? peaks.first : peaks.last;
+            rising = false;
+            turn = i;
+        }
+    }
+    return peaks;
+}
+
+static double take(const struct curve *curve, const struct measure_recorded *recorded)
+{
+    int64_t lowest = extreme(curve, -1.0), highest = extreme(curve, 1.0);
+    double range = curve->value[highest] - curve->value[lowest];
+    double noise = isnan(recorded->noise.value) ? 0.01 * range : recorded->noise.value;
+    struct peaks peaks = find_peaks(curve, noise);
+    switch ((enum take)recorded->take) {
+    case TAKE_LAST:
+        return curve->value[curve->count - 1];
+    case TAKE_MINIMUM:
+        return curve->value[lowest];
+    case TAKE_MAXIMUM:
+        return curve->value[highest];
+    case TAKE_MEAN:
+        return mean(curve);
+    case TAKE_RANGE:
+        return range;
+    case TAKE_TIME_OF_MINIMUM:
+        return curve->time[lowest];
+    case TAKE_TIME_OF_MAXIMUM:
+        return curve->time[highest];
+    case TAKE_SLOPE:
+        return slope(curve);
+    case TAKE_SPEED:
+        return fabs(slope(curve));
+    case TAKE_MAXIMA:
+        return (double)peaks.count;
+    case TAKE_PERIOD:
+        return (peaks.last - peaks.first) / (double)(peaks.count - 1);
+    }
+    return NAN;
+}
+
+static struct error *measure(const struct measurement *measurement, double *value)
+{
+    struct probe *probe;
+    int column;
+    TRY(find(measurement, &probe, &column));
+    assert(probe);
+    size_t room = ((size_t)probe->rows + 2) * sizeof(double);
+    struct curve curve = {0, memory_allocate(room), memory_allocate(room)};
+    bool made = curve.time && curve.value;
+    if (made) {
+        curve_fill(&curve, probe, column, measurement->check->measure.value);
+        *value = curve.count ? take(&curve, measurement->check->measure.value) : NAN;
+    }
+    free(curve.time);
+    free(curve.value);
+    return made ? NULL : error_new(ERROR_SYSTEM, "out of memory for a check");
+}
+
+const struct measure_class measure_recorded = {.unit = unit, .measure = measure};

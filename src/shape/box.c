@@ -1,0 +1,45 @@
+/* A box with faces normal to the axes. */
+#include "shape/kinds.h"
+
+const struct parameter shape_box_table[] = {
+    {.key = "from",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct shape_box, from),
+     .unit = "m",
+     .help = "the corner of the low coordinates"},
+    {.key = "to",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct shape_box, to),
+     .unit = "m",
+     .help = "the corner of the high coordinates"},
+    PARAMETER_END,
+};
+
+static bool inside(const void *shape, struct vec3 point)
+{
+    const struct shape_box *box = shape;
+    const double at[3] = {point.x, point.y, point.z};
+    for (int axis = 0; axis < box->from.count; axis++)
+        if (!(at[axis] >= box->from.at[axis] && at[axis] < box->to.at[axis]))
+            return false;
+    return true;
+}
+
+static struct bounds bounds(const void *shape)
+{
+    const struct shape_box *box = shape;
+    return (struct bounds){vec3_of(&box->from), vec3_of(&box->to)};
+}
+
+static const char *wrong(const void *shape, int dimension)
+{
+    const struct shape_box *box = shape;
+    if (box->from.count != dimension || box->to.count != dimension)
+        return "a box wants as many numbers in `from` and `to` as the case has dimensions";
+    for (int axis = 0; axis < dimension; axis++)
+        if (!(box->from.at[axis] < box->to.at[axis]))
+            return "the `to` of a box must lie above its `from` on every axis";
+    return NULL;
+}
+
+const struct shape_class shape_box_class = {inside, bounds, wrong, NULL};

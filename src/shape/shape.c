@@ -1,0 +1,51 @@
+/* The list of shapes, and questions to whichever shape a case has chosen. */
+#include "shape/kinds.h"
+
+#define SHAPE_CHOICE(identifier, help)                                                 \
+    {#identifier, help, shape_##identifier##_table, sizeof(struct shape_##identifier), \
+     &shape_##identifier##_class},
+
+const struct choice shape_choices[] = {SHAPE_LIST(SHAPE_CHOICE)};
+
+const int shape_choice_count = (int)COUNT_OF(shape_choices);
+
+static const struct shape_class *class_of(const struct one_of *shape)
+{
+    assert(shape->choice);
+    return shape->choice->thing;
+}
+
+bool shape_inside(const struct one_of *shape, struct vec3 point)
+{
+    return class_of(shape)->inside(shape->value, point);
+}
+
+struct bounds shape_bounds(const struct one_of *shape)
+{
+    return class_of(shape)->bounds(shape->value);
+}
+
+const char *shape_wrong(const struct one_of *shape, int dimension)
+{
+    return class_of(shape)->wrong(shape->value, dimension);
+}
+
+bool shape_radii(const struct one_of *shape, struct radii *radii)
+{
+    const struct shape_class *class = class_of(shape);
+    return class->radii && class->radii(shape->value, radii);
+}
+
+const char *shapes_wrong(const struct one_of_list *shapes, int dimension)
+{
+    const char *text = NULL;
+    for (int i = 0; i < shapes->count && !text; i++)
+        text = shape_wrong(&shapes->items[i], dimension);
+    return text;
+}
+
+bool bounds_finite(const struct bounds *bounds)
+{
+    return isfinite(bounds->low.x) && isfinite(bounds->low.y) && isfinite(bounds->low.z) &&
+           isfinite(bounds->high.x) && isfinite(bounds->high.y) && isfinite(bounds->high.z);
+}

@@ -1,0 +1,70 @@
+/* The sites of a map that bear one letter; 2-D. Bodies that take one letter each of the same map touch and
+ * do not overlap. Parshikov (2013), section 5.3. */
+#include <string.h>
+
+#include "shape/kinds.h"
+
+const struct parameter shape_template_table[] = {
+    {.key = "rows",
+     .kind = PARAMETER_NAMES,
+     .offset = offsetof(struct shape_template, rows),
+     .help = "the map as it is seen, a text a row, the highest row first, a letter a site"},
+    {.key = "letter",
+     .kind = PARAMETER_TEXT,
+     .offset = offsetof(struct shape_template, letter),
+     .help = "the letter whose sites are the shape"},
+    {.key = "site",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct shape_template, site),
+     .unit = "m",
+     .above = 0.0,
+     .below = INFINITY,
+     .help = "the edge of a site, which is square"},
+    {.key = "from",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct shape_template, from),
+     .unit = "m",
+     .help = "the corner of the map of the low coordinates"},
+    PARAMETER_END,
+};
+
+static bool inside(const void *shape, struct vec3 point)
+{
+    const struct shape_template *map = shape;
+    const double columns = (double)strlen(map->rows.names[0]), rows = map->rows.count;
+    const double x = floor((point.x - map->from.at[0]) / map->site);
+    const double y = floor((point.y - map->from.at[1]) / map->site);
+    if (!(x >= 0.0 && x < columns && y >= 0.0 && y < rows))
+        return false;
+    return map->rows.names[map->rows.count - 1 - (int)y][(int)x] == map->letter[0];
+}
+
+/* Of the whole map: the lattice is the same for every letter. */
+static struct bounds bounds(const void *shape)
+{
+    const struct shape_template *map = shape;
+    const double columns = (double)strlen(map->rows.names[0]), rows = map->rows.count;
+    const struct vec3 low = vec3_of(&map->from);
+    return (struct bounds){low,
+                           vec3_add(low, vec3_make(columns * map->site, rows * map->site, 0.0))};
+}
+
+static const char *wrong(const void *shape, int dimension)
+{
+    const struct shape_template *map = shape;
+    if (dimension != 2 || map->from.count != 2)
+        return "a template needs two dimensions, and two numbers in `from`";
+    if (strlen(map->letter) != 1)
+        return "the `letter` of a template is one character";
+    if (map->rows.count < 1)
+        return "a template wants at least one row";
+    bool found = false;
+    for (int i = 0; i < map->rows.count; i++) {
+        if (strlen(map->rows.names[i]) != strlen(map->rows.names[0]))
+            return "the `rows` of a template must be of one length";
+        found = found || strchr(map->rows.names[i], map->letter[0]);
+    }
+    return found ? NULL : "the `letter` of this template stands nowhere in its `rows`";
+}
+
+const struct shape_class shape_template_class = {inside, bounds, wrong, NULL};

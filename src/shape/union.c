@@ -1,0 +1,44 @@
+/* All points of a list of shapes. */
+#include "shape/kinds.h"
+
+const struct parameter shape_union_table[] = {
+    {.key = "shapes",
+     .kind = PARAMETER_LIST,
+     .offset = offsetof(struct shape_union, shapes),
+     .kind_of_thing = "shape",
+     .help = "the shapes that are joined"},
+    PARAMETER_END,
+};
+
+static bool inside(const void *shape, struct vec3 point)
+{
+    const struct one_of_list *shapes = &((const struct shape_union *)shape)->shapes;
+    for (int i = 0; i < shapes->count; i++)
+        if (shape_inside(&shapes->items[i], point))
+            return true;
+    return false;
+}
+
+static struct bounds bounds(const void *shape)
+{
+    const struct one_of_list *shapes = &((const struct shape_union *)shape)->shapes;
+    struct bounds all = shape_bounds(&shapes->items[0]);
+    for (int i = 1; i < shapes->count; i++) {
+        const struct bounds one = shape_bounds(&shapes->items[i]);
+        all.low = vec3_make(minimum(all.low.x, one.low.x), minimum(all.low.y, one.low.y),
+                            minimum(all.low.z, one.low.z));
+        all.high = vec3_make(maximum(all.high.x, one.high.x), maximum(all.high.y, one.high.y),
+                             maximum(all.high.z, one.high.z));
+    }
+    return all;
+}
+
+static const char *wrong(const void *shape, int dimension)
+{
+    const struct one_of_list *shapes = &((const struct shape_union *)shape)->shapes;
+    if (shapes->count < 1)
+        return "a union wants at least one shape";
+    return shapes_wrong(shapes, dimension);
+}
+
+const struct shape_class shape_union_class = {inside, bounds, wrong, NULL};
