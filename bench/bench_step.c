@@ -7,7 +7,7 @@
 #include "bench.h"
 
 #include "sph/lanes.h"
-#include "sph/sph_internal.h"
+#include "sph/scheme.h"
 
 enum { VARIANTS = 4, PHASES = 4, STEPS = 50 };
 
@@ -23,9 +23,8 @@ struct measured_sph {
 /* Neighbours within support, summed over all particles. */
 static int64_t count_pairs(const struct sph *sph, const struct simulation *simulation)
 {
-    const bool second = sph_second_order(sph);
-    const double *place = second ? sph->place : sph->record;
-    const size_t stride = second ? PLACE_STRIDE : (size_t)record_stride(sph->kind);
+    const double *place = sph->places ? sph->place : sph->record;
+    const size_t stride = sph->places ? PLACE_STRIDE : sph->stride;
     const int d = record_diameter(simulation->dimension);
     int64_t pairs = 0;
     for (int32_t i = 0; i < simulation->particles.count; i++) {

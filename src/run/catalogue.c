@@ -14,14 +14,15 @@
 enum { SHAPES = 0 SHAPE_LIST(COUNT_SHAPE) };
 
 static const struct choice solver_choices[] = {
-    {"sph", "smoothed particle hydrodynamics, contact or standard", sph_table,
-     sizeof(struct sph_parameters), &sph_class},
+    {"sph", "smoothed particle hydrodynamics", sph_table, sizeof(struct sph_parameters),
+     &sph_class},
     {"mpm", "the material point method: particles on a grid that is made anew each step", mpm_table,
      sizeof(struct mpm_parameters), &mpm_class},
 };
 
 static const struct choice_list lists[] = {
     {"solver", "the method of solution", solver_choices, COUNT_OF(solver_choices)},
+    {"scheme", "what neighbours in SPH do to each other", sph_scheme_choices, SPH_SCHEMES},
     {"eos", "the equation of state of a material", eos_choices, EOS_KINDS},
     {"strength", "what a material does with shear", strength_choices, STRENGTH_KINDS},
     {"burn", "how an explosive becomes its products", burn_choices, BURN_KINDS},

@@ -1,7 +1,7 @@
 /* Particles of the plane that have a depth: a ring of radius r in axisymmetry (x = r, y = z, mass per radian), or a
  * plate that thins under plane stress. The pair sums know of it by the depth in the records alone; what it adds to a
  * particle by itself is here. */
-#include "sph/sph_internal.h"
+#include "sph/scheme.h"
 
 /* Of the equation of motion per radian, m dU/dt = ... - A sigma_tt g e_r with the g of the pair sums: a uniform
  * pressure is then balanced as well as in the plane. The hoop stress does no work on E + U^2/2. */
@@ -17,8 +17,8 @@ void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
         f->rates.acceleration[i][0] += pull;
         f->rates.power[i] -= p->velocity[i][0] * pull;
         /* the radius grows as the particle moves, which may be with its contacts' velocity */
-        double velocity = p->velocity[i][0] + sph->half_step * f->rates.acceleration[i][0] +
-                          (sph->kind.drift ? f->rates.drift[i][0] : 0.0);
+        double velocity = p->velocity[i][0] + sph->ahead * f->rates.acceleration[i][0] +
+                          (f->rates.drift ? f->rates.drift[i][0] : 0.0);
         f->rates.strain_rate[i][2] = f->rates.hoop_strain[i] * velocity / radius;
         f->rates.hoop_pull[i] = pull;
     }

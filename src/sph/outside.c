@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "sph/sph_internal.h"
+#include "sph/scheme.h"
 
 /* What of a contact only the solver mpm knows. */
 static struct error *refuse_contact(const struct simulation_case *input, int c)

@@ -10,7 +10,7 @@
 #include "model/simulation.h"
 #include "riemann/dukowicz.h"
 #include "riemann/exact_gas.h"
-#include "sph/pair_kernel.h"
+#include "sph/contact/kernel.h"
 
 /* One side of a pair, images already reflected. */
 struct naive_particle {

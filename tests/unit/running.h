@@ -12,7 +12,7 @@
 #include "mpm/mpm_internal.h"
 #include "output/checkpoint.h"
 #include "run/catalogue.h"
-#include "sph/sph_internal.h"
+#include "sph/muscl/muscl.h"
 
 /* How a case is run. */
 struct variant {

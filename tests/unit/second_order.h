@@ -28,7 +28,7 @@ static inline void prepare(struct running *run)
 static inline struct muscl_loop loop_of(const struct running *run)
 {
     const struct particles *p = &run->simulation.particles;
-    const struct sph_fields f = sph_fields_of(&run->sph, &run->simulation);
+    const struct muscl_fields f = muscl_fields_of(&run->sph, &run->simulation);
     return (struct muscl_loop){.kind = muscl_kind_of(&run->sph),
                                .record = run->sph.record,
                                .empty = p->count + run->sph.neighbours.ghosts.count,
@@ -39,8 +39,9 @@ static inline struct muscl_loop loop_of(const struct running *run)
                                .body = p->body,
                                .density = p->density,
                                .velocity = (const double(*)[3])p->velocity,
-                               .rates = {f.rates, f.correction, f.velocity_gradient,
-                                         f.stress_gradient, f.force, f.packing}};
+                               .rates = {f.sph.rates, f.own.correction,
+                                         f.own.velocity_gradient, f.own.stress_gradient,
+                                         f.own.force, f.sph.packing}};
 }
 
 #endif

@@ -38,7 +38,7 @@ static const char plane_case[] =
 static const char thin_case[] =
     "format: 1\ntitle: Two plates in a corner\ndimension: 2\nresolution: 1 mm\n"
     "geometry: plane-stress\n"
-    "solver: {sph: {method: contact, smoothing: 1.2, rotation: corrected}}\n" BLOCKS("-0.2 mm");
+    "solver: {sph: {method: {contact: {rotation: corrected}}, smoothing: 1.2}}\n" BLOCKS("-0.2 mm");
 
 /* A driven rod with a hot gas before it runs into a target on the axis, and stops. */
 static const char round_case[] =
@@ -47,7 +47,7 @@ static const char round_case[] =
     "dimension: 2\n"
     "geometry: axisymmetric\n"
     "resolution: 1 mm\n"
-    "solver: {sph: {method: contact, smoothing: 1.2, rotation: corrected}}\n"
+    "solver: {sph: {method: {contact: {rotation: corrected}}, smoothing: 1.2}}\n"
     "materials:\n"
     "  gas: {eos: {ideal-gas: {density: 1500 kg/m^3, gamma: 3}}}\n"
     "  aluminium:\n"

@@ -190,8 +190,8 @@ static void symmetric_correction_conserves(void **state)
     (void)state;
     const char *const texts[] = {line_case, PLANE("method: hllc"), ring_case, space_case};
     for (size_t k = 0; k < COUNT_OF(texts); k++) {
-        struct drift symmetric = drift_of(texts[k], "solver.sph.correction=symmetric");
-        struct drift own = drift_of(texts[k], "solver.sph.correction=own");
+        struct drift symmetric = drift_of(texts[k], "solver.sph.method.hllc.correction=symmetric");
+        struct drift own = drift_of(texts[k], "solver.sph.method.hllc.correction=own");
         print_message("energy %.2g, momentum %.2g; own %.2g, %.2g\n", symmetric.energy,
                       symmetric.momentum, own.energy, own.momentum);
         assert_true(symmetric.mass == 0.0 && own.mass == 0.0);
@@ -231,7 +231,7 @@ static void a_frozen_body_keeps_its_state(void **state)
             assert_true(p->plastic_strain[i] == 0.0);
             double x = p->position[i][0] - 100.0 * run->simulation.time;
             assert_near(x - floor(x * 1e3) * 1e-3, 0.5e-3, 1e-12);
-            if (!sph_second_order(&run->sph))
+            if (run->sph.scheme != &muscl_scheme)
                 continue;
             const struct muscl_kind kind = muscl_kind_of(&run->sph); /* no more half a step ahead */
             const double *record = run->sph.record + (size_t)i * (size_t)muscl_stride(kind);

@@ -12,7 +12,7 @@
 #include "run/catalogue.h"
 #include "run/estimate.h"
 #include "sph/lanes.h"
-#include "sph/sph_internal.h"
+#include "sph/scheme.h"
 
 static const char strip[] =
     "format: 1\n"

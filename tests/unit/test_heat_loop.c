@@ -2,7 +2,7 @@
  * instruction sets, and what it must keep. */
 #include "scene.h"
 
-#include "sph/heat_kernel.h"
+#include "sph/conduction/kernel.h"
 
 typedef void heat_loop_isa(const struct heat_loop *, int32_t, int32_t);
 heat_loop_isa heat_loop_run_v2;

@@ -72,7 +72,7 @@ static void assert_velocity_gradient(const struct running *run, const double a[3
                 assert_near(gradient[(i * dimension + row) * dimension + column], a[row][column],
                             tolerance);
             }
-    const struct sph_fields fields = sph_fields_of(&run->sph, &run->simulation);
+    const struct muscl_fields fields = muscl_fields_of(&run->sph, &run->simulation);
     const double divergence =
         a[0][0] + (dimension > 1 ? a[1][1] : 0.0) + (dimension > 2 ? a[2][2] : 0.0);
     for (int32_t i = 0; i < p->count; i++)
@@ -200,7 +200,7 @@ static void the_force_expected_inside_a_lattice_is_the_divergence_of_stress(void
                     if (tensor || along == axis)
                         force += stress.slope[along][tensor ? slot[axis][along] : 0];
                 double gain = half_ahead[(size_t)i * stride + (size_t)axis] - p->velocity[i][axis];
-                assert_near(gain / run->sph.half_step * p->density[i], force, 1e-9 * 1e10);
+                assert_near(gain / run->sph.ahead * p->density[i], force, 1e-9 * 1e10);
             }
         }
         assert_true(inside >= 12);

@@ -56,7 +56,7 @@ static struct running *begin_random(const char *text, struct dice *dice)
 static double *rates_by(muscl_loop_isa *set, struct running *run, size_t *bytes)
 {
     const struct particles *p = &run->simulation.particles;
-    const struct sph_fields f = sph_fields_of(&run->sph, &run->simulation);
+    const struct muscl_fields f = muscl_fields_of(&run->sph, &run->simulation);
     const struct muscl_kind kind = muscl_kind_of(&run->sph);
     const struct muscl_loop loop = loop_of(run);
     set(&loop, 0, p->count);
@@ -64,17 +64,17 @@ static double *rates_by(muscl_loop_isa *set, struct running *run, size_t *bytes)
     const struct {
         const void *of;
         int components;
-    } part[] = {{f.rates.acceleration, 3},
-                {f.rates.power, 1},
-                {f.rates.strain_rate, 6},
-                {f.rates.spin, 3},
-                {f.rates.wall, 3},
-                {f.rates.drift, f.rates.drift ? 3 : 0},
-                {f.force, 3},
-                {f.correction, tensor_components(dimension)},
-                {f.velocity_gradient, dimension * dimension},
-                {f.stress_gradient, dimension * muscl_stresses(kind)},
-                {f.rates.hoop_pull, f.rates.hoop_pull ? 1 : 0}};
+    } part[] = {{f.sph.rates.acceleration, 3},
+                {f.sph.rates.power, 1},
+                {f.sph.rates.strain_rate, 6},
+                {f.sph.rates.spin, 3},
+                {f.sph.rates.wall, 3},
+                {f.sph.rates.drift, f.sph.rates.drift ? 3 : 0},
+                {f.own.force, 3},
+                {f.own.correction, tensor_components(dimension)},
+                {f.own.velocity_gradient, dimension * dimension},
+                {f.own.stress_gradient, dimension * muscl_stresses(kind)},
+                {f.sph.rates.hoop_pull, f.sph.rates.hoop_pull ? 1 : 0}};
     double *all = malloc((size_t)p->count * 64 * sizeof *all), *to = all;
     for (size_t k = 0; k < COUNT_OF(part); k++) {
         size_t count = (size_t)p->count * (size_t)part[k].components;

@@ -7,7 +7,7 @@
 static void sum_uniform_stress(struct running *run, const double stress[6])
 {
     const struct particles *p = &run->simulation.particles;
-    const struct sph_fields f = sph_fields_of(&run->sph, &run->simulation);
+    const struct muscl_fields f = muscl_fields_of(&run->sph, &run->simulation);
     const struct muscl_kind kind = muscl_kind_of(&run->sph);
     const double mean = (stress[0] + stress[1] + stress[2]) / 3.0;
     prepare(run); /* corrections */
@@ -17,9 +17,9 @@ static void sum_uniform_stress(struct running *run, const double stress[6])
             p->deviator[i][c] = stress[c] - (c < 3 ? mean : 0.0);
     }
     const size_t axes = (size_t)p->count * (size_t)kind.dimension, size = sizeof(double);
-    memset(f.velocity_gradient, 0, axes * (size_t)kind.dimension * size);
-    memset(f.stress_gradient, 0, axes * (size_t)muscl_stresses(kind) * size);
-    run->sph.half_step = 0.0;
+    memset(f.own.velocity_gradient, 0, axes * (size_t)kind.dimension * size);
+    memset(f.own.stress_gradient, 0, axes * (size_t)muscl_stresses(kind) * size);
+    run->sph.ahead = 0.0;
     muscl_pack(&run->sph, &run->simulation);
     const struct muscl_loop loop = loop_of(run);
     muscl_loop_run(&loop, 0, p->count);
@@ -52,7 +52,7 @@ static void the_force_expected_at_a_free_plane_is_its_traction_over_a_layer(void
         struct running *run = begin_fresh(faces[k].text, &variant);
         const struct particles *p = &run->simulation.particles;
         sum_uniform_stress(run, stress);
-        const struct sph_fields f = sph_fields_of(&run->sph, &run->simulation);
+        const struct muscl_fields f = muscl_fields_of(&run->sph, &run->simulation);
         const double traction[3] = {stress[0], stress[3], stress[5]};
         double all[3] = {0.0};
         for (int32_t i = 0; i < p->count; i++) {
@@ -60,12 +60,12 @@ static void the_force_expected_at_a_free_plane_is_its_traction_over_a_layer(void
             for (int axis = 1; axis < p->dimension; axis++) /* one row across the face */
                 middle = middle && fabs(p->position[i][axis] - 5.6e-3) < 0.5e-3;
             for (int axis = 0; axis < p->dimension && middle; axis++) {
-                const double pairs = f.rates.acceleration[i][axis] * p->density[i];
+                const double pairs = f.sph.rates.acceleration[i][axis] * p->density[i];
                 const double scale = traction[axis] / 1e-3;
                 all[axis] += pairs;
                 if (p->position[i][0] > 1e-3)
                     continue;
-                assert_near(f.force[i][axis] / scale, faces[k].expected, 1e-4);
+                assert_near(f.own.force[i][axis] / scale, faces[k].expected, 1e-4);
                 assert_near(pairs / scale, faces[k].pairs, 1e-4);
             }
         }

@@ -5,7 +5,7 @@
     "format: 1\n"                                                                \
     "dimension: " dimension "\n"                                                 \
     "resolution: 1 mm\n"                                                         \
-    "solver: {sph: {method: contact, rotation: corrected}}\n"                    \
+    "solver: {sph: {method: {contact: {rotation: corrected}}}}\n"                    \
     "materials:\n"                                                               \
     "  metal:\n"                                                                 \
     "    eos: {barotropic: {density: 2700 kg/m^3, bulk_modulus: 73 GPa}}\n"      \
@@ -19,7 +19,7 @@ static const char cube[] = HEAD(
     "3") "  cube: {material: metal, box: {from: [-4 mm, -4 mm, -4 mm], to: [4 mm, 4 mm, 4 mm]}}\n";
 
 static const struct variant corrected = {"corrected", 1, 1.0, NULL, false};
-static const struct variant faithful = {"faithful", 1, 1.0, "solver.sph.rotation=faithful", false};
+static const struct variant faithful = {"faithful", 1, 1.0, "solver.sph.method.contact.rotation=faithful", false};
 
 /* Turns all particles about OMEGA through the origin; SPIN: the spins say so. */
 static void turn(struct running *run, struct vec3 omega, bool spin)
@@ -132,8 +132,7 @@ static void it_is_refused_where_it_means_nothing(void **state)
     (void)state;
     static const struct {
         const char *setting, *words;
-    } wrong[] = {{"solver.sph.contact=dukowicz", "sph.rotation: corrected goes with"},
-                 {"solver.sph.method=standard", "sph.rotation: corrected goes with"},
+    } wrong[] = {{"solver.sph.method.contact.riemann=dukowicz", "rotation: corrected goes with"},
                  {"materials.metal.strength=none", "wants a material with strength"}};
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         const struct variant variant = {"", 1, 1.0, wrong[k].setting, false};

@@ -436,7 +436,7 @@ static void a_start_from_rest_does_not_stop_a_run(void **state)
     (void)state;
     struct run_options options = {.threads = 1};
     const char *const settings[] = {
-        "solver.sph.energy=internal",
+        "solver.sph.method={muscl: {energy: internal}}",
         "materials.gas.eos={barotropic: {density: 2700 kg/m^3, bulk_modulus: 73 GPa}}",
         "bodies.left={material: gas, pressure: 4 GPa, box: {from: [0 mm], to: [50 mm]}}",
         "bodies.right={material: gas, box: {from: [50 mm], to: [100 mm]}}",

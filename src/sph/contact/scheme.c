@@ -1,0 +1,167 @@
+/* The order of a step of first-order contact SPH, and what a case may ask of it. */
+#include "sph/contact/contact.h"
+
+#include "base/clock.h"
+#include "riemann/bend.h"
+#include "sph/prune.h"
+
+/* What the loop over blocks needs: compressed lists are made on the way. */
+struct contact_sweep {
+    struct pair_loop pairs;
+    struct prune_loop prune;
+};
+
+static void rates_of_block(const void *of, const struct block *blocks, int32_t b)
+{
+    const struct contact_sweep *sweep = of;
+    prune_loop_run(&sweep->prune, blocks, b);
+    pair_loop_run(&sweep->pairs, blocks[b].first, blocks[b].first + blocks[b].count);
+}
+
+void contact_sum_pairs(struct sph *sph, const struct simulation *simulation,
+                       const struct sph_fields *fields)
+{
+    const struct contact_state *state = sph->state;
+    const struct particles *p = &simulation->particles;
+    const struct sph_records records = contact_records(sph);
+    const struct contact_sweep sweep = {.pairs = {.kind = state->kind,
+                                                  .record = sph->record,
+                                                  .empty = p->count + sph->neighbours.ghosts.count,
+                                                  .smoothing = sph->parameters.smoothing,
+                                                  .neighbours = &sph->neighbours,
+                                                  .groups = &sph->groups,
+                                                  .body = p->body,
+                                                  .density = p->density,
+                                                  .rates = fields->rates},
+                                        .prune = {sph->record, (int)sph->stride, p->dimension, NULL,
+                                                  sph->parameters.smoothing, &sph->neighbours}};
+    sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &sweep, 1});
+    sph->neighbours.prune = false;
+    if (sph_axisymmetric(simulation))
+        sph_add_hoop(sph, simulation, fields);
+}
+
+static struct limit limit_of_particle(const struct sph *sph, const struct simulation *simulation,
+                                      const void *context, int32_t i)
+{
+    const struct sph_fields *f = context;
+    const double *rate = f->rates.strain_rate[i];
+    (void)simulation;
+    return sph_courant_limit(sph, f, rate[0] + rate[1] + rate[2], i);
+}
+
+void contact_prepare(struct sph *sph, struct simulation *simulation, struct limit *limit)
+{
+    const struct sph_fields fields = sph_fields_of(sph, simulation);
+    double begin = clock_seconds();
+    contact_pack(sph, simulation, &fields);
+    simulation_spend(simulation, "records", clock_seconds() - begin);
+    begin = clock_seconds();
+    contact_sum_pairs(sph, simulation, &fields);
+    simulation_spend(simulation, "pairs", clock_seconds() - begin);
+    begin = clock_seconds();
+    *limit = sph_smallest_limit(sph, simulation, limit_of_particle, &fields);
+    simulation_spend(simulation, "points", clock_seconds() - begin);
+}
+
+struct error *contact_advance(struct sph *sph, struct simulation *simulation, double dt)
+{
+    const struct sph_fields fields = sph_fields_of(sph, simulation);
+    const double begin = clock_seconds();
+    struct error *error = sph_update(sph, simulation, &fields, dt);
+    simulation_spend(simulation, "points", clock_seconds() - begin);
+    return error;
+}
+
+void contact_choose_kind(struct sph *sph, const struct simulation *simulation, enum pair_star star)
+{
+    struct contact_state *state = sph->state;
+    state->kind = (struct pair_kind){.dimension = simulation->dimension,
+                                     .shear = sph_has(sph, SPH_SHEAR),
+                                     .star = star,
+                                     .drift = sph_has(sph, SPH_DRIFT),
+                                     .depth = sph_deep(simulation),
+                                     .turn = sph_has(sph, SPH_SPIN_KEPT)};
+    sph->stride = (size_t)record_stride(state->kind);
+}
+
+/* The Riemann solvers of strong shocks need a number of each material: the slope of its shock adiabat, or the ratio of
+ * specific heats of an ideal gas. */
+static struct error *find_slopes(struct sph *sph, const struct simulation *simulation)
+{
+    struct contact_state *state = sph->state;
+    const struct simulation_case *input = simulation->input;
+    for (int m = 0; record_has_bend(state->kind) && m < simulation->materials; m++) {
+        const struct material *material = &simulation->material[m];
+        const bool gas = material->eos.kind == EOS_ideal_gas && !material_has_strength(material);
+        if (state->kind.star == STAR_EXACT_GAS && !gas)
+            return sph_option_error(
+                sph, input, "riemann",
+                "exact-gas solves contacts of ideal gases, and material \"%s\" is "
+                "not one: use acoustic or dukowicz",
+                input->materials.names[m]);
+        state->bend[m] = state->kind.star == STAR_EXACT_GAS ? material->eos.of.ideal_gas.gamma
+                                                            : riemann_shock_slope(material);
+    }
+    return NULL;
+}
+
+/* Spins correct what shear stress would brake, in the acoustic contact problem. */
+static struct error *choose_rotation(struct sph *sph, const struct simulation *simulation)
+{
+    const struct contact_options *options = sph->parameters.method.value;
+    const char *wrong = NULL;
+    if (options->rotation != CONTACT_ROTATION_CORRECTED)
+        return NULL;
+    if (options->riemann != CONTACT_ACOUSTIC)
+        wrong = "corrected goes with `riemann: acoustic`";
+    else if (simulation->dimension == 1)
+        wrong = "nothing rotates in 1-D";
+    else if (!sph_has(sph, SPH_SHEAR))
+        wrong = "corrected needs a material with strength: the rotation of a fluid is not braked";
+    if (wrong)
+        return sph_option_error(sph, simulation->input, "rotation", "%s", wrong);
+    return NULL;
+}
+
+static struct error *create(struct sph *sph, const struct simulation *simulation)
+{
+    static const enum pair_star stars[] = {[CONTACT_ACOUSTIC] = STAR_ACOUSTIC,
+                                           [CONTACT_DUKOWICZ] = STAR_DUKOWICZ,
+                                           [CONTACT_EXACT_GAS] = STAR_EXACT_GAS};
+    const struct contact_options *options = sph->parameters.method.value;
+    TRY(choose_rotation(sph, simulation));
+    contact_choose_kind(sph, simulation, stars[options->riemann]);
+    return find_slopes(sph, simulation);
+}
+
+static unsigned traits_of(const void *of, int dimension)
+{
+    const struct contact_options *options = of;
+    (void)dimension;
+    return sph_traits_of(options->motion, options->energy) |
+           (options->rotation == CONTACT_ROTATION_CORRECTED ? SPH_SPIN_KEPT : 0u);
+}
+
+size_t contact_stride(const void *options, int dimension)
+{
+    const struct pair_kind kind = {.dimension = dimension, .shear = dimension > 1};
+    (void)options;
+    return (size_t)record_stride(kind);
+}
+
+static const struct field_row no_rows[] = {FIELD_ROWS_END};
+
+const struct sph_scheme contact_scheme = {.name = "contact",
+                                          .smoothing = 1.0,
+                                          .courant = 0.4,
+                                          .courant_limit = 1.0,
+                                          .conducts = true,
+                                          .state_size = sizeof(struct contact_state),
+                                          .rows = no_rows,
+                                          .traits = traits_of,
+                                          .stride = contact_stride,
+                                          .create = create,
+                                          .start = sph_evaluate,
+                                          .prepare = contact_prepare,
+                                          .advance = contact_advance};

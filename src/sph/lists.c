@@ -1,0 +1,79 @@
+/* When neighbour lists are rebuilt: particles go to the ranks that own them, neighbours are searched anew, and records
+ * get room. */
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "sph/lanes.h"
+#include "sph/scheme.h"
+
+double sph_near_skin(const struct sph_parameters *parameters, unsigned traits)
+{
+    const double fraction = 0.3; /* a smaller one leaves shorter lists, made more often */
+    const bool compressed = (traits & SPH_PLANE) && !(traits & (SPH_SUPPORT_KEPT | SPH_STILL));
+    return compressed ? fraction * parameters->skin : 0.0;
+}
+
+/* Records are in the scratch of the store until particles are sorted again. */
+static struct error *reserve_records(struct sph *sph, struct simulation *simulation)
+{
+    struct scratch *scratch = &simulation->particles.scratch;
+    int64_t count = (int64_t)simulation->particles.count + sph->neighbours.ghosts.count + 1;
+    const size_t bytes = (size_t)count * sph->stride * sizeof(double);
+    if (!scratch_begin(scratch, bytes) ||
+        (sph->places && !memory_reserve((void **)&sph->place, &sph->place_capacity, count, 0,
+                                        PLACE_STRIDE * sizeof(double))))
+        return error_new(ERROR_SYSTEM, "out of memory for the records of %lld particles",
+                         (long long)count);
+    sph->record = scratch_part(scratch, bytes);
+    return exchange_reserve(&sph->neighbours.ghosts.exchange, sph->stride * sizeof(double));
+}
+
+/* Seconds that this rank's particles have taken up to now. */
+static double work_of(const struct sph *sph, const struct simulation *simulation)
+{
+    static const char *const names[] = {"pairs", "gradients", "viscosity", "heat"};
+    double sum = 0.0;
+    for (int i = 0; i < simulation->phases; i++)
+        for (size_t k = 0; k < COUNT_OF(names); k++)
+            sum += strcmp(simulation->phase[i].name, names[k]) ? 0.0 : simulation->phase[i].seconds;
+    return sum - sph->neighbours.ghosts.waited;
+}
+
+/* True at the steps at which the case has the blocks divided anew. */
+static bool recuts(const struct sph *sph, const struct simulation *simulation)
+{
+    int64_t every = simulation->input->run.rebalance;
+    return every > 0 && simulation->ranks->joined && simulation->step % every == 0 &&
+           sph->steps_since_build > 0;
+}
+
+/* Supports are found again after particles have moved in the store. */
+static struct reach reach_of(const struct sph *sph, const struct simulation *simulation)
+{
+    const struct sph_fields f = sph_fields_of(sph, simulation);
+    return (struct reach){f.support ? f.support : f.diameter, sph->parameters.smoothing};
+}
+
+struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, bool *rebuilt)
+{
+    struct particles *p = &simulation->particles;
+    int64_t most = sph->parameters.rebuild;
+    double begin = clock_seconds();
+    bool recut = recuts(sph, simulation);
+    *rebuilt =
+        (most && sph->steps_since_build >= most) || recut ||
+        !neighbours_hold(&sph->neighbours, p, reach_of(sph, simulation), simulation->threads);
+    if (!*rebuilt) {
+        simulation_spend(simulation, "neighbours", clock_seconds() - begin);
+        return NULL;
+    }
+    double work = work_of(sph, simulation);
+    TRY(particles_distribute(p, work - sph->work, recut));
+    sph->work = work;
+    TRY(neighbours_build(&sph->neighbours, p, reach_of(sph, simulation), &simulation->mirrors,
+                         &sph->groups, simulation->threads));
+    sph->steps_since_build = 0;
+    simulation_spend(simulation, "neighbours", clock_seconds() - begin);
+    return ranks_agree(simulation->ranks, reserve_records(sph, simulation));
+}

@@ -1,0 +1,120 @@
+/* The pair loop of the second-order contact method.
+ *
+ * It differs from contact/kernel.h in three things. Velocity and stress are carried to the middle of a pair with limited
+ * slopes before they meet. A pair has an area vector a = (L_i + L_j)/2 e, with the inverse L of the kernel's second
+ * moment, which makes sums exact for linear fields; contacts are solved along n = a/|a|. And impedances are those of
+ * shocks. A neighbour is seen through its record:
+ *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] bend material [depth]
+ *   L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
+ * with stress as in record.h, velocity and stress half a step ahead, q' both of them a whole step, and `bend` rho times
+ * the slope of the shock curve (riemann/bend.h). Z_across is the shear impedance; of matter that has none, minus the
+ * share of compression in its velocity gradient.
+ *
+ * Of q, the first four or eight values (the most that there are) stand at the end of the record, a row for dq/dx, one
+ * for dq/dy, ..., one for q': the kernel takes these a neighbour at a time, a row in a register. All else stands in
+ * front of them and is taken eight neighbours at a time. */
+#ifndef BOLIDE_SPH_MUSCL_KERNEL_H
+#define BOLIDE_SPH_MUSCL_KERNEL_H
+
+#include "sph/contact/kernel.h"
+
+struct muscl_kind {
+    int dimension;
+    bool shear, depth; /* as in pair_kind */
+};
+
+/* Components of a symmetric tensor in DIMENSION dimensions. */
+BOLIDE_INLINE int tensor_components(int dimension) { return record_stresses(dimension, true); }
+
+/* Offsets in a record; up to the stress they are those of contact/kernel.h. */
+BOLIDE_INLINE int muscl_stresses(struct muscl_kind kind)
+{
+    return record_stresses(kind.dimension, kind.shear);
+}
+BOLIDE_INLINE int muscl_impedance(struct muscl_kind kind)
+{
+    return record_stress(kind.dimension) + muscl_stresses(kind);
+}
+BOLIDE_INLINE int muscl_bend(struct muscl_kind kind)
+{
+    return muscl_impedance(kind) + 1 + (kind.dimension > 1);
+}
+BOLIDE_INLINE int muscl_material(struct muscl_kind kind) { return muscl_bend(kind) + 1; }
+BOLIDE_INLINE int muscl_depth(struct muscl_kind kind) { return muscl_bend(kind) + 2; }
+BOLIDE_INLINE int muscl_correction(struct muscl_kind kind)
+{
+    return muscl_depth(kind) + kind.depth;
+}
+/* Values of q: velocity, then stress; how many of them stand in rows, and how many before. */
+BOLIDE_INLINE int muscl_values(struct muscl_kind kind)
+{
+    return kind.dimension + muscl_stresses(kind);
+}
+BOLIDE_INLINE int muscl_wide(struct muscl_kind kind) { return muscl_values(kind) / 4 * 4; }
+BOLIDE_INLINE int muscl_narrow(struct muscl_kind kind)
+{
+    return muscl_values(kind) - muscl_wide(kind);
+}
+BOLIDE_INLINE int muscl_narrow_rows(struct muscl_kind kind)
+{
+    return muscl_correction(kind) + tensor_components(kind.dimension);
+}
+/* Fields in front of the rows, a multiple of four. */
+BOLIDE_INLINE int muscl_fields(struct muscl_kind kind)
+{
+    return (muscl_narrow_rows(kind) + (kind.dimension + 1) * muscl_narrow(kind) + 3) / 4 * 4;
+}
+BOLIDE_INLINE int muscl_wide_rows(struct muscl_kind kind)
+{
+    return muscl_wide(kind) == 8 ? (muscl_fields(kind) + 7) / 8 * 8 : muscl_fields(kind);
+}
+/* Where dq/dx of value F stands; the same along the next axis, at last q', are a step further each. */
+BOLIDE_INLINE int muscl_slope(struct muscl_kind kind, int f)
+{
+    return f < muscl_wide(kind) ? muscl_wide_rows(kind) + f
+                                : muscl_narrow_rows(kind) + f - muscl_wide(kind);
+}
+BOLIDE_INLINE int muscl_slope_step(struct muscl_kind kind, int f)
+{
+    return f < muscl_wide(kind) ? muscl_wide(kind) : muscl_narrow(kind);
+}
+BOLIDE_INLINE int muscl_next(struct muscl_kind kind, int f)
+{
+    return muscl_slope(kind, f) + kind.dimension * muscl_slope_step(kind, f);
+}
+BOLIDE_INLINE int muscl_stride(struct muscl_kind kind)
+{
+    int used = muscl_wide_rows(kind) + (kind.dimension + 1) * muscl_wide(kind);
+    return (used + 7) / 8 * 8;
+}
+
+/* Sums for particle i, as contact/kernel.h has them, with a for W' e and L_i W' e in gradients. Beyond them: */
+struct muscl_rates {
+    struct pair_rates sums;
+    double *correction; /* L, 1, 3, 6 components */
+    /* For the next step, of what its values will be: dU^a/dx^b by rows, 1/s; of the record's stresses by direction, Pa/m */
+    double *velocity_gradient, *stress_gradient;
+    double (*force)[3]; /* likewise, on a unit of volume, N/m^3 */
+    /* Not on a line: what volumes fill of the space there is at the start, one at least, and what they do beyond; how
+     * thinly neighbours stand on some axis, at the start and now. */
+    double (*packing)[4];
+};
+
+struct muscl_loop {
+    struct muscl_kind kind;
+    const double *record; /* owned, ghosts, and one of zeros behind them */
+    int32_t empty;        /* index of the record of zeros */
+    const double *place;  /* of the same particles, as lanes.h has it */
+    double smoothing;
+    const struct neighbours *neighbours;
+    const struct contact_groups *groups;
+    const uint16_t *body;        /* of owned particles */
+    const double *density;       /* at level n */
+    const double (*velocity)[3]; /* at level n */
+    struct muscl_rates rates;
+};
+
+/* Fills the rates of particles begin .. end - 1 with the best instruction set of this processor. */
+void muscl_loop_run(const struct muscl_loop *loop, int32_t begin, int32_t end);
+
+#endif

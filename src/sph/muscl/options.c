@@ -1,0 +1,14 @@
+/* The options of second-order contact SPH, as a case names them. */
+#include "sph/muscl/muscl.h"
+
+const struct parameter muscl_table[] = {
+    {.key = "motion",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct muscl_options, motion),
+     .standard = PARAMETER_OPTIONAL,
+     .names = sph_motion_names,
+     .help = "what moves a particle; particle: its own velocity; contact: the kernel mean of its "
+             "contact velocities, in 1-D only; none: nothing, heat is conducted and that is all; "
+             "default contact in 1-D, particle in 2-D and 3-D"},
+    SPH_ENERGY_ROW(struct muscl_options),
+    PARAMETER_END};

@@ -1,0 +1,244 @@
+/* Records of second-order contact SPH: states half a step ahead, and their images; see kernel.h for the order. */
+#include <string.h>
+
+#include "sph/lanes.h"
+#include "sph/muscl/muscl.h"
+
+/* Rates of a particle at level n that follow from its slopes alone, which were found a step before. */
+struct expected {
+    double acceleration[3], gradient[3][3];
+};
+
+BOLIDE_INLINE struct expected expected_rates(const struct simulation *simulation,
+                                             const struct muscl_fields *f, struct muscl_kind kind,
+                                             int32_t i)
+{
+    const struct particles *p = &simulation->particles;
+    const int dimension = kind.dimension;
+    struct expected rates = {{0.0}, {{0.0}}};
+    if (body_is_frozen(simulation, p->body[i]))
+        return rates;
+    const double *g = f->own.velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
+    double force[3];
+    memcpy(force, f->own.force[i], sizeof force);
+    for (int a = 0; a < dimension; a++)
+        for (int b = 0; b < dimension; b++)
+            rates.gradient[a][b] = g[a * dimension + b];
+    if (kind.depth && sph_axisymmetric(simulation)) {
+        double radius = p->position[i][0];
+        force[0] += (p->deviator[i][0] - p->deviator[i][2]) / radius;
+        if (kind.shear)
+            force[1] += p->deviator[i][3] / radius;
+        rates.gradient[2][2] = p->velocity[i][0] / radius;
+    }
+    bool held = body_is_held(simulation, p->body[i]);
+    for (int a = 0; a < 3; a++)
+        rates.acceleration[a] = held ? 0.0 : force[a] / p->density[i] + simulation->gravity[a];
+    return rates;
+}
+
+/* The rarer kinds of strength, apart, so that their physics is not in the way of the others'. */
+static __attribute__((noinline)) void flow_rarely(const struct strength *strength,
+                                                  const struct motion *motion, double bulk,
+                                                  struct point *point)
+{
+    strength_step(strength, motion, bulk, point);
+}
+
+/* By how much velocity and stress of particle I change in half a step. The pressure follows the adiabat's slope, the
+ * deviator its law, plasticity included. */
+BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
+                                       const struct muscl_fields *f, struct muscl_kind kind,
+                                       double ahead, int32_t i, double velocity[3])
+{
+    const struct particles *p = &simulation->particles;
+    const struct strength *strength = &simulation->material[p->material[i]].strength;
+    const struct expected rates = expected_rates(simulation, f, kind, i);
+    const double(*u)[3] = rates.gradient, *s = p->deviator[i];
+    for (int axis = 0; axis < 3; axis++)
+        velocity[axis] = ahead * rates.acceleration[axis];
+    struct sym3 strain = {u[0][0],
+                          u[1][1],
+                          u[2][2],
+                          0.5 * (u[0][1] + u[1][0]),
+                          0.5 * (u[1][2] + u[2][1]),
+                          0.5 * (u[2][0] + u[0][2])};
+    const struct vec3 spin =
+        vec3_make(0.5 * (u[2][1] - u[1][2]), 0.5 * (u[0][2] - u[2][0]), 0.5 * (u[1][0] - u[0][1]));
+    struct sym3 start = {s[0], s[1], s[2], s[3], s[4], s[5]}, stress = start;
+    double shear_square = square(f->sph.sound_shear[i]),
+           sound_square = square(f->sph.sound_long[i]);
+    if (f->sph.thickness) /* no stress rate across the plate */
+        strain.zz = -(strain.xx + strain.yy) * (1.0 - 2.0 * shear_square / sound_square);
+    const double bulk = p->density[i] * (sound_square - 4.0 / 3.0 * shear_square);
+    if (strength->kind != STRENGTH_NONE) {
+        struct motion motion = {
+            .dt = ahead, .density = p->density[i], .strain_rate = strain, .spin = spin};
+        struct point point = {p->density[i], p->energy[i], p->pressure[i], start, {0.0}};
+        if (strength->kind == STRENGTH_perfect_plastic) {
+            strength_perfect_plastic(&strength->of.perfect_plastic, &motion, bulk, &point);
+        } else {
+            particle_load_history(p, i, point.history);
+            flow_rarely(strength, &motion, bulk, &point);
+        }
+        stress = point.deviator;
+    }
+    double pressure = ahead * bulk * sym3_trace(strain);
+    stress = sym3_add(stress, sym3_scale(-1.0, start));
+    stress.xx += pressure;
+    stress.yy += pressure;
+    stress.zz += pressure;
+    return stress;
+}
+
+/* Z_across. The share of compression is |div v|/(|div v| + |curl v|): near one in a shock, near zero where streams slide
+ * (Balsara, J. Comput. Phys. 121 (1995) 357). */
+BOLIDE_INLINE double across_impedance(const struct muscl_fields *f, struct muscl_kind kind,
+                                      double density, int32_t i)
+{
+    if (kind.shear && f->sph.sound_shear[i] > 0.0)
+        return density * f->sph.sound_shear[i];
+    const double tiny = 1e-100;
+    const double *g =
+        f->own.velocity_gradient + (size_t)i * (size_t)(kind.dimension * kind.dimension);
+    double divergence, curl;
+    if (kind.dimension == 2) {
+        divergence = fabs(g[0] + g[3]);
+        curl = fabs(g[2] - g[1]);
+    } else {
+        divergence = fabs(g[0] + g[4] + g[8]);
+        curl = sqrt(square(g[7] - g[5]) + square(g[2] - g[6]) + square(g[3] - g[1]));
+    }
+    return -(divergence + tiny) / (divergence + curl + tiny);
+}
+
+/* The record of particle I. */
+BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *simulation,
+                              const struct muscl_fields *f, struct muscl_kind kind, int32_t i,
+                              double *record)
+{
+    const struct particles *p = &simulation->particles;
+    const struct muscl_state *state = sph->state;
+    int dimension = kind.dimension, stresses = muscl_stresses(kind), k = 0;
+    double velocity[3];
+    const struct sym3 change = half_step_of(simulation, f, kind, sph->ahead, i, velocity);
+    const double *s = p->deviator[i], pressure = p->pressure[i];
+    for (int axis = 0; axis < dimension; axis++)
+        record[k++] = p->position[i][axis];
+    record[k++] = sph_support(&f->sph, i);
+    /* transmitting bodies take no part in the sums: see frozen.c */
+    record[k++] = body_is_frozen(simulation, p->body[i]) ? 0.0 : sph_volume(simulation, &f->sph, i);
+    for (int axis = 0; axis < dimension; axis++)
+        record[k++] = p->velocity[i][axis] + velocity[axis];
+    const double at[6] = {s[0] - pressure, s[1] - pressure, s[2] - pressure, s[3], s[4], s[5]};
+    const double by[6] = {change.xx, change.yy, change.zz, change.xy, change.yz, change.zx};
+    for (int a = 0; a < stresses; a++) {
+        int from = dimension == 2 && a == 2 ? 3 : a;
+        record[k++] = at[from] + by[from];
+    }
+    record[k++] = p->density[i] * f->sph.sound_long[i];
+    if (dimension > 1)
+        record[k++] = across_impedance(f, kind, p->density[i], i);
+    record[k++] = p->density[i] * state->bend[p->material[i]];
+    record[k++] = p->material[i];
+    if (kind.depth)
+        record[k++] = sph_depth(simulation, &f->sph, i);
+    size_t tensors = (size_t)tensor_components(dimension);
+    memcpy(record + k, f->own.correction + (size_t)i * tensors, tensors * sizeof *record);
+    k += (int)tensors;
+    const double *g = f->own.velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
+    const double *h = f->own.stress_gradient + (size_t)i * (size_t)(dimension * stresses);
+    for (int b = 0; b < dimension + stresses; b++) {
+        double *slope = record + muscl_slope(kind, b);
+        const int step = muscl_slope_step(kind, b), c = b - dimension;
+        for (int a = 0; a < dimension; a++)
+            slope[a * step] = c < 0 ? g[b * dimension + a] : h[a * stresses + c];
+        const int from = dimension == 2 && c == 2 ? 3 : c;
+        slope[dimension * step] =
+            c < 0 ? p->velocity[i][b] + 2.0 * velocity[b] : at[from] + 2.0 * by[from];
+    }
+}
+
+/* Turns the record of a particle into that of its image. */
+static void reflect(const struct sph *sph, const struct simulation *simulation, image_code image,
+                    double *record)
+{
+    const struct muscl_kind kind = muscl_kind_of(sph);
+    int dimension = kind.dimension, stresses = muscl_stresses(kind);
+    const struct vec3 sign = image_sign(image);
+    const double signs[3] = {sign.x, sign.y, sign.z};
+    const bool tensor = stresses > 1; /* a fluid's stress is one number */
+    sph_reflect_motion(simulation, image, record);
+    sph_reflect_tensor(dimension, sign, record + muscl_correction(kind));
+    if (tensor)
+        sph_reflect_tensor(dimension, sign, record + record_stress(dimension));
+    /* the slopes along each axis; behind them what comes after the step */
+    for (int a = 0; a <= dimension; a++) {
+        const double turned = a < dimension ? signs[a] : 1.0;
+        double value[3 + 6];
+        for (int b = 0; b < dimension + stresses; b++)
+            value[b] = turned * record[muscl_slope(kind, b) + a * muscl_slope_step(kind, b)];
+        for (int b = 0; b < dimension; b++)
+            value[b] *= signs[b];
+        if (tensor)
+            sph_reflect_tensor(dimension, sign, value + dimension);
+        for (int b = 0; b < dimension + stresses; b++)
+            record[muscl_slope(kind, b) + a * muscl_slope_step(kind, b)] = value[b];
+    }
+    if (sph_axisymmetric(simulation) && image % 3 == 1)
+        record[muscl_depth(kind)] *= -1.0;
+}
+
+/* Position and diameter of record I, where rows look. */
+BOLIDE_INLINE void place_record(const struct sph *sph, int dimension, int32_t i, size_t stride)
+{
+    memcpy(sph->place + (size_t)i * PLACE_STRIDE, sph->record + (size_t)i * stride,
+           (size_t)(dimension + 1) * sizeof(double));
+}
+
+/* All owned particles. KIND is a constant where this is inlined. */
+BOLIDE_INLINE void pack_all(const struct sph *sph, const struct simulation *simulation,
+                            const struct muscl_fields *f, struct muscl_kind kind)
+{
+    size_t stride = (size_t)muscl_stride(kind);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < simulation->particles.count; i++) {
+        pack_owned(sph, simulation, f, kind, i, sph->record + (size_t)i * stride);
+        place_record(sph, kind.dimension, i, stride);
+    }
+}
+
+#define PACK_KIND(name, ...)                                                     \
+    static void name(const struct sph *sph, const struct simulation *simulation, \
+                     const struct muscl_fields *f)                               \
+    {                                                                            \
+        const struct muscl_kind kind = {__VA_ARGS__};                            \
+        pack_all(sph, simulation, f, kind);                                      \
+    }
+PACK_KIND(pack_line, 1, false, false)
+PACK_KIND(pack_plane_fluid, 2, false, false)
+PACK_KIND(pack_plane_solid, 2, true, false)
+PACK_KIND(pack_deep_fluid, 2, false, true)
+PACK_KIND(pack_deep_solid, 2, true, true)
+PACK_KIND(pack_space_fluid, 3, false, false)
+PACK_KIND(pack_space_solid, 3, true, false)
+
+struct sph_records muscl_records(const struct sph *sph)
+{
+    return (struct sph_records){sph->record, sph->stride, reflect, sph->place};
+}
+
+void muscl_pack(struct sph *sph, const struct simulation *simulation)
+{
+    typedef void pack(const struct sph *, const struct simulation *, const struct muscl_fields *);
+    enum { DEEP = 3 }; /* after the dimensions */
+    static pack *const table[4][2] = {{pack_line, pack_line},
+                                      {pack_plane_fluid, pack_plane_solid},
+                                      {pack_space_fluid, pack_space_solid},
+                                      {pack_deep_fluid, pack_deep_solid}};
+    const struct muscl_fields f = muscl_fields_of(sph, simulation);
+    const struct muscl_kind kind = muscl_kind_of(sph);
+    const struct sph_records records = muscl_records(sph);
+    table[kind.depth ? DEEP : kind.dimension - 1][kind.shear](sph, simulation, &f);
+    sph_records_start(sph, simulation, &records);
+}

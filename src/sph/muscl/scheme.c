@@ -1,0 +1,198 @@
+/* The order of a step of second-order contact SPH, and what a case may ask of it. */
+#include "sph/muscl/muscl.h"
+
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "riemann/bend.h"
+#include "sph/lanes.h"
+#include "sph/prune.h"
+
+#define AT(member) .offset = offsetof(struct muscl_own_fields, member)
+
+const struct field_row muscl_rows[] = {
+    {.field = {"correction", NULL, "inverse second moment of the kernel", NUMBER_DOUBLE, 0,
+               FIELD_STATE},
+     .size = SPH_SIZE_TENSOR,
+     AT(correction)},
+    {.field = {"velocity_gradient", NULL, "gradient of velocity", NUMBER_DOUBLE, 0, FIELD_STATE},
+     .size = SPH_SIZE_GRADIENT,
+     AT(velocity_gradient)},
+    {.field = {"stress_gradient", NULL, "gradient of stress", NUMBER_DOUBLE, 0, FIELD_STATE},
+     .size = SPH_SIZE_STRESS_GRADIENT,
+     AT(stress_gradient)},
+    {.field = {"expected_force", "N/m^3", "force of the next step", NUMBER_DOUBLE, 3, FIELD_STATE},
+     .where = "method: muscl",
+     AT(force)},
+    FIELD_ROWS_END,
+};
+
+struct muscl_fields muscl_fields_of(const struct sph *sph, const struct simulation *simulation)
+{
+    struct muscl_fields fields = {.sph = sph_fields_of(sph, simulation)};
+    sph_bind_fields(sph, simulation, muscl_rows, &fields.own);
+    return fields;
+}
+
+/* What the loop over blocks needs: compressed lists are made on the way. */
+struct muscl_sweep {
+    struct muscl_loop pairs;
+    struct prune_loop prune;
+};
+
+static void rates_of_block(const void *of, const struct block *blocks, int32_t b)
+{
+    const struct muscl_sweep *sweep = of;
+    prune_loop_run(&sweep->prune, blocks, b);
+    muscl_loop_run(&sweep->pairs, blocks[b].first, blocks[b].first + blocks[b].count);
+}
+
+/* Pair sums of all particles, from records half of STEP ahead. */
+static void sum_pairs(struct sph *sph, struct simulation *simulation,
+                      const struct muscl_fields *fields, double step)
+{
+    const struct particles *p = &simulation->particles;
+    double begin = clock_seconds();
+    sph->ahead = 0.5 * step;
+    muscl_pack(sph, simulation);
+    simulation_spend(simulation, "records", clock_seconds() - begin);
+    begin = clock_seconds();
+    const struct sph_records records = muscl_records(sph);
+    const struct muscl_sweep sweep = {
+        .pairs = {.kind = muscl_kind_of(sph),
+                  .record = sph->record,
+                  .empty = p->count + sph->neighbours.ghosts.count,
+                  .place = sph->place,
+                  .smoothing = sph->parameters.smoothing,
+                  .neighbours = &sph->neighbours,
+                  .groups = &sph->groups,
+                  .body = p->body,
+                  .density = p->density,
+                  .velocity = (const double(*)[3])p->velocity,
+                  .rates = {fields->sph.rates, fields->own.correction,
+                            fields->own.velocity_gradient, fields->own.stress_gradient,
+                            fields->own.force, fields->sph.packing}},
+        .prune = {sph->record, (int)sph->stride, p->dimension, sph->place,
+                  sph->parameters.smoothing, &sph->neighbours}};
+    sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &sweep, 1});
+    sph->neighbours.prune = false;
+    frozen_push(sph, simulation, fields);
+    if (sph_axisymmetric(simulation))
+        sph_add_hoop(sph, simulation, &fields->sph);
+    simulation_spend(simulation, "pairs", clock_seconds() - begin);
+}
+
+static struct limit limit_of_particle(const struct sph *sph, const struct simulation *simulation,
+                                      const void *context, int32_t i)
+{
+    const struct muscl_fields *f = context;
+    return sph_courant_limit(sph, &f->sph, muscl_divergence(simulation, f, i), i);
+}
+
+/* The step is chosen from the rates of the step before, as the records are. The first step has none: its first sums only
+ * provide them. */
+static void prepare(struct sph *sph, struct simulation *simulation, struct limit *limit)
+{
+    const struct muscl_fields fields = muscl_fields_of(sph, simulation);
+    for (int round = simulation->step == 0 ? 0 : 1; round < 2; round++) {
+        const double begin = clock_seconds();
+        *limit = sph_smallest_limit(sph, simulation, limit_of_particle, &fields);
+        simulation_spend(simulation, "points", clock_seconds() - begin);
+        sum_pairs(sph, simulation, &fields, limit->dt);
+    }
+}
+
+static struct error *advance(struct sph *sph, struct simulation *simulation, double dt)
+{
+    const struct sph_fields fields = sph_fields_of(sph, simulation);
+    const double begin = clock_seconds();
+    if (!sph_has(sph, SPH_STILL))
+        frozen_book(sph, simulation, dt);
+    struct error *error = sph_update(sph, simulation, &fields, dt);
+    simulation_spend(simulation, "points", clock_seconds() - begin);
+    return error;
+}
+
+static void start(const struct sph *sph, struct simulation *simulation)
+{
+    const struct muscl_fields f = muscl_fields_of(sph, simulation);
+    int dimension = simulation->dimension, tensors = tensor_components(dimension);
+    for (int32_t i = 0; i < simulation->particles.count; i++) {
+        double *l = f.own.correction + (size_t)i * (size_t)tensors;
+        for (int a = 0; a < dimension && l[0] == 0.0; a++) /* fresh */
+            l[dimension - 1 - a] = 1.0;
+    }
+    sph_evaluate(sph, simulation);
+}
+
+static struct error *refuse(const struct sph *sph, const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    const struct muscl_options *options = sph->parameters.method.value;
+    struct error *error = NULL;
+    if (options->motion == SPH_MOTION_CONTACT && simulation->dimension > 1)
+        error =
+            sph_option_error(sph, input, "motion",
+                             "muscl moves particles with their contacts in 1-D only: leave this "
+                             "out, or use `method: contact`");
+    for (int c = 0; c < input->contacts.count; c++)
+        for (int side = 0; side < 2; side++)
+            if (case_body(input, case_contact(input, c)->body[side])->frozen)
+                error = error_join(
+                    error, input_error(input, "contacts", input->contacts.names[c],
+                                       "with muscl a frozen body sticks to what it touches"));
+    return error;
+}
+
+static struct error *create(struct sph *sph, const struct simulation *simulation)
+{
+    struct muscl_state *state = sph->state;
+    TRY(refuse(sph, simulation));
+    state->kind =
+        (struct muscl_kind){simulation->dimension, sph_has(sph, SPH_SHEAR), sph_deep(simulation)};
+    for (int m = 0; m < simulation->materials; m++)
+        state->bend[m] = riemann_shock_slope(&simulation->material[m]);
+    sph->stride = (size_t)muscl_stride(state->kind);
+    sph->places = true;
+    return NULL;
+}
+
+static void destroy(struct sph *sph)
+{
+    struct muscl_state *state = sph->state;
+    free(state->end);
+}
+
+/* In 1-D density and spacing must not drift apart; in 2-D and 3-D a mean of contact velocities would smear jets. */
+static unsigned traits_of(const void *of, int dimension)
+{
+    const struct muscl_options *options = of;
+    const int motion = options->motion >= 0 ? options->motion
+                       : dimension == 1     ? SPH_MOTION_CONTACT
+                                            : SPH_MOTION_PARTICLE;
+    return sph_traits_of(motion, options->energy) | SPH_FINITE_STRAIN |
+           (dimension > 1 ? SPH_PACKING : 0u);
+}
+
+static size_t stride_of(const void *options, int dimension)
+{
+    (void)options;
+    return (size_t)muscl_stride((struct muscl_kind){dimension, dimension > 1, false}) +
+           PLACE_STRIDE;
+}
+
+const struct sph_scheme muscl_scheme = {.name = "muscl",
+                                        .smoothing = 1.0,
+                                        .courant = 0.4,
+                                        .courant_limit = 0.45,
+                                        .conducts = true,
+                                        .state_size = sizeof(struct muscl_state),
+                                        .rows = muscl_rows,
+                                        .traits = traits_of,
+                                        .stride = stride_of,
+                                        .create = create,
+                                        .start = start,
+                                        .rebuilt = frozen_find,
+                                        .prepare = prepare,
+                                        .advance = advance,
+                                        .destroy = destroy};

@@ -1,0 +1,72 @@
+/* Records of the particles that a rank does not own: mirror images and other ranks' particles. They follow those of the
+ * owned particles; images of owned particles are made while those of other ranks are on their way. */
+#include <string.h>
+
+#include "sph/lanes.h"
+#include "sph/scheme.h"
+
+void sph_reflect_motion(const struct simulation *simulation, image_code image, double *record)
+{
+    int dimension = simulation->dimension;
+    struct vec3 sign = image_sign(image);
+    double x[3] = {0.0, 0.0, 0.0}, signs[3] = {sign.x, sign.y, sign.z};
+    memcpy(x, record, (size_t)dimension * sizeof *x);
+    struct vec3 place = image_position(&simulation->mirrors, image, vec3_make(x[0], x[1], x[2]));
+    double at[3] = {place.x, place.y, place.z};
+    double *velocity = record + record_velocity(dimension);
+    assert(dimension <= 3);
+    for (int axis = 0; axis < dimension; axis++) {
+        record[axis] = at[axis];
+        velocity[axis] *= signs[axis];
+    }
+}
+
+/* Copies position and diameter of the records of ghosts BEGIN .. END - 1. */
+static void copy_places(const struct simulation *simulation, const struct sph_records *records,
+                        int32_t begin, int32_t end)
+{
+    const size_t count = (size_t)simulation->particles.count, stride = records->stride;
+    const size_t bytes = (size_t)(simulation->dimension + 1) * sizeof(double);
+    if (!records->place)
+        return;
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t g = begin; g < end; g++)
+        memcpy(records->place + (count + (size_t)g) * PLACE_STRIDE,
+               records->first + (count + (size_t)g) * stride, bytes);
+}
+
+/* The records of ghosts BEGIN .. END - 1, which are images. */
+static void make_images(struct sph *sph, const struct simulation *simulation,
+                        const struct sph_records *records, int32_t begin, int32_t end)
+{
+    const struct ghosts *ghosts = &sph->neighbours.ghosts;
+    const size_t count = (size_t)simulation->particles.count, stride = records->stride;
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t g = begin; g < end; g++) {
+        double *record = records->first + (count + (size_t)g) * stride;
+        memcpy(record, records->first + (size_t)ghosts->source[g] * stride,
+               stride * sizeof *record);
+        records->reflect(sph, simulation, ghosts->image[g], record);
+    }
+    copy_places(simulation, records, begin, end);
+}
+
+double *sph_records_start(struct sph *sph, const struct simulation *simulation,
+                          const struct sph_records *records)
+{
+    struct ghosts *ghosts = &sph->neighbours.ghosts;
+    const int32_t count = simulation->particles.count;
+    ghosts_start(ghosts, records->first, count, records->stride * sizeof(double));
+    make_images(sph, simulation, records, ghosts->remotes, ghosts->early);
+    double *empty = records->first + (size_t)(count + ghosts->count) * records->stride;
+    return memset(empty, 0, records->stride * sizeof *empty);
+}
+
+void sph_records_finish(struct sph *sph, const struct simulation *simulation,
+                        const struct sph_records *records)
+{
+    struct ghosts *ghosts = &sph->neighbours.ghosts;
+    ghosts_finish(ghosts);
+    copy_places(simulation, records, 0, ghosts->remotes);
+    make_images(sph, simulation, records, ghosts->early, ghosts->count);
+}
