@@ -4,6 +4,7 @@
 #define BOLIDE_SOLVER_H
 
 #include "model/views.h"
+#include "particle/field_rows.h"
 
 /* The largest step, what limits it, and the id of the particle where. */
 struct limit {
@@ -32,7 +33,9 @@ struct solver_class {
     /* The step that a particle of DIAMETER allows in state POINT at the start, for `bolide check`. */
     double (*step)(const void *parameters, int dimension, const struct material *material,
                    const struct point *point, double diameter);
-    /* Every field that it may add to the store, for help; NULL behind the last. */
+    /* Every field that it may add to the store: tables of rows, NULL after the last table. */
+    const struct field_row *const *fields;
+    /* The same one by one, of a solver without such tables; NULL after the last. */
     const struct field_declaration *(*field)(int index);
 };
 

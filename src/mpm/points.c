@@ -4,10 +4,10 @@
 #include "mpm/mpm_internal.h"
 #include "mpm/point_kernel.h"
 
-void mpm_evaluate(struct simulation *simulation)
+void mpm_evaluate(const struct mpm *mpm, struct simulation *simulation)
 {
     struct particles *p = &simulation->particles;
-    double *sound = particles_field(p, "sound_long");
+    double *sound = mpm_fields_of(mpm, simulation).sound_long;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
         struct point point = {.density = p->density[i], .energy = p->energy[i]};
@@ -79,14 +79,15 @@ static struct point_loop loop_of(const struct mpm *mpm, const struct simulation 
                                  double dt, const double *rate)
 {
     const struct particles *p = &simulation->particles;
+    const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
     return (struct point_loop){.density = p->density,
                                .energy = p->energy,
                                .pressure = p->pressure,
                                .deviator = p->deviator,
                                .plastic_strain = p->plastic_strain,
                                .plastic_heating = p->history[HISTORY_plastic_heating],
-                               .sound = particles_field(p, "sound_long"),
-                               .viscosity = particles_field(p, "viscosity"),
+                               .sound = fields.sound_long,
+                               .viscosity = fields.viscosity,
                                .position = (const double(*)[3])p->position,
                                .velocity = (const double(*)[3])p->velocity,
                                .rate = rate,
