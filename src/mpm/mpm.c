@@ -1,5 +1,5 @@
-/* The material point method as the run loop sees it: its fields, its parts from create to destroy, and
- * the forecast of `bolide check`. The step itself is in step.c. */
+/* The material point method as the run loop sees it: its fields, its parts from create to
+ * destroy, and the forecast of `bolide check`. The step itself is in step.c. */
 #include "mpm/mpm.h"
 
 #include <stdlib.h>

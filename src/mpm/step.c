@@ -117,7 +117,8 @@ static bool has_left(const struct mpm *mpm, const struct simulation *simulation)
     return away;
 }
 
-/* Particles into cells, on the ranks that own these; where the case has space divided anew, that is done here. */
+/* Particles into cells, on the ranks that own these; where the case has space divided anew, that
+ * is done here. */
 static struct error *place_particles(struct mpm *mpm, struct simulation *simulation)
 {
     struct particles *p = &simulation->particles;
@@ -239,7 +240,8 @@ struct error *mpm_prepare(void *solver, struct simulation *simulation, struct li
     return NULL;
 }
 
-/* New velocities of all particles from their nodes; with SCATTER their momentum goes back to nodes. */
+/* New velocities of all particles from their nodes; with SCATTER their momentum goes back to
+ * nodes. */
 static void find_velocities(struct mpm *mpm, struct simulation *simulation, double dt, bool scatter,
                             bool move)
 {
@@ -262,8 +264,9 @@ static void find_velocities(struct mpm *mpm, struct simulation *simulation, doub
     simulation_spend(simulation, "velocities", clock_seconds() - begin);
 }
 
-/* New states of all particles of a layer from nodal velocities: those of the second field or, with OF_MAIN, of the first.
- * *FAILED becomes the one with the smallest id whose state is impossible, if that is smaller than the one that was there. */
+/* New states of all particles of a layer from nodal velocities: those of the second field or,
+ * with OF_MAIN, of the first. *FAILED becomes the one with the smallest id whose state is
+ * impossible, if that is smaller than the one that was there. */
 static void find_states(struct mpm *mpm, struct simulation *simulation, struct layer *layer,
                         double dt, bool of_main, bool move, int32_t *failed)
 {
@@ -296,8 +299,8 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
     }
 }
 
-/* The same of all layers, from velocities that particles have mapped back, from those at the end of the step, or with
- * FIRST from those at its begin. */
+/* The same of all layers, from velocities that particles have mapped back, from those at the end
+ * of the step, or with FIRST from those at its begin. */
 static struct error *update_states(struct mpm *mpm, struct simulation *simulation, double dt,
                                    bool first)
 {
