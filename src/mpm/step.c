@@ -196,32 +196,33 @@ static struct error *sum_particles(struct mpm *mpm, struct simulation *simulatio
     return ranks_agree(simulation->ranks, error);
 }
 
+/* What may limit the step. */
+enum { LIMIT_SOUND, LIMIT_VELOCITY };
+static const char *const limit_reasons[] = {"sound speed", "velocity"};
+
 /* Collective: dt = K min h/(c + max |u_i|), of equal ones that of the smallest id. */
 static struct limit limit_step(const struct mpm *mpm, const struct simulation *simulation)
 {
     const struct particles *p = &simulation->particles;
     const double *sound = mpm_fields_of(mpm, simulation).sound_long;
-    struct limit smallest = {(double)INFINITY, "sound speed", 0};
+    struct ranked first = {(double)INFINITY, UINT64_MAX, LIMIT_SOUND};
 #pragma omp parallel num_threads(simulation->threads)
     {
-        struct limit own = smallest;
+        struct ranked own = first;
 #pragma omp for schedule(static)
         for (int32_t i = 0; i < p->count; i++) {
             const double *u = p->velocity[i];
             const double fast = maximum(fabs(u[0]), maximum(fabs(u[1]), fabs(u[2])));
-            const double dt = mpm->parameters.courant * mpm->edge / (sound[i] + fast);
-            if (dt < own.dt || (dt == own.dt && p->id[i] < own.id) || isnan(dt)) {
-                own.dt = dt;
-                own.id = p->id[i];
-                own.why = fast > sound[i] ? "velocity" : "sound speed";
-            }
+            const struct ranked one = {mpm->parameters.courant * mpm->edge / (sound[i] + fast),
+                                       p->id[i], fast > sound[i] ? LIMIT_VELOCITY : LIMIT_SOUND};
+            if (ranked_before(&one, &own))
+                own = one;
         }
 #pragma omp critical(bolide_mpm_limit)
-        if (own.dt < smallest.dt || (own.dt == smallest.dt && own.id < smallest.id))
-            smallest = own;
+        if (ranked_before(&own, &first))
+            first = own;
     }
-    const double dt = ranks_minimum(simulation->ranks, smallest.dt);
-    return smallest.dt > dt ? (struct limit){dt, "another rank", UINT64_MAX} : smallest;
+    return limit_of_ranks(simulation->ranks, first, limit_reasons);
 }
 
 struct error *mpm_prepare(void *solver, struct simulation *simulation, struct limit *limit)
