@@ -1,7 +1,7 @@
 # Thin front doors to scripts/ and CMake.
 prefix ?= /usr/local
 
-.PHONY: help demo build test bench docs install package format lint fuzz clean
+.PHONY: help demo build test bench docs install package format lint fuzz check-device clean
 
 help:
 	@echo "make demo     install what is missing, build, run a case worth looking at"
@@ -14,6 +14,7 @@ help:
 	@echo "make format   lay out the sources by .clang-format"
 	@echo "make lint     what clang-tidy and cppcheck find in the sources"
 	@echo "make fuzz     ten minutes of odd cases for the reader (libFuzzer)"
+	@echo "make check-device  compile the physics and the kernel bodies as CUDA device code, where nvcc is"
 	@echo "make clean    remove build/ and results/"
 
 demo:
@@ -53,6 +54,9 @@ lint:
 
 fuzz:
 	@scripts/fuzz
+
+check-device:
+	@scripts/check-device
 
 clean:
 	rm -rf build results

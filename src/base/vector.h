@@ -44,6 +44,23 @@ BOLIDE_INLINE struct vec3 vec3_cross(struct vec3 a, struct vec3 b)
     return vec3_make(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
+/* From and to six numbers in memory. */
+BOLIDE_INLINE struct sym3 sym3_make(const double *of)
+{
+    struct sym3 s = {of[0], of[1], of[2], of[3], of[4], of[5]};
+    return s;
+}
+
+BOLIDE_INLINE void sym3_store(struct sym3 s, double *to)
+{
+    to[0] = s.xx;
+    to[1] = s.yy;
+    to[2] = s.zz;
+    to[3] = s.xy;
+    to[4] = s.yz;
+    to[5] = s.zx;
+}
+
 BOLIDE_INLINE double sym3_trace(struct sym3 s) { return s.xx + s.yy + s.zz; }
 
 /* The double contraction s:s over all nine components. */

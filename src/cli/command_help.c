@@ -103,53 +103,119 @@ static void print_units(void)
     printf("joined by * / ^ and whole numbers: kg/m^3, J/(kg*K), mm/us\n");
 }
 
-static void print_view(const struct view *view)
+/* A line about a field; WHERE says when the store has it, NULL: always. */
+static void print_field(const struct field_declaration *field, const char *where)
 {
-    printf("  %-22s  %-16s  %s%s\n", view->name, view->unit[0] ? view->unit : "number",
-           view->help ? view->help : "",
-           view->components == 3   ? ": .x .y .z"
-           : view->components == 6 ? ": .xx .yy .zz .xy .yz .zx"
-                                   : "");
+    printf("  %-22s  %-16s  %s%s", field->name, field->unit[0] ? field->unit : "number",
+           field->help ? field->help : "",
+           field->components == 3   ? ": .x .y .z"
+           : field->components == 6 ? ": .xx .yy .zz .xy .yz .zx"
+                                    : "");
+    if (where)
+        printf(" (%s)", where);
+    printf("\n");
 }
 
-/* What the particles show: the core's fields, then those that a solver adds. */
+/* A field that a solver shows. */
+struct shown {
+    struct field_declaration field;
+    const char *where;
+};
+enum { SHOWN_MAX = 64 };
+
+static int fields_of_solver(const struct solver_class *class, struct shown *shown)
+{
+    int count = 0;
+    for (const struct field_row *const *table = class->fields; table && *table; table++)
+        for (const struct field_row *row = *table; row->field.name; row++)
+            if (row->field.unit && count < SHOWN_MAX)
+                shown[count++] = (struct shown){row->field, row->where};
+    return count;
+}
+
+static bool lists(const struct solver_class *class, const struct shown *one)
+{
+    struct shown shown[SHOWN_MAX];
+    const int count = fields_of_solver(class, shown);
+    for (int k = 0; k < count; k++)
+        if (!strcmp(shown[k].field.name, one->field.name) && !shown[k].where == !one->where &&
+            (!one->where || !strcmp(shown[k].where, one->where)))
+            return true;
+    return false;
+}
+
+static bool every_solver_lists(const struct choice_list *solvers, const struct shown *one)
+{
+    for (int i = 0; i < solvers->count; i++)
+        if (!lists(solvers->choices[i].thing, one))
+            return false;
+    return true;
+}
+
+/* The fields of solver INDEX that all solvers have, or with OWN the others, under HEADING; KNOWN are
+ * listed already. */
+static void print_solver_fields(const struct choice_list *solvers, int index, bool own,
+                                const char *heading, const struct views *known)
+{
+    struct shown shown[SHOWN_MAX];
+    const int count = fields_of_solver(solvers->choices[index].thing, shown);
+    int component;
+    bool started = false;
+    for (int k = 0; k < count; k++) {
+        if (every_solver_lists(solvers, &shown[k]) == own ||
+            views_find(known, shown[k].field.name, &component))
+            continue;
+        if (!started)
+            printf("with %s%s:\n", heading, own ? solvers->choices[index].name : "");
+        started = true;
+        print_field(&shown[k].field, shown[k].where);
+    }
+}
+
+/* What all particles show: the core's fields, and views of them. */
+static struct error *print_common_fields(struct simulation *empty, struct views *views)
+{
+    empty->materials = 1;
+    empty->material[0].heat.capacity = 1.0; /* of an ideal gas: there is a temperature */
+    TRY(particles_create(3, 1.0, NULL, 0, &empty->particles));
+    views_of_particles(views, empty);
+    printf("fields of the particles, for checks and output.pictures:\n");
+    for (int i = 0; i < views->count; i++) {
+        const struct view *view = &views->view[i];
+        print_field(&(struct field_declaration){.name = view->name,
+                                                .unit = view->unit,
+                                                .help = view->help,
+                                                .components = view->components},
+                    NULL);
+    }
+    return NULL;
+}
+
+/* The common fields, those of materials, then those that a solver adds. */
 static struct error *print_fields(void)
 {
     const struct choice_list *solvers = catalogue_list(&bolide_catalogue, "solver");
-    struct simulation *empty = memory_allocate(sizeof *empty);
     const struct simulation_case no_case = {0};
+    struct simulation *empty = memory_allocate(sizeof *empty);
     struct views views = {0};
     if (!empty)
         return error_new(ERROR_SYSTEM, "out of memory");
     empty->input = &no_case;
-    empty->materials = 1;
-    empty->material[0].heat.capacity = 1.0; /* of an ideal gas: there is a temperature */
-    struct error *error = particles_create(3, 1.0, NULL, 0, &empty->particles);
+    struct error *error = print_common_fields(empty, &views);
     if (!error) {
-        printf("fields of the particles, for checks and output.pictures:\n");
-        views_of_particles(&views, empty);
-        for (int i = 0; i < views.count; i++)
-            print_view(&views.view[i]);
         printf("where a material has it:\n");
         for (int slot = 1; slot < POINT_HISTORY; slot++) /* the first is the core's */
-            print_view(&(struct view){.name = history_slots[slot].name,
-                                      .unit = history_slots[slot].unit,
-                                      .help = history_slots[slot].help,
-                                      .components = 1});
-        for (int i = 0; i < solvers->count; i++) {
-            const struct solver_class *class = solvers->choices[i].thing;
-            const struct field_declaration *field;
-            printf("with the solver %s:\n", solvers->choices[i].name);
-            for (int k = 0; class->field && (field = class->field(k)); k++)
-                if (field->unit)
-                    print_view(&(struct view){.name = field->name,
-                                              .unit = field->unit,
-                                              .help = field->help,
-                                              .components = field->components});
-        }
+            print_field(&(struct field_declaration){.name = history_slots[slot].name,
+                                                    .unit = history_slots[slot].unit,
+                                                    .help = history_slots[slot].help,
+                                                    .components = 1},
+                        NULL);
+        print_solver_fields(solvers, 0, false, "every solver", &views);
+        for (int i = 0; i < solvers->count; i++)
+            print_solver_fields(solvers, i, true, "the solver ", &views);
         printf("pictures also take material and body\n");
-        particles_destroy(&empty->particles);
     }
+    particles_destroy(&empty->particles);
     free(empty);
     return error;
 }

@@ -3,29 +3,18 @@
 
 #include "base/isa.h"
 #include "base/lanes.h"
-#include "parallel/block.h"
 
 enum { CHUNK = 64 };
 
-INLINE void find(const struct cell_loop *loop, int dimension, const double corner[3], int32_t begin,
-                 int32_t end, uint8_t *cell)
+BOLIDE_INLINE void find(const struct cell_loop *loop, int dimension, const double corner[3],
+                        int32_t begin, int32_t end, uint8_t *cell)
 {
-    const double cells = block_cells(dimension);
     for (int32_t first = begin; first < end; first += CHUNK) {
         const int count = end - first < CHUNK ? end - first : CHUNK;
         const double(*position)[3] = loop->position + first;
         ALIGNED double number[CHUNK];
-        for (int k = 0; k < count; k++) {
-            double sum = 0.0, away = 0.0;
-            for (int axis = 0; axis < dimension; axis++) {
-                const double index = floor(position[k][axis] / loop->edge);
-                const double at =
-                    minimum(maximum(index, loop->low[axis]), loop->high[axis]) - corner[axis];
-                sum = sum * cells + at;
-                away += fabs(at - 0.5 * (cells - 1.0)) < 0.5 * cells ? 0.0 : 1.0;
-            }
-            number[k] = away > 0.0 ? (double)CELL_ELSEWHERE : sum;
-        }
+        for (int k = 0; k < count; k++)
+            number[k] = cell_number(loop, dimension, corner, position[k]);
         for (int k = 0; k < count; k++)
             cell[first + k] = (uint8_t)(int)number[k];
     }

@@ -13,6 +13,16 @@ struct limit {
     uint64_t id;
 };
 
+/* Collective: the limit of the particle that comes first of all ranks (ranked_before); what OWN says
+ * of the rank's own first one is an index of REASONS. */
+BOLIDE_INLINE struct limit limit_of_ranks(const struct ranks *ranks, struct ranked own,
+                                          const char *const *reasons)
+{
+    ranks_first(ranks, &own);
+    const struct limit limit = {own.value, reasons[own.what], own.id};
+    return limit;
+}
+
 struct solver_class {
     size_t size; /* bytes of the solver's own state, zeroed before create */
     /* Makes the store (particles_create) with its fields, from the case's parameters PARAMETERS. The

@@ -191,7 +191,7 @@ void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double 
 {
     if (simulation->geometry != GEOMETRY_AXISYMMETRIC)
         return;
-    const struct hoop hoop = {mpm->gauge, particles_field(&simulation->particles, "viscosity"), dt};
+    const struct hoop hoop = {mpm->gauge, mpm_fields_of(mpm, simulation).viscosity, dt};
     act_on_particles(simulation, is_free, book_hoop, &hoop);
     for (int g = 0; g < mpm->layers; g++) {
         const struct layer *layer = &mpm->layer[g];
@@ -211,7 +211,7 @@ void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double 
 void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulation)
 {
     const struct particles *p = &simulation->particles;
-    double(*gradient)[9] = particles_field(p, "velocity_gradient");
+    double(*gradient)[9] = mpm_fields_of(mpm, simulation).velocity_gradient;
     assert(simulation->dimension <= 3);
     for (int32_t i = 0; i < p->count; i++) {
         const struct field_list *velocity = &case_body(simulation->input, p->body[i])->velocity;

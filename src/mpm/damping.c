@@ -82,7 +82,7 @@ static void damp_bin(const struct mpm *mpm, struct simulation *simulation, struc
                      int32_t b, double dt)
 {
     const struct bin *bin = &layer->bins.bin[b];
-    const double *sound = particles_field(&simulation->particles, "sound_long");
+    const double *sound = mpm_fields_of(mpm, simulation).sound_long;
     double *nodes = grid_patch(&layer->grid, &layer->main, b),
            *patch = grid_patch(&layer->grid, &layer->back, b);
     grid_spread(&layer->grid, &layer->main, b);

@@ -74,6 +74,23 @@ struct mpm {
     double work; /* seconds that this rank's particles have taken since they were distributed */
 };
 
+/* Whether particles carry a gradient of velocity. */
+BOLIDE_INLINE bool mpm_is_affine(const struct mpm *mpm)
+{
+    return mpm->parameters.transfer != MPM_FLIP;
+}
+
+/* The step, as struct solver_class has it. */
+struct error *mpm_prepare(void *solver, struct simulation *simulation, struct limit *limit);
+struct error *mpm_advance(void *solver, struct simulation *simulation, double dt);
+
+/* The fields that MPM adds to the store, as its rows (mpm.c) point to them. */
+struct mpm_fields {
+    double *sound_long, *viscosity;
+    double (*velocity_gradient)[9]; /* NULL: particles carry none */
+};
+struct mpm_fields mpm_fields_of(const struct mpm *mpm, const struct simulation *simulation);
+
 /* Whether a bin belongs to another rank, which has its particles. */
 BOLIDE_INLINE bool mpm_is_far(const struct mpm *mpm, const struct layer *layer, int32_t bin)
 {
@@ -171,6 +188,6 @@ int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
                           const struct layer *layer, int32_t bin, double dt, const double *rate);
 
 /* Pressure and sound speeds of all particles as they stand. */
-void mpm_evaluate(struct simulation *simulation);
+void mpm_evaluate(const struct mpm *mpm, struct simulation *simulation);
 
 #endif

@@ -91,16 +91,16 @@ static struct given by_outflow(const struct mpm *mpm, const struct simulation *s
                                const struct surface *surface, int32_t i)
 {
     const struct particles *p = &simulation->particles;
-    const double *sound = particles_field(p, "sound_long"), *q = particles_field(p, "viscosity");
+    const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
     const double gauge = mpm->gauge[p->material[i]], volume = p->mass[i] / p->density[i];
     const double sign = surface->outflow->side == WALL_HIGH ? 1.0 : -1.0;
     const int axis = surface->axis;
     struct given given = {{{0.0}}};
     given.by_slope[FACE_AREA][axis] = sign * volume;
-    given.by_slope[FACE_IMPEDANCE][axis] = sign * p->mass[i] * sound[i];
+    given.by_slope[FACE_IMPEDANCE][axis] = sign * p->mass[i] * fields.sound_long[i];
     given.by_slope[FACE_PUSH][axis] =
         isnan(surface->outflow->pressure)
-            ? sign * volume * (p->pressure[i] + q[i] - gauge - p->deviator[i][axis])
+            ? sign * volume * (p->pressure[i] + fields.viscosity[i] - gauge - p->deviator[i][axis])
             : sign * volume * (surface->outflow->pressure - gauge);
     return given;
 }

@@ -7,12 +7,13 @@
 
 /* The fields of the particles, and their rates: component c of the k-th of the bin is rate[c * rate_stride + k]. */
 struct point_loop {
-    double *density, *energy, *pressure, (*deviator)[6], *plastic_strain, *plastic_heating;
+    double *density, *energy, *pressure, (*deviator)[6];
+    double *history[POINT_HISTORY]; /* by slot, NULL where the store has none */
     double *sound, *viscosity;
     const double (*position)[3], (*velocity)[3];
     const double *rate;
     size_t rate_stride;
-    double dt, edge, viscosity_quadratic, viscosity_linear;
+    double dt, time, edge, viscosity_quadratic, viscosity_linear; /* time: at the end of the step */
     bool jaumann;
 };
 

@@ -1,13 +1,14 @@
 /* What happens to a particle on its own: its state from the strain of the step. Source: Cui, dissertation (2014), (2-18)
  * to (2-21); the energy of a step as the public codes of the same group have it. */
-#include "material/batch.h"
-#include "mpm/mpm_internal.h"
-#include "mpm/point_kernel.h"
+#include <string.h>
 
-void mpm_evaluate(struct simulation *simulation)
+#include "mpm/mpm_internal.h"
+#include "mpm/point_body.h"
+
+void mpm_evaluate(const struct mpm *mpm, struct simulation *simulation)
 {
     struct particles *p = &simulation->particles;
-    double *sound = particles_field(p, "sound_long");
+    double *sound = mpm_fields_of(mpm, simulation).sound_long;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
         struct point point = {.density = p->density[i], .energy = p->energy[i]};
@@ -16,52 +17,6 @@ void mpm_evaluate(struct simulation *simulation)
         p->pressure[i] = point.pressure;
         sound[i] = r.sound_long;
     }
-}
-
-/* Brings particle I, number K of its bin, of a material that batches do not know to the next level. LENGTH is its size at
- * the start. */
-static void update_point(const struct point_loop *loop, const struct simulation *simulation,
-                         const struct material *material, int32_t i, int32_t k, double length)
-{
-    const struct particles *p = &simulation->particles;
-    double *s = p->deviator[i], rate[RATES];
-    for (int c = 0; c < RATES; c++)
-        rate[c] = loop->rate[(size_t)c * loop->rate_stride + (size_t)k];
-    struct motion motion = {
-        .dt = loop->dt,
-        .time = simulation->time + loop->dt,
-        .length = length,
-        .strain_rate = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]},
-        .spin = vec3_make(rate[RATE_SPIN], rate[RATE_SPIN + 1], rate[RATE_SPIN + 2])};
-    const double divergence = rate[0] + rate[1] + rate[2];
-    motion.density = p->density[i] / (1.0 + loop->dt * divergence); /* (2-20) */
-    struct point point = {.density = p->density[i],
-                          .energy = p->energy[i],
-                          .pressure = p->pressure[i],
-                          .deviator = {s[0], s[1], s[2], s[3], s[4], s[5]}};
-    particle_load_history(p, i, point.history);
-    /* an explosive that has yet to burn has no viscosity */
-    const bool inert = material_burns(material) && point.history[HISTORY_burnt] == 0.0;
-    const double viscosity =
-        inert ? 0.0 : point_viscosity(loop, motion.density, loop->sound[i], divergence);
-    motion.viscous_pressure = 0.5 * (loop->viscosity[i] + viscosity);
-    if (loop->jaumann) {
-        point.deviator = jaumann_turn(point.deviator, vec3_scale(loop->dt, motion.spin));
-        motion.spin = vec3_make(0.0, 0.0, 0.0);
-    }
-    const struct response r = material_step_by_work(material, &point, &motion);
-    p->density[i] = point.density;
-    p->energy[i] = point.energy;
-    p->pressure[i] = point.pressure;
-    particle_keep_history(p, i, point.history);
-    loop->viscosity[i] = viscosity;
-    loop->sound[i] = r.sound_long;
-    s[0] = point.deviator.xx;
-    s[1] = point.deviator.yy;
-    s[2] = point.deviator.zz;
-    s[3] = point.deviator.xy;
-    s[4] = point.deviator.yz;
-    s[5] = point.deviator.zx;
 }
 
 void mpm_keep_before_walls(const struct simulation *simulation, double x[3])
@@ -79,23 +34,25 @@ static struct point_loop loop_of(const struct mpm *mpm, const struct simulation 
                                  double dt, const double *rate)
 {
     const struct particles *p = &simulation->particles;
-    return (struct point_loop){.density = p->density,
-                               .energy = p->energy,
-                               .pressure = p->pressure,
-                               .deviator = p->deviator,
-                               .plastic_strain = p->plastic_strain,
-                               .plastic_heating = p->history[HISTORY_plastic_heating],
-                               .sound = particles_field(p, "sound_long"),
-                               .viscosity = particles_field(p, "viscosity"),
-                               .position = (const double(*)[3])p->position,
-                               .velocity = (const double(*)[3])p->velocity,
-                               .rate = rate,
-                               .rate_stride = (size_t)mpm->rate_capacity,
-                               .dt = dt,
-                               .edge = mpm->edge,
-                               .viscosity_quadratic = mpm->parameters.viscosity_quadratic,
-                               .viscosity_linear = mpm->parameters.viscosity_linear,
-                               .jaumann = mpm->parameters.rotation == MPM_JAUMANN};
+    const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
+    struct point_loop loop = {.density = p->density,
+                              .energy = p->energy,
+                              .pressure = p->pressure,
+                              .deviator = p->deviator,
+                              .sound = fields.sound_long,
+                              .viscosity = fields.viscosity,
+                              .position = (const double(*)[3])p->position,
+                              .velocity = (const double(*)[3])p->velocity,
+                              .rate = rate,
+                              .rate_stride = (size_t)mpm->rate_capacity,
+                              .dt = dt,
+                              .time = simulation->time + dt,
+                              .edge = mpm->edge,
+                              .viscosity_quadratic = mpm->parameters.viscosity_quadratic,
+                              .viscosity_linear = mpm->parameters.viscosity_linear,
+                              .jaumann = mpm->parameters.rotation == MPM_JAUMANN};
+    memcpy(loop.history, p->history, sizeof loop.history);
+    return loop;
 }
 
 static bool is_possible(const struct particles *p, const struct point_loop *loop, int32_t i)
@@ -118,8 +75,7 @@ static bool update_run(const struct mpm *mpm, const struct simulation *simulatio
     bool possible = true;
     for (int32_t k = begin; k < end; k++) {
         const int32_t i = list[k];
-        update_point(loop, simulation, material, i, k,
-                     2.0 * mpm->half_size[p->body[i]] * mpm->edge);
+        point_advance(loop, material, i, k, 2.0 * mpm->half_size[p->body[i]] * mpm->edge);
         possible &= is_possible(p, loop, i);
     }
     return possible;

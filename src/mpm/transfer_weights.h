@@ -1,5 +1,5 @@
-/* The particles of a cell and the shape functions at the nodes that they reach, some at once in lanes. For the file that is
- * compiled once an instruction set (transfer_kernel.c). */
+/* The particles of a cell and the shape functions at the nodes that they reach, some at once in
+ * lanes. For the file that is compiled once an instruction set (transfer_kernel.c). */
 #ifndef BOLIDE_MPM_TRANSFER_WEIGHTS_H
 #define BOLIDE_MPM_TRANSFER_WEIGHTS_H
 
@@ -14,7 +14,14 @@ struct kind {
     int lanes;             /* particles at once: those of a cell at the start */
 };
 
-/* Up to eight particles of a cell, and their shape functions. What is behind the last particle is the last one again. */
+BOLIDE_INLINE struct kind kind_make(int dimension, int window, int lanes)
+{
+    struct kind kind = {dimension, window, lanes};
+    return kind;
+}
+
+/* Up to eight particles of a cell, and their shape functions. What is behind the last particle
+ * is the last one again. */
 struct chunk {
     int count;
     int32_t index[LANES];
@@ -37,7 +44,7 @@ struct corner {
     int64_t index[3];
 };
 
-INLINE struct corner corner_of(const struct transfer *t, struct kind kind, int32_t bin)
+BOLIDE_INLINE struct corner corner_of(const struct transfer *t, struct kind kind, int32_t bin)
 {
     struct corner corner;
     block_coordinates(t->bins->bin[bin].key, corner.index);
@@ -46,14 +53,18 @@ INLINE struct corner corner_of(const struct transfer *t, struct kind kind, int32
     return corner;
 }
 
-INLINE struct cell_walk cell_of(const struct transfer *t, struct kind kind,
-                                const struct corner *corner, int32_t bin, int cell)
+BOLIDE_INLINE struct cell_walk cell_of(const struct transfer *t, struct kind kind,
+                                       const struct corner *corner, int32_t bin, int cell)
 {
     const struct bin *b = &t->bins->bin[bin];
-    struct cell_walk walk = {.list = t->bins->list + b->first + b->cell[cell],
-                             .count = b->cell[cell + 1] - b->cell[cell]};
+    struct cell_walk walk;
     int place[3];
+    walk.base = 0;
+    walk.list = t->bins->list + b->first + b->cell[cell];
+    walk.count = b->cell[cell + 1] - b->cell[cell];
     bin_cell_place(kind.dimension, cell, place);
+    for (int axis = 0; axis < 3; axis++)
+        walk.index[axis] = 0;
     for (int axis = 0; axis < kind.dimension; axis++) {
         walk.index[axis] = corner->index[axis] + place[axis];
         walk.base = walk.base * (size_t)t->grid->side + (size_t)place[axis];
@@ -61,8 +72,8 @@ INLINE struct cell_walk cell_of(const struct transfer *t, struct kind kind,
     return walk;
 }
 
-INLINE void weigh_axis(struct kind kind, enum grid_shape shape, const double *xi,
-                       const double *half, double (*value)[LANES], double (*slope)[LANES])
+BOLIDE_INLINE void weigh_axis(struct kind kind, enum grid_shape shape, const double *xi,
+                              const double *half, double (*value)[LANES], double (*slope)[LANES])
 {
     for (int k = 0; k < kind.window; k++)
         for (int lane = 0; lane < kind.lanes; lane++) {
@@ -72,8 +83,9 @@ INLINE void weigh_axis(struct kind kind, enum grid_shape shape, const double *xi
         }
 }
 
-INLINE void weigh_chunk(const struct transfer *t, struct kind kind, const struct cell_walk *walk,
-                        int32_t begin, int32_t count, struct chunk *chunk)
+BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
+                               const struct cell_walk *walk, int32_t begin, int32_t count,
+                               struct chunk *chunk)
 {
     const double per_edge = 1.0 / t->edge;
     ALIGNED double xi[LANES], half[LANES];
@@ -116,19 +128,19 @@ INLINE void weigh_chunk(const struct transfer *t, struct kind kind, const struct
 }
 
 /* Of wide windows there is one body a dimension, which all loops call. */
-#define WEIGH_WIDE(dimension)                                                                   \
-    APART void weigh_wide_##dimension(const struct transfer *t, const struct cell_walk *walk,   \
-                                      int32_t begin, int32_t count, struct chunk *chunk)        \
-    {                                                                                           \
-        weigh_chunk(t, (struct kind){dimension, 4, 1 << dimension}, walk, begin, count, chunk); \
+#define WEIGH_WIDE(dimension)                                                                 \
+    APART void weigh_wide_##dimension(const struct transfer *t, const struct cell_walk *walk, \
+                                      int32_t begin, int32_t count, struct chunk *chunk)      \
+    {                                                                                         \
+        weigh_chunk(t, kind_make(dimension, 4, 1 << dimension), walk, begin, count, chunk);   \
     }
 WEIGH_WIDE(1)
 WEIGH_WIDE(2)
 WEIGH_WIDE(3)
 #undef WEIGH_WIDE
 
-INLINE void weigh(const struct transfer *t, struct kind kind, const struct cell_walk *walk,
-                  int32_t begin, struct chunk *chunk)
+BOLIDE_INLINE void weigh(const struct transfer *t, struct kind kind, const struct cell_walk *walk,
+                         int32_t begin, struct chunk *chunk)
 {
     const int32_t left = walk->count - begin, count = left < kind.lanes ? left : kind.lanes;
     if (kind.window == 2)
@@ -143,7 +155,8 @@ INLINE void weigh(const struct transfer *t, struct kind kind, const struct cell_
 }
 
 /* The node at a, b, c of a window; nodes of axes that there are not count as one. */
-INLINE size_t node_of(const struct transfer *t, struct kind kind, size_t base, int a, int b, int c)
+BOLIDE_INLINE size_t node_of(const struct transfer *t, struct kind kind, size_t base, int a, int b,
+                             int c)
 {
     const size_t side = (size_t)t->grid->side;
     if (kind.dimension == 1)
@@ -163,8 +176,8 @@ struct weight {
     double value, slope[3];
 };
 
-INLINE struct weight weight_of(struct kind kind, const struct chunk *chunk, int lane, int a, int b,
-                               int c)
+BOLIDE_INLINE struct weight weight_of(struct kind kind, const struct chunk *chunk, int lane, int a,
+                                      int b, int c)
 {
     double va = chunk->value[0][a][lane], sa = chunk->slope[0][a][lane];
     double vb = 1.0, sb = 0.0, vc = 1.0, sc = 0.0;
@@ -176,11 +189,13 @@ INLINE struct weight weight_of(struct kind kind, const struct chunk *chunk, int 
         vc = chunk->value[2][c][lane];
         sc = chunk->slope[2][c][lane];
     }
-    return (struct weight){va * vb * vc, {sa * vb * vc, va * sb * vc, va * vb * sc}};
+    const struct weight w = {va * vb * vc, {sa * vb * vc, va * sb * vc, va * vb * sc}};
+    return w;
 }
 
 /* The shape functions of the lanes of a chunk at all nodes of the window. */
-INLINE void find_weights(struct kind kind, const struct chunk *chunk, double (*weight)[LANES])
+BOLIDE_INLINE void find_weights(struct kind kind, const struct chunk *chunk,
+                                double (*weight)[LANES])
 {
     FOR_NODES(kind, a, b, c)
     {
@@ -196,9 +211,11 @@ INLINE void find_weights(struct kind kind, const struct chunk *chunk, double (*w
     }
 }
 
-/* For the lanes of a chunk: the sums over nodes, with their WEIGHT, of COUNT numbers at DATA, STRIDE a node. */
-INLINE void gather(const struct transfer *t, struct kind kind, const double (*weight)[LANES],
-                   size_t base, const double *data, int stride, int count, double (*sum)[LANES])
+/* For the lanes of a chunk: the sums over nodes, with their WEIGHT, of COUNT numbers at DATA,
+ * STRIDE a node. */
+BOLIDE_INLINE void gather(const struct transfer *t, struct kind kind, const double (*weight)[LANES],
+                          size_t base, const double *data, int stride, int count,
+                          double (*sum)[LANES])
 {
     for (int k = 0; k < count; k++)
         for (int lane = 0; lane < kind.lanes; lane++)

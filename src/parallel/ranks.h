@@ -35,6 +35,26 @@ double ranks_maximum(const struct ranks *ranks, double value);
 int64_t ranks_sum(const struct ranks *ranks, int64_t value);
 void ranks_sum_exact(const struct ranks *ranks, struct exact_sum *sums, int count);
 
+/* A value that a member has (a particle, a cell), the member's id, and what the value is: an index of
+ * the caller's. */
+struct ranked {
+    double value;
+    uint64_t id;
+    int64_t what;
+};
+
+/* Whether A comes before B: by the smaller value, of equal values by the smaller id. Not a number comes
+ * before all numbers, so that it is not lost. */
+BOLIDE_INLINE bool ranked_before(const struct ranked *a, const struct ranked *b)
+{
+    if (isnan(a->value) || isnan(b->value))
+        return isnan(a->value) && (!isnan(b->value) || a->id < b->id);
+    return a->value < b->value || (a->value == b->value && a->id < b->id);
+}
+
+/* Collective: OWN becomes the one of all ranks that comes first. */
+void ranks_first(const struct ranks *ranks, struct ranked *own);
+
 /* Collective: each of COUNT values becomes its largest over all ranks. */
 void ranks_maximum_of(const struct ranks *ranks, double *values, int count);
 

@@ -34,6 +34,12 @@ void ranks_maximum_of(const struct ranks *ranks, double *values, int count)
     (void)count;
 }
 
+void ranks_first(const struct ranks *ranks, struct ranked *own)
+{
+    (void)ranks;
+    (void)own;
+}
+
 void ranks_sum_of(const struct ranks *ranks, int64_t *values, int count)
 {
     (void)ranks;

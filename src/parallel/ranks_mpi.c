@@ -50,6 +50,37 @@ int64_t ranks_sum(const struct ranks *ranks, int64_t value)
     return value;
 }
 
+static MPI_Datatype items_of(size_t bytes)
+{
+    MPI_Datatype type;
+    MPI_Type_contiguous((int)bytes, MPI_BYTE, &type);
+    MPI_Type_commit(&type);
+    return type;
+}
+
+/* As MPI calls it: IN and INOUT are rows of COUNT items. */
+static void take_first(void *in, void *inout, int *count, MPI_Datatype *type)
+{
+    const struct ranked *a = in;
+    struct ranked *b = inout;
+    (void)type;
+    for (int k = 0; k < *count; k++)
+        if (ranked_before(&a[k], &b[k]))
+            b[k] = a[k];
+}
+
+void ranks_first(const struct ranks *ranks, struct ranked *own)
+{
+    MPI_Op first;
+    if (!ranks->joined)
+        return;
+    MPI_Datatype type = items_of(sizeof *own);
+    MPI_Op_create(take_first, 1, &first);
+    MPI_Allreduce(MPI_IN_PLACE, own, 1, type, first, MPI_COMM_WORLD);
+    MPI_Op_free(&first);
+    MPI_Type_free(&type);
+}
+
 void ranks_maximum_of(const struct ranks *ranks, double *values, int count)
 {
     if (ranks->joined)
@@ -103,14 +134,6 @@ void ranks_broadcast(const struct ranks *ranks, int from, void *data, int64_t by
     char *at = data;
     for (; ranks->joined && bytes > 0; at += PIECE, bytes -= PIECE)
         MPI_Bcast(at, bytes < PIECE ? (int)bytes : PIECE, MPI_BYTE, from, MPI_COMM_WORLD);
-}
-
-static MPI_Datatype items_of(size_t bytes)
-{
-    MPI_Datatype type;
-    MPI_Type_contiguous((int)bytes, MPI_BYTE, &type);
-    MPI_Type_commit(&type);
-    return type;
 }
 
 static struct error *gather(const struct ranks *ranks, int to, const void *own, int64_t count,

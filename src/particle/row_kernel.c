@@ -1,17 +1,11 @@
 /* The search for neighbours for one instruction set, named by BOLIDE_ISA; see row_kernel.h. */
-#include "particle/row_kernel.h"
-
-#include <math.h>
-#include <string.h>
+#include "particle/row_body.h"
 
 #include "base/isa.h"
 
 #if defined(__AVX512F__)
 #include <immintrin.h>
 #endif
-
-/* Sixteen keys; smaller registers take them in parts. */
-typedef uint32_t keys __attribute__((vector_size(64)));
 
 #if defined(__AVX512F__)
 /* Eight candidates at once; those behind the last are infinitely far. */
@@ -44,43 +38,16 @@ static int32_t keep(const struct candidates *c, const struct row_point *own, uin
     }
     return kept;
 }
-#else
-/* Every candidate is written, and the next one overwrites it unless it counts: no branch to mispredict. */
-static int32_t keep(const struct candidates *c, const struct row_point *own, uint32_t *key,
-                    uint32_t *entry)
-{
-    int32_t kept = 0;
-    for (int32_t k = 0; k < c->count; k++) {
-        double dx = c->x[k] - own->x, dy = c->y[k] - own->y, dz = c->z[k] - own->z;
-        double range = own->reach + c->reach[k];
-        key[kept] = c->key[k];
-        entry[kept] = c->entry[k];
-        kept += (dx * dx + dy * dy + dz * dz < range * range) & (c->key[k] != own->key);
-    }
-    return kept;
-}
 #endif
-
-/* Each one's place is the number of keys below its own: for rows of some dozens that is faster than any exchange. */
-static void order(const uint32_t *key, const uint32_t *entry, int32_t count, uint32_t *row)
-{
-    for (int32_t first = 0; first < count; first += CANDIDATES_STEP) {
-        keys own, below = {0};
-        memcpy(&own, key + first, sizeof own);
-        for (int32_t k = 0; k < count; k++)
-            below -= (keys)(own > key[k]);
-        uint32_t place[CANDIDATES_STEP];
-        memcpy(place, &below, sizeof place);
-        for (int32_t k = 0; k < CANDIDATES_STEP && first + k < count; k++)
-            row[place[k]] = entry[first + k];
-    }
-}
 
 ISA_KERNEL(int32_t, row_find, const struct candidates *candidates, const struct row_point *own,
            uint32_t *key, uint32_t *entry, uint32_t *row)
 {
-    int32_t count = keep(candidates, own, key, entry);
-    memset(key + count, 0, CANDIDATES_STEP * sizeof *key);
-    order(key, entry, count, row);
+#if defined(__AVX512F__)
+    const int32_t count = keep(candidates, own, key, entry);
+#else
+    const int32_t count = row_keep(candidates, own, key, entry);
+#endif
+    row_order(key, entry, count, row);
     return count;
 }

@@ -241,20 +241,20 @@ void sph_sweep(struct sph *sph, const struct simulation *simulation,
                const struct sph_records *records, const struct sph_sweep *sweep);
 
 /* Collective: the smallest of the steps that LIMIT_OF allows the particles; of equal ones that of the smallest id. */
-typedef struct limit sph_limit_of(const struct sph *sph, const struct simulation *simulation,
-                                  const void *context, int32_t i);
+enum sph_limit { SPH_LIMIT_SOUND, SPH_LIMIT_VOLUME_RATE, SPH_LIMIT_CONDUCTION };
+typedef struct ranked sph_limit_of(const struct sph *sph, const struct simulation *simulation,
+                                   const void *context, int32_t i);
 struct limit sph_smallest_limit(const struct sph *sph, const struct simulation *simulation,
                                 sph_limit_of *limit_of, const void *context);
 
 /* K D/sqrt(C^2 + (4 D div U)^2) (1.87) of particle I. */
-BOLIDE_INLINE struct limit sph_courant_limit(const struct sph *sph, const struct sph_fields *f,
-                                             double divergence, int32_t i)
+BOLIDE_INLINE struct ranked sph_courant_limit(const struct sph *sph, const struct sph_fields *f,
+                                              double divergence, int32_t i)
 {
     const double diameter = f->diameter[i], stretch = 4.0 * diameter * divergence;
-    struct limit limit = {sph->parameters.courant * diameter /
-                              sqrt(square(f->sound_long[i]) + square(stretch)),
-                          fabs(stretch) > f->sound_long[i] ? "volume rate" : "sound speed", 0};
-    return limit;
+    return (struct ranked){
+        sph->parameters.courant * diameter / sqrt(square(f->sound_long[i]) + square(stretch)), 0,
+        fabs(stretch) > f->sound_long[i] ? SPH_LIMIT_VOLUME_RATE : SPH_LIMIT_SOUND};
 }
 
 /* Pressure and sound speeds of particle I as it stands; returns what its material says of them. */

@@ -15,30 +15,28 @@ void sph_sweep(struct sph *sph, const struct simulation *simulation,
     }
 }
 
-static bool is_smaller(struct limit one, struct limit other)
-{
-    return one.dt < other.dt || (one.dt == other.dt && one.id < other.id);
-}
+static const char *const limit_reasons[] = {[SPH_LIMIT_SOUND] = "sound speed",
+                                            [SPH_LIMIT_VOLUME_RATE] = "volume rate",
+                                            [SPH_LIMIT_CONDUCTION] = "conduction"};
 
 struct limit sph_smallest_limit(const struct sph *sph, const struct simulation *simulation,
                                 sph_limit_of *limit_of, const void *context)
 {
     const struct particles *p = &simulation->particles;
-    struct limit smallest = {(double)INFINITY, "nothing", UINT64_MAX};
+    struct ranked first = {(double)INFINITY, UINT64_MAX, SPH_LIMIT_SOUND};
 #pragma omp parallel num_threads(simulation->threads)
     {
-        struct limit own = smallest;
+        struct ranked own = first;
 #pragma omp for schedule(static)
         for (int32_t i = 0; i < p->count; i++) {
-            struct limit limit = limit_of(sph, simulation, context, i);
-            limit.id = p->id[i];
-            if (is_smaller(limit, own))
-                own = limit;
+            struct ranked one = limit_of(sph, simulation, context, i);
+            one.id = p->id[i];
+            if (ranked_before(&one, &own))
+                own = one;
         }
 #pragma omp critical(bolide_sph_limit)
-        if (is_smaller(own, smallest))
-            smallest = own;
+        if (ranked_before(&own, &first))
+            first = own;
     }
-    const double dt = ranks_minimum(simulation->ranks, smallest.dt);
-    return smallest.dt > dt ? (struct limit){dt, "another rank", UINT64_MAX} : smallest;
+    return limit_of_ranks(simulation->ranks, first, limit_reasons);
 }

@@ -29,6 +29,11 @@ expect 0 "short  " "$BOLIDE" help case
 expect 0 "names for expressions" "$BOLIDE" help let
 expect 0 "equivalent_stress" "$BOLIDE" help fields
 expect 0 "artificial viscous pressure" "$BOLIDE" help fields
+expect 0 "sound_long" "$BOLIDE" help fields
+if [ "$("$BOLIDE" help fields | grep -c sound_long)" != 1 ]; then
+    echo "FAILED: help fields lists sound_long more than once"
+    status=1
+fi
 expect 0 "velocity at the start" "$BOLIDE" help bodies.flyer.velocity
 expect 0 "velocity at the start" "$BOLIDE" help bodies.flyer.velocity.1
 expect 0 "margin of neighbour rows" "$BOLIDE" help solver.sph.skin

@@ -38,7 +38,8 @@ static const char cylinder[] =
     "dimension: 2\n"
     "geometry: axisymmetric\n"
     "resolution: 1 mm\n"
-    "solver: {sph: {method: {contact: {motion: none}}, conduction: contact}}\n" MATERIALS "bodies:\n"
+    "solver: {sph: {method: {contact: {motion: none}}, conduction: contact}}\n" MATERIALS
+    "bodies:\n"
     "  rod: {material: aluminium, box: {from: [0 mm, 0 mm], to: [40 mm, 6 mm]}}\n"
     "walls:\n"
     "  below: {mirror: y, at: 0 mm, side: low}\n"
@@ -150,7 +151,8 @@ static void what_conduction_lacks_is_told(void **state)
         {"materials.aluminium.eos={polynomial: {density: 2500 kg/m^3, bulk_modulus: 50 GPa, "
          "second_modulus: 0 GPa, third_modulus: 0 GPa}}",
          "materials.aluminium", "gives no temperature"},
-        {"solver.sph={method: {contact: {motion: none}}}", "solver.sph.method.contact.motion", "unless heat is conducted"},
+        {"solver.sph={method: {contact: {motion: none}}}", "solver.sph.method.contact.motion",
+         "unless heat is conducted"},
         {"checks={hot: {l1: temperature, at_most: 1, against: {gas-riemann: {left: {density: 1 "
          "kg/m^3, pressure: 1 Pa, gamma: 3}, right: {density: 1 kg/m^3, pressure: 1 Pa, gamma: "
          "3}}}}}",

@@ -21,8 +21,8 @@ static const char push[] =
     "run: {until: 1 s}\n";
 
 static const struct variant plain = {"plain", 1, 1.0, NULL, false};
-static const struct variant by_contact = {"moved by contacts", 1, 1.0, "solver.sph.method.contact.motion=contact",
-                                          false};
+static const struct variant by_contact = {"moved by contacts", 1, 1.0,
+                                          "solver.sph.method.contact.motion=contact", false};
 static const struct variant of_second_order = {"second order", 1, 1.0, "solver.sph.method=muscl",
                                                false};
 

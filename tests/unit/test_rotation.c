@@ -5,7 +5,7 @@
     "format: 1\n"                                                                \
     "dimension: " dimension "\n"                                                 \
     "resolution: 1 mm\n"                                                         \
-    "solver: {sph: {method: {contact: {rotation: corrected}}}}\n"                    \
+    "solver: {sph: {method: {contact: {rotation: corrected}}}}\n"                \
     "materials:\n"                                                               \
     "  metal:\n"                                                                 \
     "    eos: {barotropic: {density: 2700 kg/m^3, bulk_modulus: 73 GPa}}\n"      \
@@ -19,7 +19,8 @@ static const char cube[] = HEAD(
     "3") "  cube: {material: metal, box: {from: [-4 mm, -4 mm, -4 mm], to: [4 mm, 4 mm, 4 mm]}}\n";
 
 static const struct variant corrected = {"corrected", 1, 1.0, NULL, false};
-static const struct variant faithful = {"faithful", 1, 1.0, "solver.sph.method.contact.rotation=faithful", false};
+static const struct variant faithful = {"faithful", 1, 1.0,
+                                        "solver.sph.method.contact.rotation=faithful", false};
 
 /* Turns all particles about OMEGA through the origin; SPIN: the spins say so. */
 static void turn(struct running *run, struct vec3 omega, bool spin)

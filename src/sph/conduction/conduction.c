@@ -111,15 +111,15 @@ static void reflect(const struct sph *sph, const struct simulation *simulation, 
 }
 
 /* dt = beta h^2/a (1.49) with h = alpha D_i. */
-static struct limit limit_of_particle(const struct sph *sph, const struct simulation *simulation,
-                                      const void *context, int32_t i)
+static struct ranked limit_of_particle(const struct sph *sph, const struct simulation *simulation,
+                                       const void *context, int32_t i)
 {
     const struct sph_fields *f = context;
     const int q = heat_record_diffusivity(simulation->dimension);
     const double root = sph->conduction.record[(size_t)i * HEAT_STRIDE + (size_t)q];
-    return (struct limit){sph->conduction.limit *
-                              square(sph->parameters.smoothing * f->diameter[i] / root),
-                          "conduction", 0};
+    return (struct ranked){sph->conduction.limit *
+                               square(sph->parameters.smoothing * f->diameter[i] / root),
+                           0, SPH_LIMIT_CONDUCTION};
 }
 
 static void rates_of_block(const void *of, const struct block *blocks, int32_t b)

@@ -41,8 +41,8 @@ void contact_sum_pairs(struct sph *sph, const struct simulation *simulation,
         sph_add_hoop(sph, simulation, fields);
 }
 
-static struct limit limit_of_particle(const struct sph *sph, const struct simulation *simulation,
-                                      const void *context, int32_t i)
+static struct ranked limit_of_particle(const struct sph *sph, const struct simulation *simulation,
+                                       const void *context, int32_t i)
 {
     const struct sph_fields *f = context;
     const double *rate = f->rates.strain_rate[i];

@@ -102,13 +102,13 @@ void hllc_find_rates(struct sph *sph, struct simulation *simulation, const struc
 }
 
 /* dt = K h/c_E. */
-static struct limit limit_of_particle(const struct sph *sph, const struct simulation *simulation,
-                                      const void *context, int32_t i)
+static struct ranked limit_of_particle(const struct sph *sph, const struct simulation *simulation,
+                                       const void *context, int32_t i)
 {
     const struct hllc_fields *f = context;
     const double ratio = sph->parameters.courant * sph->parameters.smoothing;
     (void)simulation;
-    return (struct limit){ratio * f->sph.diameter[i] / f->sph.sound_long[i], "sound speed", 0};
+    return (struct ranked){ratio * f->sph.diameter[i] / f->sph.sound_long[i], 0, SPH_LIMIT_SOUND};
 }
 
 void hllc_prepare(struct sph *sph, struct simulation *simulation, struct limit *limit)

@@ -82,8 +82,8 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
     simulation_spend(simulation, "pairs", clock_seconds() - begin);
 }
 
-static struct limit limit_of_particle(const struct sph *sph, const struct simulation *simulation,
-                                      const void *context, int32_t i)
+static struct ranked limit_of_particle(const struct sph *sph, const struct simulation *simulation,
+                                       const void *context, int32_t i)
 {
     const struct muscl_fields *f = context;
     return sph_courant_limit(sph, &f->sph, muscl_divergence(simulation, f, i), i);

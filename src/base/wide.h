@@ -1,0 +1,75 @@
+/* Several numbers at once, which the compiler keeps in wide registers. In C they are vectors of
+ * GCC and clang; to a C++ or CUDA compiler they are structs with the same elements and the same
+ * operations, one element after the other: the bits are the same. */
+#ifndef BOLIDE_WIDE_H
+#define BOLIDE_WIDE_H
+
+#include "base/base.h"
+
+#if !defined(__cplusplus)
+
+typedef double vector8 __attribute__((vector_size(64)));
+typedef double vector4 __attribute__((vector_size(32)));
+typedef uint32_t keys16 __attribute__((vector_size(64)));
+
+/* Adds one to each element of BELOW where KEY is smaller than that of OWN. */
+BOLIDE_INLINE void keys16_count_below(keys16 *below, const keys16 *own, uint32_t key)
+{
+    *below -= (keys16)(*own > key);
+}
+
+#else
+
+template <int N> struct wide {
+    double at[N];
+};
+typedef wide<8> vector8;
+typedef wide<4> vector4;
+struct keys16 {
+    uint32_t at[16];
+};
+
+template <int N> BOLIDE_INLINE wide<N> operator*(double factor, const wide<N> &a)
+{
+    wide<N> product;
+    for (int k = 0; k < N; k++)
+        product.at[k] = factor * a.at[k];
+    return product;
+}
+
+template <int N> BOLIDE_INLINE wide<N> operator+(const wide<N> &a, const wide<N> &b)
+{
+    wide<N> sum;
+    for (int k = 0; k < N; k++)
+        sum.at[k] = a.at[k] + b.at[k];
+    return sum;
+}
+
+template <int N> BOLIDE_INLINE wide<N> &operator+=(wide<N> &a, const wide<N> &b)
+{
+    return a = a + b;
+}
+
+BOLIDE_INLINE void keys16_count_below(keys16 *below, const keys16 *own, uint32_t key)
+{
+    for (int k = 0; k < 16; k++)
+        below->at[k] += own->at[k] > key;
+}
+
+#endif
+
+BOLIDE_INLINE void vector8_clear(vector8 *sum, int count)
+{
+    const vector8 zero = {0.0};
+    for (int k = 0; k < count; k++)
+        sum[k] = zero;
+}
+
+BOLIDE_INLINE void vector4_clear(vector4 *sum, int count)
+{
+    const vector4 zero = {0.0};
+    for (int k = 0; k < count; k++)
+        sum[k] = zero;
+}
+
+#endif

@@ -1,0 +1,131 @@
+/* The step of particles by themselves: one of any material, or a batch of one that batches take. It
+ * compiles as CUDA device code too. */
+#ifndef BOLIDE_MPM_POINT_BODY_H
+#define BOLIDE_MPM_POINT_BODY_H
+
+#include "material/batch.h"
+#include "mpm/point_kernel.h"
+
+/* Brings particle I, number K of its bin, of any material to the next level. LENGTH is its size
+ * at the start. */
+BOLIDE_INLINE void point_advance(const struct point_loop *loop, const struct material *material,
+                                 int32_t i, int32_t k, double length)
+{
+    double *s = loop->deviator[i], rate[9];
+    struct motion motion;
+    struct point point;
+    for (int c = 0; c < 9; c++)
+        rate[c] = loop->rate[(size_t)c * loop->rate_stride + (size_t)k];
+    const double divergence = rate[0] + rate[1] + rate[2];
+    motion.dt = loop->dt;
+    motion.time = loop->time;
+    motion.length = length;
+    motion.strain_rate = sym3_make(rate);
+    motion.spin = vec3_make(rate[6], rate[7], rate[8]);
+    motion.density = loop->density[i] / (1.0 + loop->dt * divergence); /* (2-20) */
+    motion.energy = 0.0;
+    point.density = loop->density[i];
+    point.energy = loop->energy[i];
+    point.pressure = loop->pressure[i];
+    point.deviator = sym3_make(s);
+    for (int slot = 0; slot < POINT_HISTORY; slot++)
+        point.history[slot] = loop->history[slot] ? loop->history[slot][i] : 0.0;
+    /* an explosive that has yet to burn has no viscosity */
+    const bool inert = material_burns(material) && point.history[HISTORY_burnt] == 0.0;
+    const double viscosity =
+        inert ? 0.0 : point_viscosity(loop, motion.density, loop->sound[i], divergence);
+    motion.viscous_pressure = 0.5 * (loop->viscosity[i] + viscosity);
+    if (loop->jaumann) {
+        point.deviator = jaumann_turn(point.deviator, vec3_scale(loop->dt, motion.spin));
+        motion.spin = vec3_make(0.0, 0.0, 0.0);
+    }
+    const struct response r = material_step_by_work(material, &point, &motion);
+    loop->density[i] = point.density;
+    loop->energy[i] = point.energy;
+    loop->pressure[i] = point.pressure;
+    for (int slot = 0; slot < POINT_HISTORY; slot++)
+        if (loop->history[slot])
+            loop->history[slot][i] = point.history[slot];
+    loop->viscosity[i] = viscosity;
+    loop->sound[i] = r.sound_long;
+    sym3_store(point.deviator, s);
+}
+
+/* COUNT particles at LIST and RATE become a batch; what is behind the last one is that one
+ * again, with other rates. */
+BOLIDE_INLINE void points_load(const struct point_loop *loop, const int32_t *list,
+                               const double *rate, int count, struct batch *b)
+{
+    const double *strain = loop->history[HISTORY_plastic_strain],
+                 *heating = loop->history[HISTORY_plastic_heating];
+    b->dt = loop->dt;
+    b->count = (count + LANES - 1) / LANES * LANES;
+    for (int c = 0; c < 9; c++)
+        memcpy(c < 6 ? b->strain_rate[c] : b->spin[c - 6], rate + (size_t)c * loop->rate_stride,
+               (size_t)b->count * sizeof *rate);
+    for (int k = 0; k < b->count; k++) {
+        const int32_t i = list[k < count ? k : count - 1];
+        for (int c = 0; c < 6; c++)
+            b->deviator[c][k] = loop->deviator[i][c];
+        b->density[k] = loop->density[i];
+        b->energy[k] = loop->energy[i];
+        b->pressure[k] = loop->pressure[i];
+        b->plastic_strain[k] = strain[i];
+        b->plastic_heating[k] = heating ? heating[i] : 0.0;
+        b->viscous_pressure[k] = loop->viscosity[i];
+        b->sound_long[k] = loop->sound[i];
+    }
+}
+
+/* What the rates do to density and viscosity; the new one goes to VISCOSITY. */
+BOLIDE_INLINE void points_start(const struct point_loop *loop, struct batch *b, double *viscosity)
+{
+    for (int k = 0; k < b->count; k++) {
+        const double divergence =
+            b->strain_rate[0][k] + b->strain_rate[1][k] + b->strain_rate[2][k];
+        b->new_density[k] = b->density[k] / (1.0 + b->dt * divergence); /* (2-20) */
+        viscosity[k] = point_viscosity(loop, b->new_density[k], b->sound_long[k], divergence);
+        b->viscous_pressure[k] = 0.5 * (b->viscous_pressure[k] + viscosity[k]);
+    }
+    if (!loop->jaumann)
+        return;
+    for (int k = 0; k < b->count; k++) {
+        const struct vec3 angle =
+            vec3_make(b->dt * b->spin[0][k], b->dt * b->spin[1][k], b->dt * b->spin[2][k]);
+        batch_keep_tensor(b->deviator, k, jaumann_turn(batch_tensor(b->deviator, k), angle));
+        for (int c = 0; c < 3; c++)
+            b->spin[c][k] = 0.0;
+    }
+}
+
+BOLIDE_INLINE bool points_keep(const struct point_loop *loop, const int32_t *list, int count,
+                               const struct batch *b, const double *viscosity)
+{
+    double *strain = loop->history[HISTORY_plastic_strain],
+           *heating = loop->history[HISTORY_plastic_heating];
+    int64_t wrong = 0;
+    double zero = 0.0; /* unless a place or velocity is not finite */
+    for (int k = 0; k < b->count; k++) {
+        const double all = b->energy[k] + b->pressure[k] + b->new_density[k];
+        wrong += !(minimum(b->new_density[k], b->sound_long[k]) > 0.0 * all);
+    }
+    for (int k = 0; k < count; k++) {
+        const int32_t i = list[k];
+        const double *x = loop->position[i], *u = loop->velocity[i];
+        double *s = loop->deviator[i];
+        for (int c = 0; c < 6; c++)
+            s[c] = b->new_deviator[c][k];
+        loop->density[i] = b->new_density[k];
+        loop->energy[i] = b->energy[k];
+        loop->pressure[i] = b->pressure[k];
+        strain[i] = b->plastic_strain[k];
+        if (heating)
+            heating[i] = b->plastic_heating[k];
+        loop->viscosity[i] = viscosity[k];
+        loop->sound[i] = b->sound_long[k];
+        zero += 0.0 * ((x[0] + x[1]) + (x[2] + u[0]) + (u[1] + u[2]));
+    }
+    return !wrong && zero == 0.0;
+}
+
+#endif

@@ -1,0 +1,351 @@
+/* A step of the material point method. prepare: particles into cells, mass, momentum and force to
+ * nodes, step limit; advance: nodes, then particles in the order of the scheme. Source: Cui,
+ * dissertation (2014), section 2.3. */
+#include <omp.h>
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "model/held.h"
+#include "mpm/mpm_internal.h"
+
+/* The store is sorted again when so much of it has left the cells that it was stored by. */
+static const double moved_limit = 0.25;
+
+struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simulation,
+                                struct layer *layer)
+{
+    const struct particles *p = &simulation->particles;
+    const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
+    return (struct transfer){.dimension = simulation->dimension,
+                             .shape = (enum grid_shape)mpm->parameters.shape,
+                             .axisymmetric = simulation->geometry == GEOMETRY_AXISYMMETRIC,
+                             .affine = mpm_is_affine(mpm),
+                             .by_moments = mpm->parameters.transfer == MPM_APIC,
+                             .edge = mpm->edge,
+                             .bins = &layer->bins,
+                             .grid = &layer->grid,
+                             .main = &layer->main,
+                             .back = &layer->back,
+                             .normal = &layer->normal,
+                             .flip = mpm->parameters.flip,
+                             .position = p->position,
+                             .velocity = p->velocity,
+                             .mass = p->mass,
+                             .density = p->density,
+                             .pressure = p->pressure,
+                             .viscosity = fields.viscosity,
+                             .deviator = (const double(*)[6])p->deviator,
+                             .material = p->material,
+                             .body = p->body,
+                             .gradient = fields.velocity_gradient,
+                             .half_size = mpm->half_size,
+                             .gauge = mpm->gauge};
+}
+
+static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
+{
+    const struct particles *p = &simulation->particles;
+    struct binned binned = {.dimension = simulation->dimension,
+                            .edge = mpm->edge,
+                            .count = p->count,
+                            .blocks = p->blocks,
+                            .block = p->block,
+                            .position = (const double(*)[3])p->position,
+                            .id = p->id,
+                            .order = p->order,
+                            .groups = mpm->layers,
+                            .group_of_body = mpm->layer_of_body,
+                            .body = p->body};
+    for (int axis = 0; axis < 3; axis++) {
+        binned.low[axis] = mpm->has_plane[axis][0] ? mpm->plane[axis][0] : INT64_MIN;
+        binned.high[axis] = mpm->has_plane[axis][1] ? mpm->plane[axis][1] - 1 : INT64_MAX;
+    }
+    return bins_make(&mpm->bins, &binned, simulation->threads);
+}
+
+/* Room for the rates of the largest bin, for each thread. */
+static struct error *reserve_rates(struct mpm *mpm)
+{
+    int64_t most = 0;
+    for (int32_t b = 0; b < mpm->bins.count; b++)
+        most =
+            mpm->bins.bin[b].cell[BLOCK_CELLS] > most ? mpm->bins.bin[b].cell[BLOCK_CELLS] : most;
+    if (most + 8 <= mpm->rate_capacity)
+        return NULL;
+    const int64_t wanted = most + most / 2 + 8; /* lanes behind the last */
+    for (int t = 0; t < mpm->threads; t++) {
+        free(mpm->rate[t]);
+        mpm->rate[t] = memory_allocate((size_t)wanted * RATES * sizeof(double));
+        if (!mpm->rate[t]) {
+            mpm->rate_capacity = 0;
+            return error_new(ERROR_SYSTEM, "out of memory for %lld particles of a block",
+                             (long long)wanted);
+        }
+    }
+    mpm->rate_capacity = wanted;
+    return NULL;
+}
+
+/* Stores the particles as bins have them. */
+static struct error *store_by_bins(struct mpm *mpm, struct simulation *simulation)
+{
+    struct particles *p = &simulation->particles;
+    const struct bins *bins = &mpm->bins;
+    if (mpm->layers > 1) { /* blocks have a bin for each layer */
+        TRY(particles_sort(p));
+        return find_bins(mpm, simulation);
+    }
+    if (!memory_reserve((void **)&mpm->block, &mpm->block_capacity, bins->count, 0,
+                        sizeof *mpm->block))
+        return error_new(ERROR_SYSTEM, "out of memory for %d blocks", bins->count);
+    for (int32_t b = 0; b < bins->count; b++)
+        mpm->block[b] =
+            (struct block){bins->bin[b].key, bins->bin[b].first, bins->bin[b].cell[BLOCK_CELLS]};
+    TRY(particles_arrange(p, bins->list, mpm->block, bins->count));
+    bins_settle(&mpm->bins, p->order, simulation->threads);
+    return NULL;
+}
+
+/* Whether a particle has come to a block of another rank. */
+static bool has_left(const struct mpm *mpm, const struct simulation *simulation)
+{
+    bool away = false;
+    for (int32_t b = 0; b < mpm->bins.count && !away; b++)
+        away = particles_owner(&simulation->particles, mpm->bins.bin[b].key) !=
+               simulation->ranks->rank;
+    return away;
+}
+
+/* Particles into cells, on the ranks that own these; where the case has space divided anew, that
+ * is done here. */
+static struct error *place_particles(struct mpm *mpm, struct simulation *simulation)
+{
+    struct particles *p = &simulation->particles;
+    const int64_t every = simulation->input->run.rebalance;
+    const bool several = simulation->ranks->size > 1,
+               recut = several && every > 0 && simulation->step % every == 0;
+    struct error *error = find_bins(mpm, simulation);
+    double goes = several && !error && (recut || has_left(mpm, simulation));
+    TRY(ranks_agree_on(simulation->ranks, error, &goes, 1));
+    if (goes > 0.0) {
+        TRY(particles_distribute(p, mpm->work, recut));
+        mpm->work = 0.0;
+        return find_bins(mpm, simulation);
+    }
+    return (double)mpm->bins.moved > moved_limit * p->count ? store_by_bins(mpm, simulation) : NULL;
+}
+
+/* Gives each layer its part of the bins. */
+static void share_bins(struct mpm *mpm)
+{
+    for (int g = 0; g < mpm->layers; g++) {
+        const int32_t begin = mpm->bins.begin[g];
+        mpm->layer[g].bins = (struct bins){.count = mpm->bins.begin[g + 1] - begin,
+                                           .list = mpm->bins.list,
+                                           .bin = mpm->bins.bin + begin};
+    }
+}
+
+static struct error *reserve_fields(struct mpm *mpm)
+{
+    for (int g = 0; g < mpm->layers; g++) {
+        struct layer *layer = &mpm->layer[g];
+        TRY(grid_plan(&layer->grid, &layer->bins));
+        TRY(grid_field_reserve(&layer->main, &layer->grid));
+        TRY(grid_field_reserve(&layer->back, &layer->grid));
+        if (mpm->layers > 1)
+            TRY(grid_field_reserve(&layer->normal, &layer->grid));
+    }
+    TRY(mpm_reserve_order(mpm));
+    if (mpm->layers > 1)
+        TRY(mpm_find_meetings(mpm));
+    if (mpm->halo.far)
+        TRY(mpm_reserve_halo(mpm));
+    return reserve_rates(mpm);
+}
+
+/* Collective: particles into cells, and the blocks of nodes that these need. */
+static struct error *refresh_grid(struct mpm *mpm, struct simulation *simulation)
+{
+    struct error *error = place_particles(mpm, simulation);
+    if (simulation->ranks->size > 1)
+        TRY(mpm_find_halo(mpm, simulation, error));
+    else if (!error)
+        share_bins(mpm);
+    return ranks_agree(simulation->ranks, error ? error : reserve_fields(mpm));
+}
+
+/* Collective: mass, momentum and force of all nodes. */
+static struct error *sum_particles(struct mpm *mpm, struct simulation *simulation)
+{
+    const double begin = clock_seconds();
+    struct error *error = NULL;
+    for (int g = 0; g < mpm->layers; g++) {
+        struct layer *layer = &mpm->layer[g];
+        const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
+#pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
+        for (int32_t b = 0; b < layer->bins.count; b++)
+            if (!mpm_is_far(mpm, layer, b))
+                transfer_scatter(&transfer, b);
+    }
+    mpm->work += clock_seconds() - begin;
+    mpm_exchange(mpm, simulation, offsetof(struct layer, main));
+    for (int g = 0; g < mpm->layers && !error; g++)
+        error = mpm_sum_nodes(mpm, simulation, &mpm->layer[g]);
+    return ranks_agree(simulation->ranks, error);
+}
+
+/* What may limit the step. */
+enum { LIMIT_SOUND, LIMIT_VELOCITY };
+static const char *const limit_reasons[] = {"sound speed", "velocity"};
+
+/* Collective: dt = K min h/(c + max |u_i|), of equal ones that of the smallest id. */
+static struct limit limit_step(const struct mpm *mpm, const struct simulation *simulation)
+{
+    const struct particles *p = &simulation->particles;
+    const double *sound = mpm_fields_of(mpm, simulation).sound_long;
+    struct ranked first = {(double)INFINITY, UINT64_MAX, LIMIT_SOUND};
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct ranked own = first;
+#pragma omp for schedule(static)
+        for (int32_t i = 0; i < p->count; i++) {
+            const double *u = p->velocity[i];
+            const double fast = maximum(fabs(u[0]), maximum(fabs(u[1]), fabs(u[2])));
+            const struct ranked one = {mpm->parameters.courant * mpm->edge / (sound[i] + fast),
+                                       p->id[i], fast > sound[i] ? LIMIT_VELOCITY : LIMIT_SOUND};
+            if (ranked_before(&one, &own))
+                own = one;
+        }
+#pragma omp critical(bolide_mpm_limit)
+        if (ranked_before(&own, &first))
+            first = own;
+    }
+    return limit_of_ranks(simulation->ranks, first, limit_reasons);
+}
+
+struct error *mpm_prepare(void *solver, struct simulation *simulation, struct limit *limit)
+{
+    struct mpm *mpm = solver;
+    mpm_stop_bodies(mpm, simulation);
+    double begin = clock_seconds();
+    TRY(refresh_grid(mpm, simulation));
+    simulation_spend(simulation, "cells", clock_seconds() - begin);
+    begin = clock_seconds();
+    TRY(sum_particles(mpm, simulation));
+    simulation_spend(simulation, "scatter", clock_seconds() - begin);
+    begin = clock_seconds();
+    *limit = limit_step(mpm, simulation);
+    simulation_spend(simulation, "limit", clock_seconds() - begin);
+    return NULL;
+}
+
+/* New velocities of all particles from their nodes; with SCATTER their momentum goes back to
+ * nodes. */
+static void find_velocities(struct mpm *mpm, struct simulation *simulation, double dt, bool scatter,
+                            bool move)
+{
+    const double begin = clock_seconds();
+    for (int g = 0; g < mpm->layers; g++) {
+        struct layer *layer = &mpm->layer[g];
+        const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
+#pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
+        for (int32_t b = 0; b < layer->bins.count; b++) {
+            if (mpm_is_far(mpm, layer, b))
+                continue;
+            grid_spread(&layer->grid, &layer->main, b);
+            if (!layer->held)
+                transfer_velocity(&transfer, b, dt, scatter, move);
+        }
+    }
+    mpm->work += clock_seconds() - begin;
+    if (scatter)
+        mpm_exchange(mpm, simulation, offsetof(struct layer, back));
+    simulation_spend(simulation, "velocities", clock_seconds() - begin);
+}
+
+/* New states of all particles of a layer from nodal velocities: those of the second field or,
+ * with OF_MAIN, of the first. *FAILED becomes the one with the smallest id whose state is
+ * impossible, if that is smaller than the one that was there. */
+static void find_states(struct mpm *mpm, struct simulation *simulation, struct layer *layer,
+                        double dt, bool of_main, bool move, int32_t *failed)
+{
+    const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
+    const struct particles *p = &simulation->particles;
+    if (layer->held) /* nothing strains it; held bodies that meet would strain each other */
+        return;
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        double *rate = mpm->rate[omp_get_thread_num()];
+        int32_t own = -1;
+#pragma omp for schedule(dynamic, 4)
+        for (int32_t b = 0; b < layer->bins.count; b++) {
+            const double *of = grid_patch(&layer->grid, &layer->main, b) + NODE_VELOCITY;
+            if (mpm_is_far(mpm, layer, b))
+                continue;
+            if (!of_main) {
+                grid_spread(&layer->grid, &layer->back, b);
+                of = grid_patch(&layer->grid, &layer->back, b);
+            }
+            transfer_gradient(&transfer, b, dt, of, of_main ? NODE_STRIDE : BACK_STRIDE, move,
+                              (struct rates){rate, (size_t)mpm->rate_capacity});
+            const int32_t found = mpm_update_points(mpm, simulation, layer, b, dt, rate);
+            if (found >= 0 && (own < 0 || p->id[found] < p->id[own]))
+                own = found;
+        }
+#pragma omp critical(bolide_mpm_failure)
+        if (own >= 0 && (*failed < 0 || p->id[own] < p->id[*failed]))
+            *failed = own;
+    }
+}
+
+/* The same of all layers, from velocities that particles have mapped back, from those at the end
+ * of the step, or with FIRST from those at its begin. */
+static struct error *update_states(struct mpm *mpm, struct simulation *simulation, double dt,
+                                   bool first)
+{
+    const double begin = clock_seconds();
+    const bool of_main = mpm->parameters.scheme == MPM_USL;
+    int32_t failed = -1;
+    for (int g = 0; g < mpm->layers && !of_main; g++)
+        mpm_find_velocities(mpm, simulation, &mpm->layer[g], first);
+    if (!of_main)
+        mpm_raise_order(mpm, simulation, dt, false);
+    if (mpm->layers > 1 && !of_main)
+        mpm_join_velocities(mpm, simulation);
+    const double started = clock_seconds();
+    for (int g = 0; g < mpm->layers; g++)
+        find_states(mpm, simulation, &mpm->layer[g], dt, of_main, !first, &failed);
+    mpm->work += clock_seconds() - started;
+    simulation_spend(simulation, "states", clock_seconds() - begin);
+    return failed < 0 ? NULL : simulation_impossible(simulation, failed);
+}
+
+struct error *mpm_advance(void *solver, struct simulation *simulation, double dt)
+{
+    struct mpm *mpm = solver;
+    const int scheme = mpm->parameters.scheme;
+    mpm_book_gravity(simulation, dt, true);
+    if (scheme == MPM_USF) {
+        TRY(ranks_agree(simulation->ranks, update_states(mpm, simulation, dt, true)));
+        TRY(sum_particles(mpm, simulation));
+    }
+    mpm_book_hoop(mpm, simulation, dt);
+    const double begin = clock_seconds();
+    mpm_damp_shear(mpm, simulation, dt);
+    TRY(mpm_push_surfaces(mpm, simulation, dt));
+    if (mpm->layers > 1)
+        mpm_meet(mpm, simulation, dt);
+    for (int g = 0; g < mpm->layers; g++)
+        mpm_advance_nodes(mpm, simulation, &mpm->layer[g], dt);
+    mpm_raise_order(mpm, simulation, dt, true);
+    simulation_spend(simulation, "nodes", clock_seconds() - begin);
+    find_velocities(mpm, simulation, dt, scheme == MPM_MUSL, scheme == MPM_USF);
+    mpm_book_gravity(simulation, dt, false);
+    struct error *error = scheme == MPM_USF ? NULL : update_states(mpm, simulation, dt, false);
+    mpm_move_held(simulation, dt);
+    error = error_join(error, drive_bodies(simulation, dt));
+    mpm_lose_particles(simulation);
+    return error;
+}

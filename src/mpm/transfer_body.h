@@ -1,0 +1,417 @@
+/* What the loops of transfer.h do with a block, a cell and a particle of it. Weights are found
+ * for some particles of a cell at once, one a lane; what a particle takes from nodes is summed
+ * in the lanes of these, and what it gives to a node is one record, summed in the lanes of that:
+ * over the particles of a cell, then over cells. All of it compiles as CUDA device code too. */
+#ifndef BOLIDE_MPM_TRANSFER_BODY_H
+#define BOLIDE_MPM_TRANSFER_BODY_H
+
+#include <string.h>
+
+#include "base/wide.h"
+#include "mpm/transfer_weights.h"
+
+/* Nodes of a window. */
+enum { NODES_MAX = WINDOW_MAX * WINDOW_MAX * WINDOW_MAX };
+
+BOLIDE_INLINE int nodes_of(struct kind kind)
+{
+    return kind.dimension == 1   ? kind.window
+           : kind.dimension == 2 ? kind.window * kind.window
+                                 : kind.window * kind.window * kind.window;
+}
+
+/* Where the nodes of a particle may have a velocity that changes over them: what its gradient
+ * adds at a node. */
+BOLIDE_INLINE void add_affine(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                              int lane, int a, int b, int c, double factor, double *momentum)
+{
+    const double *g = t->gradient[chunk->index[lane]];
+    const int at[3] = {a, b, c};
+    for (int i = 0; i < kind.dimension; i++)
+        for (int j = 0; j < kind.dimension; j++)
+            momentum[i] += factor * g[3 * i + j] * chunk->away[j][at[j]][lane];
+}
+
+/* What a particle gives to nodes: PLAIN goes with the shape function, BY_SLOPE with its slopes,
+ * AROUND with what stands for the shape function around the axis. What is always zero is set
+ * once. */
+struct node_record {
+    ALIGNED double plain[NODE_STRIDE], by_slope[3][NODE_STRIDE], around[NODE_STRIDE];
+};
+
+BOLIDE_INLINE void node_record_of(const struct transfer *t, struct kind kind, int32_t i,
+                                  struct node_record *record)
+{
+    const double mass = t->mass[i], v = -mass / t->density[i];
+    const double p = t->pressure[i] + t->viscosity[i] - t->gauge[t->material[i]];
+    const double *s = t->deviator[i], *u = t->velocity[i];
+    double(*by_slope)[NODE_STRIDE] = record->by_slope;
+    record->plain[NODE_MASS] = mass;
+    for (int k = 0; k < 3; k++)
+        record->plain[NODE_MOMENTUM + k] = mass * u[k];
+    if (t->axisymmetric)
+        record->around[NODE_FORCE] = v * (s[2] - p) / t->position[i][0];
+    /* force = -V sigma grad N (2-10); what an axis that there is not would get stays zero */
+    by_slope[0][NODE_FORCE] = v * (s[0] - p);
+    if (kind.dimension > 1) {
+        by_slope[0][NODE_FORCE + 1] = by_slope[1][NODE_FORCE] = v * s[3];
+        by_slope[1][NODE_FORCE + 1] = v * (s[1] - p);
+    }
+    if (kind.dimension > 2) {
+        by_slope[0][NODE_FORCE + 2] = by_slope[2][NODE_FORCE] = v * s[5];
+        by_slope[1][NODE_FORCE + 2] = by_slope[2][NODE_FORCE + 1] = v * s[4];
+        by_slope[2][NODE_FORCE + 2] = v * (s[2] - p);
+    }
+}
+
+/* Adds a particle's record to the sums of a row of nodes along the last axis: those share all
+ * but that axis' factor. LEVEL goes with the shape function along it, TILT with its slope. */
+BOLIDE_INLINE void add_row(const struct chunk *chunk, struct kind kind, int lane,
+                           const vector8 *level, const vector8 *tilt, vector8 *sum)
+{
+    const int last = kind.dimension - 1;
+    for (int c = 0; c < kind.window; c++)
+        sum[c] += chunk->value[last][c][lane] * *level + chunk->slope[last][c][lane] * *tilt;
+}
+
+BOLIDE_INLINE void add_node_record(const struct transfer *t, struct kind kind,
+                                   const struct chunk *chunk, int lane,
+                                   const struct node_record *record, vector8 *sum)
+{
+    vector8 plain, by_slope[3], around;
+    memcpy(&plain, record->plain, sizeof plain);
+    memcpy(&around, record->around, sizeof around);
+    memcpy(by_slope, record->by_slope, (size_t)kind.dimension * sizeof plain);
+    if (kind.dimension == 1) {
+        add_row(chunk, kind, lane, &plain, &by_slope[0], sum);
+        return;
+    }
+    for (int a = 0; a < kind.window; a++)
+        for (int b = 0; b < (kind.dimension > 2 ? kind.window : 1); b++) {
+            double value = chunk->value[0][a][lane], along_a = chunk->slope[0][a][lane];
+            double along_b = 0.0;
+            if (kind.dimension > 2) {
+                along_b = value * chunk->slope[1][b][lane];
+                along_a *= chunk->value[1][b][lane];
+                value *= chunk->value[1][b][lane];
+            }
+            vector8 level = value * plain + along_a * by_slope[0];
+            if (kind.dimension > 2)
+                level += along_b * by_slope[1];
+            else if (t->axisymmetric)
+                level += chunk->around[a][lane] * around;
+            const vector8 tilt = value * by_slope[kind.dimension - 1];
+            add_row(chunk, kind, lane, &level, &tilt,
+                    sum + (kind.dimension > 2 ? a * kind.window + b : a) * kind.window);
+        }
+}
+
+/* Adds the sums of a cell to its nodes in the patch, STRIDE numbers each. */
+BOLIDE_INLINE void add_sums(const struct transfer *t, struct kind kind, size_t base,
+                            const void *sums, int stride, double *patch)
+{
+    const double *sum = (const double *)sums;
+    FOR_NODES(kind, a, b, c)
+    {
+        double *node = patch + node_of(t, kind, base, a, b, c) * (size_t)stride;
+        for (int k = 0; k < stride; k++)
+            node[k] += *sum++;
+    }
+}
+
+BOLIDE_INLINE void bin_scatter(const struct transfer *t, struct kind kind, int32_t bin)
+{
+    double *patch = grid_patch(t->grid, t->main, bin);
+    memset(patch, 0, (size_t)(t->grid->patch * NODE_STRIDE) * sizeof *patch);
+    const struct corner corner = corner_of(t, kind, bin);
+    struct node_record record[LANES] = {0};
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
+        struct chunk chunk;
+        vector8 sum[NODES_MAX];
+        if (walk.count == 0)
+            continue;
+        vector8_clear(sum, nodes_of(kind));
+        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
+            weigh(t, kind, &walk, begin, &chunk);
+            for (int lane = 0; lane < chunk.count; lane++)
+                node_record_of(t, kind, chunk.index[lane], &record[lane]);
+            for (int lane = 0; lane < chunk.count; lane++)
+                add_node_record(t, kind, &chunk, lane, &record[lane], sum);
+            for (int lane = 0; lane < chunk.count && t->affine; lane++)
+                FOR_NODES(kind, a, b, c)
+                {
+                    const double value = weight_of(kind, &chunk, lane, a, b, c).value;
+                    double *node = patch + node_of(t, kind, walk.base, a, b, c) * NODE_STRIDE;
+                    add_affine(t, kind, &chunk, lane, a, b, c, value * t->mass[chunk.index[lane]],
+                               node + NODE_MOMENTUM);
+                }
+        }
+        add_sums(t, kind, walk.base, sum, NODE_STRIDE, patch);
+    }
+}
+
+BOLIDE_INLINE void bin_slopes(const struct transfer *t, struct kind kind, int32_t bin)
+{
+    double *patch = grid_patch(t->grid, t->normal, bin);
+    memset(patch, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *patch);
+    const struct corner corner = corner_of(t, kind, bin);
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
+        struct chunk chunk;
+        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
+            weigh(t, kind, &walk, begin, &chunk);
+            for (int lane = 0; lane < chunk.count; lane++)
+                FOR_NODES(kind, a, b, c)
+                {
+                    const struct weight w = weight_of(kind, &chunk, lane, a, b, c);
+                    double *node = patch + node_of(t, kind, walk.base, a, b, c) * BACK_STRIDE;
+                    for (int k = 0; k < kind.dimension; k++)
+                        node[k] += t->mass[chunk.index[lane]] * w.slope[k];
+                }
+        }
+    }
+}
+
+/* The same as `gather` with slopes: sum[i][j] is d data_i / d x_j. */
+BOLIDE_INLINE void gather_slopes(const struct transfer *t, struct kind kind,
+                                 const struct chunk *chunk, size_t base, const double *data,
+                                 int stride, double (*sum)[3][LANES])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            for (int lane = 0; lane < kind.lanes; lane++)
+                sum[i][j][lane] = 0.0;
+    FOR_NODES(kind, a, b, c)
+    {
+        const double *node = data + node_of(t, kind, base, a, b, c) * (size_t)stride;
+        ALIGNED double slope[3][LANES];
+        for (int lane = 0; lane < kind.lanes; lane++) {
+            const struct weight w = weight_of(kind, chunk, lane, a, b, c);
+            for (int j = 0; j < kind.dimension; j++)
+                slope[j][lane] = w.slope[j];
+        }
+        for (int i = 0; i < kind.dimension; i++)
+            for (int j = 0; j < kind.dimension; j++)
+                for (int lane = 0; lane < kind.lanes; lane++)
+                    sum[i][j][lane] += slope[j][lane] * node[i];
+    }
+}
+
+/* The gradient that a particle carries on: by slopes, or by first moments over
+ * the second one of the shape function, sum_I N u (x_I - x) / sum_I N (x_I -
+ * x)^2 (Jiang et al., ACM Trans. Graph. 34 (2015) 51). */
+BOLIDE_INLINE void keep_gradient(const struct transfer *t, struct kind kind,
+                                 const struct chunk *chunk, size_t base, const double *velocity)
+{
+    ALIGNED double sum[3][3][LANES];
+    gather_slopes(t, kind, chunk, base, velocity, NODE_STRIDE, sum);
+    if (t->by_moments && kind.window > 2) {
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                for (int lane = 0; lane < kind.lanes; lane++)
+                    sum[i][j][lane] = 0.0;
+        FOR_NODES(kind, a, b, c)
+        {
+            const int at[3] = {a, b, c};
+            const double *node = velocity + node_of(t, kind, base, a, b, c) * NODE_STRIDE;
+            for (int lane = 0; lane < kind.lanes; lane++) {
+                const double w = weight_of(kind, chunk, lane, a, b, c).value;
+                for (int i = 0; i < kind.dimension; i++)
+                    for (int j = 0; j < kind.dimension; j++)
+                        sum[i][j][lane] += w * node[i] * chunk->away[j][at[j]][lane];
+            }
+        }
+        for (int lane = 0; lane < kind.lanes; lane++)
+            for (int j = 0; j < kind.dimension; j++) {
+                double second = 0.0;
+                for (int k = 0; k < kind.window; k++)
+                    second += chunk->value[j][k][lane] * square(chunk->away[j][k][lane]);
+                for (int i = 0; i < kind.dimension; i++)
+                    sum[i][j][lane] /= second;
+            }
+    }
+    for (int lane = 0; lane < chunk->count; lane++)
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                t->gradient[chunk->index[lane]][3 * i + j] = sum[i][j][lane];
+}
+
+/* New velocities of the lanes of a chunk, from the sums over nodes of acceleration and velocity. */
+BOLIDE_INLINE void accelerate(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                              double dt, bool move, double (*push)[LANES], double (*flow)[LANES])
+{
+    for (int lane = 0; lane < chunk->count; lane++) {
+        double *u = t->velocity[chunk->index[lane]], *x = t->position[chunk->index[lane]];
+        for (int k = 0; k < kind.dimension; k++) {
+            u[k] += dt * push[k][lane];
+            if (t->flip < 1.0)
+                u[k] = t->flip * u[k] + (1.0 - t->flip) * flow[k][lane];
+            if (move)
+                x[k] += dt * flow[k][lane];
+        }
+    }
+}
+
+/* Adds the momenta of the lanes of a chunk to the SUM of each node. */
+BOLIDE_INLINE void add_momenta(const struct transfer *t, struct kind kind,
+                               const struct chunk *chunk, const double (*weight)[LANES],
+                               vector4 *sum)
+{
+    for (int lane = 0; lane < chunk->count; lane++) {
+        const double *u = t->velocity[chunk->index[lane]], mass = t->mass[chunk->index[lane]];
+        const vector4 momentum = {mass * u[0], mass * u[1], mass * u[2], 0.0};
+        for (int n = 0; n < nodes_of(kind); n++)
+            sum[n] += weight[n][lane] * momentum;
+    }
+}
+
+BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int32_t bin, double dt,
+                                bool scatter_back, bool move)
+{
+    const double *patch = grid_patch(t->grid, t->main, bin);
+    double *back = scatter_back ? grid_patch(t->grid, t->back, bin) : NULL;
+    const bool blend = t->flip < 1.0 || move;
+    if (back)
+        memset(back, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *back);
+    const struct corner corner = corner_of(t, kind, bin);
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
+        struct chunk chunk;
+        ALIGNED double push[3][LANES], flow[3][LANES], weight[NODES_MAX][LANES];
+        vector4 sum[NODES_MAX];
+        if (walk.count == 0)
+            continue;
+        vector4_clear(sum, nodes_of(kind));
+        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
+            weigh(t, kind, &walk, begin, &chunk);
+            find_weights(kind, &chunk, weight);
+            gather(t, kind, weight, walk.base, patch + NODE_ACCELERATION, NODE_STRIDE,
+                   kind.dimension, push);
+            if (blend)
+                gather(t, kind, weight, walk.base, patch + NODE_VELOCITY, NODE_STRIDE,
+                       kind.dimension, flow);
+            accelerate(t, kind, &chunk, dt, move, push, flow);
+            if (t->affine)
+                keep_gradient(t, kind, &chunk, walk.base, patch + NODE_VELOCITY);
+            if (!back)
+                continue;
+            add_momenta(t, kind, &chunk, weight, sum);
+            for (int lane = 0; lane < chunk.count && t->affine; lane++)
+                FOR_NODES(kind, a, b, c)
+                {
+                    const double value = weight_of(kind, &chunk, lane, a, b, c).value;
+                    add_affine(t, kind, &chunk, lane, a, b, c, t->mass[chunk.index[lane]] * value,
+                               back + node_of(t, kind, walk.base, a, b, c) * BACK_STRIDE);
+                }
+        }
+        if (back)
+            add_sums(t, kind, walk.base, sum, BACK_STRIDE, back);
+    }
+}
+
+BOLIDE_INLINE void bin_again(const struct transfer *t, struct kind kind, int32_t bin,
+                             const double *from, bool accelerations, double *to)
+{
+    memset(to, 0, (size_t)(t->grid->patch * NODE_STRIDE) * sizeof *to);
+    const struct corner corner = corner_of(t, kind, bin);
+    ALIGNED double got[NODE_STRIDE][LANES] = {{0.0}}, weight[NODES_MAX][LANES];
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
+        struct chunk chunk;
+        vector8 sum[NODES_MAX];
+        vector8_clear(sum, walk.count ? nodes_of(kind) : 0);
+        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
+            weigh(t, kind, &walk, begin, &chunk);
+            find_weights(kind, &chunk, weight);
+            gather(t, kind, weight, walk.base, from + NODE_VELOCITY, NODE_STRIDE, kind.dimension,
+                   got + NODE_VELOCITY);
+            if (accelerations)
+                gather(t, kind, weight, walk.base, from + NODE_ACCELERATION, NODE_STRIDE,
+                       kind.dimension, got + NODE_ACCELERATION);
+            for (int lane = 0; lane < chunk.count; lane++) {
+                const double m = t->mass[chunk.index[lane]];
+                const vector8 record = {0.0,
+                                        m * got[1][lane],
+                                        m * got[2][lane],
+                                        m * got[3][lane],
+                                        m * got[4][lane],
+                                        m * got[5][lane],
+                                        m * got[6][lane],
+                                        0.0};
+                for (int n = 0; n < nodes_of(kind); n++)
+                    sum[n] += weight[n][lane] * record;
+            }
+        }
+        if (walk.count)
+            add_sums(t, kind, walk.base, sum, NODE_STRIDE, to);
+    }
+}
+
+/* Strain and spin of the lanes of a chunk from the gradients of velocity SUM; AROUND is the
+ * velocity away from the axis. */
+BOLIDE_INLINE void keep_rates(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                              double (*sum)[3][LANES], const double *around, struct rates rates)
+{
+    const bool round = kind.dimension == 2 && t->axisymmetric;
+    double *row[RATES];
+    for (int c = 0; c < RATES; c++)
+        row[c] = rates.to + (size_t)c * rates.stride;
+    for (int lane = 0; lane < kind.lanes; lane++) {
+        row[0][lane] = sum[0][0][lane];
+        row[1][lane] = sum[1][1][lane];
+        row[2][lane] = round ? around[lane] / t->position[chunk->index[lane]][0] : sum[2][2][lane];
+        row[3][lane] = 0.5 * (sum[0][1][lane] + sum[1][0][lane]);
+        row[4][lane] = 0.5 * (sum[1][2][lane] + sum[2][1][lane]);
+        row[5][lane] = 0.5 * (sum[2][0][lane] + sum[0][2][lane]);
+        row[6][lane] = 0.5 * (sum[2][1][lane] - sum[1][2][lane]);
+        row[7][lane] = 0.5 * (sum[0][2][lane] - sum[2][0][lane]);
+        row[8][lane] = 0.5 * (sum[1][0][lane] - sum[0][1][lane]);
+    }
+}
+
+/* The radial velocity of the lanes of a chunk as the hoop strain sees it. */
+BOLIDE_INLINE void gather_around(const struct transfer *t, struct kind kind,
+                                 const struct chunk *chunk, size_t base, const double *velocity,
+                                 int stride, double *sum)
+{
+    for (int lane = 0; lane < kind.lanes; lane++)
+        sum[lane] = 0.0;
+    for (int a = 0; a < kind.window; a++)
+        for (int b = 0; b < kind.window; b++) {
+            const double *node = velocity + node_of(t, kind, base, a, b, 0) * (size_t)stride;
+            for (int lane = 0; lane < kind.lanes; lane++)
+                sum[lane] += chunk->around[a][lane] * chunk->value[1][b][lane] * node[0];
+        }
+}
+
+BOLIDE_INLINE void bin_gradient(const struct transfer *t, struct kind kind, int32_t bin, double dt,
+                                const double *of, int stride, bool move, struct rates rates)
+{
+    const bool round = kind.dimension == 2 && t->axisymmetric;
+    const double *patch = grid_patch(t->grid, t->main, bin);
+    const struct corner corner = corner_of(t, kind, bin);
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
+        struct chunk chunk;
+        ALIGNED double sum[3][3][LANES], flow[3][LANES], around[LANES];
+        ALIGNED double weight[NODES_MAX][LANES];
+        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
+            weigh(t, kind, &walk, begin, &chunk);
+            find_weights(kind, &chunk, weight);
+            gather_slopes(t, kind, &chunk, walk.base, of, stride, sum);
+            if (round)
+                gather_around(t, kind, &chunk, walk.base, of, stride, around);
+            if (move)
+                gather(t, kind, weight, walk.base, patch + NODE_VELOCITY, NODE_STRIDE,
+                       kind.dimension, flow);
+            keep_rates(t, kind, &chunk, sum, around, rates);
+            rates.to += chunk.count;
+            for (int lane = 0; lane < chunk.count && move; lane++)
+                for (int k = 0; k < kind.dimension; k++)
+                    t->position[chunk.index[lane]][k] += dt * flow[k][lane];
+        }
+    }
+}
+
+#endif
