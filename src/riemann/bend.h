@@ -9,10 +9,9 @@
  * rest, which is the slope of a weak shock. At least 0.05, since the curve must bend upwards. */
 BOLIDE_INLINE double riemann_shock_slope(const struct material *material)
 {
-    if (material->eos.kind == EOS_ideal_gas)
-        return 0.5 * (material->eos.of.ideal_gas.gamma + 1.0);
-    if (material->eos.kind == EOS_mie_grueneisen)
-        return maximum(material->eos.of.mie_grueneisen.slope, 0.05);
+    const double own = eos_traits(&material->eos).shock_slope;
+    if (!isnan(own))
+        return maximum(own, 0.05);
     double rho = material_density(material), history[POINT_HISTORY] = {0.0}, sound[2];
     double pressure = eos_evaluate(&material->eos, rho, 0.0, history).pressure;
     const double step = 1e-4;

@@ -151,10 +151,9 @@ static struct error *choose_kind(struct sph *sph, const struct simulation *simul
     for (int m = 0; m < simulation->materials; m++) {
         const struct material *material = &simulation->material[m];
         kind->shear |= material_has_strength(material) && simulation->dimension > 1;
-        sph->bend[m] = kind->star == STAR_EXACT_GAS ? material->eos.of.ideal_gas.gamma
-                                                    : riemann_shock_slope(material);
-        if (kind->star == STAR_EXACT_GAS &&
-            (material->eos.kind != EOS_ideal_gas || material_has_strength(material)))
+        const double gamma = eos_ratio_of_heats(&material->eos);
+        sph->bend[m] = kind->star == STAR_EXACT_GAS ? gamma : riemann_shock_slope(material);
+        if (kind->star == STAR_EXACT_GAS && (isnan(gamma) || material_has_strength(material)))
             return input_error(simulation->input, "solver", "sph.contact",
                                "exact-gas solves contacts of ideal gases, and material \"%s\" is "
                                "none: use acoustic or dukowicz",

@@ -8,7 +8,7 @@
 #ifndef BOLIDE_EOS_GRUENEISEN_ETA_H
 #define BOLIDE_EOS_GRUENEISEN_ETA_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_grueneisen_eta {
     double density; /* rho_0, kg/m^3 */
@@ -16,6 +16,17 @@ struct eos_grueneisen_eta {
     double slope;   /* s of U_s = C_0 + s U_p */
     double gamma;   /* Grüneisen coefficient at rho_0 */
 };
+
+#define EOS_grueneisen_eta_NAME "grueneisen-eta"
+#define EOS_grueneisen_eta_HELP \
+    "Mie-Grueneisen with gamma density constant, one formula in compression and tension"
+#define EOS_grueneisen_eta_PARAMETERS(T)                                                    \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
+    NUMBER(T, sound, "m/s", REQUIRED, POSITIVE,                                             \
+           "shock speed of a vanishing shock, C_0 of U_s = C_0 + s U_p")                    \
+    NUMBER(T, slope, "", REQUIRED, NOT_NEGATIVE,                                            \
+           "slope of the shock adiabat, s of U_s = C_0 + s U_p")                            \
+    NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient at zero pressure")
 
 BOLIDE_INLINE struct eos_value eos_grueneisen_eta(const struct eos_grueneisen_eta *solid,
                                                   double density, double energy,
@@ -42,6 +53,13 @@ BOLIDE_INLINE struct eos_value eos_grueneisen_eta(const struct eos_grueneisen_et
     value.dp_drho = c2 * f_slope;
     value.dp_de = thermal;
     return value;
+}
+
+BOLIDE_INLINE struct eos_traits eos_grueneisen_eta_traits(const struct eos_grueneisen_eta *solid)
+{
+    struct eos_traits traits = eos_default_traits();
+    (void)solid;
+    return traits;
 }
 
 #endif

@@ -8,7 +8,7 @@
 #ifndef BOLIDE_EOS_GRUENEISEN_POLYNOMIAL_H
 #define BOLIDE_EOS_GRUENEISEN_POLYNOMIAL_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_grueneisen_polynomial {
     double density; /* rho_0, kg/m^3 */
@@ -16,6 +16,17 @@ struct eos_grueneisen_polynomial {
     double slope;   /* s of U_s = C_0 + s U_p */
     double gamma;   /* Grüneisen coefficient, constant */
 };
+
+#define EOS_grueneisen_polynomial_NAME "grueneisen-polynomial"
+#define EOS_grueneisen_polynomial_HELP \
+    "Mie-Grueneisen about the shock adiabat as a cubic of the compression"
+#define EOS_grueneisen_polynomial_PARAMETERS(T)                                             \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
+    NUMBER(T, sound, "m/s", REQUIRED, POSITIVE,                                             \
+           "shock speed of a vanishing shock, C_0 of U_s = C_0 + s U_p")                    \
+    NUMBER(T, slope, "", REQUIRED, NOT_NEGATIVE,                                            \
+           "slope of the shock adiabat, s of U_s = C_0 + s U_p")                            \
+    NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient")
 
 BOLIDE_INLINE struct eos_value eos_grueneisen_polynomial(
     const struct eos_grueneisen_polynomial *solid, double density, double energy,
@@ -36,6 +47,14 @@ BOLIDE_INLINE struct eos_value eos_grueneisen_polynomial(
     value.dp_de = solid->gamma * density;
     value.status = 0;
     return value;
+}
+
+BOLIDE_INLINE struct eos_traits eos_grueneisen_polynomial_traits(
+    const struct eos_grueneisen_polynomial *solid)
+{
+    struct eos_traits traits = eos_default_traits();
+    (void)solid;
+    return traits;
 }
 
 #endif

@@ -10,7 +10,7 @@
 #ifndef BOLIDE_EOS_JWL_H
 #define BOLIDE_EOS_JWL_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_jwl {
     double density; /* rho_0 of the explosive, kg/m^3 */
@@ -19,6 +19,18 @@ struct eos_jwl {
     double omega;
     double energy; /* E_0, J/m^3 of initial volume */
 };
+
+#define EOS_jwl_NAME "jwl"
+#define EOS_jwl_HELP "Jones-Wilkins-Lee: explosives and their products, without burning"
+#define EOS_jwl_PARAMETERS(T)                                                    \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density of the explosive") \
+    NUMBER(T, a, "Pa", REQUIRED, ANY, "A: factor of exp(-R_1 V)")                \
+    NUMBER(T, b, "Pa", REQUIRED, ANY, "B: factor of exp(-R_2 V)")                \
+    NUMBER(T, r1, "", REQUIRED, POSITIVE, "R_1: exponent of A")                  \
+    NUMBER(T, r2, "", REQUIRED, POSITIVE, "R_2: exponent of B")                  \
+    NUMBER(T, omega, "", REQUIRED, POSITIVE, "Grueneisen coefficient")           \
+    NUMBER(T, energy, "J/m^3", REQUIRED, ANY,                                    \
+           "E_0: energy of an initial volume at zero particle energy: the heat of the reaction")
 
 BOLIDE_INLINE struct eos_value eos_jwl(const struct eos_jwl *jwl, double density, double energy,
                                        const double *history)
@@ -38,6 +50,13 @@ BOLIDE_INLINE struct eos_value eos_jwl(const struct eos_jwl *jwl, double density
     value.dp_de = jwl->omega * density;
     value.status = 0;
     return value;
+}
+
+BOLIDE_INLINE struct eos_traits eos_jwl_traits(const struct eos_jwl *jwl)
+{
+    struct eos_traits traits = eos_default_traits();
+    (void)jwl;
+    return traits;
 }
 
 #endif

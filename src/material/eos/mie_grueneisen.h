@@ -9,7 +9,7 @@
 #ifndef BOLIDE_EOS_MIE_GRUENEISEN_H
 #define BOLIDE_EOS_MIE_GRUENEISEN_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_mie_grueneisen {
     double density;      /* rho_0, kg/m^3 */
@@ -18,6 +18,18 @@ struct eos_mie_grueneisen {
     double gamma;        /* Grüneisen coefficient, constant */
     double bulk_modulus; /* K, Pa, in tension */
 };
+
+#define EOS_mie_grueneisen_NAME "mie-grueneisen"
+#define EOS_mie_grueneisen_HELP \
+    "Mie-Grueneisen about the shock adiabat U_s = sound + slope U_p, linear elastic in tension"
+#define EOS_mie_grueneisen_PARAMETERS(T)                                                    \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
+    NUMBER(T, sound, "m/s", REQUIRED, POSITIVE,                                             \
+           "shock speed of a vanishing shock, C_a of U_s = C_a + S_a U_p")                  \
+    NUMBER(T, slope, "", REQUIRED, NOT_NEGATIVE,                                            \
+           "slope of the shock adiabat, S_a of U_s = C_a + S_a U_p")                        \
+    NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient")                  \
+    NUMBER(T, bulk_modulus, "Pa", REQUIRED, POSITIVE, "bulk modulus in tension")
 
 BOLIDE_INLINE struct eos_value eos_mie_grueneisen(const struct eos_mie_grueneisen *solid,
                                                   double density, double energy,
@@ -52,6 +64,13 @@ BOLIDE_INLINE struct eos_value eos_mie_grueneisen(const struct eos_mie_grueneise
         square(v) * (slope - solid->gamma * density * reference_slope) + solid->gamma * excess;
     value.dp_de = solid->gamma * density;
     return value;
+}
+
+BOLIDE_INLINE struct eos_traits eos_mie_grueneisen_traits(const struct eos_mie_grueneisen *solid)
+{
+    struct eos_traits traits = eos_default_traits();
+    traits.shock_slope = solid->slope;
+    return traits;
 }
 
 #endif

@@ -7,13 +7,21 @@
 #ifndef BOLIDE_EOS_STIFFENED_GAS_H
 #define BOLIDE_EOS_STIFFENED_GAS_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_stiffened_gas {
     double density; /* rho_0, kg/m^3: zero pressure at zero energy */
     double sound;   /* C_0, m/s, at rest */
     double gamma;
 };
+
+#define EOS_stiffened_gas_NAME "stiffened-gas"
+#define EOS_stiffened_gas_HELP \
+    "stiffened gas, p = sound^2 (density - density_0) + (gamma - 1) density energy"
+#define EOS_stiffened_gas_PARAMETERS(T)                                                     \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
+    NUMBER(T, sound, "m/s", REQUIRED, POSITIVE, "sound speed at rest")                      \
+    NUMBER(T, gamma, "", REQUIRED, ABOVE_ONE, "gamma of the thermal term")
 
 BOLIDE_INLINE struct eos_value eos_stiffened_gas(const struct eos_stiffened_gas *gas,
                                                  double density, double energy,
@@ -27,6 +35,13 @@ BOLIDE_INLINE struct eos_value eos_stiffened_gas(const struct eos_stiffened_gas 
     value.dp_de = heat * density;
     value.status = 0;
     return value;
+}
+
+BOLIDE_INLINE struct eos_traits eos_stiffened_gas_traits(const struct eos_stiffened_gas *gas)
+{
+    struct eos_traits traits = eos_default_traits();
+    (void)gas;
+    return traits;
 }
 
 #endif
