@@ -2,8 +2,8 @@
  *
  * An equation of state is a parameter struct whose first member is its reference density, a pure
  * function from density, specific internal energy and history to pressure and its two derivatives,
- * its traits, and its parameters as rows. To add one: its header in eos/, and its line in the list
- * below. */
+ * the curve that temperatures are counted from, its traits, and its parameters as rows. To add one:
+ * its header in eos/, and its line in the list below. */
 #ifndef BOLIDE_EOS_H
 #define BOLIDE_EOS_H
 
@@ -20,8 +20,9 @@
 #include "material/eos/tillotson.h"
 
 /* X(identifier): in eos/<identifier>.h struct eos_<identifier>, eos_<identifier>(),
- * eos_<identifier>_traits(), and the name, help and parameters EOS_<identifier>_NAME, _HELP and
- * _PARAMETERS (see choices.c). */
+ * eos_<identifier>_traits(), eos_<identifier>_curve(), and the name, help and parameters
+ * EOS_<identifier>_NAME, _HELP and _PARAMETERS (see choices.c), and EOS_<identifier>_SAMPLE, the
+ * constants of some material for the tests of all equations of state. */
 #define EOS_LIST(X)          \
     X(ideal_gas)             \
     X(stiffened_gas)         \
@@ -95,6 +96,22 @@ BOLIDE_INLINE struct eos_traits eos_traits(const struct eos *eos)
 #undef EOS_CASE
     default:
         return eos_default_traits();
+    }
+}
+
+/* The curve that temperatures are counted from, at DENSITY. */
+BOLIDE_INLINE struct heat_curve eos_curve(const struct eos *eos, const struct heat *heat,
+                                          double density)
+{
+    struct heat_curve none = {NAN, 0.0};
+    switch (eos->kind) {
+#define EOS_CASE(name) \
+    case EOS_##name:   \
+        return eos_##name##_curve(&eos->of.name, heat, density);
+        EOS_LIST(EOS_CASE)
+#undef EOS_CASE
+    default:
+        return none;
     }
 }
 

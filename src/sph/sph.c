@@ -9,7 +9,6 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "model/generate.h"
-#include "riemann/bend.h"
 #include "sph/heat_kernel.h"
 #include "sph/lanes.h"
 #include "sph/prune.h"
@@ -150,17 +149,12 @@ static struct error *choose_kind(struct sph *sph, const struct simulation *simul
     kind->depth = sph_axisymmetric(simulation) || is_thin(simulation);
     for (int m = 0; m < simulation->materials; m++) {
         const struct material *material = &simulation->material[m];
+        const char *name = simulation->input->materials.names[m];
         kind->shear |= material_has_strength(material) && simulation->dimension > 1;
-        const double gamma = eos_ratio_of_heats(&material->eos);
-        sph->bend[m] = kind->star == STAR_EXACT_GAS ? gamma : riemann_shock_slope(material);
-        if (kind->star == STAR_EXACT_GAS && (isnan(gamma) || material_has_strength(material)))
-            return input_error(simulation->input, "solver", "sph.contact",
-                               "exact-gas solves contacts of ideal gases, and material \"%s\" is "
-                               "none: use acoustic or dukowicz",
-                               simulation->input->materials.names[m]);
+        TRY(sph_choose_bend(sph, simulation, m));
         if (is_thin(simulation) && !material_has_strength(material))
             return input_error(
-                simulation->input, "materials", simulation->input->materials.names[m],
+                simulation->input, "materials", name,
                 "plane stress is for plates that have strength, and this is a fluid");
     }
     return choose_turn(sph, simulation);

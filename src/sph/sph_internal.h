@@ -85,6 +85,10 @@ BOLIDE_INLINE bool sph_second_order(const struct sph *sph)
     return sph->parameters.method == SPH_MUSCL;
 }
 
+/* Sets the bend of material M, which depends on the contact solver; an error where the material has
+ * none. See bend.c. */
+struct error *sph_choose_bend(struct sph *sph, const struct simulation *simulation, int m);
+
 /* Of muscl.c: what the case must not ask for; what the pair loop is instantiated by; what a fresh particle starts from;
  * records half a step ahead by the slopes found a step before, as sph_pack and sph_pack_rest. */
 struct error *muscl_check(const struct sph *sph, const struct simulation *simulation);

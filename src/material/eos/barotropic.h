@@ -13,6 +13,10 @@ struct eos_barotropic {
 #define EOS_barotropic_NAME "barotropic"
 #define EOS_barotropic_HELP \
     "constant bulk modulus, p = bulk_modulus (1 - density_0/density), without energy"
+#define EOS_barotropic_SAMPLE \
+    {                         \
+        1000.0, 2e9           \
+    } /* water */
 #define EOS_barotropic_PARAMETERS(T)                                             \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure") \
     NUMBER(T, bulk_modulus, "Pa", REQUIRED, POSITIVE, "bulk modulus")
@@ -36,6 +40,16 @@ BOLIDE_INLINE struct eos_traits eos_barotropic_traits(const struct eos_barotropi
     struct eos_traits traits = eos_default_traits();
     (void)liquid;
     return traits;
+}
+
+/* The cold curve. */
+BOLIDE_INLINE struct heat_curve eos_barotropic_curve(const struct eos_barotropic *liquid,
+                                                     const struct heat *heat, double density)
+{
+    double ratio = liquid->density / density;
+    struct heat_curve curve = {heat->temperature,
+                               0.5 * liquid->bulk_modulus * square(1.0 - ratio) / liquid->density};
+    return curve;
 }
 
 #endif

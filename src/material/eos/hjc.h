@@ -26,6 +26,10 @@ struct eos_hjc {
 #define EOS_hjc_NAME "hjc"
 #define EOS_hjc_HELP \
     "concrete after Holmquist, Johnson and Cook: elastic, crushed, compacted; unloading remembers"
+#define EOS_hjc_SAMPLE                                       \
+    {                                                        \
+        2400.0, 16e6, 0.001, 0.8e9, 0.1, 85e9, -171e9, 208e9 \
+    } /* concrete */
 #define EOS_hjc_PARAMETERS(T)                                                    \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure") \
     NUMBER(T, crush_pressure, "Pa", REQUIRED, POSITIVE,                          \
@@ -149,6 +153,20 @@ BOLIDE_INLINE struct eos_traits eos_hjc_traits(const struct eos_hjc *concrete)
     traits.wrong = hjc_wrong(concrete);
     traits.wrong_key = "lock_pressure";
     return traits;
+}
+
+/* The energy that unloading from first loading gives back, at T_0: all other work, that of crushing
+ * too, is heat. With n = rho/rho_0 and n_r where unloading with K_u ends, rho_0 e_r = K_u
+ * [ln(n/n_r) - (n - n_r)/n]. */
+BOLIDE_INLINE struct heat_curve eos_hjc_curve(const struct eos_hjc *concrete,
+                                              const struct heat *heat, double density)
+{
+    double n = density / concrete->density, full = hjc_full_compression(concrete);
+    double modulus = hjc_unloading(concrete, full, n - 1.0);
+    double back = hjc_loading(concrete, full, n - 1.0).pressure / modulus; /* n - n_r */
+    double work = modulus * (logarithm(n / (n - back)) - back / n);
+    struct heat_curve curve = {heat->temperature, work / concrete->density};
+    return curve;
 }
 
 #endif

@@ -11,6 +11,10 @@ struct eos_ideal_gas {
 
 #define EOS_ideal_gas_NAME "ideal-gas"
 #define EOS_ideal_gas_HELP "ideal gas, p = (gamma - 1) density energy"
+#define EOS_ideal_gas_SAMPLE \
+    {                        \
+        1.2, 1.4             \
+    } /* air */
 #define EOS_ideal_gas_PARAMETERS(T)                        \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE,       \
            "density at the start where a body gives none") \
@@ -34,6 +38,16 @@ BOLIDE_INLINE struct eos_traits eos_ideal_gas_traits(const struct eos_ideal_gas 
     traits.shock_slope = 0.5 * (gas->gamma + 1.0); /* the limit of strong shocks */
     traits.ratio_of_heats = gas->gamma;
     return traits;
+}
+
+BOLIDE_INLINE struct heat_curve eos_ideal_gas_curve(const struct eos_ideal_gas *gas,
+                                                    const struct heat *heat, double density)
+{
+    struct heat_curve curve = {0.0, 0.0};
+    (void)gas;
+    (void)heat;
+    (void)density;
+    return curve;
 }
 
 #endif

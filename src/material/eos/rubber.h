@@ -12,6 +12,10 @@ struct eos_rubber {
 
 #define EOS_rubber_NAME "rubber"
 #define EOS_rubber_HELP "constant sound speed, p = sound^2 (density - density_0), without energy"
+#define EOS_rubber_SAMPLE \
+    {                     \
+        1010.0, 852.0     \
+    } /* rubber */
 #define EOS_rubber_PARAMETERS(T)                                                 \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure") \
     NUMBER(T, sound, "m/s", REQUIRED, POSITIVE, "sound speed")
@@ -34,6 +38,16 @@ BOLIDE_INLINE struct eos_traits eos_rubber_traits(const struct eos_rubber *rubbe
     struct eos_traits traits = eos_default_traits();
     (void)rubber;
     return traits;
+}
+
+/* The cold curve. */
+BOLIDE_INLINE struct heat_curve eos_rubber_curve(const struct eos_rubber *rubber,
+                                                 const struct heat *heat, double density)
+{
+    double ratio = rubber->density / density;
+    struct heat_curve curve = {heat->temperature,
+                               square(rubber->sound) * (ratio - 1.0 - log(ratio))};
+    return curve;
 }
 
 #endif

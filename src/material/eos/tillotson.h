@@ -29,6 +29,10 @@ struct eos_tillotson {
 
 #define EOS_tillotson_NAME "tillotson"
 #define EOS_tillotson_HELP "Tillotson's: metals and rocks from rest to vaporisation"
+#define EOS_tillotson_SAMPLE                                             \
+    {                                                                    \
+        2700.0, 0.5, 1.63, 75.2e9, 65e9, 5e6, 5.0, 5.0, 3e6, 13.9e6, NAN \
+    } /* aluminium */
 #define EOS_tillotson_PARAMETERS(T)                                                                \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density of the cold solid at zero pressure") \
     NUMBER(T, a, "", REQUIRED, NOT_NEGATIVE, "thermal coefficient at high energy")                 \
@@ -119,8 +123,20 @@ BOLIDE_INLINE struct eos_value eos_tillotson(const struct eos_tillotson *t, doub
 BOLIDE_INLINE struct eos_traits eos_tillotson_traits(const struct eos_tillotson *t)
 {
     struct eos_traits traits = eos_default_traits();
-    (void)t;
+    /* dc/drho at constant entropy, from e = A mu^2/(2 rho_0) and p = A mu + B mu^2 + (a + b) rho_0
+     * e */
+    traits.shock_slope = 0.5 * (1.0 + t->second_modulus / t->bulk_modulus + 0.5 * (t->a + t->b));
     return traits;
+}
+
+EOS_ISENTROPE(tillotson_isentrope, tillotson)
+
+/* The isentrope of the state at rest, along which stretching takes nearly e_cv. Below a twentieth
+ * of rho_0, where little of its tension is left, it is held. */
+BOLIDE_INLINE struct heat_curve eos_tillotson_curve(const struct eos_tillotson *t,
+                                                    const struct heat *heat, double density)
+{
+    return tillotson_isentrope(t, heat, maximum(density, 0.05 * t->density));
 }
 
 #endif
