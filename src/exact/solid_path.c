@@ -57,9 +57,8 @@ static struct error *eos_of(const struct exact_solid *solid, const char *side, s
         eos->kind = (enum eos_kind)solid->eos.index;
         memcpy(&eos->of, solid->eos.value, solid->eos.choice->size);
     } else {
-        eos->kind = EOS_barotropic;
-        eos->of.barotropic.density = solid->reference_density;
-        eos->of.barotropic.bulk_modulus = solid->bulk_modulus;
+        *eos = eos_make_barotropic(
+            &(struct eos_barotropic){solid->reference_density, solid->bulk_modulus});
     }
     return NULL;
 }

@@ -9,22 +9,9 @@
 #include "material/eos.h"
 #include "material/strength.h"
 
-/* An equation of state's table file (eos/<identifier>.c) defines its name in a case, one line of help
- * and the parameters of its struct. */
-#define EOS_TABLE(identifier)                    \
-    extern const char eos_##identifier##_name[]; \
-    extern const char eos_##identifier##_help[]; \
-    extern const struct parameter eos_##identifier##_parameters[];
+#define EOS_TABLE(identifier) extern const struct parameter eos_##identifier##_parameters[];
 EOS_LIST(EOS_TABLE)
 #undef EOS_TABLE
-
-/* The same of a strength model in strength/<identifier>.c. */
-#define STRENGTH_TABLE(identifier)                    \
-    extern const char strength_##identifier##_name[]; \
-    extern const char strength_##identifier##_help[]; \
-    extern const struct parameter strength_##identifier##_parameters[];
-STRENGTH_LIST(STRENGTH_TABLE)
-#undef STRENGTH_TABLE
 
 /* By enum eos_kind, strength_kind and burn_kind. */
 extern const struct choice eos_choices[EOS_KINDS];

@@ -1,8 +1,9 @@
 /* The equations of state, one header each, and the one list of them.
  *
- * An equation of state is a parameter struct whose first member is its reference density, and a pure
- * function from density, specific internal energy and history to pressure and its two derivatives.
- * To add one: its header and its parameter table in eos/, and its line in the list below. */
+ * An equation of state is a parameter struct whose first member is its reference density, a pure
+ * function from density, specific internal energy and history to pressure and its two derivatives,
+ * the curve that temperatures are counted from, its traits, and its parameters as rows. To add one:
+ * its header in eos/, and its line in the list below. */
 #ifndef BOLIDE_EOS_H
 #define BOLIDE_EOS_H
 
@@ -18,8 +19,10 @@
 #include "material/eos/stiffened_gas.h"
 #include "material/eos/tillotson.h"
 
-/* X(identifier): struct eos_<identifier>, eos_<identifier>() in eos/<identifier>.h, its table in
- * eos/<identifier>.c (see choices.h). */
+/* X(identifier): in eos/<identifier>.h struct eos_<identifier>, eos_<identifier>(),
+ * eos_<identifier>_traits(), eos_<identifier>_curve(), and the name, help and parameters
+ * EOS_<identifier>_NAME, _HELP and _PARAMETERS (see choices.c), and EOS_<identifier>_SAMPLE, the
+ * constants of some material for the tests of all equations of state. */
 #define EOS_LIST(X)          \
     X(ideal_gas)             \
     X(stiffened_gas)         \
@@ -32,6 +35,9 @@
     X(tillotson)             \
     X(jwl)                   \
     X(hjc)
+
+/* Those whose pores close for good: eos_<identifier>_compact() notes it in the history. */
+#define EOS_COMPACTING(X) X(hjc)
 
 #define EOS_ENUM(name) EOS_##name,
 enum eos_kind { EOS_LIST(EOS_ENUM) EOS_KINDS };
@@ -46,6 +52,18 @@ struct eos {
     } of;
 };
 #undef EOS_MEMBER
+
+/* eos_make_<identifier>(): PARAMETERS as an equation of state. */
+#define EOS_MAKE(name)                                                            \
+    BOLIDE_INLINE struct eos eos_make_##name(const struct eos_##name *parameters) \
+    {                                                                             \
+        struct eos eos;                                                           \
+        eos.kind = EOS_##name;                                                    \
+        eos.of.name = *parameters;                                                \
+        return eos;                                                               \
+    }
+EOS_LIST(EOS_MAKE)
+#undef EOS_MAKE
 
 BOLIDE_INLINE double eos_reference_density(const struct eos *eos)
 {
@@ -68,16 +86,65 @@ BOLIDE_INLINE struct eos_value eos_evaluate(const struct eos *eos, double densit
     }
 }
 
-/* The slots of history that it needs. */
-BOLIDE_INLINE unsigned eos_history(const struct eos *eos)
+BOLIDE_INLINE struct eos_traits eos_traits(const struct eos *eos)
 {
-    return eos->kind == EOS_hjc ? HISTORY_BIT(largest_compression) : 0;
+    switch (eos->kind) {
+#define EOS_CASE(name) \
+    case EOS_##name:   \
+        return eos_##name##_traits(&eos->of.name);
+        EOS_LIST(EOS_CASE)
+#undef EOS_CASE
+    default:
+        return eos_default_traits();
+    }
+}
+
+/* The curve that temperatures are counted from, at DENSITY. */
+BOLIDE_INLINE struct heat_curve eos_curve(const struct eos *eos, const struct heat *heat,
+                                          double density)
+{
+    struct heat_curve none = {NAN, 0.0};
+    switch (eos->kind) {
+#define EOS_CASE(name) \
+    case EOS_##name:   \
+        return eos_##name##_curve(&eos->of.name, heat, density);
+        EOS_LIST(EOS_CASE)
+#undef EOS_CASE
+    default:
+        return none;
+    }
+}
+
+/* The slots of history that it needs. */
+BOLIDE_INLINE unsigned eos_history(const struct eos *eos) { return eos_traits(eos).history; }
+
+/* gamma of an ideal gas; NAN of any other medium. */
+BOLIDE_INLINE double eos_ratio_of_heats(const struct eos *eos)
+{
+    return eos_traits(eos).ratio_of_heats;
 }
 
 /* Why its parameters do not go together, *KEY is that it is about; NULL when they do. */
 BOLIDE_INLINE const char *eos_wrong(const struct eos *eos, const char **key)
 {
-    return eos->kind == EOS_hjc ? eos_hjc_wrong(&eos->of.hjc, key) : NULL;
+    struct eos_traits traits = eos_traits(eos);
+    *key = traits.wrong_key;
+    return traits.wrong;
+}
+
+/* Notes in HISTORY the pores that close on the way to DENSITY. Returns the change of rho/rho_0 that
+ * will not come back. */
+BOLIDE_INLINE double eos_compact(const struct eos *eos, double density, double *history)
+{
+    switch (eos->kind) {
+#define EOS_CASE(name) \
+    case EOS_##name:   \
+        return eos_##name##_compact(&eos->of.name, density, history);
+        EOS_COMPACTING(EOS_CASE)
+#undef EOS_CASE
+    default:
+        return 0.0;
+    }
 }
 
 #endif

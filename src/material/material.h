@@ -49,7 +49,7 @@ BOLIDE_INLINE bool material_burns(const struct material *material)
 BOLIDE_INLINE double material_elastic_share(const struct material *material,
                                             const struct point *point)
 {
-    return material->strength.kind == STRENGTH_drucker_prager
+    return strength_history(&material->strength) & HISTORY_BIT(dilation)
                ? 1.0 + point->history[HISTORY_dilation]
                : 1.0;
 }
@@ -64,8 +64,7 @@ BOLIDE_INLINE struct eos_value material_pressure(const struct material *material
     value.dp_drho *= share;
     if (material_burns(material))
         burn_mix(&material->burn, point->history[HISTORY_burnt], &value);
-    if (material->strength.kind == STRENGTH_hjc)
-        hjc_cut(&material->strength.of.hjc, point->history, &value);
+    strength_cut(&material->strength, point->history, &value);
     return value;
 }
 
@@ -121,21 +120,23 @@ BOLIDE_INLINE void material_flow(const struct material *material, struct point *
     point->density = motion->density;
     if (material_burns(material)) {
         double rest = material_density(material);
-        point->history[HISTORY_burnt] = burn_share(
-            &material->burn, point->history[HISTORY_burnt], point->history[HISTORY_lighting_time],
-            motion->time, motion->length, rest / point->density, rest);
+        struct burning burning;
+        burning.passed = motion->time - point->history[HISTORY_lighting_time];
+        burning.length = motion->length;
+        burning.volume = rest / point->density;
+        burning.rest = rest;
+        point->history[HISTORY_burnt] =
+            burn_fraction(&material->burn, &burning, point->history[HISTORY_burnt]);
     }
-    double crushed = material->eos.kind == EOS_hjc
-                         ? hjc_compact(&material->eos.of.hjc, point->density, point->history)
-                         : 0.0;
+    double compaction = eos_compact(&material->eos, point->density, point->history);
     if (strength_takes_pressure(&material->strength)) {
         struct eos_value trial = material_pressure(material, point);
         double bulk =
             point->density * trial.dp_drho + trial.dp_de * trial.pressure / point->density;
         point->pressure = trial.pressure;
-        if (material->strength.kind == STRENGTH_hjc && crushed > 0.0)
-            hjc_crush(&material->strength.of.hjc, crushed, point);
-        strength_step(&material->strength, motion, bulk, point);
+        struct motion with = *motion;
+        with.compaction = compaction;
+        strength_step(&material->strength, &with, bulk, point);
         if (point->pressure != trial.pressure)
             material_dilate(material, point);
     } else if (material_has_strength(material)) {
@@ -199,13 +200,12 @@ BOLIDE_INLINE unsigned material_history(const struct material *material)
            (material_burns(material) ? burning : 0);
 }
 
-/* Whether it remembers no more than its plastic strain and is a fluid or perfectly plastic, as most are: where that is known,
- * a compiler leaves the rest out. */
+/* Whether it remembers no more than its plastic strain and is a fluid or a plain solid, as most
+ * are: where that is known, a compiler leaves the rest out. */
 BOLIDE_INLINE bool material_is_plain(const struct material *material)
 {
-    return (material->strength.kind == STRENGTH_NONE ||
-            material->strength.kind == STRENGTH_perfect_plastic) &&
-           material->eos.kind != EOS_hjc && !material_burns(material);
+    return strength_is_plain(&material->strength) && !eos_history(&material->eos) &&
+           !material_burns(material);
 }
 
 #endif

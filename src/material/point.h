@@ -32,6 +32,13 @@ struct motion {
     struct vec3 spin;
     double viscous_pressure;
     double time, length; /* at the end of the step, s; of the point, its diameter or spacing, m */
+    double compaction;   /* rho/rho_0 lost to pores that closed in the step; the material sets it */
+};
+
+/* What the burning of a point depends on: the time since its lighting (s), its length (m),
+ * rho_0/rho, and rho_0, kg/m^3. */
+struct burning {
+    double passed, length, volume, rest;
 };
 
 #endif

@@ -1,8 +1,9 @@
-/* Strength models: what a material does with shear; one header each, and the one list of them.
+/* Strength models: what a material does with shear; one header each, and the lists of them.
  *
- * A strength model is a parameter struct whose first member is the shear modulus, a pure function that takes a point
- * through a step, elastic trial and return included, and its yield stress in simple tension. To add one: its header and
- * its parameter table in strength/, its line in the list below, and the history that it needs in strength_history. */
+ * A strength model is a parameter struct whose first member is the shear modulus, a pure function
+ * that takes a point through a step, elastic trial and return included, its yield stress in simple
+ * tension, its traits, and its parameters as rows. To add one: its header in strength/, and its
+ * line in the first list below. */
 #ifndef BOLIDE_STRENGTH_H
 #define BOLIDE_STRENGTH_H
 
@@ -11,13 +12,26 @@
 #include "material/strength/johnson_cook.h"
 #include "material/strength/perfect_plastic.h"
 
-/* X(identifier): struct strength_<identifier>, strength_<identifier>() and strength_<identifier>_yield() in
- * strength/<identifier>.h, its table in strength/<identifier>.c (see choices.h). */
+/* X(identifier): in strength/<identifier>.h struct strength_<identifier>, strength_<identifier>(),
+ * strength_<identifier>_yield(), strength_<identifier>_traits(), and the name, help and parameters
+ * STRENGTH_<identifier>_NAME, _HELP and _PARAMETERS (see choices.c). */
 #define STRENGTH_LIST(X) \
     X(perfect_plastic)   \
     X(johnson_cook)      \
     X(drucker_prager)    \
     X(hjc)
+
+/* The plain ones: they remember the plastic strain alone and leave the pressure as it is. Hot loops
+ * are compiled for each of them. */
+#define STRENGTH_PLAIN(X) X(perfect_plastic)
+
+/* Those with a step of many points at once, strength_<identifier>_batch(): see batch.h. */
+#define STRENGTH_BATCHED(X) \
+    X(perfect_plastic)      \
+    X(johnson_cook)
+
+/* Those that limit the tension: strength_<identifier>_cut(). */
+#define STRENGTH_CUTTING(X) X(hjc)
 
 #define STRENGTH_ENUM(name) STRENGTH_##name,
 enum strength_kind { STRENGTH_NONE, STRENGTH_LIST(STRENGTH_ENUM) STRENGTH_KINDS };
@@ -53,10 +67,37 @@ BOLIDE_INLINE double strength_yield(const struct strength *strength, const struc
     }
 }
 
-/* Whether its step takes the pressure of the elastic trial. */
+BOLIDE_INLINE struct strength_traits strength_traits(const struct strength *strength)
+{
+    switch (strength->kind) {
+#define STRENGTH_CASE(name) \
+    case STRENGTH_##name:   \
+        return strength_##name##_traits(&strength->of.name);
+        STRENGTH_LIST(STRENGTH_CASE)
+#undef STRENGTH_CASE
+    default:
+        return strength_default_traits();
+    }
+}
+
+/* Whether its step takes the pressure of the elastic trial, and may return it too. */
 BOLIDE_INLINE bool strength_takes_pressure(const struct strength *strength)
 {
-    return strength->kind == STRENGTH_drucker_prager || strength->kind == STRENGTH_hjc;
+    return strength_traits(strength).takes_pressure;
+}
+
+/* Whether it is none or a plain model. */
+BOLIDE_INLINE bool strength_is_plain(const struct strength *strength)
+{
+    switch (strength->kind) {
+#define STRENGTH_CASE(name) case STRENGTH_##name:
+        STRENGTH_PLAIN(STRENGTH_CASE)
+#undef STRENGTH_CASE
+    case STRENGTH_NONE:
+        return true;
+    default:
+        return false;
+    }
 }
 
 /* Takes the deviator and history of POINT through a step, and its pressure where that returns too. BULK_MODULUS is that of
@@ -76,23 +117,67 @@ BOLIDE_INLINE void strength_step(const struct strength *strength, const struct m
     }
 }
 
+/* The same of a plain model or none: small enough for a loop over many points. */
+BOLIDE_INLINE void strength_plain_step(const struct strength *strength, const struct motion *motion,
+                                       struct point *point)
+{
+    switch (strength->kind) {
+#define STRENGTH_CASE(name)                                      \
+    case STRENGTH_##name:                                        \
+        strength_##name(&strength->of.name, motion, 0.0, point); \
+        break;
+        STRENGTH_PLAIN(STRENGTH_CASE)
+#undef STRENGTH_CASE
+    default:
+        break;
+    }
+}
+
+/* The same of many points of a fluid or of a model with traits.batched; the rest keep their
+ * deviators. */
+BOLIDE_INLINE void strength_batch(const struct strength *strength, struct batch *batch)
+{
+    switch (strength->kind) {
+#define STRENGTH_CASE(name)                                 \
+    case STRENGTH_##name:                                   \
+        strength_##name##_batch(&strength->of.name, batch); \
+        break;
+        STRENGTH_BATCHED(STRENGTH_CASE)
+#undef STRENGTH_CASE
+    default:
+        memcpy(batch->new_deviator, batch->deviator, sizeof batch->deviator);
+    }
+}
+
+/* Cuts the tension of a state that the material does not bear. Its sound stays that of the uncut.
+ * */
+BOLIDE_INLINE void strength_cut(const struct strength *strength, const double *history,
+                                struct eos_value *value)
+{
+    switch (strength->kind) {
+#define STRENGTH_CASE(name)                                        \
+    case STRENGTH_##name:                                          \
+        strength_##name##_cut(&strength->of.name, history, value); \
+        break;
+        STRENGTH_CUTTING(STRENGTH_CASE)
+#undef STRENGTH_CASE
+    default:
+        break;
+    }
+}
+
 /* The slots of history that it needs. */
 BOLIDE_INLINE unsigned strength_history(const struct strength *strength)
 {
-    if (strength->kind == STRENGTH_johnson_cook && johnson_cook_softens(&strength->of.johnson_cook))
-        return HISTORY_BIT(plastic_heating);
-    if (strength->kind == STRENGTH_hjc)
-        return HISTORY_BIT(damage) |
-               (strength->of.hjc.tensile_growth > 0.0 ? HISTORY_BIT(tensile_damage) : 0);
-    return strength->kind == STRENGTH_drucker_prager ? HISTORY_BIT(dilation) : 0;
+    return strength_traits(strength).history;
 }
 
 /* Why its parameters do not go together, *KEY is that it is about; NULL when they do. */
 BOLIDE_INLINE const char *strength_wrong(const struct strength *strength, const char **key)
 {
-    if (strength->kind == STRENGTH_johnson_cook)
-        return johnson_cook_wrong(&strength->of.johnson_cook, key);
-    return NULL;
+    struct strength_traits traits = strength_traits(strength);
+    *key = traits.wrong_key;
+    return traits.wrong;
 }
 
 #endif

@@ -1,29 +1,35 @@
-/* How the shock curve of a material bends: what the solvers of strong shocks take for `bend` of a side. */
+/* The slope of a material's shock adiabat: what the solvers of strong shocks take for `bend` of a
+ * side. */
 #ifndef BOLIDE_RIEMANN_BEND_H
 #define BOLIDE_RIEMANN_BEND_H
 
 #include "material/material.h"
 
-/* Slope A of U_s = c + A |u* - u|: (gamma + 1)/2 for an ideal gas, the limit of strong shocks; S_a of a shock
- * adiabat; elsewhere half the fundamental derivative, (1 + (rho/c) dc/drho at constant entropy)/2, of the material at
- * rest, which is the slope of a weak shock. At least 0.05, since the curve must bend upwards. */
-BOLIDE_INLINE double riemann_shock_slope(const struct material *material)
+/* Half the fundamental derivative, (1 + (rho/c) dc/drho at constant entropy)/2, of the equation of
+ * state at its reference density and zero energy, by a difference on the side of compression, where
+ * the modulus may differ from that in tension: the slope of a weak shock. NAN where no sound
+ * travels, as in a gas without energy. */
+BOLIDE_INLINE double riemann_weak_shock_slope(const struct eos *eos)
 {
-    if (material->eos.kind == EOS_ideal_gas)
-        return 0.5 * (material->eos.of.ideal_gas.gamma + 1.0);
-    if (material->eos.kind == EOS_mie_grueneisen)
-        return maximum(material->eos.of.mie_grueneisen.slope, 0.05);
-    double rho = material_density(material), history[POINT_HISTORY] = {0.0}, sound[2];
-    double pressure = eos_evaluate(&material->eos, rho, 0.0, history).pressure;
-    const double step = 1e-4;
-    for (int k = 0; k < 2; k++) {
-        double change = k ? step : -step, there = rho * (1.0 + change);
-        double energy = pressure / rho * change;
-        struct eos_value value = eos_evaluate(&material->eos, there, energy, history);
+    double rho = eos_reference_density(eos), history[POINT_HISTORY] = {0.0}, sound[3];
+    double pressure = eos_evaluate(eos, rho, 0.0, history).pressure;
+    const double step = 1e-5;
+    for (int k = 0; k < 3; k++) {
+        double change = step * (k + 1), there = rho * (1.0 + change);
+        struct eos_value value = eos_evaluate(eos, there, pressure / rho * change, history);
         sound[k] = material_response(&value, there, 0.0, 0.0).sound_long;
     }
-    double slope = 0.5 * (1.0 + (sound[1] - sound[0]) / (step * (sound[0] + sound[1])));
-    return slope > 0.05 ? slope : 0.05; /* a slope that is no number counts as the least */
+    double derivative = (4.0 * sound[1] - sound[2] - 3.0 * sound[0]) / (2.0 * step);
+    return 0.5 * (1.0 + (1.0 + step) * derivative / sound[0]);
+}
+
+/* Slope A of U_s = c + A |u* - u|, as the equation of state has it, else that of a weak shock. At
+ * least 0.05, since the curve must bend upwards; NAN where it cannot be computed. */
+BOLIDE_INLINE double riemann_shock_slope(const struct material *material)
+{
+    const double own = eos_traits(&material->eos).shock_slope;
+    const double slope = isnan(own) ? riemann_weak_shock_slope(&material->eos) : own;
+    return slope < 0.05 ? 0.05 : slope;
 }
 
 #endif

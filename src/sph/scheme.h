@@ -190,6 +190,9 @@ BOLIDE_INLINE double sph_volume(const struct simulation *simulation, const struc
     return p->mass[i] / (p->density[i] * sph_depth(simulation, f, i));
 }
 
+/* The slope of the shock adiabat of each material; ERROR_INPUT at a material that has none. */
+struct error *sph_find_slopes(const struct simulation *simulation, double *slope);
+
 /* lists.c. Collective: neighbour lists and room for records of the particles as they stand; distributes and sorts the
  * particles when the lists have expired. *REBUILT tells whether they had. */
 struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, bool *rebuilt);

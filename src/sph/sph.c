@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "model/generate.h"
+#include "riemann/bend.h"
 #include "sph/conduction/kernel.h"
 #include "sph/scheme.h"
 
@@ -43,6 +44,21 @@ struct error *sph_option_error(const struct sph *sph, const struct simulation_ca
     va_end(arguments);
     snprintf(path, sizeof path, "sph.method.%s.%s", sph->scheme->name, key);
     return input_error(input, "solver", path, "%s", text);
+}
+
+struct error *sph_find_slopes(const struct simulation *simulation, double *slope)
+{
+    struct error *error = NULL;
+    for (int m = 0; m < simulation->materials; m++) {
+        slope[m] = riemann_shock_slope(&simulation->material[m]);
+        if (isnan(slope[m]))
+            error = error_join(
+                error,
+                input_error(simulation->input, "materials", simulation->input->materials.names[m],
+                            "its shock adiabat has no slope, since its equation of state "
+                            "has no sound at its reference density without energy"));
+    }
+    return error;
 }
 
 /* PARAMETERS with the defaults of their scheme. */

@@ -169,25 +169,29 @@ static void update_batch(const struct material *material, struct particles *p, s
                          struct run run, struct failure *failure)
 {
     struct material m = *material;
-    bool solid = material_has_strength(material);
     if (!material_is_plain(material)) {
         update_rare(material, p, step, run, failure);
         return;
     }
     switch (material->eos.kind) {
+#define UPDATE_SOLID(name)                           \
+    case STRENGTH_##name:                            \
+        m.strength.kind = STRENGTH_##name;           \
+        update_run(&m, true, p, step, run, failure); \
+        break;
 #define UPDATE_CASE(name)                                \
     case EOS_##name:                                     \
         m.eos.kind = EOS_##name;                         \
-        if (solid) {                                     \
-            m.strength.kind = STRENGTH_perfect_plastic;  \
-            update_run(&m, true, p, step, run, failure); \
-        } else {                                         \
+        switch (material->strength.kind) {               \
+            STRENGTH_PLAIN(UPDATE_SOLID)                 \
+        default:                                         \
             m.strength.kind = STRENGTH_NONE;             \
             update_run(&m, true, p, step, run, failure); \
         }                                                \
         break;
         EOS_LIST(UPDATE_CASE)
 #undef UPDATE_CASE
+#undef UPDATE_SOLID
     default:
         break;
     }

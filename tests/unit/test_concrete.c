@@ -92,16 +92,16 @@ static void what_is_compacted_does_not_depend_on_the_steps(void **state)
 {
     (void)state;
     double whole[POINT_HISTORY] = {0.0}, parts[POINT_HISTORY] = {0.0}, sum = 0.0;
-    const double once = hjc_compact(&pressure_of, 2400.0 * 1.0005, whole);
+    const double once = eos_hjc_compact(&pressure_of, 2400.0 * 1.0005, whole);
     assert_true(once == 0.0);
     for (int k = 1; k <= 1000; k++)
-        sum += hjc_compact(&pressure_of, 2400.0 * (1.0 + 0.15 * k / 1000.0), parts);
+        sum += eos_hjc_compact(&pressure_of, 2400.0 * (1.0 + 0.15 * k / 1000.0), parts);
     double fine = 0.0, finer[POINT_HISTORY] = {0.0};
     for (int k = 1; k <= 8000; k++)
-        fine += hjc_compact(&pressure_of, 2400.0 * (1.0 + 0.15 * k / 8000.0), finer);
+        fine += eos_hjc_compact(&pressure_of, 2400.0 * (1.0 + 0.15 * k / 8000.0), finer);
     assert_close(sum, fine, 1e-3);
     assert_true(sum > 0.08 && sum < 0.11);
-    assert_true(hjc_compact(&pressure_of, 2400.0 * 1.1, parts) == 0.0);
+    assert_true(eos_hjc_compact(&pressure_of, 2400.0 * 1.1, parts) == 0.0);
     assert_close(parts[HISTORY_largest_compression], 0.15, 1e-13);
 }
 

@@ -8,7 +8,7 @@
 #ifndef BOLIDE_EOS_GRUENEISEN_ETA_H
 #define BOLIDE_EOS_GRUENEISEN_ETA_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_grueneisen_eta {
     double density; /* rho_0, kg/m^3 */
@@ -16,6 +16,21 @@ struct eos_grueneisen_eta {
     double slope;   /* s of U_s = C_0 + s U_p */
     double gamma;   /* Grüneisen coefficient at rho_0 */
 };
+
+#define EOS_grueneisen_eta_NAME "grueneisen-eta"
+#define EOS_grueneisen_eta_HELP \
+    "Mie-Grueneisen with gamma density constant, one formula in compression and tension"
+#define EOS_grueneisen_eta_SAMPLE  \
+    {                              \
+        2785.0, 5328.0, 1.338, 2.0 \
+    } /* aluminium */
+#define EOS_grueneisen_eta_PARAMETERS(T)                                                    \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
+    NUMBER(T, sound, "m/s", REQUIRED, POSITIVE,                                             \
+           "shock speed of a vanishing shock, C_0 of U_s = C_0 + s U_p")                    \
+    NUMBER(T, slope, "", REQUIRED, NOT_NEGATIVE,                                            \
+           "slope of the shock adiabat, s of U_s = C_0 + s U_p")                            \
+    NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient at zero pressure")
 
 BOLIDE_INLINE struct eos_value eos_grueneisen_eta(const struct eos_grueneisen_eta *solid,
                                                   double density, double energy,
@@ -42,6 +57,40 @@ BOLIDE_INLINE struct eos_value eos_grueneisen_eta(const struct eos_grueneisen_et
     value.dp_drho = c2 * f_slope;
     value.dp_de = thermal;
     return value;
+}
+
+BOLIDE_INLINE struct eos_traits eos_grueneisen_eta_traits(const struct eos_grueneisen_eta *solid)
+{
+    struct eos_traits traits = eos_default_traits();
+    traits.shock_slope = solid->slope;
+    return traits;
+}
+
+/* The shock adiabat from rest, continued into tension, with x = 1 - rho_0/rho:
+ *
+ *   e_r = (C_0 x/(1 - s x))^2/2
+ *   T_r = exp(gamma_0 x) [T_0 + (C_0^2 s/C_V) int_0^x exp(-gamma_0 y) y^2/(1 - s y)^3 dy]
+ *
+ * from Walsh and Christian's C_V (dT/dv + gamma_0 T/v_0) = [(v_0 - v) dp/dv + p]/2, Phys. Rev. 97
+ * (1955) 1544. With e^u = 1/(1 - s y) the integral is that of exp(-gamma_0 y) (e^u - 1)^2/s^3 over
+ * u. */
+BOLIDE_INLINE struct heat_curve eos_grueneisen_eta_curve(const struct eos_grueneisen_eta *solid,
+                                                         const struct heat *heat, double density)
+{
+    double x = 1.0 - solid->density / density, s = solid->slope, work = 0.0;
+    /* held beyond the largest compression, as the pressure is */
+    double reach = maximum(1.0 - s * x, 1e-3), end = -logarithm(reach);
+    if (s > 0.0) {
+        for (int k = 0; k < QUADRATURE; k++) {
+            const struct quadrature q = quadrature_point(k);
+            double grown = exponential(0.5 * end * (1.0 + q.at)), y = (1.0 - 1.0 / grown) / s;
+            work += 0.5 * end * q.weight * exponential(-solid->gamma * y) * square(grown - 1.0);
+        }
+        work *= square(solid->sound / s) / heat->capacity;
+    }
+    struct heat_curve curve = {exponential(solid->gamma * x) * (heat->temperature + work),
+                               0.5 * square(solid->sound * x / reach)};
+    return curve;
 }
 
 #endif

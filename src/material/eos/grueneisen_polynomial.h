@@ -8,7 +8,7 @@
 #ifndef BOLIDE_EOS_GRUENEISEN_POLYNOMIAL_H
 #define BOLIDE_EOS_GRUENEISEN_POLYNOMIAL_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_grueneisen_polynomial {
     double density; /* rho_0, kg/m^3 */
@@ -16,6 +16,21 @@ struct eos_grueneisen_polynomial {
     double slope;   /* s of U_s = C_0 + s U_p */
     double gamma;   /* Grüneisen coefficient, constant */
 };
+
+#define EOS_grueneisen_polynomial_NAME "grueneisen-polynomial"
+#define EOS_grueneisen_polynomial_HELP \
+    "Mie-Grueneisen about the shock adiabat as a cubic of the compression"
+#define EOS_grueneisen_polynomial_SAMPLE \
+    {                                    \
+        7890.0, 4569.0, 1.49, 2.17       \
+    } /* steel */
+#define EOS_grueneisen_polynomial_PARAMETERS(T)                                             \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
+    NUMBER(T, sound, "m/s", REQUIRED, POSITIVE,                                             \
+           "shock speed of a vanishing shock, C_0 of U_s = C_0 + s U_p")                    \
+    NUMBER(T, slope, "", REQUIRED, NOT_NEGATIVE,                                            \
+           "slope of the shock adiabat, s of U_s = C_0 + s U_p")                            \
+    NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient")
 
 BOLIDE_INLINE struct eos_value eos_grueneisen_polynomial(
     const struct eos_grueneisen_polynomial *solid, double density, double energy,
@@ -36,6 +51,40 @@ BOLIDE_INLINE struct eos_value eos_grueneisen_polynomial(
     value.dp_de = solid->gamma * density;
     value.status = 0;
     return value;
+}
+
+BOLIDE_INLINE struct eos_traits eos_grueneisen_polynomial_traits(
+    const struct eos_grueneisen_polynomial *solid)
+{
+    struct eos_traits traits = eos_default_traits();
+    traits.shock_slope = solid->slope;
+    return traits;
+}
+
+/* The curve p = p_H, e_r = p_H (v_0 - v)/2, with n = rho/rho_0 = 1 + mu and p_H = rho_0 C_0^2 (mu +
+ * a mu^2 + b mu^3):
+ *
+ *   T_r = n^gamma (T_0 + C_0^2/(2 C_V) int_0^ln(n) k^(-gamma - 1) f d ln k)
+ *   f = (1 + a) m^2 + 2 (a + b) m^3 + 3 b m^4
+ *
+ * with m = k - 1, from Walsh and Christian's C_V (dT/dv + gamma T/v) = [(v_0 - v) dp/dv + p]/2,
+ * Phys. Rev. 97 (1955) 1544. */
+BOLIDE_INLINE struct heat_curve eos_grueneisen_polynomial_curve(
+    const struct eos_grueneisen_polynomial *solid, const struct heat *heat, double density)
+{
+    double mu = density / solid->density - 1.0, s = solid->slope, c2 = square(solid->sound);
+    double a = mu > 0.0 ? 2.0 * s - 1.0 : 0.0, b = mu > 0.0 ? (s - 1.0) * (3.0 * s - 1.0) : 0.0;
+    double end = logarithm(1.0 + mu), work = 0.0;
+    for (int k = 0; k < QUADRATURE; k++) {
+        const struct quadrature q = quadrature_point(k);
+        double ln = 0.5 * end * (1.0 + q.at), m = exponential(ln) - 1.0;
+        work += 0.5 * end * q.weight * exponential(-(solid->gamma + 1.0) * ln) * square(m) *
+                (1.0 + a + m * (2.0 * (a + b) + 3.0 * b * m));
+    }
+    struct heat_curve curve = {exponential(solid->gamma * end) *
+                                   (heat->temperature + 0.5 * c2 / heat->capacity * work),
+                               0.5 * c2 * mu * (1.0 + mu * (a + mu * b)) * mu / (1.0 + mu)};
+    return curve;
 }
 
 #endif

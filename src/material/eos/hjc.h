@@ -12,7 +12,7 @@
 #ifndef BOLIDE_EOS_HJC_H
 #define BOLIDE_EOS_HJC_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_hjc {
     double density;           /* rho_0, kg/m^3 */
@@ -22,6 +22,28 @@ struct eos_hjc {
     double lock_compression;  /* mu_lock */
     double k1, k2, k3;        /* Pa */
 };
+
+#define EOS_hjc_NAME "hjc"
+#define EOS_hjc_HELP \
+    "concrete after Holmquist, Johnson and Cook: elastic, crushed, compacted; unloading remembers"
+#define EOS_hjc_SAMPLE                                       \
+    {                                                        \
+        2400.0, 16e6, 0.001, 0.8e9, 0.1, 85e9, -171e9, 208e9 \
+    } /* concrete */
+#define EOS_hjc_PARAMETERS(T)                                                    \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure") \
+    NUMBER(T, crush_pressure, "Pa", REQUIRED, POSITIVE,                          \
+           "P_crush: pressure at which pores begin to close")                    \
+    NUMBER(T, crush_compression, "", REQUIRED, POSITIVE,                         \
+           "mu_crush: compression rho/rho_0 - 1 there")                          \
+    NUMBER(T, lock_pressure, "Pa", REQUIRED, POSITIVE,                           \
+           "P_lock: pressure at which all pores are closed")                     \
+    NUMBER(T, lock_compression, "", REQUIRED, NOT_NEGATIVE,                      \
+           "mu_lock: compression of the closed concrete without pressure")       \
+    NUMBER(T, k1, "Pa", REQUIRED, POSITIVE,                                      \
+           "K_1 of the closed concrete: p = K_1 m + K_2 m^2 + K_3 m^3")          \
+    NUMBER(T, k2, "Pa", REQUIRED, ANY, "K_2")                                    \
+    NUMBER(T, k3, "Pa", REQUIRED, ANY, "K_3")
 
 /* mu_pl, by Newton's method from P_lock/K_1. */
 BOLIDE_INLINE double hjc_full_compression(const struct eos_hjc *concrete)
@@ -93,7 +115,8 @@ BOLIDE_INLINE struct eos_value eos_hjc(const struct eos_hjc *concrete, double de
 
 /* Notes the compression of DENSITY in HISTORY. Returns the compression that will not come back, d mu_p = d mu - dp/K_u in
  * the transition. */
-BOLIDE_INLINE double hjc_compact(const struct eos_hjc *concrete, double density, double *history)
+BOLIDE_INLINE double eos_hjc_compact(const struct eos_hjc *concrete, double density,
+                                     double *history)
 {
     double mu = density / concrete->density - 1.0, before = history[HISTORY_largest_compression];
     if (mu <= before)
@@ -110,10 +133,9 @@ BOLIDE_INLINE double hjc_compact(const struct eos_hjc *concrete, double density,
                : 0.0;
 }
 
-/* Why its parameters do not go together, *KEY is that it is about; NULL when they do. */
-BOLIDE_INLINE const char *eos_hjc_wrong(const struct eos_hjc *concrete, const char **key)
+/* Why its parameters do not go together; NULL when they do. */
+BOLIDE_INLINE const char *hjc_wrong(const struct eos_hjc *concrete)
 {
-    *key = "lock_pressure";
     if (!(concrete->lock_pressure > concrete->crush_pressure))
         return "this is not above `crush_pressure`";
     double full = hjc_full_compression(concrete);
@@ -122,6 +144,29 @@ BOLIDE_INLINE const char *eos_hjc_wrong(const struct eos_hjc *concrete, const ch
           fabs(reached / concrete->lock_pressure - 1.0) < 1e-9))
         return "the curve of k1, k2 and k3 does not reach this beyond `crush_compression`";
     return NULL;
+}
+
+BOLIDE_INLINE struct eos_traits eos_hjc_traits(const struct eos_hjc *concrete)
+{
+    struct eos_traits traits = eos_default_traits();
+    traits.history = HISTORY_BIT(largest_compression);
+    traits.wrong = hjc_wrong(concrete);
+    traits.wrong_key = "lock_pressure";
+    return traits;
+}
+
+/* The energy that unloading from first loading gives back, at T_0: all other work, that of crushing
+ * too, is heat. With n = rho/rho_0 and n_r where unloading with K_u ends, rho_0 e_r = K_u
+ * [ln(n/n_r) - (n - n_r)/n]. */
+BOLIDE_INLINE struct heat_curve eos_hjc_curve(const struct eos_hjc *concrete,
+                                              const struct heat *heat, double density)
+{
+    double n = density / concrete->density, full = hjc_full_compression(concrete);
+    double modulus = hjc_unloading(concrete, full, n - 1.0);
+    double back = hjc_loading(concrete, full, n - 1.0).pressure / modulus; /* n - n_r */
+    double work = modulus * (logarithm(n / (n - back)) - back / n);
+    struct heat_curve curve = {heat->temperature, work / concrete->density};
+    return curve;
 }
 
 #endif

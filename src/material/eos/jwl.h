@@ -10,7 +10,7 @@
 #ifndef BOLIDE_EOS_JWL_H
 #define BOLIDE_EOS_JWL_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_jwl {
     double density; /* rho_0 of the explosive, kg/m^3 */
@@ -19,6 +19,22 @@ struct eos_jwl {
     double omega;
     double energy; /* E_0, J/m^3 of initial volume */
 };
+
+#define EOS_jwl_NAME "jwl"
+#define EOS_jwl_HELP "Jones-Wilkins-Lee: explosives and their products, without burning"
+#define EOS_jwl_SAMPLE                                    \
+    {                                                     \
+        1630.0, 371.2e9, 3.21e9, 4.15, 0.95, 0.3, 6.993e9 \
+    } /* products of TNT */
+#define EOS_jwl_PARAMETERS(T)                                                    \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density of the explosive") \
+    NUMBER(T, a, "Pa", REQUIRED, ANY, "A: factor of exp(-R_1 V)")                \
+    NUMBER(T, b, "Pa", REQUIRED, ANY, "B: factor of exp(-R_2 V)")                \
+    NUMBER(T, r1, "", REQUIRED, POSITIVE, "R_1: exponent of A")                  \
+    NUMBER(T, r2, "", REQUIRED, POSITIVE, "R_2: exponent of B")                  \
+    NUMBER(T, omega, "", REQUIRED, POSITIVE, "Grueneisen coefficient")           \
+    NUMBER(T, energy, "J/m^3", REQUIRED, ANY,                                    \
+           "E_0: energy of an initial volume at zero particle energy: the heat of the reaction")
 
 BOLIDE_INLINE struct eos_value eos_jwl(const struct eos_jwl *jwl, double density, double energy,
                                        const double *history)
@@ -38,6 +54,44 @@ BOLIDE_INLINE struct eos_value eos_jwl(const struct eos_jwl *jwl, double density
     value.dp_de = jwl->omega * density;
     value.status = 0;
     return value;
+}
+
+BOLIDE_INLINE struct eos_traits eos_jwl_traits(const struct eos_jwl *jwl)
+{
+    struct eos_traits traits = eos_default_traits();
+    /* -V (d2p/dV2)/(4 dp/dV) of the isentrope p = A exp(-R_1 V) + B exp(-R_2 V) + C V^(-1-w) at
+     * rest */
+    const double none[POINT_HISTORY] = {0.0};
+    double first = jwl->a * exp(-jwl->r1), second = jwl->b * exp(-jwl->r2), w = jwl->omega;
+    double third = eos_jwl(jwl, jwl->density, 0.0, none).pressure - first - second;
+    double fall = jwl->r1 * first + jwl->r2 * second + (1.0 + w) * third;
+    traits.shock_slope =
+        (square(jwl->r1) * first + square(jwl->r2) * second + (1.0 + w) * (2.0 + w) * third) /
+        (4.0 * fall);
+    return traits;
+}
+
+/* The isentrope without the last term, rho_0 e_r = A/R_1 exp(-R_1 V) + B/R_2 exp(-R_2 V) - E_0,
+ * which in Lee and Tarver's p = A exp(-R_1 V) + B exp(-R_2 V) + w C_V rho T is the state of T = 0.
+ * Only where E_0 makes the pressure vanish at rest, to a hundredth of its terms, it is T_r = T_s
+ * V^-w with T = T_0 at rest. */
+BOLIDE_INLINE struct heat_curve eos_jwl_curve(const struct eos_jwl *jwl, const struct heat *heat,
+                                              double density)
+{
+    const double none[POINT_HISTORY] = {0.0};
+    double volume = jwl->density / density, energy[2];
+    for (int k = 0; k < 2; k++) { /* at rest, then here */
+        double v = k ? volume : 1.0;
+        energy[k] = (jwl->a / jwl->r1 * exponential(-jwl->r1 * v) +
+                     jwl->b / jwl->r2 * exponential(-jwl->r2 * v) - jwl->energy) /
+                    jwl->density;
+    }
+    double terms = fabs(jwl->a) * exponential(-jwl->r1) + fabs(jwl->b) * exponential(-jwl->r2);
+    struct heat_curve curve = {0.0, energy[1]};
+    if (fabs(eos_jwl(jwl, jwl->density, 0.0, none).pressure) < 0.01 * terms)
+        curve.temperature =
+            (heat->temperature + energy[0] / heat->capacity) * power(volume, -jwl->omega);
+    return curve;
 }
 
 #endif

@@ -5,11 +5,12 @@
  *                  e_r = p_r (v_0 - v)/2                                       (1.66)
  *   rho <= rho_0:  p_r = K (v_0 - v)/v_0,   e_r = p_r (v_0 - v)/2              (1.67), (1.68)
  *
- * with v = 1/rho. Source: Parshikov (2013), section 1.4. */
+ * with v = 1/rho. Source: Parshikov (2013), section 1.4; temperatures (3.1)-(3.3) and Walsh and
+ * Christian, Phys. Rev. 97 (1955) 1544. */
 #ifndef BOLIDE_EOS_MIE_GRUENEISEN_H
 #define BOLIDE_EOS_MIE_GRUENEISEN_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_mie_grueneisen {
     double density;      /* rho_0, kg/m^3 */
@@ -18,6 +19,22 @@ struct eos_mie_grueneisen {
     double gamma;        /* Grüneisen coefficient, constant */
     double bulk_modulus; /* K, Pa, in tension */
 };
+
+#define EOS_mie_grueneisen_NAME "mie-grueneisen"
+#define EOS_mie_grueneisen_HELP \
+    "Mie-Grueneisen about the shock adiabat U_s = sound + slope U_p, linear elastic in tension"
+#define EOS_mie_grueneisen_SAMPLE        \
+    {                                    \
+        2700.0, 5350.0, 1.35, 2.17, 73e9 \
+    } /* aluminium */
+#define EOS_mie_grueneisen_PARAMETERS(T)                                                    \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
+    NUMBER(T, sound, "m/s", REQUIRED, POSITIVE,                                             \
+           "shock speed of a vanishing shock, C_a of U_s = C_a + S_a U_p")                  \
+    NUMBER(T, slope, "", REQUIRED, NOT_NEGATIVE,                                            \
+           "slope of the shock adiabat, S_a of U_s = C_a + S_a U_p")                        \
+    NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient")                  \
+    NUMBER(T, bulk_modulus, "Pa", REQUIRED, POSITIVE, "bulk modulus in tension")
 
 BOLIDE_INLINE struct eos_value eos_mie_grueneisen(const struct eos_mie_grueneisen *solid,
                                                   double density, double energy,
@@ -52,6 +69,55 @@ BOLIDE_INLINE struct eos_value eos_mie_grueneisen(const struct eos_mie_grueneise
         square(v) * (slope - solid->gamma * density * reference_slope) + solid->gamma * excess;
     value.dp_de = solid->gamma * density;
     return value;
+}
+
+BOLIDE_INLINE struct eos_traits eos_mie_grueneisen_traits(const struct eos_mie_grueneisen *solid)
+{
+    struct eos_traits traits = eos_default_traits();
+    traits.shock_slope = solid->slope;
+    return traits;
+}
+
+/* T_H where the adiabat U_s = C_a + S_a U_p has compressed to eta = 1 - rho_0/rho. Walsh and
+ * Christian's C_V (dT_H/dv + gamma T_H/v) = [(v_0 - v) dp_H/dv + p_H]/2 becomes for a constant
+ * gamma
+ *
+ *   T_H = (1 - eta)^-gamma [T_0 + (C_a^2 S_a/C_V) int_0^eta (1 - y)^gamma y^2/(1 - S_a y)^3 dy]
+ *
+ * and with e^u = 1/(1 - S_a y) the integral that of (1 - y)^gamma (e^u - 1)^2/S_a^3 over u: as
+ * smooth near the largest compression as anywhere, so that six Gauss-Legendre points serve. */
+BOLIDE_INLINE double mie_grueneisen_adiabat(const struct heat *heat,
+                                            const struct eos_mie_grueneisen *solid, double eta)
+{
+    /* The adiabat is held beyond its largest compression, as the equation of state holds it. */
+    double end = -log(maximum(1.0 - solid->slope * eta, 1e-3)), integral = 0.0;
+    for (int k = 0; k < QUADRATURE; k++) {
+        const struct quadrature q = quadrature_point(k);
+        double grown = exp(0.5 * end * (1.0 + q.at));
+        double over = grown - 1.0, left = 1.0 - over / (grown * solid->slope); /* 1 - y */
+        integral += q.weight * exp(solid->gamma * log(left)) * square(over);
+    }
+    integral *= 0.5 * end / (solid->slope * square(solid->slope));
+    double work =
+        solid->slope > 0.0 ? square(solid->sound) * solid->slope / heat->capacity * integral : 0.0;
+    return (heat->temperature + work) / pow(1.0 - eta, solid->gamma);
+}
+
+/* The cold curve in tension, (1.68) and (3.3), and the shock adiabat in compression, (1.66). */
+BOLIDE_INLINE struct heat_curve eos_mie_grueneisen_curve(const struct eos_mie_grueneisen *solid,
+                                                         const struct heat *heat, double density)
+{
+    struct heat_curve curve;
+    double eta = 1.0 - solid->density / density;
+    if (eta <= 0.0) {
+        curve.temperature = heat->temperature;
+        curve.energy = 0.5 * solid->bulk_modulus * square(eta) / solid->density;
+        return curve;
+    }
+    double reach = maximum(1.0 - solid->slope * eta, 1e-3);
+    curve.temperature = mie_grueneisen_adiabat(heat, solid, eta);
+    curve.energy = 0.5 * square(solid->sound * eta / reach);
+    return curve;
 }
 
 #endif

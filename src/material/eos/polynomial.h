@@ -8,7 +8,7 @@
 #ifndef BOLIDE_EOS_POLYNOMIAL_H
 #define BOLIDE_EOS_POLYNOMIAL_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_polynomial {
     double density;        /* rho_0, kg/m^3: zero pressure */
@@ -16,6 +16,19 @@ struct eos_polynomial {
     double second_modulus; /* K_2, Pa */
     double third_modulus;  /* K_3, Pa */
 };
+
+#define EOS_polynomial_NAME "polynomial"
+#define EOS_polynomial_HELP "cubic of the compression, without energy: intact ceramics and glasses"
+#define EOS_polynomial_SAMPLE         \
+    {                                 \
+        2510.0, 233e9, -593e9, 2800e9 \
+    } /* boron carbide */
+#define EOS_polynomial_PARAMETERS(T)                                                          \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure")              \
+    NUMBER(T, bulk_modulus, "Pa", REQUIRED, POSITIVE,                                         \
+           "K_1: bulk modulus at zero pressure, and in tension")                              \
+    NUMBER(T, second_modulus, "Pa", REQUIRED, ANY, "K_2: coefficient of mu^2 in compression") \
+    NUMBER(T, third_modulus, "Pa", REQUIRED, ANY, "K_3: coefficient of mu^3 in compression")
 
 BOLIDE_INLINE struct eos_value eos_polynomial(const struct eos_polynomial *solid, double density,
                                               double energy, const double *history)
@@ -31,6 +44,27 @@ BOLIDE_INLINE struct eos_value eos_polynomial(const struct eos_polynomial *solid
     value.dp_de = 0.0;
     value.status = 0;
     return value;
+}
+
+BOLIDE_INLINE struct eos_traits eos_polynomial_traits(const struct eos_polynomial *solid)
+{
+    struct eos_traits traits = eos_default_traits();
+    traits.shock_slope = 0.5 * (1.0 + solid->second_modulus / solid->bulk_modulus);
+    return traits;
+}
+
+/* The cold curve: rho_0 e_r is the integral of p/n^2 over n = rho/rho_0, term by term of mu = n -
+ * 1. */
+BOLIDE_INLINE struct heat_curve eos_polynomial_curve(const struct eos_polynomial *solid,
+                                                     const struct heat *heat, double density)
+{
+    double n = density / solid->density, mu = n - 1.0, small = mu / n, log_n = logarithm(n);
+    double work = solid->bulk_modulus * (log_n - small);
+    if (mu > 0.0)
+        work += solid->second_modulus * (mu - 2.0 * log_n + small) +
+                solid->third_modulus * (0.5 * mu * (n + 1.0) - 3.0 * mu + 3.0 * log_n - small);
+    struct heat_curve curve = {heat->temperature, work / solid->density};
+    return curve;
 }
 
 #endif

@@ -7,13 +7,25 @@
 #ifndef BOLIDE_EOS_STIFFENED_GAS_H
 #define BOLIDE_EOS_STIFFENED_GAS_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_stiffened_gas {
     double density; /* rho_0, kg/m^3: zero pressure at zero energy */
     double sound;   /* C_0, m/s, at rest */
     double gamma;
 };
+
+#define EOS_stiffened_gas_NAME "stiffened-gas"
+#define EOS_stiffened_gas_HELP \
+    "stiffened gas, p = sound^2 (density - density_0) + (gamma - 1) density energy"
+#define EOS_stiffened_gas_SAMPLE \
+    {                            \
+        1000.0, 1480.0, 4.4      \
+    } /* water */
+#define EOS_stiffened_gas_PARAMETERS(T)                                                     \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
+    NUMBER(T, sound, "m/s", REQUIRED, POSITIVE, "sound speed at rest")                      \
+    NUMBER(T, gamma, "", REQUIRED, ABOVE_ONE, "gamma of the thermal term")
 
 BOLIDE_INLINE struct eos_value eos_stiffened_gas(const struct eos_stiffened_gas *gas,
                                                  double density, double energy,
@@ -27,6 +39,25 @@ BOLIDE_INLINE struct eos_value eos_stiffened_gas(const struct eos_stiffened_gas 
     value.dp_de = heat * density;
     value.status = 0;
     return value;
+}
+
+BOLIDE_INLINE struct eos_traits eos_stiffened_gas_traits(const struct eos_stiffened_gas *gas)
+{
+    struct eos_traits traits = eos_default_traits();
+    traits.shock_slope = 0.25 * (gas->gamma + 1.0); /* of a weak shock: a liquid is stiff */
+    return traits;
+}
+
+/* The isentrope of the state at rest, T_r = T_0 (rho/rho_0)^(gamma - 1). */
+BOLIDE_INLINE struct heat_curve eos_stiffened_gas_curve(const struct eos_stiffened_gas *gas,
+                                                        const struct heat *heat, double density)
+{
+    struct heat_curve curve;
+    double ratio = density / gas->density, g = gas->gamma, c2 = square(gas->sound);
+    double rise = pow(ratio, g - 1.0);
+    curve.temperature = heat->temperature * rise;
+    curve.energy = c2 * ((rise / g - 1.0) / (g - 1.0) + 1.0 / (g * ratio));
+    return curve;
 }
 
 #endif

@@ -13,7 +13,7 @@
 #ifndef BOLIDE_EOS_TILLOTSON_H
 #define BOLIDE_EOS_TILLOTSON_H
 
-#include "material/point.h"
+#include "material/eos/common.h"
 
 struct eos_tillotson {
     double density;          /* rho_0, kg/m^3 */
@@ -26,6 +26,30 @@ struct eos_tillotson {
     double complete_energy;  /* e_cv, J/kg: vaporisation is complete */
     double tension;          /* the largest that it bears, Pa; NAN: any */
 };
+
+#define EOS_tillotson_NAME "tillotson"
+#define EOS_tillotson_HELP "Tillotson's: metals and rocks from rest to vaporisation"
+#define EOS_tillotson_SAMPLE                                             \
+    {                                                                    \
+        2700.0, 0.5, 1.63, 75.2e9, 65e9, 5e6, 5.0, 5.0, 3e6, 13.9e6, NAN \
+    } /* aluminium */
+#define EOS_tillotson_PARAMETERS(T)                                                                \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density of the cold solid at zero pressure") \
+    NUMBER(T, a, "", REQUIRED, NOT_NEGATIVE, "thermal coefficient at high energy")                 \
+    NUMBER(T, b, "", REQUIRED, NOT_NEGATIVE, "thermal coefficient added at low energy")            \
+    NUMBER(T, bulk_modulus, "Pa", REQUIRED, POSITIVE, "A: bulk modulus at zero pressure")          \
+    NUMBER(T, second_modulus, "Pa", REQUIRED, NOT_NEGATIVE, "B: coefficient of mu^2")              \
+    NUMBER(T, energy, "J/kg", REQUIRED, POSITIVE, "e_0: energy scale of the thermal term")         \
+    NUMBER(T, alpha, "", REQUIRED, NOT_NEGATIVE,                                                   \
+           "decay of the condensed terms in the vapour, of (1/eta - 1)^2")                         \
+    NUMBER(T, beta, "", REQUIRED, NOT_NEGATIVE,                                                    \
+           "decay of the elastic term in the vapour, of 1/eta - 1")                                \
+    NUMBER(T, incipient_energy, "J/kg", REQUIRED, POSITIVE,                                        \
+           "e_iv: energy at which vaporisation begins")                                            \
+    NUMBER(T, complete_energy, "J/kg", REQUIRED, POSITIVE,                                         \
+           "e_cv: energy at which vaporisation is complete")                                       \
+    NUMBER(T, tension, "Pa", OPTIONAL, NOT_NEGATIVE,                                               \
+           "largest tension that it bears, at which it parts; not given: any")
 
 BOLIDE_INLINE struct eos_value eos_tillotson_condensed(const struct eos_tillotson *t,
                                                        double density, double energy)
@@ -94,6 +118,25 @@ BOLIDE_INLINE struct eos_value eos_tillotson(const struct eos_tillotson *t, doub
         value.dp_de = 0.0;
     }
     return value;
+}
+
+BOLIDE_INLINE struct eos_traits eos_tillotson_traits(const struct eos_tillotson *t)
+{
+    struct eos_traits traits = eos_default_traits();
+    /* dc/drho at constant entropy, from e = A mu^2/(2 rho_0) and p = A mu + B mu^2 + (a + b) rho_0
+     * e */
+    traits.shock_slope = 0.5 * (1.0 + t->second_modulus / t->bulk_modulus + 0.5 * (t->a + t->b));
+    return traits;
+}
+
+EOS_ISENTROPE(tillotson_isentrope, tillotson)
+
+/* The isentrope of the state at rest, along which stretching takes nearly e_cv. Below a twentieth
+ * of rho_0, where little of its tension is left, it is held. */
+BOLIDE_INLINE struct heat_curve eos_tillotson_curve(const struct eos_tillotson *t,
+                                                    const struct heat *heat, double density)
+{
+    return tillotson_isentrope(t, heat, maximum(density, 0.05 * t->density));
 }
 
 #endif

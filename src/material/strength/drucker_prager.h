@@ -12,7 +12,7 @@
 #ifndef BOLIDE_STRENGTH_DRUCKER_PRAGER_H
 #define BOLIDE_STRENGTH_DRUCKER_PRAGER_H
 
-#include "material/strength/elastic.h"
+#include "material/strength/common.h"
 
 struct strength_drucker_prager {
     double shear_modulus; /* G, Pa */
@@ -21,6 +21,19 @@ struct strength_drucker_prager {
     double dilatancy;     /* q_psi */
     double tension;       /* sigma^t, Pa */
 };
+
+#define STRENGTH_drucker_prager_NAME "drucker-prager"
+#define STRENGTH_drucker_prager_HELP \
+    "soil and rubble: shear strength that grows with pressure, and a tension cut-off"
+#define STRENGTH_drucker_prager_PARAMETERS(T)                                               \
+    NUMBER(T, shear_modulus, "Pa", REQUIRED, POSITIVE, "shear modulus")                     \
+    NUMBER(T, friction, "", REQUIRED, POSITIVE,                                             \
+           "q_phi: slope of the shear strength; 6 sin(phi)/(sqrt(3) (3 + sin(phi)))")       \
+    NUMBER(T, cohesion, "Pa", REQUIRED, POSITIVE,                                           \
+           "k_phi: shear strength without pressure; 6 c cos(phi)/(sqrt(3) (3 + sin(phi)))") \
+    NUMBER(T, dilatancy, "", "0", NOT_NEGATIVE, "q_psi: volume gained by flow in shear")    \
+    NUMBER(T, tension, "Pa", "0 Pa", NOT_NEGATIVE,                                          \
+           "sigma^t: mean stress at which it tears; cohesion/friction at most")
 
 BOLIDE_INLINE double drucker_prager_tension(const struct strength_drucker_prager *soil)
 {
@@ -57,6 +70,16 @@ BOLIDE_INLINE void strength_drucker_prager(const struct strength_drucker_prager 
     point->deviator = s;
     point->pressure = -mean;
     point->history[HISTORY_plastic_strain] += strain;
+}
+
+BOLIDE_INLINE struct strength_traits strength_drucker_prager_traits(
+    const struct strength_drucker_prager *soil)
+{
+    struct strength_traits traits = strength_default_traits();
+    (void)soil;
+    traits.history = HISTORY_BIT(dilation);
+    traits.takes_pressure = true;
+    return traits;
 }
 
 #endif

@@ -14,7 +14,7 @@
 #ifndef BOLIDE_STRENGTH_HJC_H
 #define BOLIDE_STRENGTH_HJC_H
 
-#include "material/strength/elastic.h"
+#include "material/strength/common.h"
 
 enum hjc_tensile_stress { HJC_MEAN, HJC_PRINCIPAL };
 
@@ -34,6 +34,39 @@ struct strength_hjc {
     int tensile_stress;                         /* enum hjc_tensile_stress: what sigma_s is */
     bool rubble;                                /* what has failed keeps its friction */
 };
+
+#define STRENGTH_hjc_NAME "hjc"
+#define STRENGTH_hjc_HELP \
+    "concrete after Holmquist, Johnson and Cook, with damage by crushing and by tension"
+#define STRENGTH_hjc_PARAMETERS(T)                                                                \
+    NUMBER(T, shear_modulus, "Pa", REQUIRED, POSITIVE, "shear modulus")                           \
+    NUMBER(T, a, "", REQUIRED, NOT_NEGATIVE,                                                      \
+           "A: cohesion of the whole concrete, over its strength")                                \
+    NUMBER(T, b, "", REQUIRED, NOT_NEGATIVE, "B: strength by pressure")                           \
+    NUMBER(T, n, "", REQUIRED, POSITIVE, "N: exponent of the pressure")                           \
+    NUMBER(T, c, "", REQUIRED, NOT_NEGATIVE, "C: factor of the logarithm of the strain rate")     \
+    NUMBER(T, strength, "Pa", REQUIRED, POSITIVE,                                                 \
+           "f_c: quasi-static uniaxial strength in compression")                                  \
+    NUMBER(T, rate, "1/s", "1 1/s", POSITIVE, "strain rate below which rate does not matter")     \
+    NUMBER(T, most, "", REQUIRED, POSITIVE, "S_max: largest yield stress, over the strength")     \
+    NUMBER(T, tension, "Pa", REQUIRED, NOT_NEGATIVE, "T: largest hydrostatic tension")            \
+    NUMBER(T, d1, "", REQUIRED, NOT_NEGATIVE, "D_1: strain to failure by pressure")               \
+    NUMBER(T, d2, "", "1", POSITIVE, "D_2: exponent of the pressure in it")                       \
+    NUMBER(T, damage_limit, "", "1", FROM_ZERO_TO_ONE,                                            \
+           "D_c: damage by crushing at which it fails")                                           \
+    NUMBER(T, least_strain, "", REQUIRED, POSITIVE, "least strain to failure")                    \
+    NUMBER(T, tensile_growth, "1/s", "7e5 1/s", NOT_NEGATIVE,                                     \
+           "a: rate of damage by tension; 0: none")                                               \
+    NUMBER(T, tensile_threshold, "Pa", "2.5 MPa", POSITIVE,                                       \
+           "sigma_0: tension that does no damage yet")                                            \
+    NUMBER(T, tensile_exponent, "", "1", POSITIVE, "gamma: exponent of the tension beyond that")  \
+    NUMBER(T, tensile_start, "", "1e-3", BETWEEN_ZERO_AND_ONE,                                    \
+           "D_t0: damage by tension that growth begins from")                                     \
+    NUMBER(T, tensile_limit, "", "0.9", FROM_ZERO_TO_ONE, "damage by tension at which it breaks") \
+    CHOICE(T, tensile_stress, "mean",                                                             \
+           "which tension does damage: mean, or the largest principal stress", "mean",            \
+           "principal")                                                                           \
+    FLAG(T, rubble, "no", "whether what has failed keeps its friction under pressure")
 
 /* max(D_c, D_t). */
 BOLIDE_INLINE double hjc_whole_damage(const double *history)
@@ -115,6 +148,8 @@ BOLIDE_INLINE void strength_hjc(const struct strength_hjc *concrete, const struc
                                 double bulk_modulus, struct point *point)
 {
     (void)bulk_modulus;
+    if (motion->compaction > 0.0)
+        hjc_crush(concrete, motion->compaction, point);
     struct sym3 s = strength_elastic(concrete->shear_modulus, motion, point->deviator);
     double yield = hjc_strength(concrete, point, strength_strain_rate(motion->strain_rate));
     double trial = sym3_mises(s);
@@ -134,11 +169,21 @@ BOLIDE_INLINE void strength_hjc(const struct strength_hjc *concrete, const struc
 }
 
 /* Cuts the tension of a state that concrete does not bear. Its sound stays that of the uncut. */
-BOLIDE_INLINE void hjc_cut(const struct strength_hjc *concrete, const double *history,
-                           struct eos_value *value)
+BOLIDE_INLINE void strength_hjc_cut(const struct strength_hjc *concrete, const double *history,
+                                    struct eos_value *value)
 {
     double most = concrete->tension * maximum(1.0 - hjc_whole_damage(history), 0.0);
     value->pressure = maximum(value->pressure, -most);
+}
+
+BOLIDE_INLINE struct strength_traits strength_hjc_traits(const struct strength_hjc *concrete)
+{
+    struct strength_traits traits = strength_default_traits();
+    traits.history = HISTORY_BIT(damage);
+    if (concrete->tensile_growth > 0.0)
+        traits.history |= HISTORY_BIT(tensile_damage);
+    traits.takes_pressure = true;
+    return traits;
 }
 
 #endif

@@ -14,8 +14,7 @@
 #define BOLIDE_STRENGTH_JOHNSON_COOK_H
 
 #include "base/exponential.h"
-#include "base/lanes.h"
-#include "material/strength/elastic.h"
+#include "material/strength/common.h"
 
 enum johnson_cook_return { JOHNSON_COOK_IMPLICIT, JOHNSON_COOK_EXPLICIT };
 
@@ -29,20 +28,31 @@ struct strength_johnson_cook {
     int return_map;              /* enum johnson_cook_return */
 };
 
+#define STRENGTH_johnson_cook_NAME "johnson-cook"
+#define STRENGTH_johnson_cook_HELP \
+    "yield stress (A + B eps^n)(1 + C ln rate)(1 - T*^m) after Johnson and Cook"
+#define STRENGTH_johnson_cook_PARAMETERS(T)                                                      \
+    NUMBER(T, shear_modulus, "Pa", REQUIRED, POSITIVE, "shear modulus")                          \
+    NUMBER(T, a, "Pa", REQUIRED, POSITIVE, "A: yield stress in simple tension before hardening") \
+    NUMBER(T, b, "Pa", REQUIRED, NOT_NEGATIVE, "B: hardening by plastic strain")                 \
+    NUMBER(T, n, "", REQUIRED, POSITIVE, "exponent of the plastic strain")                       \
+    NUMBER(T, c, "", REQUIRED, NOT_NEGATIVE, "C: factor of the logarithm of the strain rate")    \
+    NUMBER(T, rate, "1/s", "1 1/s", POSITIVE, "strain rate below which rate does not matter")    \
+    NUMBER(T, m, "", OPTIONAL, POSITIVE,                                                         \
+           "exponent of the temperature; not given: heat does not soften")                       \
+    NUMBER(T, room, "K", "300 K", POSITIVE, "temperature at the start; used with m")             \
+    NUMBER(T, melt, "K", OPTIONAL, POSITIVE,                                                     \
+           "temperature at which no strength is left; needed with m")                            \
+    NUMBER(T, capacity, "J/(kg*K)", OPTIONAL, POSITIVE,                                          \
+           "specific heat that plastic work warms; needed with m")                               \
+    CHOICE(T, return_map, "implicit",                                                            \
+           "implicit: the stress of the step's own strain and rate; explicit: as in MPM3D, one " \
+           "evaluation",                                                                         \
+           "implicit", "explicit")
+
 BOLIDE_INLINE bool johnson_cook_softens(const struct strength_johnson_cook *solid)
 {
     return !isnan(solid->m);
-}
-
-/* Why its parameters do not go together, *KEY is that it is about; NULL when they do. */
-BOLIDE_INLINE const char *johnson_cook_wrong(const struct strength_johnson_cook *solid,
-                                             const char **key)
-{
-    *key = isnan(solid->melt) ? "melt" : isnan(solid->capacity) ? "capacity" : "melt";
-    if (!johnson_cook_softens(solid) || solid->melt > solid->room)
-        return johnson_cook_softens(solid) && isnan(solid->capacity) ? "m needs this beside it"
-                                                                     : NULL;
-    return isnan(solid->melt) ? "m needs this beside it" : "this is not above `room`";
 }
 
 /* 1 - T*^m after HEATING by K. */
@@ -184,6 +194,83 @@ BOLIDE_INLINE void strength_johnson_cook(const struct strength_johnson_cook *sol
     if (johnson_cook_softens(solid))
         point->history[HISTORY_plastic_heating] +=
             stress * flow / (motion->density * solid->capacity);
+}
+
+/* What points flow that flow at all: those are put side by side. */
+BOLIDE_INLINE void johnson_cook_batch_flow(const struct strength_johnson_cook *solid,
+                                           const struct batch *b, const double *trial,
+                                           const double *slow, const double *softening,
+                                           double *flow)
+{
+    int flowing[BATCH + LANES], count = 0;
+    for (int k = 0; k < b->count; k++) {
+        flowing[count] = k;
+        count += trial[k] > slow[k];
+    }
+    for (int lane = 0; lane < LANES; lane++)
+        flowing[count + lane] = flowing[count > 0 ? count - 1 : 0];
+    for (int first = 0; first < count; first += LANES) {
+        const int *at = flowing + first;
+        struct johnson_cook_points p;
+        for (int lane = 0; lane < LANES; lane++) {
+            p.trial[lane] = trial[at[lane]];
+            p.strain[lane] = b->plastic_strain[at[lane]];
+            p.slow[lane] = slow[at[lane]];
+            p.softening[lane] = softening[at[lane]];
+        }
+        johnson_cook_flow(solid, LANES, b->dt, &p);
+        for (int lane = 0; lane < LANES; lane++)
+            flow[at[lane]] = p.flow[lane];
+    }
+}
+
+BOLIDE_INLINE void strength_johnson_cook_batch(const struct strength_johnson_cook *solid,
+                                               struct batch *b)
+{
+    double trial[BATCH], slow[BATCH], softening[BATCH], flow[BATCH];
+    const bool softens = johnson_cook_softens(solid);
+    for (int k = 0; k < b->count; k++) {
+        const struct motion motion = batch_motion(b, k);
+        const struct sym3 s =
+            strength_elastic(solid->shear_modulus, &motion, batch_tensor(b->deviator, k));
+        batch_keep_tensor(b->new_deviator, k, s);
+        trial[k] = sym3_mises(s);
+        softening[k] = 1.0;
+        flow[k] = 0.0;
+    }
+    if (softens)
+        for (int k = 0; k < b->count; k++)
+            softening[k] = johnson_cook_softening(solid, b->plastic_heating[k]);
+    for (int k = 0; k < b->count; k++)
+        slow[k] = johnson_cook_slow(solid, b->plastic_strain[k], softening[k]);
+    johnson_cook_batch_flow(solid, b, trial, slow, softening, flow);
+    for (int k = 0; k < b->count; k++) {
+        const double stress = trial[k] - 3.0 * solid->shear_modulus * flow[k];
+        const double share = flow[k] > 0.0 ? stress / trial[k] : 1.0;
+        batch_keep_tensor(b->new_deviator, k, sym3_scale(share, batch_tensor(b->new_deviator, k)));
+        b->plastic_strain[k] += flow[k];
+        if (softens)
+            b->plastic_heating[k] += stress * flow[k] / (b->new_density[k] * solid->capacity);
+    }
+}
+
+/* Softening needs both temperatures and the capacity. */
+BOLIDE_INLINE struct strength_traits strength_johnson_cook_traits(
+    const struct strength_johnson_cook *solid)
+{
+    struct strength_traits traits = strength_default_traits();
+    traits.batched = solid->return_map == JOHNSON_COOK_IMPLICIT;
+    if (!johnson_cook_softens(solid))
+        return traits;
+    traits.history = HISTORY_BIT(plastic_heating);
+    if (isnan(solid->melt) || isnan(solid->capacity)) {
+        traits.wrong = "m needs this beside it";
+        traits.wrong_key = isnan(solid->melt) ? "melt" : "capacity";
+    } else if (!(solid->melt > solid->room)) {
+        traits.wrong = "this is not above `room`";
+        traits.wrong_key = "melt";
+    }
+    return traits;
 }
 
 #endif

@@ -3,12 +3,18 @@
 #ifndef BOLIDE_STRENGTH_PERFECT_PLASTIC_H
 #define BOLIDE_STRENGTH_PERFECT_PLASTIC_H
 
-#include "material/strength/elastic.h"
+#include "material/strength/common.h"
 
 struct strength_perfect_plastic {
     double shear_modulus; /* G, Pa */
     double yield;         /* Y_0, Pa, in simple tension */
 };
+
+#define STRENGTH_perfect_plastic_NAME "perfect-plastic"
+#define STRENGTH_perfect_plastic_HELP "elastic up to a constant von Mises yield stress"
+#define STRENGTH_perfect_plastic_PARAMETERS(T)                          \
+    NUMBER(T, shear_modulus, "Pa", REQUIRED, POSITIVE, "shear modulus") \
+    NUMBER(T, yield, "Pa", REQUIRED, POSITIVE, "yield stress in simple tension")
 
 BOLIDE_INLINE double strength_perfect_plastic_yield(const struct strength_perfect_plastic *solid,
                                                     const struct point *point)
@@ -29,6 +35,28 @@ BOLIDE_INLINE void strength_perfect_plastic(const struct strength_perfect_plasti
     point->history[HISTORY_plastic_strain] +=
         over > 0.0 ? over / (3.0 * solid->shear_modulus) : 0.0;
     point->deviator = sym3_scale(keep, s);
+}
+
+BOLIDE_INLINE void strength_perfect_plastic_batch(const struct strength_perfect_plastic *solid,
+                                                  struct batch *b)
+{
+    for (int k = 0; k < b->count; k++) {
+        struct motion motion = batch_motion(b, k);
+        struct point point = {.deviator = batch_tensor(b->deviator, k),
+                              .history = {b->plastic_strain[k]}};
+        strength_perfect_plastic(solid, &motion, 0.0, &point);
+        batch_keep_tensor(b->new_deviator, k, point.deviator);
+        b->plastic_strain[k] = point.history[HISTORY_plastic_strain];
+    }
+}
+
+BOLIDE_INLINE struct strength_traits strength_perfect_plastic_traits(
+    const struct strength_perfect_plastic *solid)
+{
+    struct strength_traits traits = strength_default_traits();
+    (void)solid;
+    traits.batched = true;
+    return traits;
 }
 
 #endif

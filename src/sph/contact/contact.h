@@ -18,7 +18,8 @@ struct contact_options {
 /* The state of both schemes. */
 struct contact_state {
     struct pair_kind kind;
-    double bend[MATERIALS_MAX]; /* of riemann/bend.h, by material */
+    double bend
+        [MATERIALS_MAX]; /* slope of the shock adiabat, or ratio of specific heats, by material */
 };
 
 extern const struct parameter contact_table[];

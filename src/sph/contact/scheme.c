@@ -2,7 +2,6 @@
 #include "sph/contact/contact.h"
 
 #include "base/clock.h"
-#include "riemann/bend.h"
 #include "sph/prune.h"
 
 /* What the loop over blocks needs: compressed lists are made on the way. */
@@ -85,23 +84,21 @@ void contact_choose_kind(struct sph *sph, const struct simulation *simulation, e
     sph->stride = (size_t)record_stride(state->kind);
 }
 
-/* The Riemann solvers of strong shocks need a number of each material: the slope of its shock adiabat, or the ratio of
- * specific heats of an ideal gas. */
+/* What the Riemann solvers of strong shocks need of each material. */
 static struct error *find_slopes(struct sph *sph, const struct simulation *simulation)
 {
     struct contact_state *state = sph->state;
     const struct simulation_case *input = simulation->input;
-    for (int m = 0; record_has_bend(state->kind) && m < simulation->materials; m++) {
+    if (state->kind.star == STAR_DUKOWICZ)
+        return sph_find_slopes(simulation, state->bend);
+    for (int m = 0; state->kind.star == STAR_EXACT_GAS && m < simulation->materials; m++) {
         const struct material *material = &simulation->material[m];
-        const bool gas = material->eos.kind == EOS_ideal_gas && !material_has_strength(material);
-        if (state->kind.star == STAR_EXACT_GAS && !gas)
-            return sph_option_error(
-                sph, input, "riemann",
-                "exact-gas solves contacts of ideal gases, and material \"%s\" is "
-                "not one: use acoustic or dukowicz",
-                input->materials.names[m]);
-        state->bend[m] = state->kind.star == STAR_EXACT_GAS ? material->eos.of.ideal_gas.gamma
-                                                            : riemann_shock_slope(material);
+        state->bend[m] = eos_ratio_of_heats(&material->eos);
+        if (isnan(state->bend[m]) || material_has_strength(material))
+            return sph_option_error(sph, input, "riemann",
+                                    "exact-gas solves contacts of ideal gases, and material "
+                                    "\"%s\" is not one: use acoustic or dukowicz",
+                                    input->materials.names[m]);
     }
     return NULL;
 }

@@ -75,8 +75,8 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
         struct motion motion = {
             .dt = ahead, .density = p->density[i], .strain_rate = strain, .spin = spin};
         struct point point = {p->density[i], p->energy[i], p->pressure[i], start, {0.0}};
-        if (strength->kind == STRENGTH_perfect_plastic) {
-            strength_perfect_plastic(&strength->of.perfect_plastic, &motion, bulk, &point);
+        if (strength_is_plain(strength)) {
+            strength_plain_step(strength, &motion, &point);
         } else {
             particle_load_history(p, i, point.history);
             flow_rarely(strength, &motion, bulk, &point);

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
-#include "riemann/bend.h"
 #include "sph/lanes.h"
 #include "sph/prune.h"
 
@@ -150,11 +149,9 @@ static struct error *create(struct sph *sph, const struct simulation *simulation
     TRY(refuse(sph, simulation));
     state->kind =
         (struct muscl_kind){simulation->dimension, sph_has(sph, SPH_SHEAR), sph_deep(simulation)};
-    for (int m = 0; m < simulation->materials; m++)
-        state->bend[m] = riemann_shock_slope(&simulation->material[m]);
     sph->stride = (size_t)muscl_stride(state->kind);
     sph->places = true;
-    return NULL;
+    return sph_find_slopes(simulation, state->bend);
 }
 
 static void destroy(struct sph *sph)

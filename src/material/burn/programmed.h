@@ -1,0 +1,30 @@
+/* Programmed burn: an explosive burns when the detonation arrives from where it is lit. F = 0
+ * before the lighting time t_L, then
+ *
+ *   F = (t - t_L) D/(1.5 h), at most 1            (3-1), (3-2)
+ *
+ * with the speed D of the detonation and the point's own length h. Source: Cui, dissertation
+ * (2014). */
+#ifndef BOLIDE_BURN_PROGRAMMED_H
+#define BOLIDE_BURN_PROGRAMMED_H
+
+#include "material/point.h"
+
+struct burn_programmed {
+    double speed; /* D, m/s */
+};
+
+#define BURN_programmed_NAME "programmed"
+#define BURN_programmed_HELP "it burns when the detonation arrives from where it is lit"
+#define BURN_programmed_PARAMETERS(T) \
+    NUMBER(T, speed, "m/s", REQUIRED, POSITIVE, "D: speed of the detonation")
+
+/* F. */
+BOLIDE_INLINE double burn_programmed(const struct burn_programmed *burn,
+                                     const struct burning *point)
+{
+    return point->passed >= 0.0 ? minimum(point->passed * burn->speed / (1.5 * point->length), 1.0)
+                                : 0.0;
+}
+
+#endif
