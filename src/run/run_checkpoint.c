@@ -80,6 +80,7 @@ struct error *run_checkpoint(struct run *run)
     if (run->checkpoint_is_wanted)
         run_say(run, "checkpoint at step %lld, t = %.9g s", (long long)run->checkpoint_step,
                 run->checkpoint_time);
+    run->checkpoint_is_wanted = false;
     return NULL;
 }
 

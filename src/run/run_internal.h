@@ -28,7 +28,7 @@ struct run {
     bool sound;                           /* the state is that of the end of a step */
     int64_t particles;                    /* of all ranks */
     bool told_to_stop, checkpoint_is_due; /* a rank of them was, to a rank it is */
-    bool checkpoint_is_wanted;            /* by the user */
+    bool checkpoint_is_wanted;            /* by the user, and not yet written */
     sig_atomic_t checkpoints_heard;       /* requests for one that have been seen */
 
     /* What a resumed run needs beside the state: the totals at time zero, how many times each

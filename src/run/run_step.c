@@ -129,7 +129,7 @@ struct error *run_hear_ranks(struct run *run, struct error *error)
     TRY(ranks_agree_on(&run->ranks, error, said, SAID));
     run->told_to_stop = said[STOP] > 0.0;
     run->checkpoint_is_due = said[CHECKPOINT] > 0.0;
-    run->checkpoint_is_wanted = said[WANTED] > 0.0;
+    run->checkpoint_is_wanted = run->checkpoint_is_wanted || said[WANTED] > 0.0;
     if (said[CHANGED] > 0.0) {
         TRY(ranks_agree(&run->ranks, particles_commit(particles)));
         run->particles = ranks_sum(&run->ranks, particles->count);

@@ -122,6 +122,19 @@ grep -q "step has collapsed to .* limited by sound speed, particle .* of body \"
 [ -s collapsed/checkpoint.h5 ] && [ -s collapsed/snapshots/failed.vtkhdf ] ||
     fail "nothing is left of a collapse"
 
+# A run that nobody will wait for is warned of, before it begins and when it does.
+"$BOLIDE" check long.yaml --set "run.until=100 s" >hopeless.log 2>&1
+grep -q "warning: about .* steps are more than any run takes" hopeless.log ||
+    fail "check does not warn of too many steps: $(cat hopeless.log)"
+"$BOLIDE" run long.yaml --set "run.until=100 s" --output hopeless --overwrite >hopeless.log 2>&1 &
+runner=$!
+while [ ! -s hopeless/history.csv ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+sleep 0.2
+kill $runner
+wait $runner
+grep -q "^warning: with steps of .* the run needs .* steps" hopeless.log ||
+    fail "run does not warn of too many steps: $(cat hopeless.log)"
+
 # Rows that were changed since the checkpoint are not gone on after.
 cp -r drifted changed
 sed -i '3s/[0-9]/7/' changed/history.csv
