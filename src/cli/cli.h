@@ -109,8 +109,8 @@ int signals_status(void);
 
 /* results.c */
 
-/* The ERROR_INPUT with which the value OUTPUT of `--output` is refused. */
-struct error *output_check(const char *output);
+/* The ERROR_INPUT with which FOLDER, the value of OPTION, is refused as one to write to. */
+struct error *own_folder_check(const char *option, const char *folder);
 
 /* The folder that a run of the case at PATH, called NAME, writes to: that of `--output`, else
  * results/NAME. Free it. */

@@ -175,7 +175,7 @@ struct error *options_read(const struct command *command, int count, char **word
     if (!error && !options->threads && command->bit & (COMMAND_RUN | COMMAND_VERIFY))
         error = check_environment();
     if (!error && options->output)
-        error = output_check(options->output);
+        error = own_folder_check("--output", options->output);
     return error;
 }
 

@@ -26,17 +26,18 @@ static bool is_root(const char *path)
            folder.st_ino == root.st_ino;
 }
 
-/* A folder that is named by where it is, not by a name of its own, is most likely a slip: an empty
- * variable of a script, a slash too many. Results would be mixed with everything that is there. */
-struct error *output_check(const char *output)
+/* A folder that is named by where it is, not by a name of its own, is most likely a slip: an
+ * empty variable of a script, a slash too many. What is written would be mixed with everything
+ * that is there. */
+struct error *own_folder_check(const char *option, const char *folder)
 {
     int length;
-    const char *last = last_component(output, &length);
-    if (!*output)
-        return error_new(ERROR_INPUT, "--output: the name of the folder is empty");
-    if (length == 0 || (length == 2 && !strncmp(last, "..", 2)) || is_root(output))
-        return error_new(ERROR_INPUT, "--output %s: results need a folder with a name of its own",
-                         output);
+    const char *last = last_component(folder, &length);
+    if (!*folder)
+        return error_new(ERROR_INPUT, "%s: the name of the folder is empty", option);
+    if (length == 0 || (length == 2 && !strncmp(last, "..", 2)) || is_root(folder))
+        return error_new(ERROR_INPUT, "%s %s: choose a folder with a name of its own", option,
+                         folder);
     return NULL;
 }
 

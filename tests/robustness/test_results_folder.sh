@@ -75,9 +75,11 @@ rm results/long/case.yaml
 # Names that lead out of the folder that is meant.
 refused "the name of the folder is empty" "$BOLIDE" run run/plate.yaml --output ""
 for folder in / // .. run/.. run/../; do
-    refused "results need a folder with a name of its own" \
+    refused "choose a folder with a name of its own" \
         "$BOLIDE" run run/plate.yaml --output $folder
 done
+refused "new: the name of the folder is empty" "$BOLIDE" new ""
+refused "new ..: choose a folder with a name of its own" "$BOLIDE" new ..
 refused "the results would go to results/.." "$BOLIDE" run run/...yaml
 [ ! -e run.log ] || fail "results beside the folder of results"
 mkdir -p out/in && (cd out/in &&
