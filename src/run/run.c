@@ -16,13 +16,11 @@
 #include "output/picture.h"
 #include "run/run_internal.h"
 
-/* Threads with fewer particles cost more in waiting than they gain in work: those that a run
- * takes unless it is told how many, and those that it takes when it is told. Results do not
- * depend on them. */
+/* A thread with fewer particles costs more in waiting than it gains in work. The second number
+ * counts where the user has given the number of threads. Results depend on neither. */
 enum { PARTICLES_A_THREAD = 2000, PARTICLES_A_THREAD_AT_LEAST = 64 };
 
-/* More threads than the processors can serve in turns do not help either, and a system may
- * refuse them. */
+/* Many more threads than processors do not help either, and the system may refuse to start them. */
 enum { THREADS_A_PROCESSOR = 4 };
 
 static int threads_at_most(const struct run_options *options)

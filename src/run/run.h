@@ -14,7 +14,7 @@ struct progress_pace {
     double seconds, fraction, silence;
 };
 
-/* More steps than a run that somebody waits for takes. */
+/* A run of more steps does not end in a time that anybody has. */
 enum { RUN_STEPS_HOPELESS = 1000000000 };
 
 struct run_options {
@@ -25,8 +25,7 @@ struct run_options {
     int threads;               /* 0: as many as OpenMP would take */
     int64_t max_steps;         /* of this call, which then stops as if told to; 0: no limit */
     const volatile sig_atomic_t *stop; /* not zero: write a checkpoint and stop; may be NULL */
-    /* How many times a checkpoint was asked for; each gets one, and the run goes on. May be
-     * NULL. */
+    /* How many times a checkpoint was asked for; the run then continues. May be NULL. */
     const volatile sig_atomic_t *checkpoints;
     const struct listener *listener; /* may be NULL */
     /* Told of an error that this rank alone has, which nothing else can tell the others, who wait for it; NULL: nobody. */

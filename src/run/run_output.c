@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -97,7 +98,8 @@ static struct error *look_for_checkpoint(struct run *run)
 static struct error *lock_folder(struct run *run)
 {
     const bool wanted = run_writes(run) && !run->lock.path;
-    return wanted && !access(run->options->output, F_OK)
+    struct stat status;
+    return wanted && !stat(run->options->output, &status) && S_ISDIR(status.st_mode)
                ? results_lock(run->options->output, &run->lock)
                : NULL;
 }

@@ -69,10 +69,9 @@ void run_warn_of_length(struct run *run)
             run->limit.why ? run->limit.why : "unknown", steps_remaining(run));
 }
 
-/* A shock or a detonation shortens steps by the ratio of sound speeds and of sizes, some hundred
- * at most, and a tiny one at the start of a run soon grows. So a step that stays below COLLAPSED
- * of the largest one and leaves a hopeless number to go is no part of a run that somebody waits
- * for. */
+/* A shock or a detonation shortens steps by the ratio of sound speeds and of sizes, by some hundred
+ * at most, and a tiny step at the start of a run soon grows. Steps that stay below COLLAPSED of the
+ * largest one, and leave a hopeless number to go, belong to no run that could end. */
 static const double COLLAPSED = 1e-6;
 enum { COLLAPSED_STEPS = 1000 };
 

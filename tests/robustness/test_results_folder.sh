@@ -78,6 +78,8 @@ for folder in / // .. run/.. run/../; do
     refused "choose a folder with a name of its own" \
         "$BOLIDE" run run/plate.yaml --output $folder
 done
+refused "run/plate.yaml: is a file where a folder is wanted" \
+    "$BOLIDE" run run/plate.yaml --output run/plate.yaml
 refused "new: the name of the folder is empty" "$BOLIDE" new ""
 refused "new ..: choose a folder with a name of its own" "$BOLIDE" new ..
 refused "the results would go to results/.." "$BOLIDE" run run/...yaml
