@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/file.h"
@@ -136,8 +137,59 @@ void csv_put_number(FILE *file, double value)
     fputs(text, file);
 }
 
-/* The place behind the head and the first KEEP rows; a last line without its end is no row. */
-static struct error *place_behind(FILE *file, const char *path, int64_t keep, off_t *place)
+static struct error *system_error(const char *path, int number)
+{
+    return error_new(ERROR_SYSTEM, "%s: %s", path, number ? strerror(number) : "cannot be written");
+}
+
+/* FNV-1a: it needs to see accidents, not enemies. */
+static uint64_t hash_more(uint64_t hash, const unsigned char *bytes, size_t size)
+{
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ bytes[i]) * 0x100000001b3u;
+    return hash;
+}
+
+/* Extends MARK to the first BYTES of FILE. */
+static struct error *extend_to(FILE *file, const char *path, int64_t bytes, struct csv_mark *mark)
+{
+    unsigned char piece[1 << 14];
+    if (!mark->bytes)
+        mark->hash = 0xcbf29ce484222325u;
+    while (mark->bytes < bytes) {
+        int64_t wanted = bytes - mark->bytes;
+        size_t size = wanted < (int64_t)sizeof piece ? (size_t)wanted : sizeof piece;
+        ssize_t got = pread(fileno(file), piece, size, mark->bytes);
+        if (got < 0)
+            return system_error(path, errno);
+        if (got == 0)
+            return NULL;
+        mark->hash = hash_more(mark->hash, piece, (size_t)got);
+        mark->bytes += got;
+    }
+    return NULL;
+}
+
+struct error *csv_extend(FILE *file, const char *path, struct csv_mark *mark)
+{
+    struct stat status;
+    errno = 0;
+    if (fflush(file) || ferror(file) || fstat(fileno(file), &status))
+        return system_error(path, errno);
+    return extend_to(file, path, status.st_size, mark);
+}
+
+struct error *csv_visit_mark(struct csv_mark *mark, const char *name, struct visitor *visitor)
+{
+    char part[80];
+    snprintf(part, sizeof part, "%s_bytes", name);
+    TRY(visitor->visit(visitor, part, NUMBER_INT64, &mark->bytes, 1, 1));
+    snprintf(part, sizeof part, "%s_hash", name);
+    return visitor->visit(visitor, part, NUMBER_UINT64, &mark->hash, 1, 1);
+}
+
+/* The place after the head and the first KEEP rows; a last line without its end is no row. */
+static struct error *place_after(FILE *file, const char *path, int64_t keep, off_t *place)
 {
     int64_t lines = 0;
     *place = 0;
@@ -146,34 +198,53 @@ static struct error *place_behind(FILE *file, const char *path, int64_t keep, of
         lines += c == '\n';
     }
     if (ferror(file))
-        return error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno));
+        return system_error(path, errno);
     if (lines < keep + 1)
         return error_new(ERROR_INPUT, "%s: has %lld rows where %lld were written: cannot go on",
                          path, (long long)(lines ? lines - 1 : 0), (long long)keep);
     return NULL;
 }
 
-/* Opens PATH to go on behind KEEP rows. What an interrupted run wrote behind them is cut off. */
-static struct error *open_behind(const char *path, int64_t keep, FILE **file)
+/* Compares the first PLACE bytes, KEEP rows, with those that MARK was made of. */
+static struct error *compare_mark(FILE *file, const char *path, int64_t keep, off_t place,
+                                  const struct csv_mark *mark)
+{
+    struct csv_mark found = {0};
+    TRY(extend_to(file, path, place, &found));
+    if (found.bytes == mark->bytes && found.hash == mark->hash)
+        return NULL;
+    return error_new(ERROR_INPUT,
+                     "%s: its first %lld rows are not those that the run wrote: the file has been "
+                     "changed since the checkpoint; restore it, or start again with --overwrite",
+                     path, (long long)keep);
+}
+
+/* Opens PATH to go on after KEEP rows. What an interrupted run wrote after them is cut off. */
+static struct error *open_after(const char *path, int64_t keep, const struct csv_mark *mark,
+                                FILE **file)
 {
     *file = fopen(path, "r+e");
     if (!*file)
-        return error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno));
+        return system_error(path, errno);
     off_t place;
-    struct error *error = place_behind(*file, path, keep, &place);
+    struct error *error = place_after(*file, path, keep, &place);
+    if (!error && mark)
+        error = compare_mark(*file, path, keep, place, mark);
     if (!error && (fseeko(*file, place, SEEK_SET) || ftruncate(fileno(*file), place)))
-        error = error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno));
-    if (error)
+        error = system_error(path, errno);
+    if (error) {
         fclose(*file);
+        *file = NULL;
+    }
     return error;
 }
 
-struct error *csv_grow(const char *path, int64_t keep, FILE **file)
+struct error *csv_grow(const char *path, int64_t keep, const struct csv_mark *mark, FILE **file)
 {
     if (keep > 0)
-        return open_behind(path, keep, file);
-    *file = fopen(path, "we");
-    return *file ? NULL : error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno));
+        return open_after(path, keep, mark, file);
+    *file = fopen(path, "w+e");
+    return *file ? NULL : system_error(path, errno);
 }
 
 void csv_put_head(FILE *file, const char *name, const char *unit)

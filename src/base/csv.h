@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "base/error.h"
+#include "base/visitor.h"
 
 struct csv {
     int columns;
@@ -30,9 +30,23 @@ int csv_column(const struct csv *csv, const char *name);
 /* The number at ROW and COLUMN, NAN where there is none. */
 double csv_number(const struct csv *csv, int64_t row, int column);
 
-/* Opens PATH for a table that grows: afresh, or with KEEP > 0 to go on behind the head and the first KEEP
- * rows; what an interrupted run wrote behind them is cut off. ERROR_INPUT when there are fewer. */
-struct error *csv_grow(const char *path, int64_t keep, FILE **file);
+/* The bytes at the start of a file that have been accounted for, and a hash of them; zeroed:
+ * none. */
+struct csv_mark {
+    int64_t bytes;
+    uint64_t hash;
+};
+
+/* Opens PATH for a table that grows: afresh, or with KEEP > 0 to go on after the head and the
+ * first KEEP rows; what an interrupted run wrote after them is cut off. ERROR_INPUT when there
+ * are fewer, or when they are not those of MARK (NULL: any). */
+struct error *csv_grow(const char *path, int64_t keep, const struct csv_mark *mark, FILE **file);
+
+/* Flushes FILE, opened at PATH by csv_grow, and extends MARK to all that it holds. */
+struct error *csv_extend(FILE *file, const char *path, struct csv_mark *mark);
+
+/* Shows MARK as NAME_bytes and NAME_hash. */
+struct error *csv_visit_mark(struct csv_mark *mark, const char *name, struct visitor *visitor);
 
 /* Writes the head of a column in UNIT, "" for a plain number: `pressure [Pa]`. */
 void csv_put_head(FILE *file, const char *name, const char *unit);

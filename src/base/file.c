@@ -1,4 +1,4 @@
-/* Files that are never half there, and the folder of a run's results; see file.h. */
+/* Files that are never half there, and folders; see file.h. */
 #include "base/file.h"
 
 #include <dirent.h>
@@ -129,140 +129,10 @@ struct error *folder_make(const char *folder)
     return error;
 }
 
-/* What a run writes: single files, and folders with files of these endings. The log tells a run's
- * folder from any other, so it is removed last. */
-static const char log_name[] = "run.log";
-static const char *const result_files[] = {
-    "case.yaml",   "history.csv", "checkpoint.h5",           "checks.csv",
-    "summary.csv", "report.html", "snapshots.vtkhdf.series",
-};
-static const struct {
-    const char *name, *endings[2];
-} result_folders[] = {
-    {"snapshots", {".vtkhdf", ".vtkhdf.series"}},
-    {"pictures", {".png", NULL}},
-    {"probes", {".csv", NULL}},
-    {"profiles", {".csv", NULL}},
-};
-
 static bool ends_with(const char *name, size_t length, const char *ending)
 {
     size_t size = strlen(ending);
     return length > size && !memcmp(name + length - size, ending, size);
-}
-
-/* A result of the folder at INDEX, whole or left half written by a killed run. */
-static bool is_result(const char *name, size_t index)
-{
-    size_t length = strlen(name);
-    if (ends_with(name, length, part))
-        length -= strlen(part);
-    for (size_t i = 0; i < COUNT_OF(result_folders[index].endings); i++) {
-        const char *ending = result_folders[index].endings[i];
-        if (ending && ends_with(name, length, ending))
-            return true;
-    }
-    return false;
-}
-
-static struct error *remove_file(const char *path)
-{
-    return unlink(path) && errno != ENOENT ? system_error(path, errno) : NULL;
-}
-
-static struct error *remove_named(const char *folder, const char *name)
-{
-    char *path = path_join(folder, name);
-    char *beside = path ? file_beside(path) : NULL;
-    struct error *error =
-        beside ? error_join(remove_file(path), remove_file(beside)) : out_of_memory();
-    free(beside);
-    free(path);
-    return error;
-}
-
-/* Removes the results in folder PATH, and PATH itself when nothing else is in it. */
-static struct error *remove_results(const char *path, size_t index)
-{
-    DIR *directory = opendir(path);
-    if (!directory)
-        return errno == ENOENT || errno == ENOTDIR ? NULL : system_error(path, errno);
-    struct error *error = NULL;
-    for (struct dirent *entry; !error && (entry = readdir(directory));) {
-        if (!is_result(entry->d_name, index))
-            continue;
-        char *name = path_join(path, entry->d_name);
-        error = name ? remove_file(name) : out_of_memory();
-        free(name);
-    }
-    closedir(directory);
-    if (!error && rmdir(path) && errno != ENOTEMPTY && errno != EEXIST)
-        error = system_error(path, errno);
-    return error;
-}
-
-static struct error *remove_run(const char *folder)
-{
-    for (size_t i = 0; i < COUNT_OF(result_files); i++)
-        TRY(remove_named(folder, result_files[i]));
-    for (size_t i = 0; i < COUNT_OF(result_folders); i++) {
-        char *path = path_join(folder, result_folders[i].name);
-        struct error *error = path ? remove_results(path, i) : out_of_memory();
-        free(path);
-        TRY(error);
-    }
-    return remove_named(folder, log_name);
-}
-
-static bool is_there(const char *folder, const char *name)
-{
-    char *path = path_join(folder, name);
-    bool there = path && access(path, F_OK) == 0;
-    free(path);
-    return there;
-}
-
-/* A name that a run would write to and that stands in FOLDER; NULL when there is none. */
-static const char *name_in_the_way(const char *folder)
-{
-    for (size_t i = 0; i < COUNT_OF(result_files); i++)
-        if (is_there(folder, result_files[i]))
-            return result_files[i];
-    for (size_t i = 0; i < COUNT_OF(result_folders); i++)
-        if (is_there(folder, result_folders[i].name))
-            return result_folders[i].name;
-    return NULL;
-}
-
-struct error *folder_check(const char *folder, bool overwrite)
-{
-    bool of_run = is_there(folder, log_name);
-    if (of_run && !overwrite)
-        return error_new(ERROR_INPUT,
-                         "%s: holds the results of a run already (--overwrite replaces them, "
-                         "--resume goes on with them)",
-                         folder);
-    const char *name = of_run ? NULL : name_in_the_way(folder);
-    if (name)
-        return error_new(ERROR_INPUT,
-                         "%s: holds %s, which is in the way of a run's own but comes from no run "
-                         "(there is no %s); choose another folder",
-                         folder, name, log_name);
-    return NULL;
-}
-
-struct error *folder_ready(const char *folder, bool overwrite)
-{
-    TRY(folder_make(folder));
-    TRY(folder_check(folder, overwrite));
-    if (is_there(folder, log_name))
-        TRY(remove_run(folder));
-    /* An empty log marks the folder as a run's from the first moment. */
-    char *path = path_join(folder, log_name);
-    FILE *file = path ? fopen(path, "we") : NULL;
-    struct error *error = file && !fclose(file) ? NULL : system_error(path ? path : folder, errno);
-    free(path);
-    return error;
 }
 
 int64_t file_size(const char *path)

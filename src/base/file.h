@@ -1,5 +1,4 @@
-/* Files that are never half there: written beside, flushed to disk, renamed into place; and the
- * folder that holds a run's results. */
+/* Files that are never half there: written beside, flushed to disk, renamed into place. */
 #ifndef BOLIDE_FILE_H
 #define BOLIDE_FILE_H
 
@@ -20,14 +19,6 @@ struct error *file_end(const char *path, FILE *file);
 
 /* Makes FOLDER and its parents where missing. */
 struct error *folder_make(const char *folder);
-
-/* The ERROR_INPUT with which folder_ready would refuse FOLDER; changes nothing. */
-struct error *folder_check(const char *folder, bool overwrite);
-
-/* Readies FOLDER for the results of a fresh run: makes it, or, when it holds results of a run
- * already, removes those when OVERWRITE is set and refuses with ERROR_INPUT otherwise. Other files
- * stay. */
-struct error *folder_ready(const char *folder, bool overwrite);
 
 /* The whole of PATH in fresh memory, with a zero behind its SIZE bytes; CONTENT is NULL when there is no
  * such file, or it is no plain file. */

@@ -1,5 +1,5 @@
 /* What the subcommands share: options, words to the user, folders of shared files. This is the one
- * room that prints, exits and holds a static variable (the signal's flag). */
+ * room that prints, exits and holds a static variable (the signals' flags). */
 #ifndef BOLIDE_CLI_H
 #define BOLIDE_CLI_H
 
@@ -84,7 +84,7 @@ void terminal_silence(const struct ranks *ranks);
 void terminal_alarm(const struct ranks *ranks, const struct error *error);
 
 /* Words and progress of a run; on a terminal the progress line is drawn over, elsewhere it is a
- * line every ten per cent. */
+ * line every ten per cent, or after ten seconds without. */
 struct listener terminal_listener(void);
 struct progress_pace terminal_pace(void);
 void terminal_clear_line(void);
@@ -93,10 +93,29 @@ void terminal_clear_line(void);
 enum colour { COLOUR_NONE, COLOUR_GOOD, COLOUR_BAD, COLOUR_FAINT, COLOUR_STRONG, COLOUR_WARN };
 const char *colour(enum colour which);
 
-/* Catches SIGINT and SIGTERM; the flag that they set. */
+/* Opens /dev/null on those of stdin, stdout and stderr that are closed. Otherwise the next file
+ * that is opened takes such a number, and what is printed goes into it. Call before anything
+ * else. */
+void terminal_open_closed_streams(void);
+
+/* signals.c */
+
+/* Catches the signals that stop a run, and SIGUSR1, which asks for a checkpoint; the flag that the
+ * former set, and how often the latter came. */
 const volatile sig_atomic_t *signals_catch(void);
+const volatile sig_atomic_t *signals_checkpoints(void);
 /* 128 + the signal that came. */
 int signals_status(void);
+
+/* results.c */
+
+/* The ERROR_INPUT with which FOLDER, the value of OPTION, is refused as one to write to. */
+struct error *own_folder_check(const char *option, const char *folder);
+
+/* The folder that a run of the case at PATH, called NAME, writes to: that of `--output`, else
+ * results/NAME. Free it. */
+struct error *results_folder(const struct cli_options *options, const char *path, const char *name,
+                             char **folder);
 
 /* share.c */
 

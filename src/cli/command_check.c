@@ -102,8 +102,12 @@ static void print_run(const struct simulation_case *input, const struct estimate
            threads == 1 ? "" : "s");
 }
 
-static void print_warnings(const struct simulation_case *input)
+static void print_warnings(const struct simulation_case *input, const struct estimate *estimate)
 {
+    if (estimate->steps > RUN_STEPS_HOPELESS)
+        printf("  warning: about %.2g steps are more than any run takes: look at `run.until`, the "
+               "resolution of %s, its speed and its material\n",
+               (double)estimate->steps, input->bodies.names[estimate->step_body]);
     struct error *warnings = generate_warnings(input);
     for (int i = 0; warnings && i < error_count(warnings); i++)
         printf("  warning: %s\n", error_message(warnings, i));
@@ -134,7 +138,7 @@ static struct error *check_run(const char *path, const struct cli_options *optio
             print_start(input->bodies.names[i], &estimate.body[i].summary);
         print_mixture(input, &estimate);
         print_run(input, &estimate, threads);
-        print_warnings(input);
+        print_warnings(input, &estimate);
         estimate_free(&estimate);
     }
     free(name);

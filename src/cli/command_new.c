@@ -105,7 +105,9 @@ static struct error *new_case(const char *folder, const char *name)
 
 int command_new(const struct cli_options *options)
 {
-    struct error *error = new_case(
-        options->names.text[0], options->template_name ? options->template_name : usual_template);
+    const char *folder = options->names.text[0];
+    struct error *error = own_folder_check("new", folder);
+    if (!error)
+        error = new_case(folder, options->template_name ? options->template_name : usual_template);
     return error ? report_error(error) : EXIT_OK;
 }

@@ -15,6 +15,7 @@ static struct run_options running_of(const struct cli_options *options, const ch
         .ranks = options->ranks,
         .threads = (int)options->threads,
         .stop = signals_catch(),
+        .checkpoints = signals_checkpoints(),
         .listener = listener,
         .alarm = terminal_alarm,
         .progress = terminal_pace(),
@@ -99,9 +100,9 @@ int command_run(const struct cli_options *options)
         ranks_agree(options->ranks, read_case(options->names.text[0], options, &input));
     if (error)
         return report_error(error);
-    char *folder =
-        options->output ? text_copy(options->output) : text_format("results/%s", input->name);
-    int status = !folder             ? report_error(error_new(ERROR_SYSTEM, "out of memory"))
+    char *folder;
+    error = results_folder(options, options->names.text[0], input->name, &folder);
+    int status = error               ? report_error(error)
                  : input->sweep_runs ? run_sweep(input, options, folder)
                                      : run_input(input, options, folder);
     free(folder);

@@ -103,6 +103,7 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
                     .alarm = terminal_alarm,
                     .threads = (int)options->threads,
                     .stop = signals_catch(),
+                    .checkpoints = signals_checkpoints(),
                     .listener = draws_over ? &listener : NULL,
                     .progress = pace},
         .ended = case_ended,

@@ -115,11 +115,13 @@ static void print_study(const struct study *study, const char *name)
 }
 
 /* DIR/riemann/gas with `--output DIR`, as for every verify; else results/gas, as for run. */
-static char *folder_of(const struct cli_options *options, const struct simulation_case *input,
-                       const char *name)
+static struct error *folder_of(const struct cli_options *options, const char *path,
+                               const struct simulation_case *input, const char *name, char **folder)
 {
-    return options->output ? path_join(options->output, name)
-                           : text_format("results/%s", input->name);
+    if (!options->output)
+        return results_folder(options, path, input->name, folder);
+    *folder = name ? path_join(options->output, name) : NULL;
+    return *folder ? NULL : error_new(ERROR_SYSTEM, "out of memory");
 }
 
 static struct error *study_case(const char *path, const struct verify_options *verifying,
@@ -127,9 +129,10 @@ static struct error *study_case(const char *path, const struct verify_options *v
                                 const struct cli_options *options)
 {
     struct study study = {0};
-    char *name = verify_name(path), *folder = name ? folder_of(options, input, name) : NULL;
-    struct error *error = folder ? convergence_run(path, name, folder, verifying, &study)
-                                 : error_new(ERROR_SYSTEM, "out of memory");
+    char *name = verify_name(path), *folder = NULL;
+    struct error *error = folder_of(options, path, input, name, &folder);
+    if (!error)
+        error = convergence_run(path, name, folder, verifying, &study);
     if (study.runs) {
         print_study(&study, name);
         struct error *unwritten = options->ranks->rank ? NULL : study_write(folder, &study);
@@ -158,6 +161,7 @@ int verify_convergence(const char *const *paths, int count, bool of_all,
                     .alarm = terminal_alarm,
                     .threads = (int)options->threads,
                     .stop = signals_catch(),
+                    .checkpoints = signals_checkpoints(),
                     .listener = pace.fraction == 0.0 ? &listener : NULL,
                     .progress = pace},
         .ended = run_ended,

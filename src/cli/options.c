@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "cli/cli.h"
 
-enum option_kind { OPTION_FLAG, OPTION_COUNT, OPTION_TEXT, OPTION_LIST };
+enum option_kind { OPTION_FLAG, OPTION_COUNT, OPTION_THREADS, OPTION_TEXT, OPTION_LIST };
 
 struct option {
     const char *name, *value, *help;
@@ -15,6 +15,9 @@ struct option {
     size_t offset;
     unsigned commands;
 };
+
+/* More threads than a machine has processors; libgomp ends the program when it cannot have them. */
+enum { THREADS_MOST = 1024, COUNT_MOST = 1000000 };
 
 #define AT(member) offsetof(struct cli_options, member)
 
@@ -24,7 +27,7 @@ static const struct option option_table[] = {
     {"--overwrite", NULL, "replace the results that the folder holds", OPTION_FLAG, AT(overwrite),
      COMMAND_RUN},
     {"--resume", NULL, "go on from the folder's checkpoint", OPTION_FLAG, AT(resume), COMMAND_RUN},
-    {"--threads", "N", "number of threads (all processors)", OPTION_COUNT, AT(threads),
+    {"--threads", "N", "number of threads (all processors)", OPTION_THREADS, AT(threads),
      COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY},
     {"--set", "PATH=VALUE", "replace a value of the case: run.until=3us; may be repeated",
      OPTION_LIST, AT(settings), COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
@@ -100,13 +103,15 @@ static struct error *store(const struct option *option, const char *value,
         return NULL;
     case OPTION_LIST:
         return append(place, value);
-    case OPTION_COUNT: {
+    case OPTION_COUNT:
+    case OPTION_THREADS: {
+        const long most = option->kind == OPTION_THREADS ? THREADS_MOST : COUNT_MOST;
         char *end;
         errno = 0;
         long long number = strtoll(value, &end, 10);
-        if (end == value || *end || errno || number < 1 || number > 1000000)
-            return error_new(ERROR_INPUT, "%s: \"%s\" is no whole number from 1 to 1000000",
-                             option->name, value);
+        if (end == value || *end || errno || number < 1 || number > most)
+            return error_new(ERROR_INPUT, "%s: \"%s\" is not a whole number from 1 to %ld",
+                             option->name, value, most);
         *(int64_t *)place = number;
         return NULL;
     }
@@ -134,6 +139,17 @@ static struct error *read_option(const struct command *command, int count, char 
     return store(option, value, options);
 }
 
+/* OMP_NUM_THREADS, of which the first number counts here. OpenMP itself ignores what is no
+ * number. */
+static struct error *check_environment(void)
+{
+    const char *text = getenv("OMP_NUM_THREADS");
+    if (!text || strtol(text, NULL, 10) <= THREADS_MOST)
+        return NULL;
+    return error_new(ERROR_INPUT, "OMP_NUM_THREADS: \"%s\" is more than %d threads", text,
+                     THREADS_MOST);
+}
+
 struct error *options_read(const struct command *command, int count, char **words,
                            struct cli_options *options)
 {
@@ -156,6 +172,10 @@ struct error *options_read(const struct command *command, int count, char **word
         error = error_new(ERROR_INPUT, "--overwrite and --resume exclude each other");
     if (!error && options->quick && options->thorough)
         error = error_new(ERROR_INPUT, "--short and --long exclude each other");
+    if (!error && !options->threads && command->bit & (COMMAND_RUN | COMMAND_VERIFY))
+        error = check_environment();
+    if (!error && options->output)
+        error = own_folder_check("--output", options->output);
     return error;
 }
 

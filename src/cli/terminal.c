@@ -1,24 +1,18 @@
-/* Words to the user: errors, lines of a run, the progress line, colours, and the signals that stop
- * a run. */
+/* Words to the user: errors, lines of a run, the progress line, colours. */
+#include <fcntl.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "cli/cli.h"
 
-static volatile sig_atomic_t stop_signal;
-
-static void on_signal(int number)
+/* open() gives the lowest free number, so that streams opened in this order get their own. */
+void terminal_open_closed_streams(void)
 {
-    stop_signal = number;
-    signal(number, SIG_DFL); /* a second one ends the program at once */
-}
-
-const volatile sig_atomic_t *signals_catch(void)
-{
-    signal(SIGINT, on_signal);
-    signal(SIGTERM, on_signal);
-    return &stop_signal;
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++)
+        if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDWR) != stream)
+            exit(ERROR_SYSTEM);
 }
 
 /* Where the alarm of a silenced rank goes. */
@@ -41,8 +35,6 @@ void terminal_alarm(const struct ranks *ranks, const struct error *error)
     fflush(stream);
     ranks_abort(ranks, (int)error_kind(error));
 }
-
-int signals_status(void) { return 128 + stop_signal; }
 
 /* The progress line goes to stderr, so that stdout holds whole lines only. */
 static bool draws_over(void) { return isatty(STDERR_FILENO); }
@@ -99,5 +91,6 @@ struct listener terminal_listener(void) { return (struct listener){say_line, say
 
 struct progress_pace terminal_pace(void)
 {
-    return draws_over() ? (struct progress_pace){0.2, 0.0} : (struct progress_pace){2.0, 0.1};
+    return draws_over() ? (struct progress_pace){0.2, 0.0, 0.0}
+                        : (struct progress_pace){2.0, 0.1, 10.0};
 }

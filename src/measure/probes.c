@@ -1,11 +1,9 @@
 /* The list of kinds of probes, and what they share: their tables; see probes.h. */
 #include "measure/probes.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/csv.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "model/simulation.h"
@@ -194,7 +192,7 @@ static struct error *open_one(struct probe *probe, const char *folder, bool resu
     if (!probe->path)
         return out_of_memory();
     if (writes)
-        TRY(csv_grow(probe->path, resume ? probe->rows : -1, &probe->file));
+        TRY(csv_grow(probe->path, resume ? probe->rows : -1, &probe->mark, &probe->file));
     return resume && probe->kept ? read_back(probe) : NULL;
 }
 
@@ -255,21 +253,19 @@ struct error *probes_watch(struct probes *probes, const struct simulation *simul
     return error;
 }
 
-struct error *probes_flush(struct probes *probes)
+struct error *probes_mark(struct probes *probes)
 {
     for (int i = 0; i < probes->count; i++) {
         struct probe *probe = &probes->item[i];
-        errno = 0;
-        if (probe->file && (fflush(probe->file) || ferror(probe->file)))
-            return error_new(ERROR_SYSTEM, "%s: %s", probe->path,
-                             errno ? strerror(errno) : "cannot be written");
+        if (probe->file)
+            TRY(csv_extend(probe->file, probe->path, &probe->mark));
     }
     return NULL;
 }
 
 struct error *probes_close(struct probes *probes)
 {
-    struct error *error = probes_flush(probes);
+    struct error *error = probes_mark(probes);
     for (int i = 0; i < probes->count; i++) {
         if (probes->item[i].file)
             fclose(probes->item[i].file);
@@ -288,6 +284,8 @@ struct error *probes_visit(struct probes *probes, struct visitor *visitor)
         TRY(visitor->visit(visitor, name, NUMBER_INT64, numbers, 3, 1));
         snprintf(name, sizeof name, "probes/%d/id", i);
         TRY(visitor->visit(visitor, name, NUMBER_UINT64, &probe->id, 1, 1));
+        snprintf(name, sizeof name, "probes/%d/file", i);
+        TRY(csv_visit_mark(&probe->mark, name, visitor));
         probe->rows = numbers[0];
         probe->due = numbers[1];
         probe->step = numbers[2];

@@ -5,6 +5,7 @@
 #ifndef BOLIDE_PROBES_H
 #define BOLIDE_PROBES_H
 
+#include "base/csv.h"
 #include "measure/fields.h"
 #include "measure/measure.h"
 
@@ -32,6 +33,7 @@ struct probe {
     int64_t room;
     char *path;
     FILE *file;
+    struct csv_mark mark; /* of the rows that the last checkpoint counts */
 };
 
 /* Keys of a probe that not every kind takes. */
@@ -87,8 +89,9 @@ struct error *probes_open(struct probes *probes, const char *folder, bool resume
 struct error *probes_watch(struct probes *probes, const struct simulation *simulation,
                            const struct views *views, bool last);
 
-/* Hands all rows to the system: before a checkpoint that counts them; and closes the files. */
-struct error *probes_flush(struct probes *probes);
+/* Hands all rows to the system, and marks them: before a checkpoint that counts them; and closes
+ * the files. */
+struct error *probes_mark(struct probes *probes);
 struct error *probes_close(struct probes *probes);
 
 /* What a resumed run needs. */

@@ -12,7 +12,7 @@
 #include "output/hdf5_file.h"
 #include "output/rows.h"
 
-enum { FORMAT = 1, CHUNK_BYTES = 1 << 20 };
+enum { FORMAT = 2, CHUNK_BYTES = 1 << 20 };
 
 static const char case_name[] = "case", format_name[] = "bolide checkpoint format";
 

@@ -6,13 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/csv.h"
 #include "base/memory.h"
 
 struct history {
     FILE *file;
     char *path;
     int64_t rows;
+    struct csv_mark mark;
 };
 
 static struct error *system_error(const char *path, int number)
@@ -20,25 +20,36 @@ static struct error *system_error(const char *path, int number)
     return error_new(ERROR_SYSTEM, "%s: %s", path, number ? strerror(number) : "cannot be written");
 }
 
-struct error *history_open(const char *path, int64_t keep, struct history **history)
+struct error *history_open(const char *path, int64_t keep, const struct csv_mark *mark,
+                           struct history **history)
 {
     struct history *made = calloc(1, sizeof *made);
     char *copy = text_copy(path);
     struct error *error = made && (copy || !path) ? NULL : error_new(ERROR_SYSTEM, "out of memory");
     FILE *file = NULL;
     if (!error && path)
-        error = csv_grow(path, keep, &file);
+        error = csv_grow(path, keep, mark, &file);
     if (error) {
         free(copy);
         free(made);
         return error;
     }
-    *made = (struct history){file, copy, keep > 0 ? keep : 0};
+    *made = (struct history){file, copy, keep > 0 ? keep : 0, {0}};
+    if (keep > 0 && mark)
+        made->mark = *mark;
     *history = made;
     return NULL;
 }
 
 int64_t history_rows(const struct history *history) { return history->rows; }
+
+struct error *history_mark(struct history *history, struct csv_mark *mark)
+{
+    if (history->file)
+        TRY(csv_extend(history->file, history->path, &history->mark));
+    *mark = history->mark;
+    return NULL;
+}
 
 struct error *history_close(struct history *history)
 {

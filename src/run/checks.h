@@ -66,6 +66,10 @@ struct error *checks_watch(const struct checks *checks, const struct check_momen
 struct error *checks_evaluate(const struct checks *checks, const struct check_moment *moment,
                               struct check_results *results);
 
+/* The name of the picture that checks_draw makes for the check at INDEX, NULL where it makes
+ * none. Free it. */
+char *checks_picture(const struct checks *checks, int index);
+
 /* Collective: draws FOLDER/check-FIELD.png for every field that is measured against an exact solution: the
  * solution as a line, the particles as dots, over the check's axis or distance. */
 struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,

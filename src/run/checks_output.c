@@ -162,24 +162,22 @@ static struct error *take_dots(const struct measurement *m, struct scatter *dots
 }
 
 /* Takes the samples of a whole field (not of a check's window) and draws them. */
-static struct error *draw_field(const struct measurement *measurement, const char *folder)
+static struct error *draw_field(const struct measurement *measurement, const char *folder,
+                                const char *name)
 {
     struct check_input everywhere = *measurement->check;
     everywhere.of = NULL;
     everywhere.between.count = 0;
     struct measurement m = *measurement;
     m.check = &everywhere;
-    const struct measure_field *parameters = m.check->measure.value;
     const char *unit;
     struct scatter dots;
     TRY(measure_field_unit(&m, &unit));
     struct error *error = take_dots(&m, &dots);
     if (!error && dots.count > 1) {
-        char *name = text_format("check-%s.png", parameters->field);
-        char *path = name ? path_join(folder, name) : NULL;
+        char *path = path_join(folder, name);
         error = path ? draw(&m, &dots, unit, path)
                      : error_new(ERROR_SYSTEM, "out of memory for a picture");
-        free(name);
         free(path);
     }
     scatter_free(&dots);
@@ -199,6 +197,15 @@ static bool drawn_before(const struct checks *checks, int index)
     return false;
 }
 
+char *checks_picture(const struct checks *checks, int index)
+{
+    const struct measurement *m = &checks->item[index].measurement;
+    if (!m->exact || drawn_before(checks, index))
+        return NULL;
+    const struct measure_field *parameters = m->check->measure.value;
+    return text_format("check-%s.png", parameters->field);
+}
+
 struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,
                           const struct views *views, const char *folder)
 {
@@ -206,8 +213,16 @@ struct error *checks_draw(const struct checks *checks, const struct simulation *
         struct measurement m = checks->item[i].measurement;
         m.simulation = simulation;
         m.views = views;
-        if (m.exact && !drawn_before(checks, i))
-            TRY(draw_field(&m, folder));
+        if (!m.exact || drawn_before(checks, i))
+            continue;
+        char *name = checks_picture(checks, i);
+        struct error *error =
+            ranks_agree(simulation->ranks,
+                        name ? NULL : error_new(ERROR_SYSTEM, "out of memory for a picture"));
+        if (!error)
+            error = draw_field(&m, folder, name);
+        free(name);
+        TRY(error);
     }
     return NULL;
 }

@@ -16,119 +16,32 @@
 #include "output/picture.h"
 #include "run/run_internal.h"
 
-/* Fewer particles than this a thread cost more in waiting than they gain in work. */
-enum { PARTICLES_A_THREAD = 2000 };
+/* A thread with fewer particles costs more in waiting than it gains in work. The second number
+ * counts where the user has given the number of threads. Results depend on neither. */
+enum { PARTICLES_A_THREAD = 2000, PARTICLES_A_THREAD_AT_LEAST = 64 };
+
+/* Many more threads than processors do not help either, and the system may refuse to start them. */
+enum { THREADS_A_PROCESSOR = 4 };
 
 static int threads_at_most(const struct run_options *options)
 {
-    if (options->threads > 0)
-        return options->threads;
 #ifdef _OPENMP
-    return omp_get_max_threads();
+    int most = THREADS_A_PROCESSOR * omp_get_num_procs();
+    int wanted = options->threads > 0 ? options->threads : omp_get_max_threads();
+    return wanted < most ? wanted : most;
 #else
+    (void)options;
     return 1;
 #endif
 }
 
-/* Unless told how many, a small case takes few threads. */
+/* As many as there is work for. */
 static int threads_for(const struct run *run)
 {
     int most = run->simulation.threads;
-    int32_t useful = 1 + run->simulation.particles.count / PARTICLES_A_THREAD;
-    return run->options->threads > 0 || most < useful ? most : useful;
-}
-
-double step_towards(double limit, double time, double until)
-{
-    double remains = until - time;
-    if (remains <= limit)
-        return remains;
-    return remains < 2.0 * limit ? 0.5 * remains : limit;
-}
-
-/* What the particle of the step's limit was when the step made no sense; NULL where it is not. */
-static struct error *no_step_of(const struct run *run)
-{
-    const struct particles *p = &run->simulation.particles;
-    int32_t i = 0;
-    while (i < p->count && p->id[i] != run->limit.id)
-        i++;
-    if (i == p->count)
-        return NULL;
-    return error_new(ERROR_STATE,
-                     "step %lld, t = %.6g s: no step is possible: %g s (%s), particle %llu of body "
-                     "\"%s\" at (%g, %g, %g) m: density %g kg/m^3, energy %g J/kg, pressure %g Pa, "
-                     "velocity (%g, %g, %g) m/s",
-                     (long long)run->simulation.step + 1, run->simulation.time, run->limit.dt,
-                     run->limit.why ? run->limit.why : "unknown", (unsigned long long)p->id[i],
-                     run->input->bodies.names[p->body[i]], p->position[i][0], p->position[i][1],
-                     p->position[i][2], p->density[i], p->energy[i], p->pressure[i],
-                     p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
-}
-
-static struct error *no_step(const struct run *run)
-{
-    TRY(ranks_agree(&run->ranks, no_step_of(run)));
-    return error_known_to_all(
-        error_new(ERROR_STATE, "step %lld, t = %.6g s: no step is possible: %g s (%s)",
-                  (long long)run->simulation.step + 1, run->simulation.time, run->limit.dt,
-                  run->limit.why ? run->limit.why : "unknown"));
-}
-
-/* The earlier of an EVENT and one at TIME, NAN never, if that has yet to come. */
-static double earlier(const struct run *run, double event, double time)
-{
-    return time > run->simulation.time && time < event ? time : event;
-}
-
-/* The time that a step must not pass: the end, or before it that of a body which stops, or of a load. */
-static double next_event(const struct run *run)
-{
-    double event = run->input->run.until;
-    for (int i = 0; i < run->input->bodies.count; i++)
-        event = earlier(run, event, case_body(run->input, i)->stop);
-    for (int i = 0; i < run->input->loads.count; i++) {
-        event = earlier(run, event, case_load(run->input, i)->after);
-        event = earlier(run, event, case_load(run->input, i)->before);
-    }
-    return event;
-}
-
-/* Collective, once a step: what one rank says holds for all, be it that its particles came to an impossible state, that
- * some were made or went, that it was told to stop, or that it is time for a checkpoint. */
-static struct error *hear_ranks(struct run *run, struct error *error)
-{
-    const struct run_options *options = run->options;
-    struct particles *particles = &run->simulation.particles;
-    enum { CHANGED, STOP, CHECKPOINT, SAID };
-    double said[SAID] = {[CHANGED] = particles->pending > 0 || particles->deleted > 0,
-                         [STOP] = options->stop && *options->stop,
-                         [CHECKPOINT] = run_checkpoint_is_due(run)};
-    TRY(ranks_agree_on(&run->ranks, error, said, SAID));
-    run->told_to_stop = said[STOP] > 0.0;
-    run->checkpoint_is_due = said[CHECKPOINT] > 0.0;
-    if (said[CHANGED] > 0.0) {
-        TRY(ranks_agree(&run->ranks, particles_commit(particles)));
-        run->particles = ranks_sum(&run->ranks, particles->count);
-    }
-    return NULL;
-}
-
-static struct error *take_step(struct run *run)
-{
-    struct simulation *simulation = &run->simulation;
-    double event = next_event(run);
-    TRY(run->method->prepare(run->solver, simulation, &run->limit));
-    double dt = step_towards(run->limit.dt, simulation->time, event);
-    double after = dt == event - simulation->time ? event : simulation->time + dt;
-    if (!(dt > 0.0) || !(after > simulation->time))
-        return no_step(run);
-    TRY(hear_ranks(run, run->method->advance(run->solver, simulation, dt)));
-    simulation->time = after;
-    simulation->step++;
-    run->step = dt;
-    run->result->updates += run->particles;
-    return NULL;
+    int32_t each = run->options->threads > 0 ? PARTICLES_A_THREAD_AT_LEAST : PARTICLES_A_THREAD;
+    int32_t useful = 1 + run->simulation.particles.count / each;
+    return most < useful ? most : useful;
 }
 
 /* True at the end of the run as the case says it. */
@@ -163,17 +76,19 @@ static struct error *loop(struct run *run)
     const struct check_moment beginning = moment_of(run);
     if (!run->options->resume)
         TRY(checks_start(run->checks, &beginning));
-    TRY(run_watch(run, false));
+    TRY(run_watch(run, at_end(run)));
     TRY(watch_checks(run));
-    TRY(hear_ranks(run, NULL));
+    TRY(run_hear_ranks(run, NULL));
     while (!at_stop(run)) {
-        TRY(take_step(run));
+        TRY(run_take_step(run));
         run_observe(run);
         TRY(run_watch(run, at_end(run)));
         TRY(watch_checks(run));
-        if (run->checkpoint_is_due)
+        if (run->checkpoint_is_due || run->checkpoint_is_wanted)
             TRY(run_checkpoint(run));
         run_progress(run);
+        run_warn_of_length(run);
+        TRY(run_check_step(run));
     }
     run->result->finished = at_end(run);
     return NULL;
@@ -290,6 +205,7 @@ static void tell_beginning(struct run *run)
 static struct error *conclude(struct run *run)
 {
     struct run_result *result = run->result;
+    TRY(run_checkpoint(run));
     if (result->finished) {
         const struct check_moment moment = moment_of(run);
         TRY(checks_evaluate(run->checks, &moment, &result->checks));
@@ -303,9 +219,9 @@ static struct error *conclude(struct run *run)
             error = checks_draw(run->checks, &run->simulation, &run->views, pictures);
         free(path);
         free(pictures);
-        TRY(error);
+        return error;
     }
-    return run_checkpoint(run);
+    return NULL;
 }
 
 static void measure_speed(struct run *run)
@@ -365,7 +281,7 @@ static struct error *run_through(struct run *run)
         return error;
     measure_speed(run);
     if (error && error_kind(error) == ERROR_STATE)
-        error = error_join(error, run_snapshot_of_failure(run));
+        error = run_save_failure(run, error);
     if (!error)
         error = conclude(run);
     if (!error) {
@@ -389,6 +305,8 @@ static void destroy(struct run *run)
     free(run->snapshot_times);
     free(run->check_memory);
     free(run->case_text);
+    free(run->state_text);
+    results_unlock(&run->lock);
     free(run);
 }
 
@@ -409,6 +327,9 @@ static struct run *run_new(const struct simulation_case *input, const struct run
     run->options = options;
     run->result = result;
     run->ranks = options->ranks ? *options->ranks : ranks_alone();
+    run->history_step = run->checkpoint_step = -1;
+    run->sound = true;
+    run->checkpoints_heard = options->checkpoints ? *options->checkpoints : 0;
     return run;
 }
 

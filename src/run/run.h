@@ -7,11 +7,15 @@
 #include "output/report.h"
 #include "run/checks.h"
 
-/* How often progress is told: at least this many seconds of wall clock and this fraction of the run
- * since the last time. */
+/* How often progress is told: at least this many seconds of wall clock and this fraction of the
+ * run since the last time; or SILENCE seconds, which grow to a twentieth of what the run has
+ * taken, but not beyond ten minutes. */
 struct progress_pace {
-    double seconds, fraction;
+    double seconds, fraction, silence;
 };
+
+/* A run of more steps does not end in a time that anybody has. */
+enum { RUN_STEPS_HOPELESS = 1000000000 };
 
 struct run_options {
     const char *output;        /* folder of the results; NULL: nothing is written */
@@ -21,7 +25,9 @@ struct run_options {
     int threads;               /* 0: as many as OpenMP would take */
     int64_t max_steps;         /* of this call, which then stops as if told to; 0: no limit */
     const volatile sig_atomic_t *stop; /* not zero: write a checkpoint and stop; may be NULL */
-    const struct listener *listener;   /* may be NULL */
+    /* How many times a checkpoint was asked for; the run then continues. May be NULL. */
+    const volatile sig_atomic_t *checkpoints;
+    const struct listener *listener; /* may be NULL */
     /* Told of an error that this rank alone has, which nothing else can tell the others, who wait for it; NULL: nobody. */
     void (*alarm)(const struct ranks *ranks, const struct error *error);
     struct progress_pace progress;

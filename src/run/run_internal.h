@@ -1,7 +1,8 @@
-/* A run in progress; private to run.c and run_output.c. */
+/* A run in progress; private to run.c and run_*.c. */
 #ifndef BOLIDE_RUN_INTERNAL_H
 #define BOLIDE_RUN_INTERNAL_H
 
+#include "base/results.h"
 #include "measure/probes.h"
 #include "measure/profiles.h"
 #include "output/checkpoint.h"
@@ -22,8 +23,13 @@ struct run {
     struct checks *checks;
     struct limit limit;
     double step;                          /* the last one taken, s */
+    double largest_step;                  /* of all, s */
+    int64_t collapsed_steps;              /* the last so many were far too short */
+    bool sound;                           /* the state is that of the end of a step */
     int64_t particles;                    /* of all ranks */
     bool told_to_stop, checkpoint_is_due; /* a rank of them was, to a rank it is */
+    bool checkpoint_is_wanted;            /* by the user, and not yet written */
+    sig_atomic_t checkpoints_heard;       /* requests for one that have been seen */
 
     /* What a resumed run needs beside the state: the totals at time zero, how many times each
      * output has been due and been written, and when. */
@@ -31,10 +37,16 @@ struct run {
     struct check_memory *check_memory;
     int64_t history_due, snapshots_due; /* times the interval has passed */
     int64_t history_rows, snapshots;
+    int64_t history_step; /* of the last row */
+    struct csv_mark history_mark;
     double *snapshot_times;
     int64_t snapshot_room;
 
     char *case_text;
+    char *state_text;        /* the case without what does not change the state */
+    int64_t checkpoint_step; /* of checkpoint.h5; -1: there is none */
+    double checkpoint_time;  /* s */
+    struct results_lock lock;
     struct run_log *log;
     struct history *history;
     double began, last_checkpoint, last_progress; /* clock_seconds() */
@@ -73,12 +85,25 @@ struct error *run_checkpoint(struct run *run);
 bool run_checkpoint_is_due(const struct run *run);
 struct error *run_load(struct run *run);
 
+/* Collective: what is left of a run that fails with ERROR, which is taken: a snapshot of the
+ * moment, and a checkpoint where the state is sound. Returns ERROR, joined with what went wrong
+ * in the writing. */
+struct error *run_save_failure(struct run *run, struct error *error);
+
+/* Collective, once a step: what one rank says holds for all, be it that its particles came to an
+ * impossible state, that some were made or went, that it was told to stop, or that it is time for a
+ * checkpoint. Takes ERROR. */
+struct error *run_hear_ranks(struct run *run, struct error *error);
+struct error *run_take_step(struct run *run);
+
+/* Collective, after a step: ERROR_STATE when steps have become so short that no run would end. */
+struct error *run_check_step(struct run *run);
+/* Says after the first step how many will follow if they are hopelessly many. */
+void run_warn_of_length(struct run *run);
+
 /* summary.csv at the beginning of a run; and at its end, with what went wrong (ERROR, NULL: nothing), then
  * report.html. run_report returns ERROR, joined with what went wrong in the writing. */
 struct error *run_summary_begin(const struct run *run);
 struct error *run_report(const struct run *run, struct error *error);
-
-/* snapshots/failed.vtkhdf: the moment of an impossible state. */
-struct error *run_snapshot_of_failure(struct run *run);
 
 #endif

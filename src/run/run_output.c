@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -35,16 +36,27 @@ void run_say(struct run *run, const char *format, ...)
     free(text);
 }
 
-static struct error *make_case_text(struct run *run)
+static struct error *make_text(const struct simulation_case *input, char **text)
 {
     size_t size;
-    FILE *memory = open_memstream(&run->case_text, &size);
+    FILE *memory = open_memstream(text, &size);
     if (!memory)
         return out_of_memory();
-    struct error *error = case_write(run->input, memory);
+    struct error *error = case_write(input, memory);
     if (fclose(memory) && !error)
         error = out_of_memory();
     return error;
+}
+
+/* A run may be resumed with another limit of the drift, and with checkpoints at other times:
+ * neither changes the state. */
+static struct error *make_case_texts(struct run *run)
+{
+    struct simulation_case state = *run->input;
+    state.run.energy_drift = 0.0;
+    state.output.checkpoint = 0.0;
+    TRY(make_text(run->input, &run->case_text));
+    return make_text(&state, &run->state_text);
 }
 
 static struct error *make_folder(struct run *run, const char *name)
@@ -82,16 +94,28 @@ static struct error *look_for_checkpoint(struct run *run)
     return error;
 }
 
+/* Where this rank writes, and the folder is there already. */
+static struct error *lock_folder(struct run *run)
+{
+    const bool wanted = run_writes(run) && !run->lock.path;
+    struct stat status;
+    return wanted && !stat(run->options->output, &status) && S_ISDIR(status.st_mode)
+               ? results_lock(run->options->output, &run->lock)
+               : NULL;
+}
+
 struct error *run_check_folder(struct run *run)
 {
     const struct run_options *options = run->options;
     if (!options->output)
         return options->resume ? error_new(ERROR_INPUT, "a run without a folder cannot be resumed")
                                : NULL;
-    struct error *error = make_case_text(run);
+    struct error *error = make_case_texts(run);
+    if (!error)
+        error = lock_folder(run);
     if (!error)
         error = options->resume ? look_for_checkpoint(run)
-                                : folder_check(options->output, options->overwrite);
+                                : results_check(options->output, options->overwrite);
     return ranks_agree(&run->ranks, error);
 }
 
@@ -109,8 +133,63 @@ static struct error *open_history(struct run *run)
     char *path = run_path(run, "history.csv");
     int64_t keep = run->options->resume ? run->history_rows : -1;
     struct error *error =
-        path ? history_open(run_writes(run) ? path : NULL, keep, &run->history) : out_of_memory();
+        path ? history_open(run_writes(run) ? path : NULL, keep, &run->history_mark, &run->history)
+             : out_of_memory();
     free(path);
+    return error;
+}
+
+/* The names of the files that the run may write into the folders of its folder, for
+ * results_begin. */
+struct names {
+    char **text;
+    int64_t count, room;
+    bool failed; /* memory was out */
+};
+
+/* Adds NAME, which is taken. */
+static void add_name(struct names *names, char *name)
+{
+    if (!name || !memory_reserve((void **)&names->text, &names->room, names->count + 2,
+                                 names->count, sizeof *names->text)) {
+        free(name);
+        names->failed = true;
+        return;
+    }
+    names->text[names->count++] = name;
+    names->text[names->count] = NULL;
+}
+
+static void name_files(const struct run *run, struct names *names)
+{
+    const struct simulation_case *input = run->input;
+    add_name(names, text_copy("snapshots/" RESULTS_NUMBER ".vtkhdf"));
+    add_name(names, text_copy("snapshots/failed.vtkhdf"));
+    for (int i = 0; i < input->output.pictures.count; i++)
+        add_name(names, text_format("pictures/%s-" RESULTS_NUMBER ".png",
+                                    input->output.pictures.names[i]));
+    for (int i = 0; i < input->checks.count; i++) {
+        char *name = checks_picture(run->checks, i);
+        if (name)
+            add_name(names, text_format("pictures/%s", name));
+        free(name);
+    }
+    for (int i = 0; i < input->probes.count; i++)
+        add_name(names, text_format("probes/%s.csv", input->probes.names[i]));
+    for (int i = 0; i < input->profiles.count; i++)
+        add_name(names,
+                 text_format("profiles/%s-" RESULTS_NUMBER ".csv", input->profiles.names[i]));
+}
+
+static struct error *begin_results(struct run *run)
+{
+    struct names names = {0};
+    name_files(run, &names);
+    struct error *error = names.failed
+                              ? out_of_memory()
+                              : results_begin(run->options->output, run->options->overwrite,
+                                              (const char *const *)names.text);
+    names_free(names.text, (int)names.count);
     return error;
 }
 
@@ -120,12 +199,13 @@ static struct error *ready_folder(struct run *run)
     const struct run_options *options = run->options;
     if (!run_writes(run))
         return NULL;
+    TRY(folder_make(options->output));
+    TRY(lock_folder(run));
     if (!options->resume)
-        TRY(folder_ready(options->output, options->overwrite));
+        TRY(begin_results(run));
     TRY(make_folder(run, "snapshots"));
     TRY(make_folder(run, "pictures"));
-    if (!options->resume)
-        TRY(write_case(run));
+    TRY(write_case(run));
     return open_log(run);
 }
 
@@ -174,9 +254,11 @@ static struct error *watch_energy(struct run *run)
     run->result->energy_drift = drift;
     if (drift <= allowed || (allowed == 0.0 && !isnan(drift)))
         return NULL;
-    if (isnan(drift))
+    if (isnan(drift)) {
+        run->sound = false;
         return error_new(ERROR_STATE, "step %lld, t = %.6g s: the total energy is not finite",
                          (long long)run->simulation.step, run->simulation.time);
+    }
     return error_new(ERROR_STATE,
                      "step %lld, t = %.6g s: the total energy has drifted by %.3g of the largest "
                      "energy of the case; "
@@ -246,19 +328,27 @@ static struct error *write_snapshot(struct run *run)
     return ranks_agree(&run->ranks, error);
 }
 
-/* A resumed run stands where an output was already taken: its counters tell. */
+/* A resumed run stands where outputs have been taken: the row of this step, the snapshot of this
+ * time. Those of a moment whose energy has drifted too far are taken too: it may be resumed with
+ * another limit. */
 struct error *run_watch(struct run *run, bool last)
 {
     double clock = clock_seconds(), time = run->simulation.time;
-    bool first = run->snapshots == 0;
+    const int64_t step = run->simulation.step, n = run->snapshots;
     bool row = interval_is_due(time, history_interval(run), &run->history_due) || last;
     bool snapshot =
-        interval_is_due(time, run->input->output.every, &run->snapshots_due) || last || first;
-    struct error *error = row ? watch_energy(run) : NULL;
-    if (!error && row && run->history)
+        interval_is_due(time, run->input->output.every, &run->snapshots_due) || last || n == 0;
+    struct error *drift = row ? watch_energy(run) : NULL, *error = NULL;
+    if (!run->sound)
+        return ranks_agree(&run->ranks, drift);
+    row = row && run->history_step < step;
+    snapshot = snapshot && (n == 0 || run->snapshot_times[n - 1] < time);
+    if (row && run->history)
         error = history_row(run->history, &run->simulation, run->step, &run->start);
-    if (row)
+    if (row) {
+        run->history_step = step;
         error = ranks_agree(&run->ranks, error);
+    }
     if (run->history)
         run->history_rows = history_rows(run->history);
     if (!error)
@@ -269,7 +359,8 @@ struct error *run_watch(struct run *run, bool last)
     run->watching += spent;
     if (row || snapshot)
         simulation_spend(&run->simulation, "output", spent);
-    return row || snapshot ? ranks_agree(&run->ranks, error) : error;
+    error = error_join(drift, error);
+    return row || snapshot || drift ? ranks_agree(&run->ranks, error) : error;
 }
 
 void run_progress(struct run *run)
@@ -279,8 +370,10 @@ void run_progress(struct run *run)
         return;
     double now = clock_seconds(), time = run->simulation.time, until = run->input->run.until;
     const struct progress_pace *pace = &run->options->progress;
-    if (now - run->last_progress < pace->seconds ||
-        time - run->last_progress_time < pace->fraction * until)
+    double silent = now - run->last_progress;
+    double longest = minimum(maximum(pace->silence, 0.05 * (now - run->began)), 600.0);
+    if (silent < pace->seconds ||
+        (silent < longest && time - run->last_progress_time < pace->fraction * until))
         return;
     run->last_progress = now;
     run->last_progress_time = time;
@@ -290,87 +383,4 @@ void run_progress(struct run *run)
                   (double)run->result->updates / maximum(elapsed - run->watching, 1e-9),
                   elapsed * (until - time) / done, text, sizeof text);
     listener->progress(listener->context, text);
-}
-
-struct error *run_snapshot_of_failure(struct run *run)
-{
-    char *path = run_path(run, "snapshots/failed.vtkhdf");
-    if (!path)
-        return run->options->output ? out_of_memory() : NULL;
-    run_observe(run);
-    struct error *error = snapshot_write(path, &run->simulation, &run->views);
-    free(path);
-    return error;
-}
-
-/* Shows what the run loop keeps beside the state. */
-static struct error *visit_extra(void *context, struct visitor *visitor)
-{
-    struct run *run = context;
-    struct {
-        const char *name;
-        void *data;
-        enum number number;
-        int64_t count;
-    } arrays[] = {
-        {"run/history_due", &run->history_due, NUMBER_INT64, 1},
-        {"run/snapshots_due", &run->snapshots_due, NUMBER_INT64, 1},
-        {"run/history_rows", &run->history_rows, NUMBER_INT64, 1},
-        {"run/snapshots", &run->snapshots, NUMBER_INT64, 1},
-        {"run/start_totals", run->start.entry, NUMBER_DOUBLE, LEDGER_ENTRIES},
-        {"run/start_kinetic", &run->start.kinetic, NUMBER_DOUBLE, 1},
-        {"run/start_internal", &run->start.internal, NUMBER_DOUBLE, 1},
-        {"run/start_momentum_scale", &run->start.momentum_scale, NUMBER_DOUBLE, 1},
-        {"run/start_released", &run->start.released, NUMBER_DOUBLE, 1},
-    };
-    int64_t known = run->snapshots;
-    for (size_t i = 0; i < COUNT_OF(arrays); i++)
-        TRY(visitor->visit(visitor, arrays[i].name, arrays[i].number, arrays[i].data,
-                           arrays[i].count, 1));
-    if (run->input->checks.count)
-        TRY(visitor->visit(visitor, "run/checks", NUMBER_DOUBLE, run->check_memory,
-                           run->input->checks.count, CHECK_MEMORY_NUMBERS));
-    TRY(probes_visit(&run->probes, visitor));
-    if (run->snapshots < 1)
-        return error_new(ERROR_SYSTEM, "a checkpoint without a first snapshot");
-    if (!memory_reserve((void **)&run->snapshot_times, &run->snapshot_room, run->snapshots,
-                        minimum(known, run->snapshots), sizeof *run->snapshot_times))
-        return out_of_memory();
-    return visitor->visit(visitor, "run/snapshot_times", NUMBER_DOUBLE, run->snapshot_times,
-                          run->snapshots, 1);
-}
-
-static struct checkpoint checkpoint_of(struct run *run)
-{
-    return (struct checkpoint){&run->simulation, run->method, run->solver,
-                               visit_extra,      run,         run->case_text};
-}
-
-struct error *run_checkpoint(struct run *run)
-{
-    if (!run->options->output)
-        return NULL;
-    TRY(ranks_agree(&run->ranks, probes_flush(&run->probes)));
-    double begin = run->last_checkpoint = clock_seconds();
-    char *path = run_path(run, "checkpoint.h5");
-    struct checkpoint checkpoint = checkpoint_of(run);
-    struct error *error = path ? checkpoint_write(path, &checkpoint) : out_of_memory();
-    free(path);
-    run->watching += clock_seconds() - begin;
-    return error;
-}
-
-bool run_checkpoint_is_due(const struct run *run)
-{
-    double interval = run->input->output.checkpoint;
-    return interval > 0.0 && clock_seconds() - run->last_checkpoint >= interval;
-}
-
-struct error *run_load(struct run *run)
-{
-    char *path = run_path(run, "checkpoint.h5");
-    struct checkpoint checkpoint = checkpoint_of(run);
-    struct error *error = path ? checkpoint_read(path, &checkpoint) : out_of_memory();
-    free(path);
-    return error;
 }

@@ -7,20 +7,38 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/results.h"
 #include "run/sweep.h"
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
+/* True where a component of PATH says where something is and not what it is called. */
+static bool has_dots(const char *path)
+{
+    for (const char *at = path; *at;) {
+        size_t length = strcspn(at, "/");
+        if ((length == 1 || length == 2) && !strncmp(at, "..", length))
+            return true;
+        at += length + (at[length] == '/');
+    }
+    return false;
+}
+
+/* Names of results are made of it, which must not lead out of their folder. */
 char *verify_name(const char *path)
 {
-    const char *end = path + strlen(path);
-    if (end - path > 10 && !strcmp(end - 10, "/case.yaml"))
+    char *whole = has_dots(path) ? realpath(path, NULL) : NULL;
+    const char *from = whole ? whole : path;
+    const char *end = from + strlen(from);
+    if (end - from > 10 && !strcmp(end - 10, "/case.yaml"))
         end -= 10;
     const char *start = end;
-    for (int slashes = 0; start > path; start--)
+    for (int slashes = 0; start > from; start--)
         if (start[-1] == '/' && ++slashes == 2)
             break;
-    return text_copy_part(start, (size_t)(end - start));
+    char *name = text_copy_part(start, (size_t)(end - start));
+    free(whole);
+    return name;
 }
 
 static const struct ranks *ranks_of(const struct verify_options *options)
@@ -153,33 +171,55 @@ static struct error *check_folder(const char *folder, const struct run_options *
     if (!folder || options->overwrite || options->resume)
         return NULL;
     if (!is_there(folder, sweep_table_name))
-        return folder_check(folder, false);
+        return results_check(folder, false);
     return error_new(ERROR_INPUT,
                      "%s: holds the results of a sweep already (--overwrite replaces them, "
                      "--resume goes on with them)",
                      folder);
 }
 
-static struct error *run_sweep(const char *path, const char *name, const char *folder, int runs,
-                               const struct verify_options *options, struct verify_result *result)
+static struct error *run_all(const char *path, const char *name, const char *folder, int runs,
+                             const struct verify_options *options, struct verify_result *result)
 {
-    struct error *error = check_folder(folder, &options->running);
-    if (!error)
-        error = check_sweep(path, runs, options);
-    TRY(ranks_agree(ranks_of(options), error));
     int first = result->count;
     struct case_options reading = options->reading;
     for (int run = 1; run <= runs && !verify_told_to_stop(options); run++) {
         struct simulation_case *input = NULL;
         reading.sweep_run = run;
         TRY(read_case(path, &reading, options, &input));
-        error = run_of_sweep(input, path, name, folder, options, result);
+        struct error *error = run_of_sweep(input, path, name, folder, options, result);
         case_free(input);
         TRY(error);
     }
     if (!folder || options->reading.convergence || ranks_of(options)->rank != 0)
         return NULL;
     return sweep_write(folder, result->item + first, result->count - first);
+}
+
+/* The folder of a sweep holds no run itself, but its table and its plots. */
+static struct error *lock_folder(const char *folder, const struct verify_options *options,
+                                 struct results_lock *lock)
+{
+    if (!folder || ranks_of(options)->rank != 0)
+        return NULL;
+    TRY(folder_make(folder));
+    return results_lock(folder, lock);
+}
+
+static struct error *run_sweep(const char *path, const char *name, const char *folder, int runs,
+                               const struct verify_options *options, struct verify_result *result)
+{
+    struct results_lock lock = {0};
+    struct error *error = check_folder(folder, &options->running);
+    if (!error)
+        error = check_sweep(path, runs, options);
+    if (!error)
+        error = lock_folder(folder, options, &lock);
+    error = ranks_agree(ranks_of(options), error);
+    if (!error)
+        error = run_all(path, name, folder, runs, options, result);
+    results_unlock(&lock);
+    return error;
 }
 
 static struct error *run_path(const char *path, const char *name, const char *folder,

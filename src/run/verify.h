@@ -49,8 +49,8 @@ void verify_result_free(struct verify_result *result);
 /* Collective: a rank was told to stop. */
 bool verify_told_to_stop(const struct verify_options *options);
 
-/* "riemann/gas" of ".../riemann/gas/case.yaml", the path itself where it has no such folders. NULL when
- * memory is out; free it. */
+/* "riemann/gas" of ".../riemann/gas/case.yaml", the path itself where it has no such folders. A path
+ * with "." or ".." in it is resolved before. NULL when memory is out; free it. */
 char *verify_name(const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* Files written beside and renamed, and the folder of a run's results. */
+/* Files written beside and renamed, and folders. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -126,95 +126,6 @@ static void folders_are_made_with_their_parents(void **state)
     assert_fails(folder_make(in_folder("a/file/b")), ERROR_INPUT, "is a file");
 }
 
-static void put_a_run(void)
-{
-    static const char *const names[] = {
-        "case.yaml",
-        "run.log",
-        "history.csv",
-        "checkpoint.h5",
-        "checkpoint.h5.part",
-        "checks.csv",
-        "report.html",
-        "snapshots/000000.vtkhdf",
-        "pictures/p.png",
-        "probes/a.csv",
-        "snapshots/000001.vtkhdf.part",
-    };
-    assert_null(folder_make(in_folder("snapshots")));
-    assert_null(folder_make(in_folder("pictures")));
-    assert_null(folder_make(in_folder("probes")));
-    for (size_t i = 0; i < COUNT_OF(names); i++)
-        put(names[i], "result");
-}
-
-static void a_fresh_folder_is_made_and_marked(void **state)
-{
-    (void)state;
-    assert_null(folder_ready(in_folder("results/one"), false));
-    assert_content("results/one/run.log", "");
-}
-
-static void results_are_kept_unless_overwriting(void **state)
-{
-    (void)state;
-    put_a_run();
-    assert_fails(folder_ready(folder, false), ERROR_INPUT, "results of a run already");
-    assert_content("history.csv", "result");
-    assert_content("snapshots/000000.vtkhdf", "result");
-}
-
-static void overwriting_removes_results_and_nothing_else(void **state)
-{
-    (void)state;
-    put_a_run();
-    put("thesis.tex", "mine");
-    put("my.vtkhdf", "mine");
-    put("pictures/cat.jpg", "mine");
-    assert_null(folder_make(in_folder("probes/old")));
-    assert_null(folder_ready(folder, true));
-    assert_content("run.log", "");
-    assert_content("thesis.tex", "mine");
-    assert_content("my.vtkhdf", "mine");
-    assert_content("pictures/cat.jpg", "mine");
-    assert_true(there("probes/old"));
-    static const char *const gone[] = {"case.yaml",      "history.csv", "checkpoint.h5",
-                                       "checks.csv",     "report.html", "checkpoint.h5.part",
-                                       "pictures/p.png", "snapshots",   "probes/a.csv"};
-    for (size_t i = 0; i < COUNT_OF(gone); i++)
-        if (there(gone[i]))
-            fail_msg("%s is there yet", gone[i]);
-}
-
-static void foreign_files_of_the_same_name_are_never_touched(void **state)
-{
-    (void)state;
-    put("case.yaml", "input of a user");
-    assert_fails(folder_ready(folder, false), ERROR_INPUT, "case.yaml");
-    assert_fails(folder_ready(folder, true), ERROR_INPUT, "case.yaml");
-    assert_content("case.yaml", "input of a user");
-    unlink(in_folder("case.yaml"));
-    assert_null(folder_make(in_folder("pictures")));
-    put("pictures/holiday.png", "of a user");
-    assert_fails(folder_ready(folder, true), ERROR_INPUT, "pictures");
-    assert_content("pictures/holiday.png", "of a user");
-}
-
-static void foreign_files_of_other_names_do_not_matter(void **state)
-{
-    (void)state;
-    put("notes.txt", "mine");
-    assert_null(folder_ready(folder, false));
-    assert_content("notes.txt", "mine");
-}
-
-static void a_file_in_place_of_the_folder_is_a_mistake(void **state)
-{
-    (void)state;
-    put("file", "");
-    assert_fails(folder_ready(in_folder("file"), true), ERROR_INPUT, "is a file");
-}
-
 static void paths_are_joined_with_one_slash(void **state)
 {
     (void)state;
@@ -236,12 +147,6 @@ int main(void)
         IN_FOLDER(a_full_disk_leaves_the_old_file_and_tells_why),
         IN_FOLDER(an_unwritable_place_is_an_error),
         IN_FOLDER(folders_are_made_with_their_parents),
-        IN_FOLDER(a_fresh_folder_is_made_and_marked),
-        IN_FOLDER(results_are_kept_unless_overwriting),
-        IN_FOLDER(overwriting_removes_results_and_nothing_else),
-        IN_FOLDER(foreign_files_of_the_same_name_are_never_touched),
-        IN_FOLDER(foreign_files_of_other_names_do_not_matter),
-        IN_FOLDER(a_file_in_place_of_the_folder_is_a_mistake),
         cmocka_unit_test(paths_are_joined_with_one_slash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

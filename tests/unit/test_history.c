@@ -34,7 +34,7 @@ static void write_rows(int64_t keep, int first, int rows)
     struct simulation *simulation = build_simulation(4);
     const struct totals start = particles_totals(&simulation->particles, simulation->ranks, -1);
     struct history *history;
-    assert_null(history_open(path, keep, &history));
+    assert_null(history_open(path, keep, NULL, &history));
     for (int i = first; i < first + rows; i++) {
         simulation->time = i * 1e-6;
         simulation->step = i;
@@ -110,7 +110,7 @@ static void drift_counts_what_the_ledger_booked(void **state)
     const struct totals start = particles_totals(&simulation->particles, simulation->ranks, -1);
     simulation->particles.energy[0] += 47.0; /* of two kilograms: 94 J, half of what was there */
     struct history *history;
-    assert_null(history_open(path, -1, &history));
+    assert_null(history_open(path, -1, NULL, &history));
     assert_null(history_row(history, simulation, 1e-7, &start));
     ledger_book(&simulation->ledger, LEDGER_WALLS, 0.0, vec3_make(1.0, 0.0, 0.0),
                 vec3_make(0.0, 0.0, 0.0), 94.0);
@@ -130,7 +130,7 @@ static void units_follow_the_dimension(void **state)
     simulation->dimension = 2;
     const struct totals start = {0};
     struct history *history;
-    assert_null(history_open(path, -1, &history));
+    assert_null(history_open(path, -1, NULL, &history));
     assert_null(history_row(history, simulation, 1e-7, &start));
     assert_null(history_close(history));
     assert_true(number("mass [kg/m]", 1) == 2.0);
@@ -164,14 +164,56 @@ static void missing_rows_are_an_error(void **state)
     (void)state;
     write_rows(-1, 1, 2);
     struct history *history;
-    struct error *error = history_open(path, 3, &history);
+    struct error *error = history_open(path, 3, NULL, &history);
     assert_non_null(error);
     assert_int_equal(error_kind(error), ERROR_INPUT);
     assert_non_null(strstr(error_message(error, 0), "has 2 rows where 3 were written"));
     error_free(error);
-    error = history_open("/nowhere/history.csv", 3, &history);
+    error = history_open("/nowhere/history.csv", 3, NULL, &history);
     assert_non_null(strstr(error_message(error, 0), "/nowhere/history.csv: No such file"));
     error_free(error);
+}
+
+/* Overwrites a byte of the file at PLACE. */
+static void change_byte(long place)
+{
+    FILE *file = fopen(path, "r+");
+    assert_int_equal(fseek(file, place, SEEK_SET), 0);
+    putc('7', file);
+    fclose(file);
+}
+
+static void rows_that_were_changed_since_the_checkpoint_are_an_error(void **state)
+{
+    (void)state;
+    struct simulation *simulation = build_simulation(1);
+    const struct totals start = {0};
+    struct history *history;
+    struct csv_mark early, late;
+    assert_null(history_open(path, -1, NULL, &history));
+    assert_null(history_row(history, simulation, 1e-7, &start));
+    assert_null(history_mark(history, &early));
+    assert_null(history_row(history, simulation, 1e-7, &start));
+    assert_null(history_close(history));
+
+    /* What follows is no row of the checkpoint's. The mark goes on as the rows do. */
+    change_byte(early.bytes + 1);
+    assert_null(history_open(path, 1, &early, &history));
+    assert_null(history_row(history, simulation, 1e-7, &start));
+    assert_null(history_mark(history, &late));
+    assert_true(early.bytes < late.bytes && early.hash != late.hash);
+    assert_null(history_close(history));
+    assert_null(history_open(path, 2, &late, &history));
+    assert_null(history_close(history));
+
+    change_byte(early.bytes - 2);
+    struct error *error = history_open(path, 1, &early, &history);
+    assert_non_null(error);
+    assert_int_equal(error_kind(error), ERROR_INPUT);
+    assert_non_null(strstr(error_message(error, 0), path));
+    assert_non_null(strstr(error_message(error, 0), "its first 1 rows are not those"));
+    error_free(error);
+    drop_simulation(simulation);
 }
 
 static void a_full_disk_is_an_error(void **state)
@@ -180,7 +222,7 @@ static void a_full_disk_is_an_error(void **state)
     struct simulation *simulation = build_simulation(1);
     const struct totals start = {0};
     struct history *history;
-    assert_null(history_open("/dev/full", -1, &history));
+    assert_null(history_open("/dev/full", -1, NULL, &history));
     struct error *error = history_row(history, simulation, 1e-7, &start);
     assert_non_null(error);
     assert_int_equal(error_kind(error), ERROR_SYSTEM);
@@ -200,6 +242,7 @@ int main(void)
         WITH_FILE(units_follow_the_dimension),
         WITH_FILE(a_resumed_history_is_the_uninterrupted_one),
         WITH_FILE(missing_rows_are_an_error),
+        WITH_FILE(rows_that_were_changed_since_the_checkpoint_are_an_error),
         cmocka_unit_test(a_full_disk_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -305,12 +305,17 @@ static void rows_come_as_often_as_wanted_and_stay_on_resume(void **state)
     struct bench *b = make_bench(2);
     struct probe_body body = {left};
     b->given.every = 0.3;
+    struct csv_mark mark = {0};
     struct probe *probe = ready(b, "body", &body);
     assert_null(probes_open(&b->probes, b->folder, false, true));
     for (int step = 0; step <= 10; step++) {
         b->simulation.step = step;
         b->simulation.time = 0.1 * step;
         watch(b, step == 10);
+        if (step == 8) {
+            assert_null(probes_mark(&b->probes));
+            mark = probe->mark;
+        }
     }
     assert_int_equal(probe->rows, 5); /* 0, 0.3, 0.6, 0.9, and the last */
     assert_null(probes_close(&b->probes));
@@ -318,6 +323,7 @@ static void rows_come_as_often_as_wanted_and_stay_on_resume(void **state)
     double third = probe->value[2 * probe->columns];
     probe = ready(b, "body", &body);
     probe->rows = 3;
+    probe->mark = mark;
     assert_null(probes_open(&b->probes, b->folder, true, true));
     assert_int_equal(probe->rows, 3);
     assert_float_equal(probe->value[2 * probe->columns], third, 0.0);

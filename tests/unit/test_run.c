@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "base/results.h"
 #include "model/generate.h"
 #include "model/solver.h"
 #include "run/catalogue.h"
@@ -18,7 +19,7 @@
 #include "run/run.h"
 
 struct flight_parameters {
-    double step, heating;
+    double step, later, heating;
     int64_t fail_at;
 };
 
@@ -26,6 +27,13 @@ static const struct parameter flight_table[] = {
     {.key = "step",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct flight_parameters, step),
+     .unit = "s",
+     .standard = "0.3 s",
+     .above = 0.0,
+     .below = INFINITY},
+    {.key = "later", /* the step after the first */
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct flight_parameters, later),
      .unit = "s",
      .standard = "0.3 s",
      .above = 0.0,
@@ -60,7 +68,8 @@ static struct error *flight_prepare(void *solver, struct simulation *simulation,
                                     struct limit *limit)
 {
     const struct flight_parameters *flight = solver;
-    *limit = (struct limit){flight->step, "wish", simulation->particles.id[0]};
+    *limit = (struct limit){simulation->step ? flight->later : flight->step, "wish",
+                            simulation->particles.id[0]};
     return NULL;
 }
 
@@ -365,6 +374,140 @@ static void a_signal_stops_a_run_with_a_checkpoint(void **state)
     run_result_free(&result);
 }
 
+/* What a listener counts; it asks for a checkpoint when it hears of progress for the first time. */
+struct heard {
+    int progress, checkpoints;
+    volatile sig_atomic_t wanted;
+};
+
+static void hear_line(void *context, const char *text)
+{
+    struct heard *heard = context;
+    heard->checkpoints += !strncmp(text, "checkpoint at step ", 19);
+}
+
+static void hear_progress(void *context, const char *text)
+{
+    struct heard *heard = context;
+    assert_non_null(strstr(text, "step "));
+    heard->wanted += heard->progress++ == 0;
+}
+
+static void a_checkpoint_that_is_asked_for_does_not_stop_a_run(void **state)
+{
+    (void)state;
+    struct heard heard = {0};
+    const struct listener listener = {hear_line, hear_progress, &heard};
+    struct run_options options = {.threads = 1,
+                                  .output = fresh_folder("test_run_asked"),
+                                  .checkpoints = &heard.wanted,
+                                  .listener = &listener};
+    struct run_options blind = {.threads = 1};
+    struct run_result asked = run_text(shock_text, NULL, &options);
+    struct run_result unasked = run_text(shock_text, NULL, &blind);
+    assert_true(asked.finished && asked.hash == unasked.hash);
+    assert_int_equal(heard.checkpoints, 1);
+    run_result_free(&asked);
+    run_result_free(&unasked);
+}
+
+static void progress_is_told_by_the_fraction_or_after_a_silence(void **state)
+{
+    (void)state;
+    struct heard heard = {0};
+    const struct listener listener = {hear_line, hear_progress, &heard};
+    struct run_options options = {
+        .threads = 1, .listener = &listener, .progress = {0.0, 0.25, 1000.0}};
+    struct run_result result = run_text(shock_text, NULL, &options);
+    assert_true(result.steps > 20);
+    assert_in_range(heard.progress, 3, 4);
+    run_result_free(&result);
+    heard.progress = 0;
+    options.progress.silence = 0.0;
+    result = run_text(shock_text, NULL, &options);
+    assert_true(heard.progress > 4);
+    run_result_free(&result);
+}
+
+static void a_step_that_collapses_stops_a_run(void **state)
+{
+    (void)state;
+    struct run_options options = {.threads = 1, .output = fresh_folder("test_run_collapse")};
+    const char *const settings[] = {"solver={flight: {later: 1e-12 s}}", NULL};
+    expect_failure(flight_text, settings, &options, ERROR_STATE,
+                   "the time step has collapsed to 1e-12 s, from 0.3 s at most");
+    assert_true(file_there("test_run_collapse", "snapshots/failed.vtkhdf"));
+    assert_true(file_there("test_run_collapse", "checkpoint.h5"));
+    /* A user who wants few steps gets them; and many steps are no collapse. */
+    struct run_options blind = {.threads = 1};
+    const char *const few[] = {"solver={flight: {later: 1e-12 s}}", "run.max_steps=3000", NULL};
+    struct run_result result = run_text(flight_text, few, &blind);
+    assert_true(result.finished && result.steps == 3000);
+    run_result_free(&result);
+    blind.max_steps = 3000;
+    const char *const many[] = {"solver={flight: {step: 1e-11 s, later: 1e-12 s}}", NULL};
+    result = run_text(flight_text, many, &blind);
+    assert_true(!result.finished && result.steps == 3000);
+    run_result_free(&result);
+}
+
+static void a_run_that_failed_by_its_drift_goes_on_with_a_larger_limit(void **state)
+{
+    (void)state;
+    const char *const strict[] = {"solver={flight: {heating: 1 J/kg}}", "run.energy_drift=0.2",
+                                  "output.history=0.4 s", "output.every=0.3 s", NULL};
+    const char *const mild[] = {"solver={flight: {heating: 1 J/kg}}", "run.energy_drift=0",
+                                "output.history=0.4 s", "output.every=0.3 s", NULL};
+    struct run_options options = {.threads = 1, .output = fresh_folder("test_run_drift")};
+    expect_failure(flight_text, strict, &options, ERROR_STATE, "energy has drifted");
+    options.resume = true;
+    struct run_result resumed = run_text(flight_text, mild, &options);
+    assert_true(resumed.finished);
+    options = (struct run_options){.threads = 1, .output = fresh_folder("test_run_mild")};
+    struct run_result whole = run_text(flight_text, mild, &options);
+    assert_true(resumed.hash == whole.hash);
+    /* A flight does not find pressures again, which are the last columns. */
+    assert_int_equal(system("for f in drift mild; do cut -d, -f1-20 test_run_$f/history.csv "
+                            ">test_run_$f/columns; done; "
+                            "cmp test_run_drift/columns test_run_mild/columns"),
+                     0);
+    assert_int_equal(system("cmp test_run_drift/case.yaml test_run_mild/case.yaml"), 0);
+    assert_int_equal(
+        system("cmp test_run_drift/snapshots.vtkhdf.series test_run_mild/snapshots.vtkhdf.series"),
+        0);
+    run_result_free(&resumed);
+    run_result_free(&whole);
+}
+
+/* The drift is looked at again where the run ends, though its outputs have been taken. */
+static void a_drift_at_the_end_stops_a_resumed_run_again(void **state)
+{
+    (void)state;
+    const char *const settings[] = {"solver={flight: {heating: 1 J/kg}}", "run.energy_drift=0.2",
+                                    "output.history=10 s", NULL};
+    struct run_options options = {.threads = 1, .output = fresh_folder("test_run_drift_end")};
+    expect_failure(flight_text, settings, &options, ERROR_STATE, "energy has drifted");
+    options.resume = true;
+    expect_failure(flight_text, settings, &options, ERROR_STATE, "energy has drifted");
+}
+
+static void a_folder_takes_one_run_at_a_time(void **state)
+{
+    (void)state;
+    struct run_options options = {.threads = 1, .output = fresh_folder("test_run_locked")};
+    struct run_result result = run_text(flight_text, NULL, &options);
+    run_result_free(&result);
+    struct results_lock lock = {0};
+    assert_null(results_lock("test_run_locked", &lock));
+    expect_failure(flight_text, NULL, &options, ERROR_INPUT, "is in use by another run");
+    options.overwrite = true;
+    expect_failure(flight_text, NULL, &options, ERROR_INPUT, "is in use by another run");
+    results_unlock(&lock);
+    result = run_text(flight_text, NULL, &options);
+    run_result_free(&result);
+    assert_false(file_there("test_run_locked", ".bolide-lock"));
+}
+
 static void results_are_not_overwritten_unasked(void **state)
 {
     (void)state;
@@ -535,6 +678,12 @@ int main(void)
         cmocka_unit_test(watching_a_run_does_not_change_it),
         cmocka_unit_test(a_stopped_run_goes_on_as_if_nothing_had_happened),
         cmocka_unit_test(a_signal_stops_a_run_with_a_checkpoint),
+        cmocka_unit_test(a_checkpoint_that_is_asked_for_does_not_stop_a_run),
+        cmocka_unit_test(progress_is_told_by_the_fraction_or_after_a_silence),
+        cmocka_unit_test(a_step_that_collapses_stops_a_run),
+        cmocka_unit_test(a_run_that_failed_by_its_drift_goes_on_with_a_larger_limit),
+        cmocka_unit_test(a_drift_at_the_end_stops_a_resumed_run_again),
+        cmocka_unit_test(a_folder_takes_one_run_at_a_time),
         cmocka_unit_test(results_are_not_overwritten_unasked),
         cmocka_unit_test(another_case_cannot_go_on_from_a_checkpoint),
         cmocka_unit_test(the_case_as_run_is_a_case_that_runs_the_same),

@@ -1,0 +1,129 @@
+/* checkpoint.h5 of a run: when it is due, what the run loop adds to the state, and what is said
+ * of it. */
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "output/snapshot.h"
+#include "run/run_internal.h"
+
+static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
+
+/* Shows what the run loop keeps beside the state. */
+static struct error *visit_extra(void *context, struct visitor *visitor)
+{
+    struct run *run = context;
+    struct {
+        const char *name;
+        void *data;
+        enum number number;
+        int64_t count;
+    } arrays[] = {
+        {"run/history_due", &run->history_due, NUMBER_INT64, 1},
+        {"run/snapshots_due", &run->snapshots_due, NUMBER_INT64, 1},
+        {"run/history_rows", &run->history_rows, NUMBER_INT64, 1},
+        {"run/history_step", &run->history_step, NUMBER_INT64, 1},
+        {"run/snapshots", &run->snapshots, NUMBER_INT64, 1},
+        {"run/largest_step", &run->largest_step, NUMBER_DOUBLE, 1},
+        {"run/collapsed_steps", &run->collapsed_steps, NUMBER_INT64, 1},
+        {"run/start_totals", run->start.entry, NUMBER_DOUBLE, LEDGER_ENTRIES},
+        {"run/start_kinetic", &run->start.kinetic, NUMBER_DOUBLE, 1},
+        {"run/start_internal", &run->start.internal, NUMBER_DOUBLE, 1},
+        {"run/start_momentum_scale", &run->start.momentum_scale, NUMBER_DOUBLE, 1},
+        {"run/start_released", &run->start.released, NUMBER_DOUBLE, 1},
+    };
+    int64_t known = run->snapshots;
+    for (size_t i = 0; i < COUNT_OF(arrays); i++)
+        TRY(visitor->visit(visitor, arrays[i].name, arrays[i].number, arrays[i].data,
+                           arrays[i].count, 1));
+    if (run->input->checks.count)
+        TRY(visitor->visit(visitor, "run/checks", NUMBER_DOUBLE, run->check_memory,
+                           run->input->checks.count, CHECK_MEMORY_NUMBERS));
+    TRY(csv_visit_mark(&run->history_mark, "run/history_file", visitor));
+    TRY(probes_visit(&run->probes, visitor));
+    if (run->snapshots < 1)
+        return error_new(ERROR_SYSTEM, "a checkpoint without a first snapshot");
+    if (!memory_reserve((void **)&run->snapshot_times, &run->snapshot_room, run->snapshots,
+                        minimum(known, run->snapshots), sizeof *run->snapshot_times))
+        return out_of_memory();
+    return visitor->visit(visitor, "run/snapshot_times", NUMBER_DOUBLE, run->snapshot_times,
+                          run->snapshots, 1);
+}
+
+static struct checkpoint checkpoint_of(struct run *run)
+{
+    return (struct checkpoint){&run->simulation, run->method, run->solver,
+                               visit_extra,      run,         run->state_text};
+}
+
+/* Counts and marks the rows of the tables, which a resumed run goes on after. */
+static struct error *mark_tables(struct run *run)
+{
+    TRY(probes_mark(&run->probes));
+    return run->history ? history_mark(run->history, &run->history_mark) : NULL;
+}
+
+struct error *run_checkpoint(struct run *run)
+{
+    if (!run->options->output)
+        return NULL;
+    TRY(ranks_agree(&run->ranks, mark_tables(run)));
+    double begin = run->last_checkpoint = clock_seconds();
+    char *path = run_path(run, "checkpoint.h5");
+    struct checkpoint checkpoint = checkpoint_of(run);
+    struct error *error = path ? checkpoint_write(path, &checkpoint) : out_of_memory();
+    free(path);
+    run->watching += clock_seconds() - begin;
+    TRY(error);
+    run->checkpoint_step = run->simulation.step;
+    run->checkpoint_time = run->simulation.time;
+    if (run->checkpoint_is_wanted)
+        run_say(run, "checkpoint at step %lld, t = %.9g s", (long long)run->checkpoint_step,
+                run->checkpoint_time);
+    run->checkpoint_is_wanted = false;
+    return NULL;
+}
+
+bool run_checkpoint_is_due(const struct run *run)
+{
+    double interval = run->input->output.checkpoint;
+    return interval > 0.0 && clock_seconds() - run->last_checkpoint >= interval;
+}
+
+struct error *run_load(struct run *run)
+{
+    char *path = run_path(run, "checkpoint.h5");
+    struct checkpoint checkpoint = checkpoint_of(run);
+    struct error *error = path ? checkpoint_read(path, &checkpoint) : out_of_memory();
+    free(path);
+    run->checkpoint_step = run->simulation.step;
+    run->checkpoint_time = run->simulation.time;
+    return error;
+}
+
+/* snapshots/failed.vtkhdf: the moment of an impossible state. */
+static struct error *snapshot_of_failure(struct run *run)
+{
+    char *path = run_path(run, "snapshots/failed.vtkhdf");
+    struct error *error = ranks_agree(&run->ranks, path ? NULL : out_of_memory());
+    if (!error) {
+        run_observe(run);
+        error = snapshot_write(path, &run->simulation, &run->views);
+    }
+    free(path);
+    return error;
+}
+
+/* A state in the middle of a step is of no use to a resumed run: then the last checkpoint stays. */
+struct error *run_save_failure(struct run *run, struct error *error)
+{
+    if (!run->options->output)
+        return error;
+    struct error *failure = snapshot_of_failure(run);
+    if (!failure && run->sound && run->snapshots > 0)
+        failure = run_checkpoint(run);
+    if (run->checkpoint_step >= 0)
+        run_say(run, "checkpoint.h5 holds step %lld, t = %.9g s; --resume goes on from there",
+                (long long)run->checkpoint_step, run->checkpoint_time);
+    return error_join(error, failure);
+}

@@ -1,0 +1,156 @@
+/* One step of a run: how long it may be, the solver's advance, what the ranks then agree on, and
+ * the stop of a run whose steps have collapsed. */
+#include <stdio.h>
+
+#include "run/run_internal.h"
+
+double step_towards(double limit, double time, double until)
+{
+    double remains = until - time;
+    if (remains <= limit)
+        return remains;
+    return remains < 2.0 * limit ? 0.5 * remains : limit;
+}
+
+/* WHAT is wrong with the step, the particle that limits it, and ADVICE; NULL where that particle
+ * is not here. */
+static struct error *stop_at_particle(const struct run *run, const char *what, const char *advice)
+{
+    const struct particles *p = &run->simulation.particles;
+    int32_t i = 0;
+    while (i < p->count && p->id[i] != run->limit.id)
+        i++;
+    if (i == p->count)
+        return NULL;
+    return error_new(ERROR_STATE,
+                     "step %lld, t = %.6g s: %s; it is limited by %s, particle %llu of body \"%s\" "
+                     "at (%g, %g, %g) m: density %g kg/m^3, energy %g J/kg, pressure %g Pa, "
+                     "velocity (%g, %g, %g) m/s%s",
+                     (long long)run->simulation.step + 1, run->simulation.time, what,
+                     run->limit.why ? run->limit.why : "an unknown cause",
+                     (unsigned long long)p->id[i], run->input->bodies.names[p->body[i]],
+                     p->position[i][0], p->position[i][1], p->position[i][2], p->density[i],
+                     p->energy[i], p->pressure[i], p->velocity[i][0], p->velocity[i][1],
+                     p->velocity[i][2], advice);
+}
+
+/* Collective: the error of a run that stops because of its step. */
+static struct error *stop_for_step(const struct run *run, const char *what, const char *advice)
+{
+    TRY(ranks_agree(&run->ranks, stop_at_particle(run, what, advice)));
+    return error_known_to_all(
+        error_new(ERROR_STATE, "step %lld, t = %.6g s: %s; it is limited by %s%s",
+                  (long long)run->simulation.step + 1, run->simulation.time, what,
+                  run->limit.why ? run->limit.why : "an unknown cause", advice));
+}
+
+static struct error *no_step(const struct run *run)
+{
+    char what[64];
+    snprintf(what, sizeof what, "no step is possible: %g s", run->limit.dt);
+    return stop_for_step(run, what, "");
+}
+
+/* How many steps as long as the method allows now lead to the end of the run. */
+static double steps_remaining(const struct run *run)
+{
+    const int64_t most = run->input->run.max_steps;
+    double steps = (run->input->run.until - run->simulation.time) / run->limit.dt;
+    return most > 0 ? minimum(steps, (double)(most - run->simulation.step)) : steps;
+}
+
+void run_warn_of_length(struct run *run)
+{
+    char step[48];
+    if (run->simulation.step != run->first_step + 1 || steps_remaining(run) < RUN_STEPS_HOPELESS)
+        return;
+    readable(run->limit.dt, "s", step, sizeof step);
+    run_say(run, "warning: with steps of %s (%s) the run needs %.2g steps", step,
+            run->limit.why ? run->limit.why : "unknown", steps_remaining(run));
+}
+
+/* A shock or a detonation shortens steps by the ratio of sound speeds and of sizes, by some hundred
+ * at most, and a tiny step at the start of a run soon grows. Steps that stay below COLLAPSED of the
+ * largest one, and leave a hopeless number to go, belong to no run that could end. */
+static const double COLLAPSED = 1e-6;
+enum { COLLAPSED_STEPS = 1000 };
+
+struct error *run_check_step(struct run *run)
+{
+    run->largest_step = maximum(run->largest_step, run->step);
+    bool collapsed =
+        run->limit.dt < COLLAPSED * run->largest_step && steps_remaining(run) > RUN_STEPS_HOPELESS;
+    run->collapsed_steps = collapsed ? run->collapsed_steps + 1 : 0;
+    if (run->collapsed_steps < COLLAPSED_STEPS)
+        return NULL;
+    char what[160];
+    snprintf(
+        what, sizeof what,
+        "the time step has collapsed to %.3g s, from %.3g s at most, which leaves %.2g steps to "
+        "the end of the run",
+        run->limit.dt, run->largest_step, steps_remaining(run));
+    return stop_for_step(run, what,
+                         "; check the material, the speed and the size of that body, and "
+                         "`run.until`");
+}
+
+/* The earlier of an EVENT and one at TIME, NAN never, if that has yet to come. */
+static double earlier(const struct run *run, double event, double time)
+{
+    return time > run->simulation.time && time < event ? time : event;
+}
+
+/* The time that a step must not pass: the end, or before it that of a body which stops, or of a
+ * load. */
+static double next_event(const struct run *run)
+{
+    double event = run->input->run.until;
+    for (int i = 0; i < run->input->bodies.count; i++)
+        event = earlier(run, event, case_body(run->input, i)->stop);
+    for (int i = 0; i < run->input->loads.count; i++) {
+        event = earlier(run, event, case_load(run->input, i)->after);
+        event = earlier(run, event, case_load(run->input, i)->before);
+    }
+    return event;
+}
+
+struct error *run_hear_ranks(struct run *run, struct error *error)
+{
+    const struct run_options *options = run->options;
+    struct particles *particles = &run->simulation.particles;
+    const sig_atomic_t wanted = options->checkpoints ? *options->checkpoints : 0;
+    enum { CHANGED, STOP, CHECKPOINT, WANTED, SAID };
+    double said[SAID] = {[CHANGED] = particles->pending > 0 || particles->deleted > 0,
+                         [STOP] = options->stop && *options->stop,
+                         [CHECKPOINT] = run_checkpoint_is_due(run),
+                         [WANTED] = wanted != run->checkpoints_heard};
+    run->checkpoints_heard = wanted;
+    TRY(ranks_agree_on(&run->ranks, error, said, SAID));
+    run->told_to_stop = said[STOP] > 0.0;
+    run->checkpoint_is_due = said[CHECKPOINT] > 0.0;
+    run->checkpoint_is_wanted = run->checkpoint_is_wanted || said[WANTED] > 0.0;
+    if (said[CHANGED] > 0.0) {
+        TRY(ranks_agree(&run->ranks, particles_commit(particles)));
+        run->particles = ranks_sum(&run->ranks, particles->count);
+    }
+    return NULL;
+}
+
+struct error *run_take_step(struct run *run)
+{
+    struct simulation *simulation = &run->simulation;
+    double event = next_event(run);
+    run->sound = false;
+    TRY(run->method->prepare(run->solver, simulation, &run->limit));
+    double dt = step_towards(run->limit.dt, simulation->time, event);
+    double after = dt == event - simulation->time ? event : simulation->time + dt;
+    if (!(dt > 0.0) || !(after > simulation->time))
+        return no_step(run);
+    TRY(run_hear_ranks(run, run->method->advance(run->solver, simulation, dt)));
+    simulation->time = after;
+    simulation->step++;
+    run->step = dt;
+    run->sound = true;
+    run->result->updates += run->particles;
+    return NULL;
+}
