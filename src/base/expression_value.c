@@ -166,11 +166,11 @@ static struct error *evaluate(struct expression_reading *reading, muParserHandle
     return NULL;
 }
 
-struct error *expression_evaluate(const char *text, const struct named_quantity *names, int count,
+struct error *expression_evaluate(const char *text, const struct named_quantities *names,
                                   struct quantity *result)
 {
     struct expression_reading *reading;
-    TRY(expression_read(text, names, count, 0, &reading));
+    TRY(expression_read(text, names, 0, &reading));
     muParserHandle_t parser = mupCreate(muBASETYPE_FLOAT);
     struct error *error = evaluate(reading, parser, result);
     mupRelease(parser);
