@@ -3,6 +3,8 @@
  * pressure. */
 #include "case/internal.h"
 
+static const double speed_of_light = 299792458.0; /* m/s */
+
 static double pressure_at(const struct eos *eos, double density, double energy, unsigned *status)
 {
     const double history[POINT_HISTORY] = {0.0};
@@ -224,5 +226,9 @@ const char *body_start_at(const struct body_input *body, const struct material *
     } else {
         *point = body->start;
     }
-    return components_at(&body->velocity, "velocity", place, velocity, key);
+    const char *wrong = components_at(&body->velocity, "velocity", place, velocity, key);
+    for (int i = 0; i < body->velocity.count && !wrong; i++)
+        if (fabs(velocity[i]) > speed_of_light)
+            wrong = "this is faster than light";
+    return wrong;
 }
