@@ -340,10 +340,12 @@ static void check_contact(struct checking *checking, int index)
         return;
     if (contact->body[0] == contact->body[1])
         case_wrong(checking, "between", "two different bodies are wanted");
-    for (int i = 0; i < index; i++) {
+    bool told = false;
+    for (int i = 0; i < index && !told; i++) {
         const struct contact_input *other = case_contact(input, i);
-        if ((other->body[0] == contact->body[0] && other->body[1] == contact->body[1]) ||
-            (other->body[0] == contact->body[1] && other->body[1] == contact->body[0]))
+        told = (other->body[0] == contact->body[0] && other->body[1] == contact->body[1]) ||
+               (other->body[0] == contact->body[1] && other->body[1] == contact->body[0]);
+        if (told)
             case_wrong(checking, "between", "\"%s\" already names these two",
                        input->contacts.names[i]);
     }

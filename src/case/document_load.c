@@ -15,8 +15,8 @@ static const char include_key[] = "include";
  * never end otherwise. */
 enum { INCLUDED_MAX = 64 };
 
-/* Bytes of a file: three times what a case with as many bodies as there may be has. */
-enum { FILE_MAX_BYTES = 32 << 20 };
+/* Bytes of a case with all that it includes; one of as many bodies as there may be has half of it. */
+enum { FILES_MAX_BYTES = 16 << 20 };
 
 /* A file on the way from the first to the one that is read, and where it is asked for. */
 struct source {
@@ -30,19 +30,20 @@ struct source {
 struct loading {
     struct document *document;
     int included;
+    size_t bytes;
 };
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
-/* The whole of FILE, NULL when it cannot be read (errno tells why). */
-static char *read_all(FILE *file, size_t *length)
+/* The whole of FILE, NULL when it cannot be read or has more than MOST bytes (errno tells why). */
+static char *read_all(FILE *file, size_t most, size_t *length)
 {
     char *text = NULL;
     size_t capacity = 0, got = 1;
     int why = 0;
     *length = 0;
     while (got > 0 && !why) {
-        why = *length > FILE_MAX_BYTES ? EFBIG : 0;
+        why = *length > most ? EFBIG : 0;
         if (*length == capacity) {
             capacity = capacity ? 2 * capacity : 1 << 14;
             char *grown = realloc(text, capacity);
@@ -89,7 +90,7 @@ static struct error *open_source(struct source *source, FILE **file)
     }
     source->device = status.st_dev;
     source->number = status.st_ino;
-    if (status.st_size > FILE_MAX_BYTES)
+    if (status.st_size > FILES_MAX_BYTES)
         return refuse(source, strerror(EFBIG));
     for (const struct source *above = source->by; above; above = above->by)
         if (above->device == source->device && above->number == source->number)
@@ -103,8 +104,9 @@ static struct error *read_source(struct loading *loading, struct source *source,
     char *text = NULL;
     size_t length = 0;
     struct error *error = open_source(source, &file);
-    if (!error && !(text = read_all(file, &length)))
+    if (!error && !(text = read_all(file, FILES_MAX_BYTES - loading->bytes, &length)))
         error = refuse(source, strerror(errno));
+    loading->bytes += text ? length : 0;
     if (file)
         fclose(file);
     const char *origin = error ? NULL : document_keep(loading->document, text_copy(source->path));
