@@ -23,7 +23,7 @@ static struct error *check_format(const struct document *document)
     char *end = NULL;
     if (format->kind == NODE_SCALAR && strtol(format->text, &end, 10) == CASE_FORMAT && !*end)
         return NULL;
-    return document_error(document, "format", "%s is not known; this program reads format %d",
+    return document_error(document, "format", "%.60s is not known; this program reads format %d",
                           format->kind == NODE_SCALAR ? format->text : "a map or list",
                           CASE_FORMAT);
 }

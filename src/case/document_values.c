@@ -160,9 +160,15 @@ static bool uses_name(const char *text, const char *name)
 /* True when TEXT uses a name of `let` whose own expression is wrong; that has been told already. */
 static bool rests_on_mistake(const struct reading *reading, const char *text)
 {
-    for (int i = 0; i < reading->names.count && reading->wrong_names > 0; i++)
-        if (isnan(reading->name[i].quantity.value) && uses_name(text, reading->name[i].name))
+    for (const char *at = text; *at && reading->wrong_names > 0;) {
+        size_t length = 0;
+        while (is_word_letter(at[length]))
+            length++;
+        const int name = length ? name_index_find_part(&reading->names.index, at, length) : -1;
+        if (name >= 0 && isnan(reading->name[name].quantity.value))
             return true;
+        at += length ? length : 1;
+    }
     return false;
 }
 
