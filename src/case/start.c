@@ -132,6 +132,8 @@ const char *start_state(const struct start_given *given, const struct material *
     *key = "";
     if (response.status & POINT_OUT_OF_RANGE || !isfinite(point.pressure))
         return "the state at the start is outside the range of the equation of state";
+    if (response.sound_long > speed_of_light)
+        return "at this start state sound would be faster than light";
     if (response.status & POINT_NO_SOUND)
         return isnan(pressure) && isnan(given->energy) && isnan(given->temperature)
                    ? "at this start state sound does not travel: give `pressure` or `energy`"
