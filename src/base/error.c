@@ -7,25 +7,39 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/visible.h"
+
+/* More messages than this help nobody; the rest are counted. */
+enum { MESSAGES_MAX = 50 };
 
 struct error {
     enum error_kind kind;
     int count;
-    char **messages;
+    char **messages; /* and behind them the one about those that are left out */
+    int left_out;
     bool known_to_all;
 };
 
 static char *const out_of_memory_text[] = {"out of memory"};
-static const struct error out_of_memory = {ERROR_SYSTEM, 1, (char **)out_of_memory_text, false};
+static const struct error out_of_memory = {ERROR_SYSTEM, 1, (char **)out_of_memory_text, 0, false};
 
 /* The one cast from const: error_free and the editing functions leave this error alone. */
 static struct error *error_out_of_memory(void) { return (struct error *)&out_of_memory; }
+
+/* A message in one visible line, whatever of other people's text it quotes. */
+static char *message_of(const char *format, va_list arguments)
+{
+    char *raw = text_vformat(format, arguments);
+    char *message = raw ? text_visible(raw) : NULL;
+    free(raw);
+    return message;
+}
 
 struct error *error_new(enum error_kind kind, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    char *message = text_vformat(format, arguments);
+    char *message = message_of(format, arguments);
     va_end(arguments);
     struct error *error = malloc(sizeof *error);
     char **messages = malloc(sizeof *messages);
@@ -36,7 +50,7 @@ struct error *error_new(enum error_kind kind, const char *format, ...)
         return error_out_of_memory();
     }
     messages[0] = message;
-    *error = (struct error){kind, 1, messages, false};
+    *error = (struct error){kind, 1, messages, 0, false};
     return error;
 }
 
@@ -46,7 +60,7 @@ struct error *error_context(struct error *error, const char *format, ...)
         return error;
     va_list arguments;
     va_start(arguments, format);
-    char *context = text_vformat(format, arguments);
+    char *context = message_of(format, arguments);
     va_end(arguments);
     for (int i = 0; context && i < error->count; i++) {
         char *joined = text_format("%s: %s", context, error->messages[i]);
@@ -59,6 +73,27 @@ struct error *error_context(struct error *error, const char *format, ...)
     return error;
 }
 
+/* Takes as many messages of SECOND as there is room for, and counts the rest. */
+static void take_messages(struct error *first, struct error *second)
+{
+    const int room = MESSAGES_MAX - first->count;
+    const int taken = second->count < room ? second->count : room;
+    if (first->left_out)
+        free(first->messages[first->count]);
+    memcpy(first->messages + first->count, second->messages, (size_t)taken * sizeof(char *));
+    first->count += taken;
+    for (int i = taken; i < second->count + (second->left_out > 0); i++)
+        free(second->messages[i]);
+    first->left_out += second->count - taken + second->left_out;
+    if (!first->left_out)
+        return;
+    char *rest = text_format("%d more are not shown", first->left_out);
+    if (rest)
+        first->messages[first->count] = rest;
+    else
+        first->left_out = 0;
+}
+
 struct error *error_join(struct error *first, struct error *second)
 {
     if (!first || second == &out_of_memory) {
@@ -69,15 +104,15 @@ struct error *error_join(struct error *first, struct error *second)
         error_free(second);
         return first;
     }
-    int count = first->count + second->count;
-    char **messages = realloc(first->messages, (size_t)count * sizeof *messages);
+    int count =
+        first->count + second->count < MESSAGES_MAX ? first->count + second->count : MESSAGES_MAX;
+    char **messages = realloc(first->messages, ((size_t)count + 1) * sizeof *messages);
     if (!messages) {
         error_free(second);
         return first;
     }
-    memcpy(messages + first->count, second->messages, (size_t)second->count * sizeof *messages);
     first->messages = messages;
-    first->count = count;
+    take_messages(first, second);
     if (second->kind > first->kind)
         first->kind = second->kind;
     free(second->messages);
@@ -96,11 +131,13 @@ struct error *error_known_to_all(struct error *error)
 
 bool error_is_known_to_all(const struct error *error) { return error->known_to_all; }
 
-int error_count(const struct error *error) { return error->count; }
+bool error_is_full(const struct error *error) { return error && error->count == MESSAGES_MAX; }
+
+int error_count(const struct error *error) { return error->count + (error->left_out > 0); }
 
 const char *error_message(const struct error *error, int index)
 {
-    assert(index >= 0 && index < error->count);
+    assert(index >= 0 && index < error_count(error));
     return error->messages[index];
 }
 
@@ -108,7 +145,7 @@ void error_free(struct error *error)
 {
     if (!error || error == &out_of_memory)
         return;
-    for (int i = 0; i < error->count; i++)
+    for (int i = 0; i < error_count(error); i++)
         free(error->messages[i]);
     free(error->messages);
     free(error);

@@ -56,9 +56,14 @@ static bool is_word(const char *word, size_t length, const char *name)
 static const struct named_quantity *find_name(const struct expression_reading *reading,
                                               const char *word, size_t length)
 {
-    for (int i = 0; i < reading->names_count; i++)
-        if (is_word(word, length, reading->names[i].name))
-            return &reading->names[i];
+    const struct named_quantities *names = reading->names;
+    if (names && names->index.slots) {
+        const int at = name_index_find_part(&names->index, word, length);
+        return at < 0 ? NULL : &names->at[at];
+    }
+    for (int i = 0; names && i < names->count; i++)
+        if (is_word(word, length, names->at[i].name))
+            return &names->at[i];
     return NULL;
 }
 
@@ -305,14 +310,15 @@ static struct error *unknown_word(const struct expression_reading *reading, cons
                          "unknown name \"%c\" (as a position it stands only in what a body has at "
                          "the start)",
                          *word);
-    int count = reading->names_count + (int)COUNT_OF(functions);
+    const int own = reading->names ? reading->names->count : 0;
+    const int count = own + (int)COUNT_OF(functions);
     const char **known = malloc((size_t)count * sizeof *known);
     char *name = text_copy_part(word, length);
     const char *nearest = NULL;
     if (known && name) {
-        for (int i = 0; i < reading->names_count; i++)
-            known[i] = reading->names[i].name;
-        memcpy(known + reading->names_count, functions, sizeof functions);
+        for (int i = 0; i < own; i++)
+            known[i] = reading->names->at[i].name;
+        memcpy(known + own, functions, sizeof functions);
         nearest = nearest_name(name, known, count);
     }
     free(known);
@@ -378,7 +384,7 @@ static struct error *read_text(struct expression_reading *reading)
     return NULL;
 }
 
-struct error *expression_read(const char *text, const struct named_quantity *names, int count,
+struct error *expression_read(const char *text, const struct named_quantities *names,
                               unsigned arguments, struct expression_reading **reading)
 {
     *reading = NULL;
@@ -391,7 +397,6 @@ struct error *expression_read(const char *text, const struct named_quantity *nam
         return error_new(ERROR_SYSTEM, "out of memory");
     made->text = made->at = text;
     made->names = names;
-    made->names_count = count;
     made->arguments = arguments;
     struct error *error = read_text(made);
     if (error)

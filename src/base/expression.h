@@ -3,6 +3,7 @@
 #ifndef BOLIDE_EXPRESSION_H
 #define BOLIDE_EXPRESSION_H
 
+#include "base/name_index.h"
 #include "base/units.h"
 #include "base/vector.h"
 
@@ -18,9 +19,16 @@ struct named_quantity {
     struct quantity quantity;
 };
 
-/* Evaluates TEXT with the COUNT names. ERROR_INPUT tells what is wrong: an unknown unit or name (with
+/* Those that an expression may use. INDEX has the place of each; where it is empty, they are looked through. */
+struct named_quantities {
+    int count;
+    const struct named_quantity *at;
+    struct name_index index;
+};
+
+/* Evaluates TEXT with NAMES (NULL: none). ERROR_INPUT tells what is wrong: an unknown unit or name (with
  * the nearest), a syntax error, a sum of different dimensions, a value that is not finite. */
-struct error *expression_evaluate(const char *text, const struct named_quantity *names, int count,
+struct error *expression_evaluate(const char *text, const struct named_quantities *names,
                                   struct quantity *result);
 
 /* An expression of the position x, y, z of a place or of the time t: `Omega*y`, `300 K + 700 K*(x > 1 mm)`,
@@ -34,7 +42,7 @@ enum expression_arguments { ARGUMENT_POSITION = 1, ARGUMENT_TIME = 2 };
  * names one *EXPRESSION holds it and RESULT its dimension with the value NAN; else *EXPRESSION is NULL. One of NAMES that
  * is called like an argument is an error where it is used. */
 struct error *varying_expression_compile(const char *text, unsigned arguments,
-                                         const struct named_quantity *names, int count,
+                                         const struct named_quantities *names,
                                          struct quantity *result,
                                          struct varying_expression **expression);
 

@@ -11,8 +11,7 @@ enum { LONGEST_EXPRESSION = 1000, FORMULA_SIZE = 6 * LONGEST_EXPRESSION + 1, VAR
 
 struct expression_reading {
     const char *text, *at;
-    const struct named_quantity *names;
-    int names_count;
+    const struct named_quantities *names; /* NULL: none */
     unsigned arguments;   /* which may stand in the text, and comparisons with them */
     const char *unit_end; /* of the last literal that had a unit */
     int length, variables;
@@ -24,7 +23,7 @@ struct expression_reading {
 };
 
 /* Turns TEXT into a formula of variables; free() frees *READING, which holds nothing else. */
-struct error *expression_read(const char *text, const struct named_quantity *names, int count,
+struct error *expression_read(const char *text, const struct named_quantities *names,
                               unsigned arguments, struct expression_reading **reading);
 
 /* The name of variable INDEX in the formula: v000, v001, ... */

@@ -166,14 +166,29 @@ static struct error *evaluate(struct expression_reading *reading, muParserHandle
     return NULL;
 }
 
-struct error *expression_evaluate(const char *text, const struct named_quantity *names, int count,
+/* One number or name and nothing else, as most values of a case are: there is nothing to evaluate. */
+static bool is_single(const struct expression_reading *reading)
+{
+    const char *formula = reading->formula;
+    const size_t blanks = strspn(formula, " ");
+    return reading->variables == 1 && formula[blanks] == 'v' &&
+           strspn(formula + blanks + VARIABLE_NAME - 1, " ") ==
+               strlen(formula + blanks + VARIABLE_NAME - 1);
+}
+
+struct error *expression_evaluate(const char *text, const struct named_quantities *names,
                                   struct quantity *result)
 {
     struct expression_reading *reading;
-    TRY(expression_read(text, names, count, 0, &reading));
-    muParserHandle_t parser = mupCreate(muBASETYPE_FLOAT);
-    struct error *error = evaluate(reading, parser, result);
-    mupRelease(parser);
+    TRY(expression_read(text, names, 0, &reading));
+    struct error *error = NULL;
+    if (is_single(reading) && isfinite(reading->quantities[0].value)) {
+        *result = reading->quantities[0];
+    } else {
+        muParserHandle_t parser = mupCreate(muBASETYPE_FLOAT);
+        error = evaluate(reading, parser, result);
+        mupRelease(parser);
+    }
     free(reading);
     return error;
 }

@@ -22,6 +22,16 @@ const struct choice *catalogue_find(const struct catalogue *catalogue, const cha
     return NULL;
 }
 
+int named_map_find(const struct named_map *map, const char *name)
+{
+    if (map->index.slots)
+        return name_index_find(&map->index, name);
+    for (int i = 0; i < map->count; i++)
+        if (!strcmp(map->names[i], name))
+            return i;
+    return -1;
+}
+
 static void names_release(int count, char **names)
 {
     for (int i = 0; i < count; i++)
@@ -94,6 +104,7 @@ static void value_release(const struct parameter *parameter, void *value)
             parameters_release(parameter->table, (char *)map->items + (size_t)i * parameter->size);
         names_release(map->count, map->names);
         free(map->items);
+        name_index_free(&map->index);
         *map = (struct named_map){0};
         break;
     }

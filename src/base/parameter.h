@@ -147,7 +147,8 @@ struct one_of_list {
 struct named_map {
     int count;
     char **names;
-    void *items; /* count structs of the parameter's `size` */
+    void *items;             /* count structs of the parameter's `size` */
+    struct name_index index; /* of the names; empty: they are looked through */
 };
 
 /* All things of all kinds; the kinds end with a NULL name. */
@@ -160,6 +161,9 @@ struct choice_list {
 struct catalogue {
     const struct choice_list *lists;
 };
+
+/* The item called NAME; -1 when there is none. */
+int named_map_find(const struct named_map *map, const char *name);
 
 const struct choice_list *catalogue_list(const struct catalogue *catalogue, const char *kind);
 

@@ -102,19 +102,19 @@ static struct error *compile(struct expression_reading *reading, int count,
 }
 
 struct error *varying_expression_compile(const char *text, unsigned arguments,
-                                         const struct named_quantity *names, int count,
+                                         const struct named_quantities *names,
                                          struct quantity *result,
                                          struct varying_expression **expression)
 {
     *expression = NULL;
     struct expression_reading *reading;
-    TRY(expression_read(text, names, count, arguments, &reading));
+    TRY(expression_read(text, names, arguments, &reading));
     int named = 0;
     for (int i = 0; i < reading->variables; i++)
         named += reading->argument[i] != 0;
     if (named == 0) {
         free(reading);
-        return expression_evaluate(text, names, count, result);
+        return expression_evaluate(text, names, result);
     }
     struct varying_expression *made = memory_allocate(sizeof *made);
     struct error *error = made ? NULL : error_new(ERROR_SYSTEM, "out of memory");

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/visible.h"
 #include "case/document_internal.h"
 #include "case/internal.h"
 #include "case/library.h"
@@ -22,9 +23,45 @@ static struct error *check_format(const struct document *document)
     char *end = NULL;
     if (format->kind == NODE_SCALAR && strtol(format->text, &end, 10) == CASE_FORMAT && !*end)
         return NULL;
-    return document_error(document, "format", "%s is not known; this program reads format %d",
+    return document_error(document, "format", "%.60s is not known; this program reads format %d",
                           format->kind == NODE_SCALAR ? format->text : "a map or list",
                           CASE_FORMAT);
+}
+
+static bool is_key_of_case(const char *key)
+{
+    const struct parameter *const tables[] = {case_table, case_shaping_table};
+    for (size_t i = 0; i < COUNT_OF(tables); i++)
+        for (const struct parameter *p = tables[i]; !PARAMETER_IS_END(p); p++)
+            if (!strcmp(p->key, key))
+                return true;
+    return false;
+}
+
+/* An included file of which no key is one of a case is another kind of file, and perhaps not the user's own: none of
+ * its lines may come to be quoted. */
+static struct error *check_included(const struct document *document)
+{
+    const struct node *root = document->root;
+    struct error *error = NULL;
+    for (int o = 1; o < document->origin_count; o++) {
+        const char *origin = document->origins[o];
+        int known = 0, unknown = 0;
+        struct place first = {0};
+        for (int i = 0; i < root->count; i++) {
+            if (root->child[i]->key_place.origin != origin)
+                continue;
+            if (is_key_of_case(root->child[i]->key))
+                known++;
+            else if (unknown++ == 0)
+                first = root->child[i]->key_place;
+        }
+        if (unknown > 0 && known == 0 && first.line > 0)
+            error = error_join(error, place_error(first, "",
+                                                  "an included file must have keys of a case, and "
+                                                  "this has none"));
+    }
+    return error;
 }
 
 /* The name of the folder for a `case.yaml`, else the file's name without its ending. */
@@ -41,7 +78,9 @@ static char *case_name(const char *path)
     } else if (end - start > 5 && !strcmp(end - 5, ".yaml")) {
         end -= 5;
     }
-    char *name = text_copy_part(start, (size_t)(end - start));
+    char *raw = text_copy_part(start, (size_t)(end - start));
+    char *name = raw ? text_visible(raw) : NULL;
+    free(raw);
     free(whole);
     return name;
 }
@@ -97,13 +136,15 @@ static struct error *include_library(struct document *document, const struct cas
 static struct error *read_document(struct simulation_case *input,
                                    const struct case_options *options)
 {
+    TRY(check_included(input->document));
     TRY(check_format(input->document));
     struct error *error = case_take_sweep(input, options->convergence ? 0 : options->sweep_run);
     error = error_join(error, case_take_study(input, options));
     error = error_join(error, include_library(input->document, options));
     error = error_join(error,
                        document_read_partly(input->document, case_table, input->catalogue, input));
-    error = error_join(error, case_check_meaning(input));
+    if (!error_is_full(error))
+        error = error_join(error, case_check_meaning(input));
     if (!error)
         case_measure_sweep(input);
     return error;
@@ -172,8 +213,5 @@ struct error *case_write(const struct simulation_case *input, FILE *file)
 
 int case_find_body(const struct simulation_case *input, const char *name)
 {
-    for (int i = 0; name && i < input->bodies.count; i++)
-        if (!strcmp(input->bodies.names[i], name))
-            return i;
-    return -1;
+    return name ? named_map_find(&input->bodies, name) : -1;
 }

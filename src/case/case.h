@@ -233,6 +233,17 @@ struct error *case_write(const struct simulation_case *input, FILE *file);
 /* The index of the body called NAME; -1 when there is none, or NAME is NULL. */
 int case_find_body(const struct simulation_case *input, const char *name);
 
+/* Body BY names body OF in `replaces`; all such pairs of a case, sorted. Free `at`. */
+struct replacement {
+    int by, of;
+};
+struct replacements {
+    int count;
+    struct replacement *at;
+};
+struct error *case_replacements(const struct simulation_case *input, struct replacements *result);
+bool replaces(const struct replacements *replacements, int by, int of);
+
 /* Whether detonation INDEX lights BODY. */
 bool detonation_lights(const struct simulation_case *input, int index, int body);
 

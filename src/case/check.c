@@ -1,5 +1,6 @@
 /* What the tables cannot say of a case: names that must exist, numbers of components, states at the
  * start, limits of checks; and what follows from them. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "case/checking.h"
@@ -25,6 +26,10 @@ void case_wrong(struct checking *checking, const char *key, const char *format, 
     path_of(checking, key, path);
     if (key[0] && case_is_wrong(checking, key))
         return;
+    if (error_is_full(checking->error)) { /* to be counted only */
+        checking->error = error_join(checking->error, error_new(ERROR_INPUT, "%s", key));
+        return;
+    }
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
@@ -36,11 +41,15 @@ void case_wrong(struct checking *checking, const char *key, const char *format, 
 int case_find_name(struct checking *checking, const struct named_map *map, const char *what,
                    const char *name, const char *key)
 {
-    for (int i = 0; i < map->count; i++)
-        if (!strcmp(map->names[i], name))
-            return i;
+    const int found = named_map_find(map, name);
+    if (found >= 0)
+        return found;
     if (map->count == 0 && document_is_wrong(checking->input->document, ""))
         return -1;
+    if (error_is_full(checking->error)) {
+        case_wrong(checking, key, "unknown");
+        return -1;
+    }
     const char *near = nearest_name(name, (const char *const *)map->names, map->count);
     char known[512];
     list_text((const char *const *)map->names, map->count, known, sizeof known);
@@ -110,6 +119,26 @@ static void check_replaces(struct checking *checking, const struct body_input *b
         if (other == index)
             case_wrong(checking, "replaces", "a body cannot replace itself");
     }
+}
+
+/* Of two bodies one gives way. */
+static void check_mutual(struct checking *checking)
+{
+    const struct named_map *bodies = &checking->input->bodies;
+    struct replacements pairs;
+    struct error *error = case_replacements(checking->input, &pairs);
+    for (int i = 0; i < pairs.count && !error; i++) {
+        const struct replacement *pair = &pairs.at[i];
+        const bool again = i > 0 && pair[-1].by == pair->by && pair[-1].of == pair->of;
+        if (again || pair->by <= pair->of || !replaces(&pairs, pair->of, pair->by))
+            continue;
+        checking->name = bodies->names[pair->by];
+        case_wrong(checking, "replaces", "\"%s\" replaces this body: only one of the two can",
+                   bodies->names[pair->of]);
+    }
+    checking->name = NULL;
+    free(pairs.at);
+    checking->error = error_join(checking->error, error);
 }
 
 /* A coordinate that the case has not would be zero everywhere, and is a mistake. */
@@ -311,38 +340,15 @@ static void check_contact(struct checking *checking, int index)
         return;
     if (contact->body[0] == contact->body[1])
         case_wrong(checking, "between", "two different bodies are wanted");
-    for (int i = 0; i < index; i++) {
+    bool told = false;
+    for (int i = 0; i < index && !told; i++) {
         const struct contact_input *other = case_contact(input, i);
-        if ((other->body[0] == contact->body[0] && other->body[1] == contact->body[1]) ||
-            (other->body[0] == contact->body[1] && other->body[1] == contact->body[0]))
+        told = (other->body[0] == contact->body[0] && other->body[1] == contact->body[1]) ||
+               (other->body[0] == contact->body[1] && other->body[1] == contact->body[0]);
+        if (told)
             case_wrong(checking, "between", "\"%s\" already names these two",
                        input->contacts.names[i]);
     }
-}
-
-static bool is_given(const struct quantity *quantity) { return !isnan(quantity->value); }
-
-static bool is_number(const struct quantity *quantity)
-{
-    return dimension_equal(quantity->dimension, (struct dimension){0});
-}
-
-/* The measure's own dimension is compared with these when the check is prepared. */
-static void check_limits(struct checking *checking, const struct check_input *check)
-{
-    const struct quantity *is = &check->is, *within = &check->within;
-    if (is_given(is) && !is_given(within))
-        case_wrong(checking, "is", "this needs `within` beside it");
-    else if (!is_given(within) && !is_given(&check->at_most) && !is_given(&check->at_least))
-        case_wrong(checking, "", "a limit is missing: `is` and `within`, `at_most` or `at_least`");
-    if (!is_given(within))
-        return;
-    if (within->value < 0.0)
-        case_wrong(checking, "within", "this cannot be negative");
-    if (is_given(is) && is->value != 0.0 && !is_number(within) &&
-        !dimension_equal(is->dimension, within->dimension))
-        case_wrong(checking, "within",
-                   "a fraction, or a quantity of the dimension of `is`, is wanted");
 }
 
 void case_check_between(struct checking *checking, const struct vector_value *between)
@@ -351,92 +357,23 @@ void case_check_between(struct checking *checking, const struct vector_value *be
         case_wrong(checking, "between", "two positions are wanted, the smaller first");
 }
 
-/* A chain of ratios would hide what is compared with what. */
-static void check_relative(struct checking *checking, struct check_input *check, int index)
-{
-    const struct simulation_case *input = checking->input;
-    check->relative_check = -1;
-    if (!check->relative || !strcmp(check->relative, "start"))
-        return;
-    const int other =
-        case_find_name(checking, &input->checks, "check", check->relative, "relative");
-    if (other == index)
-        case_wrong(checking, "relative", "a check cannot be relative to itself");
-    else if (other >= 0 && case_check(input, other)->relative)
-        case_wrong(checking, "relative", "the check \"%s\" is relative itself", check->relative);
-    check->relative_check = other;
-}
-
-static void check_check(struct checking *checking, int index)
-{
-    struct check_input *check = case_check(checking->input, index);
-    if (check->of)
-        case_find_name(checking, &checking->input->bodies, "body", check->of, "of");
-    case_check_between(checking, &check->between);
-    case_check_axis(checking, "axis", check->axis);
-    if (check->about.count != 0 && case_dimension_known(checking) &&
-        check->about.count != checking->input->dimension)
-        case_wrong(checking, "about", "%d component%s wanted, one a dimension; found %d",
-                   (int)checking->input->dimension,
-                   checking->input->dimension == 1 ? " is" : "s are", check->about.count);
-    check_relative(checking, check, index);
-    if (check->at > checking->input->run.until &&
-        !document_is_wrong(checking->input->document, "run"))
-        case_wrong(checking, "at", "the run ends before, at %.9g s", checking->input->run.until);
-    if (check->falls_short && !check->falls_short[0])
-        case_wrong(checking, "falls_short", "the reason is wanted");
-    if (!check->falls_short && check->falls_short_if != 1.0)
-        case_wrong(checking, "falls_short_if", "this needs `falls_short` beside it");
-    if (!case_is_wrong(checking, ""))
-        check_limits(checking, check);
-}
-
-/* The name becomes that of a file. */
-static void check_file_name(struct checking *checking)
-{
-    if (strchr(checking->name, '/') || checking->name[0] == '.' || !checking->name[0])
-        case_wrong(checking, "", "its name becomes that of a file: no `/`, and no `.` in front");
-}
-
 static void check_probe(struct checking *checking, int index)
 {
     const struct probe_input *probe = case_probe(checking->input, index);
-    check_file_name(checking);
     if (probe->of)
         case_find_name(checking, &checking->input->bodies, "body", probe->of, "of");
     case_check_between(checking, &probe->between);
     case_check_axis(checking, "axis", probe->axis);
+    case_check_interval(checking, "every", probe->every);
 }
 
 static void check_profile(struct checking *checking, int index)
 {
     const struct profile_input *profile = case_profile(checking->input, index);
-    check_file_name(checking);
     if (profile->of)
         case_find_name(checking, &checking->input->bodies, "body", profile->of, "of");
     case_check_between(checking, &profile->between);
     case_check_axis(checking, "along", profile->along);
-}
-
-/* NAMES of checks under KEY. */
-static void check_check_names(struct checking *checking, const struct name_list *names,
-                              const char *key)
-{
-    for (int i = 0; i < names->count; i++)
-        case_find_name(checking, &checking->input->checks, "check", names->names[i], key);
-}
-
-static void check_order(struct checking *checking, int index)
-{
-    const struct simulation_case *input = checking->input;
-    const struct order_input *order = case_order(input, index);
-    case_find_name(checking, &input->checks, "check", checking->name, "");
-    if (isnan(order->at_least) && isnan(order->at_most) && !case_is_wrong(checking, ""))
-        case_wrong(checking, "", "a limit is missing: `at_least` or `at_most`");
-    if (order->at_least > order->at_most)
-        case_wrong(checking, "at_least", "this lies above `at_most`");
-    if (order->falls_short && !order->falls_short[0])
-        case_wrong(checking, "falls_short", "the reason is wanted");
 }
 
 static void check_map(struct checking *checking, const char *key, const struct named_map *map,
@@ -462,6 +399,7 @@ static void check_geometry(struct checking *checking)
 struct error *case_check_meaning(struct simulation_case *input)
 {
     struct checking checking = {.input = input};
+    case_check_texts(&checking);
     check_geometry(&checking);
     check_map(&checking, "materials", &input->materials, check_material);
     if (input->bodies.count == 0 && !document_is_wrong(input->document, "")) {
@@ -469,6 +407,7 @@ struct error *case_check_meaning(struct simulation_case *input)
         case_wrong(&checking, "", "one body at least is wanted");
     }
     check_map(&checking, "bodies", &input->bodies, check_body);
+    check_mutual(&checking);
     check_map(&checking, "walls", &input->walls, case_check_wall);
     check_map(&checking, "contacts", &input->contacts, check_contact);
     check_map(&checking, "detonations", &input->detonations, check_detonation);
@@ -476,12 +415,13 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "outflows", &input->outflows, case_check_outflow);
     check_map(&checking, "loads", &input->loads, case_check_load);
     case_check_gravity(&checking);
+    checking.map = "output";
+    case_check_interval(&checking, "every", input->output.every);
+    case_check_interval(&checking, "history", input->output.history);
     check_map(&checking, "probes", &input->probes, check_probe);
     check_map(&checking, "profiles", &input->profiles, check_profile);
-    check_map(&checking, "checks", &input->checks, check_check);
-    checking.map = "convergence";
-    check_check_names(&checking, &input->convergence.of, "of");
-    check_check_names(&checking, &input->convergence.estimate, "estimate");
-    check_map(&checking, "convergence.order", &input->convergence.order, check_order);
+    check_map(&checking, "checks", &input->checks, case_check_check);
+    case_check_study(&checking);
+    check_map(&checking, "convergence.order", &input->convergence.order, case_check_order);
     return checking.error;
 }

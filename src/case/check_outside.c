@@ -13,7 +13,9 @@ void case_check_wall(struct checking *checking, int index)
         (wall->side == WALL_LOW ? wall->at != 0.0 : wall->at <= 0.0))
         case_wrong(checking, "at", "the axis of symmetry bounds x from below, at 0 m: %s",
                    wall->side == WALL_LOW ? "leave this wall out" : "put this wall beyond it");
-    for (int i = 0; i < index && !case_is_wrong(checking, ""); i++) {
+    const bool wrong = case_is_wrong(checking, "");
+    bool told = false; /* one of many that are alike is enough */
+    for (int i = 0; i < index && !wrong && !told; i++) {
         const struct wall_input *other = case_wall(input, i);
         char path[PATH_TEXT];
         snprintf(path, sizeof path, "walls.%s", input->walls.names[i]);
@@ -21,6 +23,7 @@ void case_check_wall(struct checking *checking, int index)
             continue;
         double low = wall->side == WALL_LOW ? wall->at : other->at;
         double high = wall->side == WALL_LOW ? other->at : wall->at;
+        told = other->side == wall->side || low >= high;
         if (other->side == wall->side)
             case_wrong(checking, "side", "\"%s\" is a %s wall on the %c axis already",
                        input->walls.names[i], wall->side == WALL_LOW ? "low" : "high",
@@ -45,12 +48,14 @@ void case_check_outflow(struct checking *checking, int index)
             case_wrong(checking, "side",
                        "the wall \"%s\" closes this end: leave one of the two out",
                        input->walls.names[i]);
-    for (int i = 0; i < index; i++) {
+    bool told = false;
+    for (int i = 0; i < index && !told; i++) {
         const struct outflow_input *other = case_outflow(input, i);
         const double low = outflow->side == WALL_LOW ? outflow->at : other->at;
         const double high = outflow->side == WALL_LOW ? other->at : outflow->at;
         if (other->axis != outflow->axis)
             continue;
+        told = other->side == outflow->side || low >= high;
         if (other->side == outflow->side)
             case_wrong(checking, "side", "\"%s\" is an outflow of this end already",
                        input->outflows.names[i]);

@@ -32,7 +32,17 @@ void case_check_axis(struct checking *checking, const char *key, int axis);
 /* BETWEEN is nothing or two positions. */
 void case_check_between(struct checking *checking, const struct vector_value *between);
 
-/* Of what acts from outside (case_check_outside.c). */
+/* Of names and texts (check_text.c); texts get into one line. */
+void case_check_texts(struct checking *checking);
+/* An interval of output must leave a number of them that can be counted. */
+void case_check_interval(struct checking *checking, const char *key, double interval);
+
+/* Of checks and the study of convergence (check_check.c). */
+void case_check_check(struct checking *checking, int index);
+void case_check_order(struct checking *checking, int index);
+void case_check_study(struct checking *checking);
+
+/* Of what acts from outside (check_outside.c). */
 void case_check_wall(struct checking *checking, int index);
 void case_check_outflow(struct checking *checking, int index);
 void case_check_load(struct checking *checking, int index);

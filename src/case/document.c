@@ -104,13 +104,7 @@ const struct node *document_find(const struct document *document, const char *pa
 
 bool document_is_wrong(const struct document *document, const char *path)
 {
-    size_t length = strlen(path);
-    for (int i = 0; i < document->wrong_count; i++) {
-        const char *wrong = document->wrong[i];
-        if (!length || (!strncmp(wrong, path, length) && (!wrong[length] || wrong[length] == '.')))
-            return true;
-    }
-    return false;
+    return path[0] ? name_index_find(&document->marks, path) >= 0 : document->wrong_count > 0;
 }
 
 bool document_has(const struct document *document, const char *path)
@@ -146,24 +140,42 @@ const char *document_keep(struct document *document, char *text)
     return text;
 }
 
+/* Puts ENTRY (taken) into BASE, whose entry at INDEX has the same key, -1 where there is none. */
+static struct error *merge_entry(struct node *base, int index, struct node *entry)
+{
+    struct node *old = index < 0 ? NULL : base->child[index];
+    if (old && old->kind == NODE_MAP && entry->kind == NODE_MAP) {
+        struct error *error = node_merge(old, entry);
+        node_free(entry);
+        return error;
+    }
+    if (!old)
+        return node_append(base, entry) ? NULL : out_of_memory();
+    /* the index holds the old key: the new one takes its place there */
+    free(entry->key);
+    entry->key = old->key;
+    old->key = NULL;
+    node_free(old);
+    base->child[index] = entry;
+    return NULL;
+}
+
 struct error *node_merge(struct node *base, struct node *over)
 {
-    while (over->count > 0) {
-        struct node *entry = node_take(over, 0);
-        int index = entry_index(base, entry->key);
-        struct node *old = index < 0 ? NULL : base->child[index];
-        if (old && old->kind == NODE_MAP && entry->kind == NODE_MAP) {
-            struct error *error = node_merge(old, entry);
-            node_free(entry);
-            TRY(error);
-        } else if (old) {
-            node_free(old);
-            base->child[index] = entry;
-        } else if (!node_append(base, entry)) {
-            return out_of_memory();
-        }
+    struct name_index index = {0};
+    struct error *error = NULL;
+    for (int i = 0; i < base->count && !error; i++)
+        error = name_index_add(&index, base->child[i]->key, i) ? NULL : out_of_memory();
+    int taken = 0;
+    while (taken < over->count && !error) {
+        struct node *entry = over->child[taken++];
+        error = merge_entry(base, name_index_find(&index, entry->key), entry);
     }
-    return NULL;
+    over->count -= taken;
+    if (over->count > 0)
+        memmove(over->child, over->child + taken, (size_t)over->count * sizeof *over->child);
+    name_index_free(&index);
+    return error;
 }
 
 static bool share_a_key(const struct node *a, const struct node *b)
@@ -333,7 +345,9 @@ static struct error *apply_setting(struct document *document, const char *settin
     struct node *value;
     TRY(node_parse(equals + 1, strlen(equals + 1), origin, false, &value));
     char *path = text_copy_part(setting, (size_t)(equals - setting));
-    struct error *error = path ? set_value(document->root, path, &value) : out_of_memory();
+    struct error *error = path ? refuse_controls(place, path, true) : out_of_memory();
+    if (!error)
+        error = set_value(document->root, path, &value);
     free(path);
     node_free(value);
     return error;
@@ -393,5 +407,6 @@ void document_free(struct document *document)
     for (int i = 0; i < document->wrong_count; i++)
         free(document->wrong[i]);
     free(document->wrong);
+    name_index_free(&document->marks);
     free(document);
 }

@@ -30,8 +30,9 @@ struct document {
     struct node *root;
     int origin_count;
     char **origins; /* what the places point to */
-    int wrong_count;
-    char **wrong; /* paths that a reading complained about */
+    int wrong_count, wrong_room;
+    char **wrong;            /* paths that a reading complained about, and what they are in */
+    struct name_index marks; /* of these */
 };
 
 /* A path as the reader descends: `bodies.flyer.velocity`, items of lists by number from 1. */
@@ -45,6 +46,9 @@ struct path {
 struct error *node_parse(const char *text, size_t length, const char *origin, bool located,
                          struct node **root);
 void node_free(struct node *node);
+
+/* An error at PLACE if TEXT holds control characters; in what is no KEY tabs and line breaks may stand. */
+struct error *refuse_controls(struct place place, const char *text, bool key);
 
 struct node *node_new(enum node_kind kind, struct place place);
 
@@ -99,9 +103,10 @@ struct error *document_include(struct document *document, struct node *map,
 struct reading {
     struct document *document;
     const struct catalogue *catalogue;
-    struct named_quantity *names; /* of `let`; the value NAN: its expression is wrong */
-    int name_count;
-    const struct node *let; /* where they stand; NULL: nowhere */
+    struct named_quantities names; /* of `let`; the value NAN: its expression is wrong */
+    struct named_quantity *name;   /* the same */
+    int wrong_names;               /* how many of them are wrong */
+    const struct node *let;        /* where they stand; NULL: nowhere */
     struct error *error;
 };
 

@@ -1,8 +1,10 @@
 /* The files of a document: the one that is opened and those that it includes, joined in one tree. */
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/memory.h"
 #include "case/document_internal.h"
@@ -12,6 +14,9 @@ static const char include_key[] = "include";
 /* Files that a document may include: a list that names a file twice, whose file does so too, would
  * never end otherwise. */
 enum { INCLUDED_MAX = 64 };
+
+/* Bytes of a case with all that it includes; one of as many bodies as there may be has half of it. */
+enum { FILES_MAX_BYTES = 16 << 20 };
 
 /* A file on the way from the first to the one that is read, and where it is asked for. */
 struct source {
@@ -25,22 +30,24 @@ struct source {
 struct loading {
     struct document *document;
     int included;
+    size_t bytes;
 };
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
-/* The whole of FILE, NULL when it cannot be read (errno tells why). */
-static char *read_all(FILE *file, size_t *length)
+/* The whole of FILE, NULL when it cannot be read or has more than MOST bytes (errno tells why). */
+static char *read_all(FILE *file, size_t most, size_t *length)
 {
     char *text = NULL;
     size_t capacity = 0, got = 1;
     int why = 0;
     *length = 0;
     while (got > 0 && !why) {
+        why = *length > most ? EFBIG : 0;
         if (*length == capacity) {
             capacity = capacity ? 2 * capacity : 1 << 14;
             char *grown = realloc(text, capacity);
-            why = grown ? 0 : ENOMEM;
+            why = grown ? why : ENOMEM;
             text = grown ? grown : text;
         }
         got = why ? 0 : fread(text + *length, 1, capacity - *length, file);
@@ -63,17 +70,28 @@ static struct error *refuse(const struct source *source, const char *why)
     return place_error(source->place, include_key, "%s: %s", source->path, why);
 }
 
-/* Opens SOURCE and says which file it is. What is included must be a plain file, which has an end. */
+/* Opens SOURCE and says which file it is. It must be a regular file, which has an end; to open another kind may wait
+ * for ever or do something to a device. */
 static struct error *open_source(struct source *source, FILE **file)
 {
     struct stat status;
-    *file = fopen(source->path, "rbe");
-    if (!*file || fstat(fileno(*file), &status))
+    if (stat(source->path, &status))
         return refuse(source, strerror(errno));
+    if (!S_ISREG(status.st_mode))
+        return refuse(source,
+                      S_ISDIR(status.st_mode) ? "this is a folder" : "this is not a regular file");
+    const int descriptor = open(source->path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    *file = descriptor < 0 ? NULL : fdopen(descriptor, "rb");
+    if (!*file || fstat(descriptor, &status) || !S_ISREG(status.st_mode)) {
+        struct error *error = refuse(source, strerror(errno));
+        if (!*file && descriptor >= 0)
+            close(descriptor);
+        return error;
+    }
     source->device = status.st_dev;
     source->number = status.st_ino;
-    if (source->by && !S_ISREG(status.st_mode))
-        return refuse(source, "this is no plain file");
+    if (status.st_size > FILES_MAX_BYTES)
+        return refuse(source, strerror(EFBIG));
     for (const struct source *above = source->by; above; above = above->by)
         if (above->device == source->device && above->number == source->number)
             return refuse(source, "a file cannot include itself");
@@ -86,8 +104,9 @@ static struct error *read_source(struct loading *loading, struct source *source,
     char *text = NULL;
     size_t length = 0;
     struct error *error = open_source(source, &file);
-    if (!error && !(text = read_all(file, &length)))
+    if (!error && !(text = read_all(file, FILES_MAX_BYTES - loading->bytes, &length)))
         error = refuse(source, strerror(errno));
+    loading->bytes += text ? length : 0;
     if (file)
         fclose(file);
     const char *origin = error ? NULL : document_keep(loading->document, text_copy(source->path));

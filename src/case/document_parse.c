@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/name_index.h"
+#include "base/visible.h"
 #include "case/document_internal.h"
 
 enum { DEPTH_MAX = 48 };
@@ -42,16 +44,20 @@ void node_free(struct node *node)
     free(node);
 }
 
+/* The room doubles: there is some until the count is a power of two. */
 bool node_append(struct node *parent, struct node *child)
 {
-    struct node **grown =
-        realloc(parent->child, ((size_t)parent->count + 1) * sizeof(struct node *));
-    if (!grown) {
-        node_free(child);
-        return false;
+    const size_t count = (size_t)parent->count;
+    if ((count & (count - 1)) == 0) {
+        struct node **grown =
+            realloc(parent->child, (count ? 2 * count : 1) * sizeof(struct node *));
+        if (!grown) {
+            node_free(child);
+            return false;
+        }
+        parent->child = grown;
     }
-    parent->child = grown;
-    grown[parent->count++] = child;
+    parent->child[parent->count++] = child;
     return true;
 }
 
@@ -162,9 +168,23 @@ static bool has_misread_quotes(const struct parse *parse, struct fy_event *event
     return false;
 }
 
+struct error *refuse_controls(struct place place, const char *text, bool key)
+{
+    uint32_t code;
+    for (size_t size; *text; text += size) {
+        size = utf8_character(text, strnlen(text, 4), &code);
+        if (size == 0)
+            return place_error(place, "", "this is not UTF-8 text");
+        if (is_control(code) && (key || (code != '\n' && code != '\t')))
+            return place_error(place, "", "a %s cannot hold the control character %.*s",
+                               key ? "key" : "text", (int)size, text);
+    }
+    return NULL;
+}
+
 /* The text of a scalar's event. */
 static struct error *take_text(const struct parse *parse, struct fy_event *event,
-                               struct place place, char **text)
+                               struct place place, bool key, char **text)
 {
     size_t length = 0;
     struct fy_token *token = event->scalar.value;
@@ -177,7 +197,13 @@ static struct error *take_text(const struct parse *parse, struct fy_event *event
     if (memchr(bytes, '\0', length))
         return place_error(place, "", "a text cannot hold a zero byte");
     *text = text_copy_part(bytes, length);
-    return *text ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error =
+        *text ? refuse_controls(place, *text, key) : error_new(ERROR_SYSTEM, "out of memory");
+    if (error) {
+        free(*text);
+        *text = NULL;
+    }
+    return error;
 }
 
 static struct error *build(struct parse *parse, struct fy_event *event, struct place before,
@@ -198,14 +224,36 @@ static struct error *build_and_free(struct parse *parse, struct fy_event *event,
     return error;
 }
 
-/* Reads KEY and its value into MAP; the event is the key's. */
+/* Puts VALUE (taken) under KEY (taken) into MAP, whose keys are in INDEX. The key is not quoted: the file may be none of
+ * ours. */
+static struct error *add_entry(struct parse *parse, struct node *map, struct name_index *index,
+                               struct node *value, char *key)
+{
+    value->key = key;
+    const int twin = name_index_find(index, key);
+    if (twin >= 0) {
+        parse->twins =
+            error_join(parse->twins, place_error(value->key_place, "",
+                                                 "this key is given twice, first in line %d",
+                                                 map->child[twin]->key_place.line));
+        node_free(value);
+        return NULL;
+    }
+    if (!name_index_add(index, key, map->count)) {
+        node_free(value);
+        return error_new(ERROR_SYSTEM, "out of memory");
+    }
+    return node_append(map, value) ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+}
+
+/* Reads a key and its value into MAP; the event is the key's. */
 static struct error *build_entry(struct parse *parse, struct fy_event *event, int depth,
-                                 struct node *map)
+                                 struct node *map, struct name_index *index)
 {
     struct place place = place_of(parse, event, map->place);
     bool simple = event->type == FYET_SCALAR;
     char *key = NULL;
-    struct error *error = simple ? take_text(parse, event, place, &key) : NULL;
+    struct error *error = simple ? take_text(parse, event, place, true, &key) : NULL;
     fy_parser_event_free(parse->parser, event);
     if (error)
         return error;
@@ -218,21 +266,13 @@ static struct error *build_entry(struct parse *parse, struct fy_event *event, in
         free(key);
         return error;
     }
-    value->key = key;
     value->key_place = place;
-    const struct node *twin = node_entry(map, key);
-    if (twin) {
-        parse->twins = error_join(parse->twins,
-                                  place_error(place, "", "\"%s\" is given twice, first in line %d",
-                                              key, twin->key_place.line));
-        node_free(value);
-        return NULL;
-    }
-    return node_append(map, value) ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    return add_entry(parse, map, index, value, key);
 }
 
-/* Reads entries or items until the end of the collection. */
-static struct error *build_children(struct parse *parse, int depth, struct node *node)
+/* Reads entries or items until the end of the collection; INDEX is that of the keys of a map. */
+static struct error *build_children(struct parse *parse, int depth, struct node *node,
+                                    struct name_index *index)
 {
     for (;;) {
         struct fy_event *event = next_event(parse);
@@ -243,7 +283,7 @@ static struct error *build_children(struct parse *parse, int depth, struct node 
             return NULL;
         }
         if (node->kind == NODE_MAP) {
-            TRY(build_entry(parse, event, depth, node));
+            TRY(build_entry(parse, event, depth, node, index));
             continue;
         }
         struct node *item = NULL;
@@ -275,9 +315,11 @@ static struct error *build(struct parse *parse, struct fy_event *event, struct p
     struct error *error;
     if (node->kind == NODE_SCALAR) {
         node->plain = style_of(event) == FYSS_PLAIN;
-        error = take_text(parse, event, place, &node->text);
+        error = take_text(parse, event, place, false, &node->text);
     } else {
-        error = build_children(parse, depth, node);
+        struct name_index index = {0};
+        error = build_children(parse, depth, node, &index);
+        name_index_free(&index);
     }
     if (error) {
         node_free(node);
@@ -322,37 +364,15 @@ static struct error *build_document(struct parse *parse, struct node **root)
     return NULL;
 }
 
-/* Bytes of the UTF-8 character that TEXT starts with, 0 where there is none. */
-static size_t character_length(const char *text, size_t length)
-{
-    static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
-    const unsigned char *byte = (const unsigned char *)text;
-    size_t size = byte[0] < 0x80   ? 1
-                  : byte[0] < 0xc0 ? 0
-                  : byte[0] < 0xe0 ? 2
-                  : byte[0] < 0xf0 ? 3
-                  : byte[0] < 0xf8 ? 4
-                                   : 0;
-    if (size < 2 || size > length)
-        return size > length ? 0 : size;
-    uint32_t code = byte[0] & (0x7f >> size);
-    for (size_t i = 1; i < size; i++) {
-        if ((byte[i] & 0xc0) != 0x80)
-            return 0;
-        code = code << 6 | (byte[i] & 0x3f);
-    }
-    bool surrogate = code >= 0xd800 && code < 0xe000;
-    return code < least[size] || code > 0x10ffff || surrogate ? 0 : size;
-}
-
 /* What libfyaml 0.7.12 does not survive (a directive with malformed UTF-8 keeps it busy for ever) or
  * takes for an end (a zero byte). No case has a use for directives. */
 static struct error *check_bytes(const char *text, size_t length, const char *origin, bool located)
 {
     struct place place = {origin, 1, 1};
     const char *wrong = NULL;
+    uint32_t code;
     for (size_t at = 0, size; at < length && !wrong; at += size) {
-        size = character_length(text + at, length - at);
+        size = utf8_character(text + at, length - at, &code);
         if (size == 0)
             wrong = "this is not UTF-8 text";
         else if (text[at] == '\0')

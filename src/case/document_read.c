@@ -138,7 +138,7 @@ static void read_map(struct reading *reading, const struct node *node, const str
         struct path item = {path, entry->key, 0};
         value->names[i] = text_copy(entry->key);
         value->count = i + 1;
-        if (!value->names[i])
+        if (!value->names[i] || !name_index_add(&value->index, value->names[i], i))
             complain_memory(reading);
         else if (entry->broken)
             mark_wrong(reading, &item);
@@ -337,8 +337,9 @@ static void read_let(struct reading *reading, const struct node *let)
             complain_kind(reading, let, &top, "a map of names and quantities");
         return;
     }
-    reading->names = calloc((size_t)let->count + 1, sizeof *reading->names);
-    if (!reading->names) {
+    reading->name = calloc((size_t)let->count + 1, sizeof *reading->name);
+    reading->names.at = reading->name;
+    if (!reading->name) {
         complain_memory(reading);
         return;
     }
@@ -352,10 +353,20 @@ static void read_let(struct reading *reading, const struct node *let)
                      strchr(entry->key, ':') ? "; a blank is missing behind the colon" : "");
             continue;
         }
-        if (!read_quantity(reading, entry, &path, "a quantity", &quantity))
+        if (!read_quantity(reading, entry, &path, "a quantity", &quantity)) {
             quantity.value = NAN;
-        reading->names[reading->name_count++] = (struct named_quantity){entry->key, quantity};
+            reading->wrong_names++;
+        }
+        reading->name[reading->names.count] = (struct named_quantity){entry->key, quantity};
+        if (!name_index_add(&reading->names.index, entry->key, reading->names.count++))
+            complain_memory(reading);
     }
+}
+
+static void forget_names(struct reading *reading)
+{
+    free(reading->name);
+    name_index_free(&reading->names.index);
 }
 
 struct error *document_evaluate(const struct document *document, const char *text,
@@ -367,8 +378,8 @@ struct error *document_evaluate(const struct document *document, const char *tex
         read_let(&reading, let);
     struct error *error = reading.error;
     if (!error)
-        error = expression_evaluate(text, reading.names, reading.name_count, quantity);
-    free(reading.names);
+        error = expression_evaluate(text, &reading.names, quantity);
+    forget_names(&reading);
     return error;
 }
 
@@ -381,7 +392,7 @@ struct error *document_read_partly(struct document *document, const struct param
     if (let)
         read_let(&reading, let);
     read_table(&reading, document->root, NULL, table, values);
-    free(reading.names);
+    forget_names(&reading);
     return reading.error;
 }
 

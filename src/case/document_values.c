@@ -21,15 +21,31 @@ static size_t path_text(const struct path *path, char *text, size_t size)
     return length < size ? length : size - 1;
 }
 
+/* Notes the first LENGTH bytes of PATH, unless it is noted already. */
+static void mark_part(struct document *document, const char *path, size_t length)
+{
+    int64_t room = document->wrong_room;
+    if (name_index_find_part(&document->marks, path, length) >= 0 ||
+        !memory_reserve((void **)&document->wrong, &room, document->wrong_count + 1,
+                        document->wrong_count, sizeof *document->wrong))
+        return;
+    document->wrong_room = (int)room;
+    char *text = text_copy_part(path, length);
+    if (!text || !name_index_add(&document->marks, text, document->wrong_count))
+        free(text);
+    else
+        document->wrong[document->wrong_count++] = text;
+}
+
+/* What holds a mistake is wrong too. */
 void mark_wrong(struct reading *reading, const struct path *path)
 {
     char text[1024];
-    struct document *document = reading->document;
     path_text(path, text, sizeof text);
-    char **grown = realloc(document->wrong, ((size_t)document->wrong_count + 1) * sizeof(char *));
-    document->wrong = grown ? grown : document->wrong;
-    if (grown && (grown[document->wrong_count] = text_copy(text)))
-        document->wrong_count++;
+    for (size_t length = 0; text[length]; length++)
+        if (text[length] == '.')
+            mark_part(reading->document, text, length);
+    mark_part(reading->document, text, strlen(text));
 }
 
 void complain(struct reading *reading, struct place place, const struct path *path,
@@ -83,9 +99,10 @@ void list_text(const char *const *names, int count, char *text, size_t size)
 void complain_unknown(struct reading *reading, struct place place, const struct path *path,
                       const char *what, const char *word, const char *const *names, int count)
 {
-    const char *near = nearest_name(word, names, count);
+    const bool full = error_is_full(reading->error);
+    const char *near = full ? NULL : nearest_name(word, names, count);
     char known[1024];
-    list_text(names, count, known, sizeof known);
+    list_text(names, full ? 0 : count, known, sizeof known);
     if (near)
         complain(reading, place, path, "%s \"%.60s\" (did you mean \"%s\"?)", what, word, near);
     else
@@ -143,9 +160,15 @@ static bool uses_name(const char *text, const char *name)
 /* True when TEXT uses a name of `let` whose own expression is wrong; that has been told already. */
 static bool rests_on_mistake(const struct reading *reading, const char *text)
 {
-    for (int i = 0; i < reading->name_count; i++)
-        if (isnan(reading->names[i].quantity.value) && uses_name(text, reading->names[i].name))
+    for (const char *at = text; *at && reading->wrong_names > 0;) {
+        size_t length = 0;
+        while (is_word_letter(at[length]))
+            length++;
+        const int name = length ? name_index_find_part(&reading->names.index, at, length) : -1;
+        if (name >= 0 && isnan(reading->name[name].quantity.value))
             return true;
+        at += length ? length : 1;
+    }
     return false;
 }
 
@@ -170,15 +193,15 @@ static bool read_expression(struct reading *reading, const struct node *node,
         complain_kind(reading, node, path, wanted);
         return false;
     }
-    if (rests_on_mistake(reading, node->text)) {
+    /* once no more messages are wanted, what is left need not be judged */
+    if (error_is_full(reading->error) || rests_on_mistake(reading, node->text)) {
         mark_wrong(reading, path);
         return false;
     }
-    const struct named_quantity *names = reading->names;
+    const struct named_quantities *names = &reading->names;
     struct error *error =
-        field ? varying_expression_compile(node->text, arguments, names, reading->name_count,
-                                           quantity, field)
-              : expression_evaluate(node->text, names, reading->name_count, quantity);
+        field ? varying_expression_compile(node->text, arguments, names, quantity, field)
+              : expression_evaluate(node->text, names, quantity);
     char from[TEXT_MAX];
     for (int i = 0; error && i < error_count(error); i++)
         complain(reading, node->place, path, "\"%.60s\": %s%s", node->text, error_message(error, i),

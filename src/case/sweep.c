@@ -7,7 +7,7 @@
 #include "case/document_internal.h"
 #include "case/internal.h"
 
-enum { SWEEP_RUNS_MAX = 10000 };
+enum { SWEEP_RUNS_MAX = 10000, SWEEP_KEYS_MAX = 1000 };
 
 static const char sweep_key[] = "sweep", let_key[] = "let", study_key[] = "convergence";
 
@@ -125,6 +125,12 @@ static struct error *check_entries(struct simulation_case *input, const struct n
 {
     struct error *error = NULL;
     double runs = 1.0;
+    int lists = 0;
+    for (int i = 0; i < sweep->count; i++)
+        lists += lists_of(sweep->child[i]);
+    if (lists > SWEEP_KEYS_MAX)
+        return place_error(sweep->key_place, sweep_key, "these are more than %d keys",
+                           SWEEP_KEYS_MAX);
     for (int i = 0; i < sweep->count; i++) {
         struct error *wrong = check_entry(input->document, sweep->child[i]);
         runs *= wrong ? 1.0 : values_of(sweep->child[i]);

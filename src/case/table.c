@@ -387,6 +387,8 @@ const struct parameter case_table[] = {
      .offset = offsetof(struct simulation_case, gravity),
      .unit = "m/s^2",
      .standard = PARAMETER_OPTIONAL,
+     .above = -1e15,
+     .below = 1e15,
      .help =
          "the acceleration of everything that is not held, one value a dimension; none when not "
          "given"},

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/visible.h"
 #include "cli/cli.h"
 
 /* open() gives the lowest free number, so that streams opened in this order get their own. */
@@ -68,23 +69,21 @@ static void say_line(void *context, const char *text)
     (void)context;
     terminal_clear_line();
     bool bad = strstr(text, "check FAILED") != NULL, warn = strstr(text, "check falls short");
-    printf("%s%s%s\n",
-           bad    ? colour(COLOUR_BAD)
-           : warn ? colour(COLOUR_WARN)
-                  : "",
-           text, bad || warn ? colour(COLOUR_NONE) : "");
+    fputs(bad ? colour(COLOUR_BAD) : warn ? colour(COLOUR_WARN) : "", stdout);
+    text_put_visible(stdout, text);
+    printf("%s\n", bad || warn ? colour(COLOUR_NONE) : "");
     fflush(stdout);
 }
 
 static void say_progress(void *context, const char *text)
 {
     (void)context;
+    FILE *stream = draws_over() ? stderr : stdout;
     if (draws_over())
-        fprintf(stderr, "\r%s\033[K", text);
-    else {
-        printf("%s\n", text);
-        fflush(stdout);
-    }
+        putc('\r', stream);
+    text_put_visible(stream, text);
+    fputs(draws_over() ? "\033[K" : "\n", stream);
+    fflush(stream);
 }
 
 struct listener terminal_listener(void) { return (struct listener){say_line, say_progress, NULL}; }

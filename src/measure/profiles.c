@@ -2,12 +2,14 @@
  * same for any order of the particles. */
 #include "measure/profiles.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/csv.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "shape/shape.h"
 
 static struct error *out_of_memory(void)
 {
@@ -25,6 +27,53 @@ static struct error *wrong(const struct simulation *simulation, const char *name
     return error;
 }
 
+/* The ends of the bins at the start: those of `between`, or of all bodies. */
+static void find_ends(const struct profile_input *input, const struct simulation_case *of,
+                      double *low, double *high)
+{
+    const bool given = input->between.count == 2;
+    *low = given ? input->between.at[0] : (double)INFINITY;
+    *high = given ? input->between.at[1] : -(double)INFINITY;
+    for (int b = 0; b < of->bodies.count && !given; b++) {
+        const struct bounds bounds = shape_bounds(&case_body(of, b)->shape);
+        const double from[] = {bounds.low.x, bounds.low.y, bounds.low.z};
+        const double to[] = {bounds.high.x, bounds.high.y, bounds.high.z};
+        *low = minimum(*low, from[input->along]);
+        *high = maximum(*high, to[input->along]);
+    }
+}
+
+/* Bins in all groups together; their sums take some hundred bytes each. */
+static const double places_limit = 2e6;
+
+static int groups_of(const struct profile *profile, const struct simulation_case *input)
+{
+    return profile->input->by == PROFILE_BY_MATERIAL ? input->materials.count
+           : profile->input->by == PROFILE_BY_BODY   ? input->bodies.count
+                                                     : 1;
+}
+
+static struct error *check_bins(const struct profile *profile, const struct simulation *simulation)
+{
+    const struct profile_input *input = profile->input;
+    const bool of_width = !isnan(input->width);
+    double low = 0.0, high = 0.0;
+    if (of_width)
+        find_ends(input, simulation->input, &low, &high);
+    const double bins = of_width ? ceil((high - low) / input->width) : (double)input->bins;
+    const double places = bins * groups_of(profile, simulation->input);
+    char text[128];
+    if (bins > PROFILE_BINS)
+        snprintf(text, sizeof text, "%.3g bins over %.6g m are more than %d", bins, high - low,
+                 PROFILE_BINS);
+    else if (places > places_limit)
+        snprintf(text, sizeof text, "%.3g bins for all that `by` tells apart are more than %.0f",
+                 places, places_limit);
+    else
+        return NULL;
+    return wrong(simulation, profile->name, of_width ? "width" : "bins", text);
+}
+
 static struct error *prepare(struct profile *profile, const struct simulation *simulation,
                              const struct views *views)
 {
@@ -34,7 +83,8 @@ static struct error *prepare(struct profile *profile, const struct simulation *s
         told =
             error_join(told, wrong(simulation, profile->name, "fields", error_message(error, i)));
     error_free(error);
-    return told;
+    profile->body = case_find_body(simulation->input, profile->input->of);
+    return error_join(told, check_bins(profile, simulation));
 }
 
 struct error *profiles_prepare(const struct simulation *simulation, const struct views *views,
@@ -82,7 +132,7 @@ static bool is_seen(const struct profile *profile, const struct simulation *simu
     const struct profile_input *input = profile->input;
     const struct particles *particles = &simulation->particles;
     double at = particles->position[index][input->along];
-    return (!input->of || particles->body[index] == case_find_body(simulation->input, input->of)) &&
+    return (!input->of || particles->body[index] == profile->body) &&
            (input->between.count != 2 ||
             (at >= input->between.at[0] && at <= input->between.at[1]));
 }
@@ -138,12 +188,9 @@ static int64_t place_of(const struct profile *profile, const struct simulation *
 static struct error *sort(const struct profile *profile, const struct simulation *simulation,
                           struct sorting *sorting)
 {
-    const struct simulation_case *input = simulation->input;
     const struct particles *particles = &simulation->particles;
     lay_bins(profile, simulation, sorting);
-    sorting->groups = profile->input->by == PROFILE_BY_MATERIAL ? input->materials.count
-                      : profile->input->by == PROFILE_BY_BODY   ? input->bodies.count
-                                                                : 1;
+    sorting->groups = groups_of(profile, simulation->input);
     sorting->places = sorting->groups * sorting->bins;
     sorting->place = memory_allocate(((size_t)particles->count + 1) * sizeof *sorting->place);
     sorting->count = memory_allocate(((size_t)sorting->places + 1) * sizeof *sorting->count);
@@ -271,17 +318,16 @@ static void put_rows(FILE *file, const struct profile *profile, const struct sim
     const struct simulation_case *input = simulation->input;
     char *const *names =
         profile->input->by == PROFILE_BY_MATERIAL ? input->materials.names : input->bodies.names;
-    for (int64_t k = 0; k < sorting->places; k++) {
-        int group = (int)(k / sorting->bins);
-        if (!has_particles(sorting, group)) {
-            k += sorting->bins - 1;
+    for (int group = 0; group < sorting->groups; group++) {
+        if (!has_particles(sorting, group))
             continue;
+        for (int64_t bin = 0; bin < sorting->bins; bin++) {
+            if (profile->input->by != PROFILE_BY_NOTHING) {
+                csv_put_text(file, names[group]);
+                putc(',', file);
+            }
+            put_row(file, profile, sorting, scatter, group * sorting->bins + bin);
         }
-        if (profile->input->by != PROFILE_BY_NOTHING) {
-            csv_put_text(file, names[group]);
-            putc(',', file);
-        }
-        put_row(file, profile, sorting, scatter, k);
     }
 }
 

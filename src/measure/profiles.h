@@ -9,6 +9,7 @@
 struct profile {
     const char *name;
     const struct profile_input *input;
+    int body; /* of `of`; -1: all */
     struct chosen_fields fields;
 };
 

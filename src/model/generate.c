@@ -9,18 +9,13 @@
 
 #include "base/memory.h"
 #include "case/internal.h"
+#include "model/overlap.h"
 
 /* An id keeps the index of a site in 48 bits. */
 static const double sites_limit = 281474976710656.0;
 
-/* What becomes of a site that lies in another body too. */
-enum overlap { OVERLAP_KEEP, OVERLAP_DROP, OVERLAP_MISTAKE };
-
-struct rival {
-    int body;
-    enum overlap overlap;
-    struct bounds bounds;
-};
+/* More than a rank can hold particles, and as many as it looks through in a minute. */
+static const int64_t sites_a_rank = INT64_C(1) << 32;
 
 /* A walk over the sites of one body that become particles. */
 struct walk {
@@ -36,12 +31,6 @@ struct walk {
     int conflict; /* a body that overlaps by mistake, -1: none found yet */
     struct vec3 conflict_place;
 };
-
-static bool bounds_meet(const struct bounds *a, const struct bounds *b)
-{
-    return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y &&
-           b->low.y <= a->high.y && a->low.z <= b->high.z && b->low.z <= a->high.z;
-}
 
 struct lattice body_lattice(const struct simulation_case *input, int body)
 {
@@ -60,23 +49,6 @@ double largest_diameter(const struct simulation_case *input)
     return largest;
 }
 
-static bool replaces(const struct simulation_case *input, int body, int other)
-{
-    const struct name_list *list = &case_body(input, body)->replaces;
-    for (int i = 0; i < list->count; i++)
-        if (strcmp(list->names[i], input->bodies.names[other]) == 0)
-            return true;
-    return false;
-}
-
-static enum overlap overlap_of(const struct simulation_case *input, int body, int other)
-{
-    const bool gives_way = replaces(input, other, body);
-    if (replaces(input, body, other))
-        return gives_way ? OVERLAP_MISTAKE : OVERLAP_KEEP;
-    return gives_way ? OVERLAP_DROP : OVERLAP_MISTAKE;
-}
-
 static void walk_end(struct walk *walk)
 {
     free(walk->rivals);
@@ -84,40 +56,42 @@ static void walk_end(struct walk *walk)
 }
 
 /* Begins a walk over the part of BODY's lattice that falls to this rank; walk_end in any case. */
-static struct error *walk_begin(struct walk *walk, const struct simulation_case *input, int body,
+static struct error *walk_begin(struct walk *walk, const struct overlaps *overlaps, int body,
                                 const struct ranks *ranks)
 {
+    const struct simulation_case *input = overlaps->input;
     *walk = (struct walk){
         .input = input, .body = body, .lattice = body_lattice(input, body), .conflict = -1};
+    if (isinf(walk->lattice.sites))
+        return input_error(input, "bodies", input->bodies.names[body],
+                           "the lattice has more sites than ids can tell apart: choose a coarser "
+                           "resolution");
     if (walk->lattice.sites >= sites_limit)
         return input_error(input, "bodies", input->bodies.names[body],
                            "the lattice has %.3g sites, more than the %.3g that ids can tell "
                            "apart: choose a coarser resolution",
                            walk->lattice.sites, sites_limit);
     const struct slice slice = ranks_slice(ranks, (int64_t)walk->lattice.sites);
+    if (slice.end - slice.begin > sites_a_rank)
+        return input_error(input, "bodies", input->bodies.names[body],
+                           "the lattice has %.3g sites, too many to look at: choose a coarser "
+                           "resolution",
+                           walk->lattice.sites);
     walk->site = slice.begin;
     walk->end = slice.end;
 
-    walk->rivals = memory_allocate((size_t)input->bodies.count * sizeof *walk->rivals);
-    walk->near = memory_allocate((size_t)input->bodies.count * sizeof *walk->near);
-    if (!walk->rivals || !walk->near)
-        return error_new(ERROR_SYSTEM, "out of memory");
-    const struct bounds own = shape_bounds(&case_body(input, body)->shape);
-    for (int other = 0; other < input->bodies.count; other++) {
-        const struct bounds bounds = shape_bounds(&case_body(input, other)->shape);
-        if (other == body || !bounds_meet(&own, &bounds))
-            continue;
-        const enum overlap overlap = overlap_of(input, body, other);
-        if (overlap != OVERLAP_KEEP)
-            walk->rivals[walk->rival_count++] = (struct rival){other, overlap, bounds};
-    }
-    return NULL;
+    TRY(overlaps_rivals(overlaps, body, &walk->rivals, &walk->rival_count));
+    walk->near = memory_allocate(((size_t)walk->rival_count + 1) * sizeof *walk->near);
+    return walk->near ? NULL : error_new(ERROR_SYSTEM, "out of memory");
 }
 
 /* A matrix may hold thousands of grains: a row of sites tests only those that it meets. */
 static void walk_to_row(struct walk *walk, int64_t site)
 {
-    walk->row = lattice_row_of(&walk->lattice, site);
+    const struct lattice_row *row = &walk->row;
+    walk->row = row->sites > 0 && site == row->first + row->sites
+                    ? lattice_row_after(&walk->lattice, row)
+                    : lattice_row_of(&walk->lattice, site);
     walk->near_count = 0;
     for (int i = 0; i < walk->rival_count; i++)
         if (bounds_meet(&walk->rivals[i].bounds, &walk->row.bounds))
@@ -196,6 +170,7 @@ static int wall_before(const struct simulation_case *input, struct vec3 place)
 struct finding {
     struct body_summary summary; /* without the diameter */
     double volume;               /* of all particles, m^dimension */
+    double energy;               /* of them, internal and kinetic */
     double sound;                /* in summary.fastest */
     int wall;                    /* that a particle lies behind, as wall_before says */
     struct vec3 wall_place;
@@ -252,21 +227,24 @@ static void explore_start(const struct simulation_case *input, int body, struct 
         return;
     }
     const struct body_input *of = case_body(input, body);
+    const double speed = sqrt(square(velocity[0]) + square(velocity[1]) + square(velocity[2]));
     summary->mass += point.density * volume;
-    extend(&summary->speed, sqrt(square(velocity[0]) + square(velocity[1]) + square(velocity[2])));
+    finding->energy += point.density * volume * (point.energy + 0.5 * square(speed));
+    extend(&summary->speed, speed);
     if (of->varies || summary->particles == 1)
         note_state(&case_material(input, of->material_index)->material, point, finding);
 }
 
-static struct error *explore_body(const struct simulation_case *input, int body,
+static struct error *explore_body(const struct overlaps *overlaps, int body,
                                   const struct ranks *ranks, struct finding *finding)
 {
+    const struct simulation_case *input = overlaps->input;
     const struct range none = {NAN, NAN};
     *finding = (struct finding){.wall = -1, .conflict = -1};
     struct body_summary *summary = &finding->summary;
     summary->density = summary->pressure = summary->temperature = summary->speed = none;
     struct walk walk;
-    struct error *error = walk_begin(&walk, input, body, ranks);
+    struct error *error = walk_begin(&walk, overlaps, body, ranks);
     int64_t site;
     struct vec3 place;
     while (!error && summary->particles <= INT32_MAX && walk_next(&walk, &site, &place)) {
@@ -319,6 +297,10 @@ static struct error *judge_body(const struct simulation_case *input, int body,
             error_join(error, input_error(input, "bodies", key, "%s (at %s)", finding->start_wrong,
                                           place_text(input, finding->start_place, place)));
     }
+    if (!isfinite(finding->summary.mass) || !isfinite(finding->energy))
+        error = error_join(error, input_error(input, "bodies", name,
+                                              "its mass and energy are not finite: %g and %g",
+                                              finding->summary.mass, finding->energy));
     if (ranks_sum(ranks, finding->summary.particles) == 0)
         error = error_join(error, input_error(input, "bodies", name,
                                               "no particle: the shape is smaller than the "
@@ -330,10 +312,13 @@ static struct error *judge_body(const struct simulation_case *input, int body,
 static struct error *explore(const struct simulation_case *input, const struct ranks *ranks,
                              struct finding *findings)
 {
-    struct error *error = NULL;
+    struct overlaps overlaps;
+    struct error *error = overlaps_make(input, &overlaps);
+    const bool ready = !error;
     int64_t total = 0;
-    for (int body = 0; body < input->bodies.count; body++)
-        error = error_join(error, explore_body(input, body, ranks, &findings[body]));
+    for (int body = 0; ready && body < input->bodies.count; body++)
+        error = error_join(error, explore_body(&overlaps, body, ranks, &findings[body]));
+    overlaps_free(&overlaps);
     TRY(ranks_agree(ranks, error));
     for (int body = 0; body < input->bodies.count; body++) {
         error = error_join(error, judge_body(input, body, ranks, findings));
@@ -346,13 +331,14 @@ static struct error *explore(const struct simulation_case *input, const struct r
 }
 
 /* Makes the particles of BODY from index *next on, and moves it behind the last. */
-static struct error *fill_body(struct simulation *simulation, int body, int32_t *next)
+static struct error *fill_body(struct simulation *simulation, const struct overlaps *overlaps,
+                               int body, int32_t *next)
 {
     const struct simulation_case *input = simulation->input;
     const struct body_input *of = case_body(input, body);
     struct particles *particles = &simulation->particles;
     struct walk walk;
-    struct error *error = walk_begin(&walk, input, body, simulation->ranks);
+    struct error *error = walk_begin(&walk, overlaps, body, simulation->ranks);
     int64_t site;
     struct vec3 place;
     while (!error && walk_next(&walk, &site, &place)) {
@@ -394,8 +380,12 @@ struct error *generate_particles(struct simulation *simulation)
     int32_t next = 0;
     if (!error)
         error = particles_append(&simulation->particles, (int32_t)total, &next);
+    struct overlaps overlaps = {0};
+    if (!error)
+        error = overlaps_make(input, &overlaps);
     for (int body = 0; !error && body < input->bodies.count; body++)
-        error = fill_body(simulation, body, &next);
+        error = fill_body(simulation, &overlaps, body, &next);
+    overlaps_free(&overlaps);
     if (!error)
         error = particles_commit(&simulation->particles);
     return ranks_agree(simulation->ranks, error);

@@ -61,7 +61,10 @@ static double ratio_at(enum grid_shape shape, double s, double size)
 }
 
 /* Particles are those of the first body of a layer. Slopes that jump from particle to particle do not tell s, so that for
- * linear functions they are endlessly small, and it is M(s)/N(s), M the integral of the function N. */
+ * linear functions they are endlessly small, and it is M(s)/N(s), M the integral of the function N. Particles much
+ * smaller than a cell count as FINEST, which bounds the work. */
+static const double finest = 1.0 / 1024;
+
 void mpm_note_surfaces(struct mpm *mpm)
 {
     const enum grid_shape shape = (enum grid_shape)mpm->parameters.shape;
@@ -69,7 +72,8 @@ void mpm_note_surfaces(struct mpm *mpm)
         int b = 0;
         while (mpm->layer_of_body[b] != g && mpm->layer_at_rest[b] != g)
             b++;
-        const double size = shape == SHAPE_LINEAR ? 1.0 / 64 : 2.0 * mpm->half_size[b];
+        const double size =
+            shape == SHAPE_LINEAR ? 1.0 / 64 : maximum(2.0 * mpm->half_size[b], finest);
         for (int k = 0; k <= SURFACES; k++)
             mpm->layer[g].surface[k] =
                 ratio_at(shape, SURFACE_REACH * (2.0 * k / SURFACES - 1.0), size);

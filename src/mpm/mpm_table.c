@@ -63,7 +63,7 @@ const struct parameter mpm_table[] = {
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, courant),
      .standard = PARAMETER_OPTIONAL,
-     .above = 0.0,
+     .above = 1e-6, /* a smaller step adds less than rounding takes, and no run of it ends */
      .below = 1.0,
      .help = "K of dt = min K h/(c + max |u_i|), h the cell; when not given 0.2 where there are "
              "fluids, else 0.5"},

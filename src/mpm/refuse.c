@@ -84,6 +84,31 @@ static struct error *refuse_far_bodies(double edge, const struct simulation *sim
     return error;
 }
 
+/* A cell that is wider than all bodies resolves nothing. The default, two particles wide, may be twice as wide as a body
+ * of one particle. */
+static struct error *refuse_wide_cell(double edge, const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    double extent = 0.0;
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
+        const double from[] = {bounds.low.x, bounds.low.y, bounds.low.z};
+        const double to[] = {bounds.high.x, bounds.high.y, bounds.high.z};
+        for (int axis = 0; axis < simulation->dimension; axis++) {
+            low[axis] = minimum(low[axis], from[axis]);
+            high[axis] = maximum(high[axis], to[axis]);
+            extent = maximum(extent, high[axis] - low[axis]);
+        }
+    }
+    if (edge <= 2.0 * (1.0 + 1e-9) * extent)
+        return NULL;
+    return input_error(input, "solver", "mpm.cell",
+                       "a cell of %.6g m is wider than all bodies together, %.6g m: choose a "
+                       "smaller one, or a finer resolution",
+                       edge, extent);
+}
+
 struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
                          const struct simulation *simulation)
 {
@@ -94,5 +119,6 @@ struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
     error = error_join(error, refuse_transfer(given, input));
     error = error_join(error, refuse_order(given, simulation));
     error = error_join(error, refuse_contacts(input));
+    error = error_join(error, refuse_wide_cell(edge, simulation));
     return error_join(error, refuse_far_bodies(edge, simulation));
 }

@@ -64,7 +64,7 @@ const char *lattice_wrong(const struct one_of *lattice, const struct one_of *sha
 /* How many steps fit into EXTENT. */
 static double whole_number(double extent, double step)
 {
-    return minimum(maximum(round(extent / step), 1.0), count_limit);
+    return maximum(round(extent / step), 1.0);
 }
 
 static void make_lines(struct lattice *lattice, const struct one_of *shape, double resolution,
@@ -84,7 +84,7 @@ static void make_lines(struct lattice *lattice, const struct one_of *shape, doub
         const double extent = high[axis] - low[axis];
         const double count =
             whole_number(extent, axis == 1 ? between_rows * resolution : resolution);
-        lattice->count[axis] = (int64_t)count;
+        lattice->count[axis] = (int64_t)minimum(count, count_limit);
         lattice->sites *= count;
         spacing[axis] = extent / count;
         origin[axis] = low[axis];
@@ -152,7 +152,7 @@ static void make_rings(struct lattice *lattice, const struct lattice_rings *ring
     const double count = rings->count ? whole_number(lattice->sites, (double)rings->count)
                                       : whole_number(outer - inner, resolution);
     if (count > rings_limit) {
-        lattice->sites = maximum(lattice->sites, count_limit);
+        lattice->sites = INFINITY;
         return;
     }
     lattice->rings = (int64_t)count;
@@ -202,6 +202,13 @@ struct lattice_row lattice_row_of(const struct lattice *lattice, int64_t site)
     while (site >= ring.first + ring.sites)
         ring = make_ring(lattice, ring.index + 1, ring.first + ring.sites);
     return ring;
+}
+
+struct lattice_row lattice_row_after(const struct lattice *lattice, const struct lattice_row *row)
+{
+    return lattice->kind == LATTICE_RINGS
+               ? make_ring(lattice, row->index + 1, row->first + row->sites)
+               : make_line(lattice, row->index + 1);
 }
 
 struct vec3 lattice_place(const struct lattice *lattice, const struct lattice_row *row,

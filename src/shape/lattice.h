@@ -52,8 +52,9 @@ const char *lattice_wrong(const struct one_of *lattice, const struct one_of *sha
 struct lattice lattice_make(const struct one_of *lattice, const struct one_of *shape,
                             double resolution, int dimension);
 
-/* The row of SITE, and the place of a site of it. */
+/* The row of SITE, the row after ROW, and the place of a site of a row. */
 struct lattice_row lattice_row_of(const struct lattice *lattice, int64_t site);
+struct lattice_row lattice_row_after(const struct lattice *lattice, const struct lattice_row *row);
 struct vec3 lattice_place(const struct lattice *lattice, const struct lattice_row *row,
                           int64_t site);
 

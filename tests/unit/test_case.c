@@ -286,7 +286,7 @@ static void a_written_case_reads_back_to_the_same_bits(void **state)
                     density == case_body(input, 3)->density.constant);
         assert_true(energy == case_body(input, 3)->start.energy);
         assert_string_equal(input->title, "Wilkins' plate impact: # 1");
-        assert_string_equal(case_check(input, 1)->source, "a \"book\"\n");
+        assert_string_equal(case_check(input, 1)->source, "a \"book\"");
         assert_string_equal(input->checks.names[1], "yes: this");
         assert_true(case_check(input, 0)->within.value == 0.005);
     }

@@ -50,6 +50,36 @@ static void joined_errors_keep_their_order_and_the_graver_kind(void **state)
     error_free(all);
 }
 
+static void beyond_fifty_messages_they_are_only_counted(void **state)
+{
+    (void)state;
+    struct error *all = NULL, *more = NULL;
+    for (int i = 0; i < 50; i++) {
+        assert_false(error_is_full(all));
+        all = error_join(all, error_new(ERROR_INPUT, "message %d", i));
+    }
+    assert_true(error_is_full(all));
+    assert_int_equal(error_count(all), 50);
+    for (int i = 0; i < 70; i++)
+        more = error_join(more, error_new(ERROR_STATE, "later"));
+    assert_string_equal(error_message(more, 50), "20 more are not shown");
+    all = error_context(error_join(all, more), "run");
+    assert_int_equal(error_count(all), 51);
+    assert_int_equal(error_kind(all), ERROR_STATE);
+    assert_string_equal(error_message(all, 49), "run: message 49");
+    assert_string_equal(error_message(all, 50), "70 more are not shown");
+    error_free(all);
+}
+
+static void a_message_is_one_visible_line(void **state)
+{
+    (void)state;
+    struct error *error = error_new(ERROR_INPUT, "no \"%s\"", "a\x1b[2J\nb");
+    error = error_context(error, "%s", "x\ny.yaml");
+    assert_string_equal(error_message(error, 0), "x\\x0ay.yaml: no \"a\\x1b[2J\\x0ab\"");
+    error_free(error);
+}
+
 static struct error *fails_unless(bool good) { return good ? NULL : error_new(ERROR_CHECK, "bad"); }
 
 static struct error *tries(bool first, bool second, int *reached)
@@ -136,6 +166,8 @@ int main(void)
         cmocka_unit_test(an_error_carries_its_kind_and_message),
         cmocka_unit_test(context_goes_before_every_message),
         cmocka_unit_test(joined_errors_keep_their_order_and_the_graver_kind),
+        cmocka_unit_test(beyond_fifty_messages_they_are_only_counted),
+        cmocka_unit_test(a_message_is_one_visible_line),
         cmocka_unit_test(try_returns_the_first_error_at_once),
         cmocka_unit_test(memory_is_aligned_and_zeroed),
         cmocka_unit_test(a_growing_array_keeps_what_it_holds),

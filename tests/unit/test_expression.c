@@ -18,12 +18,13 @@ static const struct named_quantity names[] = {
     {"none", {0.0, {0}}},           {"debt", {-4.0, {1, 0, 0, 0}}},
     {"start", {0.0, {0, 0, 1, 0}}},
 };
+static const struct named_quantities all = {COUNT_OF(names), names, {0}};
 
 static void assert_value(const char *text, double value, const char *unit_text)
 {
     struct quantity quantity;
     struct unit unit;
-    struct error *error = expression_evaluate(text, names, (int)COUNT_OF(names), &quantity);
+    struct error *error = expression_evaluate(text, &all, &quantity);
     if (error)
         fail_msg("%s: %s", text, error_message(error, 0));
     assert_null(unit_parse(unit_text, &unit));
@@ -38,7 +39,7 @@ static void assert_value(const char *text, double value, const char *unit_text)
 static void assert_refused(const char *text, const char *message)
 {
     struct quantity quantity;
-    struct error *error = expression_evaluate(text, names, (int)COUNT_OF(names), &quantity);
+    struct error *error = expression_evaluate(text, &all, &quantity);
     if (!error)
         fail_msg("\"%s\" was accepted as %g", text, quantity.value);
     assert_int_equal(error_kind(error), ERROR_INPUT);
@@ -81,9 +82,9 @@ static void a_prefixed_whole_number_has_the_bits_of_the_plain_one(void **state)
         struct quantity prefixed, plain;
         char text[32];
         snprintf(text, sizeof text, "%d um", i);
-        assert_null(expression_evaluate(text, NULL, 0, &prefixed));
+        assert_null(expression_evaluate(text, NULL, &prefixed));
         snprintf(text, sizeof text, "%de-6 m", i);
-        assert_null(expression_evaluate(text, NULL, 0, &plain));
+        assert_null(expression_evaluate(text, NULL, &plain));
         if (prefixed.value != plain.value)
             fail_msg("%s: %.17g", text, prefixed.value);
     }
@@ -320,7 +321,7 @@ static void random_texts_are_read_or_refused(void **state)
             strcat(text, pieces[(seed >> 16) % COUNT_OF(pieces)]);
         }
         struct quantity quantity = {0};
-        struct error *error = expression_evaluate(text, names, (int)COUNT_OF(names), &quantity);
+        struct error *error = expression_evaluate(text, &all, &quantity);
         assert_true(error || isfinite(quantity.value));
         error_free(error);
     }

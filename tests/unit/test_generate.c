@@ -150,7 +150,7 @@ static void a_body_beyond_an_outflow_is_refused(void **state)
     struct outflow_input face = {.axis = 1, .side = WALL_HIGH, .at = 0.95};
     open_workshop(&w, 2, 0.1);
     add_body(&w, "box", &box);
-    w.input.outflows = (struct named_map){1, (char *[]){"top"}, &face};
+    w.input.outflows = (struct named_map){1, (char *[]){"top"}, &face, {0}};
     const struct ranks alone = ranks_alone();
     struct simulation simulation;
     assert_made(&w, &alone, &simulation); /* the last row stands on the face */

@@ -67,9 +67,9 @@ static int setup(void **state)
         b->names[i] = names[i];
     }
     b->input.dimension = 1;
-    b->input.bodies = (struct named_map){BODIES, b->names, b->body};
+    b->input.bodies = (struct named_map){BODIES, b->names, b->body, {0}};
     b->check_names[0] = it;
-    b->input.checks = (struct named_map){0, b->check_names, &b->check};
+    b->input.checks = (struct named_map){0, b->check_names, &b->check, {0}};
     b->check.is.value = b->check.within.value = b->check.scale.value = NAN;
     b->check.at_least.value = b->check.at = NAN;
     b->check.relative_check = -1;

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/csv.h"
+#include "build_case.h"
 #include "measure/probes.h"
 #include "measure/profiles.h"
 #include "run/checks.h"
@@ -65,10 +66,10 @@ static struct bench *make_bench(int dimension)
     b->input.dimension = dimension;
     b->input.resolution = 0.1;
     b->input.run.until = 10.0;
-    b->input.bodies = (struct named_map){BODIES, b->names, b->body};
-    b->input.probes = (struct named_map){1, b->probe_names, &b->given};
-    b->input.profiles = (struct named_map){1, b->probe_names, &b->profile};
-    b->input.checks = (struct named_map){1, b->probe_names, &b->check};
+    b->input.bodies = (struct named_map){BODIES, b->names, b->body, {0}};
+    b->input.probes = (struct named_map){1, b->probe_names, &b->given, {0}};
+    b->input.profiles = (struct named_map){1, b->probe_names, &b->profile, {0}};
+    b->input.checks = (struct named_map){1, b->probe_names, &b->check, {0}};
     b->given.axis = -1;
     b->given.every = b->profile.width = NAN;
     b->check.is.value = b->check.within.value = b->check.scale.value = NAN;
@@ -473,6 +474,8 @@ static void a_profile_has_mean_and_scatter_of_each_bin(void **state)
     (void)state;
     struct bench *b = make_bench(2);
     struct profiles profiles;
+    struct shape_box box = {VECTOR(0.0, 0.0), VECTOR(2.0, 1.0)};
+    b->body[0].shape = b->body[1].shape = shape_of("box", &box);
     b->profile.fields = (struct name_list){1, (char *[]){pressure}};
     b->profile.width = 0.2;
     b->profile.of = left;

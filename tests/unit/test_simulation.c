@@ -25,9 +25,9 @@ static void open_workshop(struct workshop *w, int bodies)
     *w = (struct workshop){.input = {.dimension = 2}};
     for (int i = 0; i < BODIES; i++)
         w->names[i] = "a";
-    w->input.bodies = (struct named_map){bodies, w->names, w->bodies};
-    w->input.contacts = (struct named_map){0, w->names, w->contacts};
-    w->input.walls = (struct named_map){0, w->names, w->walls};
+    w->input.bodies = (struct named_map){bodies, w->names, w->bodies, {0}};
+    w->input.contacts = (struct named_map){0, w->names, w->contacts, {0}};
+    w->input.walls = (struct named_map){0, w->names, w->walls, {0}};
 }
 
 static void add_contact(struct workshop *w, int first, int second, int shear, int tension)

@@ -82,8 +82,7 @@ static struct field_value field(const char *text)
 {
     struct quantity result;
     struct field_value value;
-    assert_null(
-        varying_expression_compile(text, ARGUMENT_POSITION, NULL, 0, &result, &value.varying));
+    assert_null(varying_expression_compile(text, ARGUMENT_POSITION, NULL, &result, &value.varying));
     value.constant = result.value;
     return value;
 }

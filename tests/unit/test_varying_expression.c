@@ -16,14 +16,15 @@ static const struct named_quantity names[] = {
     {"n", {-2.0, {0}}},
     {"z", {1.0, {0}}},
 };
+static const struct named_quantities all = {COUNT_OF(names), names, {0}};
 
 static struct varying_expression *compiled(const char *text, const char *unit_text)
 {
     struct varying_expression *expression;
     struct quantity result;
     struct unit unit;
-    struct error *error = varying_expression_compile(text, ARGUMENT_POSITION, names,
-                                                     (int)COUNT_OF(names), &result, &expression);
+    struct error *error =
+        varying_expression_compile(text, ARGUMENT_POSITION, &all, &result, &expression);
     if (error)
         fail_msg("%s: %s", text, error_message(error, 0));
     assert_non_null(expression);
@@ -46,8 +47,8 @@ static void assert_refused(const char *text, const char *message)
 {
     struct varying_expression *expression;
     struct quantity result;
-    struct error *error = varying_expression_compile(text, ARGUMENT_POSITION, names,
-                                                     (int)COUNT_OF(names), &result, &expression);
+    struct error *error =
+        varying_expression_compile(text, ARGUMENT_POSITION, &all, &result, &expression);
     if (!error)
         fail_msg("\"%s\" was accepted", text);
     assert_null(expression);
@@ -108,7 +109,7 @@ static void mistakes_are_told_as_in_any_expression(void **state)
     assert_refused("x, y", "a comma stands outside a function");
     assert_refused("2 x", "\"x\" behind a number is no unit: put \"*\" between them");
     struct quantity result;
-    struct error *error = expression_evaluate("2*y", NULL, 0, &result);
+    struct error *error = expression_evaluate("2*y", NULL, &result);
     assert_string_equal(error_message(error, 0),
                         "unknown name \"y\" (as a position it stands only in what a body has at "
                         "the start)");
@@ -120,11 +121,11 @@ static void a_text_without_position_is_a_constant(void **state)
     (void)state;
     struct varying_expression *expression;
     struct quantity result;
-    assert_null(varying_expression_compile("2*plate + 1 mm", ARGUMENT_POSITION, names,
-                                           (int)COUNT_OF(names), &result, &expression));
+    assert_null(varying_expression_compile("2*plate + 1 mm", ARGUMENT_POSITION, &all, &result,
+                                           &expression));
     assert_null(expression);
     struct quantity plain;
-    assert_null(expression_evaluate("2*plate + 1 mm", names, (int)COUNT_OF(names), &plain));
+    assert_null(expression_evaluate("2*plate + 1 mm", &all, &plain));
     assert_true(result.value == plain.value);
 }
 
@@ -134,14 +135,14 @@ static void assert_then(const char *text, const char *unit_text, double value)
     struct varying_expression *expression, *again;
     struct quantity result;
     struct unit unit;
-    struct error *error = varying_expression_compile(text, ARGUMENT_TIME, names,
-                                                     (int)COUNT_OF(names), &result, &expression);
+    struct error *error =
+        varying_expression_compile(text, ARGUMENT_TIME, &all, &result, &expression);
     if (error)
         fail_msg("%s: %s", text, error_message(error, 0));
     assert_null(unit_parse(unit_text, &unit));
     assert_true(dimension_equal(result.dimension, unit.dimension));
     const char *written = varying_expression_text(expression);
-    assert_null(varying_expression_compile(written, ARGUMENT_TIME, NULL, 0, &result, &again));
+    assert_null(varying_expression_compile(written, ARGUMENT_TIME, NULL, &result, &again));
     const struct vec3 nowhere = {NAN, NAN, NAN};
     assert_true(varying_expression_at(expression, nowhere, 0.25) == value);
     assert_true(varying_expression_at(again, nowhere, 0.25) == value);
@@ -165,6 +166,7 @@ static void t_is_the_time(void **state)
     assert_then("8 m/s^2*t", "m/s", 2.0);
     assert_then("8 MPa/t*t^2/(1 s)", "Pa", 2e6);
     static const struct named_quantity own[] = {{"t", {1.0, {0}}}};
+    const struct named_quantities time = {1, own, {0}};
     static const char *const texts[] = {"3 t", "2*x", "sin(t)", "t*1 Pa", "4*x + t"};
     static const char *const messages[] = {
         "\"t\" behind a number is no unit: put \"*\" between them",
@@ -177,8 +179,9 @@ static void t_is_the_time(void **state)
     for (size_t i = 0; i < COUNT_OF(texts); i++) {
         struct varying_expression *expression;
         struct quantity result;
-        struct error *error = varying_expression_compile(
-            texts[i], i < 4 ? ARGUMENT_TIME : ARGUMENT_POSITION, own, i == 3, &result, &expression);
+        struct error *error =
+            varying_expression_compile(texts[i], i < 4 ? ARGUMENT_TIME : ARGUMENT_POSITION,
+                                       i == 3 ? &time : NULL, &result, &expression);
         if (!error)
             fail_msg("\"%s\" was accepted", texts[i]);
         assert_string_equal(error_message(error, 0), messages[i]);
@@ -202,11 +205,11 @@ static void the_written_text_gives_the_same_bits(void **state)
     for (size_t i = 0; i < COUNT_OF(texts); i++) {
         struct varying_expression *expression, *again;
         struct quantity result;
-        assert_null(varying_expression_compile(texts[i], ARGUMENT_POSITION, names,
-                                               (int)COUNT_OF(names), &result, &expression));
+        assert_null(
+            varying_expression_compile(texts[i], ARGUMENT_POSITION, &all, &result, &expression));
         const char *written = varying_expression_text(expression);
         struct error *error =
-            varying_expression_compile(written, ARGUMENT_POSITION, NULL, 0, &result, &again);
+            varying_expression_compile(written, ARGUMENT_POSITION, NULL, &result, &again);
         if (error)
             fail_msg("%s: %s", written, error_message(error, 0));
         assert_string_equal(written, varying_expression_text(again));
@@ -228,6 +231,7 @@ static void random_texts_are_taken_and_written_or_refused(void **state)
     static const char *const operands[] = {"3 mm", "x",      "y",        "-z", "(x", "y)", "plate",
                                            "(n)",  "sqrt(x", "-40 degC", "2",  "n",  "pi", "Omega"};
     static const char *const operators[] = {"*", "+", " - ", "/", "^", " < ", ">=", ")*", ","};
+    const struct named_quantities few = {all.count - 1, names, {0}};
     uint32_t seed = 1;
     int taken = 0;
     for (int round = 0; round < 4000; round++) {
@@ -239,12 +243,11 @@ static void random_texts_are_taken_and_written_or_refused(void **state)
         }
         struct varying_expression *expression, *again;
         struct quantity result;
-        struct error *error = varying_expression_compile(
-            text, ARGUMENT_POSITION, names, (int)COUNT_OF(names) - 1, &result, &expression);
+        struct error *error =
+            varying_expression_compile(text, ARGUMENT_POSITION, &few, &result, &expression);
         if (!error && expression) {
             const char *written = varying_expression_text(expression);
-            error =
-                varying_expression_compile(written, ARGUMENT_POSITION, NULL, 0, &result, &again);
+            error = varying_expression_compile(written, ARGUMENT_POSITION, NULL, &result, &again);
             if (error)
                 fail_msg("%s, written as %s: %s", text, written, error_message(error, 0));
             const struct vec3 place = vec3_make(0.3, -1.7, 2.2);

@@ -25,9 +25,9 @@ static inline void open_workshop(struct workshop *w, int dimension, double resol
                            .wall_names = {"floor", "lid"}};
     w->input.dimension = dimension;
     w->input.resolution = resolution;
-    w->input.materials = (struct named_map){1, w->material_names, &w->material};
-    w->input.bodies = (struct named_map){0, w->body_names, w->bodies};
-    w->input.walls = (struct named_map){0, w->wall_names, w->walls};
+    w->input.materials = (struct named_map){1, w->material_names, &w->material, {0}};
+    w->input.bodies = (struct named_map){0, w->body_names, w->bodies, {0}};
+    w->input.walls = (struct named_map){0, w->wall_names, w->walls, {0}};
 }
 
 static inline struct body_input *add_body(struct workshop *w, const char *shape, void *value)

@@ -1,0 +1,80 @@
+/* Controls written out; see visible.h. */
+#include "base/visible.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+size_t utf8_character(const char *text, size_t length, uint32_t *code)
+{
+    static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
+    const unsigned char *byte = (const unsigned char *)text;
+    const size_t size = byte[0] < 0x80   ? 1
+                        : byte[0] < 0xc0 ? 0
+                        : byte[0] < 0xe0 ? 2
+                        : byte[0] < 0xf0 ? 3
+                        : byte[0] < 0xf8 ? 4
+                                         : 0;
+    *code = byte[0];
+    if (size < 2 || size > length)
+        return size > length ? 0 : size;
+    *code &= 0x7f >> size;
+    for (size_t i = 1; i < size; i++) {
+        if ((byte[i] & 0xc0) != 0x80)
+            return 0;
+        *code = *code << 6 | (byte[i] & 0x3f);
+    }
+    const bool surrogate = *code >= 0xd800 && *code < 0xe000;
+    return *code < least[size] || *code > 0x10ffff || surrogate ? 0 : size;
+}
+
+bool is_control(uint32_t code)
+{
+    static const uint32_t ranges[][2] = {
+        {0x00, 0x1f},     {0x7f, 0x9f},     {0x61c, 0x61c},   {0x200b, 0x200b}, {0x200e, 0x200f},
+        {0x2028, 0x202e}, {0x2060, 0x206f}, {0xfeff, 0xfeff}, {0xfff9, 0xfffb}, {0xe0000, 0xe007f}};
+    for (size_t i = 0; i < COUNT_OF(ranges); i++)
+        if (code >= ranges[i][0] && code <= ranges[i][1])
+            return true;
+    return false;
+}
+
+/* Writes the piece that TEXT starts with, as it is or written out, into PIECE; returns how many bytes of TEXT it is. */
+enum { PIECE = 16 };
+static size_t next_piece(const char *text, char piece[PIECE])
+{
+    uint32_t code;
+    const size_t size = utf8_character(text, strnlen(text, 4), &code);
+    if (size == 0 || (size == 1 && is_control(code)))
+        snprintf(piece, PIECE, "\\x%02x", (unsigned)(unsigned char)*text);
+    else if (is_control(code))
+        snprintf(piece, PIECE, "\\u%04x", (unsigned)code);
+    else
+        snprintf(piece, PIECE, "%.*s", (int)size, text);
+    return size ? size : 1;
+}
+
+char *text_visible(const char *text)
+{
+    char piece[PIECE];
+    size_t length = 0;
+    for (const char *at = text; *at; length += strlen(piece))
+        at += next_piece(at, piece);
+    char *visible = malloc(length + 1), *end = visible;
+    if (!visible)
+        return NULL;
+    for (const char *at = text; *at; end += strlen(piece)) {
+        at += next_piece(at, piece);
+        memcpy(end, piece, strlen(piece));
+    }
+    *end = '\0';
+    return visible;
+}
+
+void text_put_visible(FILE *file, const char *text)
+{
+    char piece[PIECE];
+    while (*text) {
+        text += next_piece(text, piece);
+        fputs(piece, file);
+    }
+}

@@ -1,0 +1,101 @@
+/* What the tables cannot say of checks: their limits, what they are relative to, and the study that they serve. */
+#include <string.h>
+
+#include "case/checking.h"
+#include "case/document_internal.h"
+
+static bool is_given(const struct quantity *quantity) { return !isnan(quantity->value); }
+
+static bool is_number(const struct quantity *quantity)
+{
+    return dimension_equal(quantity->dimension, (struct dimension){0});
+}
+
+/* The measure's own dimension is compared with these when the check is prepared. */
+static void check_limits(struct checking *checking, const struct check_input *check)
+{
+    const struct quantity *is = &check->is, *within = &check->within;
+    if (is_given(is) && !is_given(within))
+        case_wrong(checking, "is", "this needs `within` beside it");
+    else if (!is_given(within) && !is_given(&check->at_most) && !is_given(&check->at_least))
+        case_wrong(checking, "", "a limit is missing: `is` and `within`, `at_most` or `at_least`");
+    if (check->at_least.value > check->at_most.value &&
+        dimension_equal(check->at_least.dimension, check->at_most.dimension))
+        case_wrong(checking, "at_least", "this lies above `at_most`");
+    if (!is_given(within))
+        return;
+    if (within->value < 0.0)
+        case_wrong(checking, "within", "this cannot be negative");
+    if (is_given(is) && is->value != 0.0 && !is_number(within) &&
+        !dimension_equal(is->dimension, within->dimension))
+        case_wrong(checking, "within",
+                   "a fraction, or a quantity of the dimension of `is`, is wanted");
+}
+
+/* A chain of ratios would hide what is compared with what. */
+static void check_relative(struct checking *checking, struct check_input *check, int index)
+{
+    const struct simulation_case *input = checking->input;
+    check->relative_check = -1;
+    if (!check->relative || !strcmp(check->relative, "start"))
+        return;
+    const int other =
+        case_find_name(checking, &input->checks, "check", check->relative, "relative");
+    if (other == index)
+        case_wrong(checking, "relative", "a check cannot be relative to itself");
+    else if (other >= 0 && case_check(input, other)->relative)
+        case_wrong(checking, "relative", "the check \"%s\" is relative itself", check->relative);
+    check->relative_check = other;
+}
+
+void case_check_check(struct checking *checking, int index)
+{
+    struct check_input *check = case_check(checking->input, index);
+    if (check->of)
+        case_find_name(checking, &checking->input->bodies, "body", check->of, "of");
+    case_check_between(checking, &check->between);
+    case_check_axis(checking, "axis", check->axis);
+    if (check->about.count != 0 && case_dimension_known(checking) &&
+        check->about.count != checking->input->dimension)
+        case_wrong(checking, "about", "%d component%s wanted, one a dimension; found %d",
+                   (int)checking->input->dimension,
+                   checking->input->dimension == 1 ? " is" : "s are", check->about.count);
+    check_relative(checking, check, index);
+    if (check->at > checking->input->run.until &&
+        !document_is_wrong(checking->input->document, "run"))
+        case_wrong(checking, "at", "the run ends before, at %.9g s", checking->input->run.until);
+    if (check->falls_short && !check->falls_short[0])
+        case_wrong(checking, "falls_short", "the reason is wanted");
+    if (!check->falls_short && check->falls_short_if != 1.0)
+        case_wrong(checking, "falls_short_if", "this needs `falls_short` beside it");
+    if (!case_is_wrong(checking, ""))
+        check_limits(checking, check);
+}
+
+/* NAMES of checks under KEY. */
+static void check_check_names(struct checking *checking, const struct name_list *names,
+                              const char *key)
+{
+    for (int i = 0; i < names->count; i++)
+        case_find_name(checking, &checking->input->checks, "check", names->names[i], key);
+}
+
+void case_check_order(struct checking *checking, int index)
+{
+    const struct simulation_case *input = checking->input;
+    const struct order_input *order = case_order(input, index);
+    case_find_name(checking, &input->checks, "check", checking->name, "");
+    if (isnan(order->at_least) && isnan(order->at_most) && !case_is_wrong(checking, ""))
+        case_wrong(checking, "", "a limit is missing: `at_least` or `at_most`");
+    if (order->at_least > order->at_most)
+        case_wrong(checking, "at_least", "this lies above `at_most`");
+    if (order->falls_short && !order->falls_short[0])
+        case_wrong(checking, "falls_short", "the reason is wanted");
+}
+
+void case_check_study(struct checking *checking)
+{
+    checking->map = "convergence";
+    check_check_names(checking, &checking->input->convergence.of, "of");
+    check_check_names(checking, &checking->input->convergence.estimate, "estimate");
+}

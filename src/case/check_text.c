@@ -1,0 +1,114 @@
+/* What names and texts may hold: they come to terminals, file names, tables that spreadsheets open, and pages. */
+#include <string.h>
+
+#include "case/checking.h"
+
+/* Bytes of a name, so that with a number and an ending it is that of a file; of the title; of other texts. */
+enum { NAME_MAX_BYTES = 100, TITLE_MAX_BYTES = 200, TEXT_MAX_BYTES = 2000 };
+
+static const char punctuation[] = "_-+.,:()/%'&#<>=";
+
+/* Letters beyond ASCII are all bytes that are none of it; controls are refused where texts are read. */
+static bool is_letter_or_digit(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           (unsigned char)c >= 128;
+}
+
+static void check_name(struct checking *checking, const char *name, bool of_file)
+{
+    if (strlen(name) > NAME_MAX_BYTES)
+        case_wrong(checking, "", "a name is longer than %d bytes", NAME_MAX_BYTES);
+    if (of_file && strchr(name, '/'))
+        case_wrong(checking, "", "its name becomes that of a file, and cannot hold a `/`");
+    bool good = is_letter_or_digit(name[0]);
+    for (const char *c = name; *c; c++)
+        good = good && (is_letter_or_digit(*c) || *c == ' ' || strchr(punctuation, *c));
+    if (!good)
+        case_wrong(checking, "",
+                   "a name starts with a letter or a digit and holds besides these only blanks and "
+                   "%s",
+                   punctuation);
+}
+
+static void check_names(struct checking *checking)
+{
+    const struct simulation_case *input = checking->input;
+    const struct {
+        const char *key;
+        const struct named_map *map;
+        bool of_file;
+    } maps[] = {{"materials", &input->materials, false},
+                {"bodies", &input->bodies, false},
+                {"walls", &input->walls, false},
+                {"outflows", &input->outflows, false},
+                {"loads", &input->loads, false},
+                {"contacts", &input->contacts, false},
+                {"detonations", &input->detonations, false},
+                {"probes", &input->probes, true},
+                {"profiles", &input->profiles, true},
+                {"checks", &input->checks, false}};
+    for (size_t k = 0; k < COUNT_OF(maps); k++) {
+        checking->map = maps[k].key;
+        for (int i = 0; i < maps[k].map->count; i++) {
+            checking->name = maps[k].map->names[i];
+            if (checking->name[0]) /* else that has been told */
+                check_name(checking, checking->name, maps[k].of_file);
+        }
+    }
+    checking->name = NULL;
+}
+
+/* TEXT for people, which gets into one line. */
+static void check_text(struct checking *checking, const char *key, char *text, size_t longest)
+{
+    size_t length = text ? strlen(text) : 0;
+    for (size_t i = 0; i < length; i++)
+        text[i] = text[i] == '\n' || text[i] == '\t' ? ' ' : text[i];
+    while (length > 1 && text[length - 1] == ' ')
+        text[--length] = '\0';
+    if (length > longest)
+        case_wrong(checking, key, "a text is longer than %zu bytes", longest);
+    if (length > 0 && strchr("=+-@", text[0]))
+        case_wrong(checking, key,
+                   "a text cannot start with =, +, - or @: spreadsheets take it for a formula");
+}
+
+void case_check_texts(struct checking *checking)
+{
+    const struct simulation_case *input = checking->input;
+    check_names(checking);
+    checking->map = "title";
+    check_text(checking, "", input->title, TITLE_MAX_BYTES);
+    checking->map = "materials";
+    for (int i = 0; i < input->materials.count; i++) {
+        const struct material_input *material = case_material(input, i);
+        checking->name = input->materials.names[i];
+        check_text(checking, "description", material->description, TEXT_MAX_BYTES);
+        check_text(checking, "source", material->source, TEXT_MAX_BYTES);
+    }
+    checking->map = "checks";
+    for (int i = 0; i < input->checks.count; i++) {
+        const struct check_input *check = case_check(input, i);
+        checking->name = input->checks.names[i];
+        check_text(checking, "source", check->source, TEXT_MAX_BYTES);
+        check_text(checking, "falls_short", check->falls_short, TEXT_MAX_BYTES);
+    }
+    checking->map = "convergence.order";
+    for (int i = 0; i < input->convergence.order.count; i++) {
+        const struct order_input *order = case_order(input, i);
+        checking->name = input->convergence.order.names[i];
+        check_text(checking, "source", order->source, TEXT_MAX_BYTES);
+        check_text(checking, "falls_short", order->falls_short, TEXT_MAX_BYTES);
+    }
+    checking->name = NULL;
+}
+
+void case_check_interval(struct checking *checking, const char *key, double interval)
+{
+    static const double most = 1e9;
+    const double until = checking->input->run.until;
+    if (interval * most < until && !document_is_wrong(checking->input->document, "run"))
+        case_wrong(checking, key, "this is less than a part in %.0e of the run, %.6g s", most,
+                   until);
+}
