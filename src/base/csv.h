@@ -38,7 +38,7 @@ struct error *csv_grow(const char *path, int64_t keep, FILE **file);
 void csv_put_head(FILE *file, const char *name, const char *unit);
 
 /* Writes TEXT (NULL: nothing) as one field in quotes, and a number with as many digits as reading the
- * same bits again takes. */
+ * same bits again takes; "nan" where there is none. */
 void csv_put_text(FILE *file, const char *text);
 void csv_put_number(FILE *file, double value);
 
