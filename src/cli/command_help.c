@@ -112,6 +112,44 @@ static void print_view(const struct view *view)
                                    : "");
 }
 
+/* The field NAME of SOLVER, NULL if it has none. */
+static const struct field_declaration *solver_field(const struct choice *solver, const char *name)
+{
+    const struct solver_class *class = solver->thing;
+    const struct field_declaration *field = NULL;
+    for (int i = 0; class->field && (field = class->field(i)); i++)
+        if (!strcmp(field->name, name))
+            break;
+    return field;
+}
+
+/* The fields that solver NUMBER adds to those of SHOWN and of the solvers before it, each with the names
+ * of all solvers that have it. */
+static void print_solver_fields(const struct choice_list *solvers, int number,
+                                const struct views *shown)
+{
+    const struct solver_class *class = solvers->choices[number].thing;
+    const struct field_declaration *field;
+    for (int i = 0; class->field && (field = class->field(i)); i++) {
+        int component;
+        char help[256] = "";
+        bool told = !field->unit || views_find(shown, field->name, &component);
+        for (int k = 0; k < number && !told; k++)
+            told = solver_field(&solvers->choices[k], field->name) != NULL;
+        if (told)
+            continue;
+        snprintf(help, sizeof help, "%s", field->help ? field->help : "");
+        for (int k = number; k < solvers->count; k++)
+            if (solver_field(&solvers->choices[k], field->name))
+                snprintf(help + strlen(help), sizeof help - strlen(help), "%s%s",
+                         k == number ? "; with " : ", ", solvers->choices[k].name);
+        print_view(&(struct view){.name = field->name,
+                                  .unit = field->unit,
+                                  .help = help,
+                                  .components = field->components});
+    }
+}
+
 /* What the particles show: the core's fields, then those that a solver adds. */
 static struct error *print_fields(void)
 {
@@ -136,17 +174,9 @@ static struct error *print_fields(void)
                                       .unit = history_slots[slot].unit,
                                       .help = history_slots[slot].help,
                                       .components = 1});
-        for (int i = 0; i < solvers->count; i++) {
-            const struct solver_class *class = solvers->choices[i].thing;
-            const struct field_declaration *field;
-            printf("with the solver %s:\n", solvers->choices[i].name);
-            for (int k = 0; class->field && (field = class->field(k)); k++)
-                if (field->unit)
-                    print_view(&(struct view){.name = field->name,
-                                              .unit = field->unit,
-                                              .help = field->help,
-                                              .components = field->components});
-        }
+        printf("where a solver has it:\n");
+        for (int i = 0; i < solvers->count; i++)
+            print_solver_fields(solvers, i, &views);
         printf("pictures also take material and body\n");
         particles_destroy(&empty->particles);
     }
@@ -267,7 +297,7 @@ static bool help_key(const struct parameter *table, const char *path)
     return false;
 }
 
-/* The nearest of all topics. */
+/* The nearest of all topics, or what mentions TOPIC. */
 static int unknown_topic(const char *topic)
 {
     const char *names[256] = {"case", "units", "fields", "let", "short", "long"};
@@ -284,6 +314,8 @@ static int unknown_topic(const char *topic)
         if (p->key)
             names[count++] = p->key;
     const char *nearest = nearest_name(topic, names, count);
+    if (!nearest && help_search(topic))
+        return EXIT_OK;
     return report_error(
         nearest ? error_new(ERROR_INPUT, "no help on \"%s\" (did you mean \"%s\"?)", topic, nearest)
                 : error_new(ERROR_INPUT, "no help on \"%s\"; see `bolide help`", topic));
