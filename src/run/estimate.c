@@ -55,9 +55,9 @@ static void join_bounds(struct bounds *all, const struct bounds *one)
 /* A mesostructure between walls stands for an endless one: there the walls bound it. */
 static void find_mean_density(const struct simulation_case *input, struct estimate *estimate)
 {
-    struct bounds box = shape_bounds(&case_body(input, 0)->shape);
+    struct bounds box = body_bounds(input, 0);
     for (int i = 1; i < input->bodies.count; i++) {
-        const struct bounds one = shape_bounds(&case_body(input, i)->shape);
+        const struct bounds one = body_bounds(input, i);
         join_bounds(&box, &one);
     }
     double low[3] = {box.low.x, box.low.y, box.low.z};
