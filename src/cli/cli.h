@@ -1,5 +1,5 @@
 /* What the subcommands share: options, words to the user, folders of shared files. This is the one
- * room that prints, exits and holds a static variable (the signal's flag). */
+ * module that prints, exits and holds a static variable (the signal's flag). */
 #ifndef BOLIDE_CLI_H
 #define BOLIDE_CLI_H
 

@@ -175,30 +175,31 @@ static void note_text(const struct simulation *simulation, const struct plane *p
 }
 
 /* Where the particles are painted. */
-static struct easel easel_of(const struct page *page, const struct plane *plane,
-                             const struct colour_scale *colours)
+static struct viewport viewport_of(const struct page *page, const struct plane *plane,
+                                   const struct colour_scale *colours)
 {
-    return (struct easel){.left = (int)floor(page->x.start * PIXELS_PER_POINT),
-                          .right = (int)floor(page->x.end * PIXELS_PER_POINT),
-                          .top = (int)floor(page->y.end * PIXELS_PER_POINT),
-                          .bottom = (int)floor(page->y.start * PIXELS_PER_POINT),
-                          .x = page->middle_x * PIXELS_PER_POINT,
-                          .y = page->middle_y * PIXELS_PER_POINT,
-                          .scale = page->scale * PIXELS_PER_POINT,
-                          .squares = plane->diameter * page->scale * PIXELS_PER_POINT < 14.0,
-                          .colours = colours};
+    return (struct viewport){.left = (int)floor(page->x.start * PIXELS_PER_POINT),
+                             .right = (int)floor(page->x.end * PIXELS_PER_POINT),
+                             .top = (int)floor(page->y.end * PIXELS_PER_POINT),
+                             .bottom = (int)floor(page->y.start * PIXELS_PER_POINT),
+                             .x = page->middle_x * PIXELS_PER_POINT,
+                             .y = page->middle_y * PIXELS_PER_POINT,
+                             .scale = page->scale * PIXELS_PER_POINT,
+                             .squares = plane->diameter * page->scale * PIXELS_PER_POINT < 14.0,
+                             .colours = colours};
 }
 
 /* Puts the IMAGE of the particles into the frame. */
-static void put_image(const struct canvas *canvas, const struct easel *easel, const uint32_t *image)
+static void put_image(const struct canvas *canvas, const struct viewport *viewport,
+                      const uint32_t *image)
 {
     cairo_surface_flush(canvas->surface);
     uint32_t *data = (uint32_t *)(void *)cairo_image_surface_get_data(canvas->surface);
     const int64_t stride = cairo_image_surface_get_stride(canvas->surface) / 4;
-    for (int64_t row = easel->top; row < easel->bottom; ++row)
-        memcpy(data + row * stride + easel->left,
-               image + (row - easel->top) * easel->right + easel->left,
-               (size_t)(easel->right - easel->left) * sizeof *data);
+    for (int64_t row = viewport->top; row < viewport->bottom; ++row)
+        memcpy(data + row * stride + viewport->left,
+               image + (row - viewport->top) * viewport->right + viewport->left,
+               (size_t)(viewport->right - viewport->left) * sizeof *data);
     cairo_surface_mark_dirty(canvas->surface);
 }
 
@@ -215,12 +216,12 @@ struct surroundings {
 
 /* The frame with the particles in it; below it the colour bar, unless a category is shown. */
 static void draw_page(const struct canvas *canvas, struct page *page, const struct dots *dots,
-                      const struct surroundings *around, const struct easel *easel,
+                      const struct surroundings *around, const struct viewport *viewport,
                       const uint32_t *image)
 {
     axis_ticks(&page->x, canvas);
     axis_ticks(&page->y, canvas);
-    put_image(canvas, easel, image);
+    put_image(canvas, viewport, image);
     axes_frame(canvas, &page->x, &page->y);
     if (around->shown->view) {
         char name[LABEL_TEXT];
@@ -250,7 +251,7 @@ static struct error *measure_head(const struct legend_entry *entries, int count,
 
 /* The picture itself. */
 static struct error *write_page(const char *path, struct page *page, const struct dots *dots,
-                                const struct surroundings *around, const struct easel *easel,
+                                const struct surroundings *around, const struct viewport *viewport,
                                 const uint32_t *image)
 {
     char note[2 * UNIT_TEXT + 32];
@@ -261,7 +262,7 @@ static struct error *write_page(const char *path, struct page *page, const struc
         double top = canvas_header(&canvas, LEFT, title_of(around->simulation), note);
         legend_draw(&canvas, around->entry, around->entries, LEFT, top, page->width - LEFT - RIGHT,
                     true);
-        draw_page(&canvas, page, dots, around, easel, image);
+        draw_page(&canvas, page, dots, around, viewport, image);
         error = canvas_publish(&canvas, path);
     }
     canvas_destroy(&canvas);
@@ -303,11 +304,12 @@ static struct error *draw_plane(const char *path, struct surroundings *around, s
     if (!isnan(fixed.high))
         range = (struct range){minimum(range.low, fixed.high), fixed.high};
     around->colours = colour_scale_make(range);
-    struct easel easel = easel_of(&page, around->plane, shown->view ? &around->colours : NULL);
-    TRY(dots_paint(ranks, dots, &easel, &image));
+    struct viewport viewport =
+        viewport_of(&page, around->plane, shown->view ? &around->colours : NULL);
+    TRY(dots_paint(ranks, dots, &viewport, &image));
     struct error *error = NULL;
     if (ranks->rank == 0)
-        error = write_page(path, &page, dots, around, &easel, image);
+        error = write_page(path, &page, dots, around, &viewport, image);
     free(image);
     return ranks_agree(ranks, error);
 }

@@ -263,7 +263,7 @@ static struct error *run_study(const struct simulation_case *input, const char *
                                const struct verify_options *options, struct study *study)
 {
     TRY(make_quantities(input, runs, study));
-    TRY(run_foresee(input));
+    TRY(run_validate(input));
     TRY(check_runs(path, options, runs));
     struct verify_result result = {0};
     char *inside = folder ? path_join(folder, "convergence") : NULL;

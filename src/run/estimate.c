@@ -93,7 +93,7 @@ struct error *estimate_run(const struct simulation_case *input, int threads,
     struct error *error = estimate->body && estimate->material_mass && summary
                               ? generate_summary(input, summary)
                               : error_new(ERROR_SYSTEM, "out of memory");
-    error = error_join(error, run_foresee(input));
+    error = error_join(error, run_validate(input));
     for (int i = 0; i < bodies && !error; i++) {
         estimate->body[i].summary = summary[i];
         add_body(input, i, estimate);
