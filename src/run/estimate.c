@@ -44,22 +44,12 @@ static double history_bytes(const struct simulation_case *input)
     return bytes;
 }
 
-static void join_bounds(struct bounds *all, const struct bounds *one)
-{
-    all->low = vec3_make(minimum(all->low.x, one->low.x), minimum(all->low.y, one->low.y),
-                         minimum(all->low.z, one->low.z));
-    all->high = vec3_make(maximum(all->high.x, one->high.x), maximum(all->high.y, one->high.y),
-                          maximum(all->high.z, one->high.z));
-}
-
-/* A mesostructure between walls stands for an endless one: there the walls bound it. */
+/* A mesostructure between walls stands for an infinite one: there the walls bound it. */
 static void find_mean_density(const struct simulation_case *input, struct estimate *estimate)
 {
     struct bounds box = body_bounds(input, 0);
-    for (int i = 1; i < input->bodies.count; i++) {
-        const struct bounds one = body_bounds(input, i);
-        join_bounds(&box, &one);
-    }
+    for (int i = 1; i < input->bodies.count; i++)
+        box = bounds_around(box, body_bounds(input, i));
     double low[3] = {box.low.x, box.low.y, box.low.z};
     double high[3] = {box.high.x, box.high.y, box.high.z};
     const bool axisymmetric = input->geometry == GEOMETRY_AXISYMMETRIC;
