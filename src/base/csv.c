@@ -128,6 +128,10 @@ void csv_put_text(FILE *file, const char *text)
 void csv_put_number(FILE *file, double value)
 {
     char text[32];
+    if (isnan(value)) { /* printf shows the sign bit of one, which means nothing */
+        fputs("nan", file);
+        return;
+    }
     value += 0.0; /* no negative zero: which of two zeros is the extreme one hangs on their order */
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(text, sizeof text, "%.*g", digits, value);

@@ -52,7 +52,7 @@ struct error *csv_visit_mark(struct csv_mark *mark, const char *name, struct vis
 void csv_put_head(FILE *file, const char *name, const char *unit);
 
 /* Writes TEXT (NULL: nothing) as one field in quotes, and a number with as many digits as reading the
- * same bits again takes. */
+ * same bits again takes; "nan" where there is none. */
 void csv_put_text(FILE *file, const char *text);
 void csv_put_number(FILE *file, double value);
 

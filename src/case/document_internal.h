@@ -129,6 +129,11 @@ void complain_kind(struct reading *reading, const struct node *node, const struc
 void complain_unknown(struct reading *reading, struct place place, const struct path *path,
                       const char *what, const char *word, const char *const *names, int count);
 
+/* The path that UNKNOWN, an entry at the top of a document that TABLE describes, may be meant for: that of
+ * an entry or a key of its name further down. In fresh memory; NULL when there is none. */
+char *document_suggest(const struct reading *reading, const struct parameter *table,
+                       const struct node *unknown);
+
 /* Writes `material, box, velocity`. */
 void list_text(const char *const *names, int count, char *text, size_t size);
 

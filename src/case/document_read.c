@@ -276,6 +276,20 @@ static void complain_missing(struct reading *reading, const struct node *map,
              known);
 }
 
+/* Complains about ENTRY with the path that it may be meant for, unless one of NAMES is like it. */
+static bool suggest_path(struct reading *reading, const struct node *entry,
+                         const struct parameter *table, const char *const *names, int count)
+{
+    char *meant =
+        nearest_name(entry->key, names, count) ? NULL : document_suggest(reading, table, entry);
+    if (meant)
+        complain(reading, entry->key_place, NULL, "unknown key \"%.60s\" (did you mean \"%s\"?)",
+                 entry->key, meant);
+    const bool told = meant != NULL;
+    free(meant);
+    return told;
+}
+
 /* A misspelt key counts as given, so that one slip gives one message. */
 static void read_table(struct reading *reading, const struct node *map, const struct path *path,
                        const struct parameter *table, void *values)
@@ -297,6 +311,8 @@ static void read_table(struct reading *reading, const struct node *map, const st
                        (char *)values + parameter->offset);
             given[owner[at]] = true;
         } else if (path || strcmp(entry->key, let_key) != 0) {
+            if (!path && suggest_path(reading, entry, table, names, count))
+                continue;
             complain_unknown(reading, entry->key_place, path,
                              strchr(entry->key, ':') ? "a blank is missing behind the colon in"
                                                      : "unknown key",

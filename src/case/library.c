@@ -75,16 +75,27 @@ char *library_file(const char *const *folders, int count, const char *name)
     return NULL;
 }
 
+/* Adds the names of which WORD, if it is no mere letter or two, is a part to TEXT, as `"steel-1006", "steel-304"`. */
+static void add_containing(const struct name_list *names, const char *word, char *text, size_t size)
+{
+    for (int i = 0; i < names->count && strlen(word) > 2; i++) {
+        const size_t used = strlen(text);
+        if (strstr(names->names[i], word))
+            snprintf(text + used, size - used, "%s\"%s\"", used ? ", " : "", names->names[i]);
+    }
+}
+
 /* A folder that cannot be read only costs a suggestion. */
 char *library_unknown(const char *const *folders, int count, const char *name)
 {
-    char *found = NULL, known[2048] = "";
+    char *found = NULL, known[2048] = "", part[1024] = "";
     for (int i = 0; i < count && !found; i++) {
         struct name_list names;
         error_free(library_names(folders[i], &names));
         const char *const *all = (const char *const *)names.names;
         size_t used = strlen(known);
         found = text_copy(nearest_name(name, all, names.count));
+        add_containing(&names, name, part, sizeof part);
         if (used && used + 2 < sizeof known && names.count)
             used += (size_t)snprintf(known + used, sizeof known - used, ", ");
         list_text(all, names.count, known + used, sizeof known - used);
@@ -93,6 +104,8 @@ char *library_unknown(const char *const *folders, int count, const char *name)
     char *text;
     if (found)
         text = text_format("no material \"%s\" in the library (did you mean \"%s\"?)", name, found);
+    else if (part[0])
+        text = text_format("no material \"%s\" in the library (did you mean %s?)", name, part);
     else if (known[0])
         text = text_format("no material \"%s\" in the library (known: %s)", name, known);
     else

@@ -13,7 +13,8 @@ void library_names_free(struct name_list *names);
 /* The file of material NAME in the first of COUNT folders that has it, NULL if none has; free it. */
 char *library_file(const char *const *folders, int count, const char *name);
 
-/* `no material "x" in the library`, and the nearest that there is, or all; free it. */
+/* `no material "x" in the library`, and the nearest that there is, those of whose names x is a part, or
+ * all; free it. */
 char *library_unknown(const char *const *folders, int count, const char *name);
 
 /* Reads the file at PATH; all its mistakes come in one error. Release what it gives. */

@@ -1,5 +1,5 @@
 /* What the subcommands share: options, words to the user, folders of shared files. This is the one
- * room that prints, exits and holds a static variable (the signals' flags). */
+ * module that prints, exits and holds a static variable (the flags of signals). */
 #ifndef BOLIDE_CLI_H
 #define BOLIDE_CLI_H
 
@@ -22,6 +22,7 @@ struct cli_options {
     bool overwrite, resume, quick, thorough, all, convergence;
     const char *time, *template_name;
     struct text_list settings, names;
+    char **located;            /* the paths of cases that names gives by their folders */
     const struct ranks *ranks; /* all processes that were started together */
 };
 
@@ -64,12 +65,19 @@ int command_help(const struct cli_options *options);
 int verify_convergence(const char *const *paths, int count, bool of_all,
                        const struct cli_options *options);
 
+/* help_search.c */
+
+/* Lists what has TEXT in its name or its help; false when nothing has. */
+bool help_search(const char *text);
+
 /* options.c */
 
 /* Reads what follows the command's name; ERROR_INPUT with the nearest right spelling. */
 struct error *options_read(const struct command *command, int count, char **words,
                            struct cli_options *options);
 void options_free(struct cli_options *options);
+/* Name, help and takers (bits of commands) of option INDEX; false after the last. */
+bool options_at(int index, const char **name, const char **help, unsigned *takers);
 /* Prints the options of COMMAND. */
 void options_print(const struct command *command);
 
@@ -122,6 +130,12 @@ struct error *results_folder(const struct cli_options *options, const char *path
 /* The folder NAME ("examples", "materials") of files that come with the program: in $BOLIDE_SHARE,
  * beside the build, where the program is installed, or here. NULL if there is none; free it. */
 char *share_folder(const char *name);
+
+/* The path of the case that GIVEN means, in fresh memory: GIVEN itself, or the case.yaml in the folder
+ * GIVEN. ERROR_INPUT for a folder without one. */
+struct error *case_locate(const char *given, char **path);
+/* Puts the paths of the cases in the place of OPTIONS' names; options_free frees them. */
+struct error *cases_locate(struct cli_options *options);
 
 /* How OPTIONS want a case to be read, with the materials in the folder MATERIALS (NULL: none). */
 struct case_options case_reading(const struct cli_options *options, const char *const *materials);

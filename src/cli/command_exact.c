@@ -56,11 +56,16 @@ static void print_profile(const struct exact_class *class, const void *solved, d
         double x = low + (high - low) * ((double)i + 0.5) / (double)points;
         enum exact_side side = exact_side_at(class, solved, x, time);
         struct exact_state s = class->sample(solved, side, x, time);
-        if (class->thermal)
-            printf("%.9g,%.9g\n", x, s.temperature);
-        else
-            printf("%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", x, s.density, s.velocity, s.pressure,
-                   s.energy, s.stress, s.deviator);
+        const double state[] = {s.density, s.velocity, s.pressure, s.energy, s.stress, s.deviator};
+        printf("%.9g", x);
+        for (size_t k = 0; k < (class->thermal ? 1 : COUNT_OF(state)); k++) {
+            const double value = class->thermal ? s.temperature : state[k];
+            if (isnan(value)) /* without a sign, as in every table */
+                printf(",nan");
+            else
+                printf(",%.9g", value);
+        }
+        putchar('\n');
     }
 }
 
@@ -151,18 +156,22 @@ static struct error *solve_choice(const struct choice *choice, const struct cli_
     return error;
 }
 
-/* The exact solution of the case at PATH, at the end of its run if no time is given. */
-static struct error *solve_case(const char *path, const struct cli_options *options)
+/* The exact solution of the case GIVEN, at the end of its run if no time is given. */
+static struct error *solve_case(const char *given, const struct cli_options *options)
 {
     double time;
+    char *path;
     struct simulation_case *input;
     TRY(read_time(options->time, &time));
-    TRY(read_case(path, options, &input));
-    struct error *error =
-        input->exact.choice
-            ? print_solution(input->exact.choice, input->exact.value,
-                             options->time ? time : input->run.until, options->points)
-            : input_error(input, "exact", NULL, "the case has no exact solution");
+    TRY(case_locate(given, &path));
+    struct error *error = read_case(path, options, &input);
+    free(path);
+    if (error)
+        return error;
+    error = input->exact.choice
+                ? print_solution(input->exact.choice, input->exact.value,
+                                 options->time ? time : input->run.until, options->points)
+                : input_error(input, "exact", NULL, "the case has no exact solution");
     case_free(input);
     return error;
 }

@@ -333,7 +333,7 @@ static bool help_key(const struct parameter *table, const char *path)
     return false;
 }
 
-/* The nearest of all topics. */
+/* The nearest of all topics, or what mentions TOPIC. */
 static int unknown_topic(const char *topic)
 {
     const char *names[256] = {"case", "units", "fields", "let", "short", "long"};
@@ -350,6 +350,8 @@ static int unknown_topic(const char *topic)
         if (p->key)
             names[count++] = p->key;
     const char *nearest = nearest_name(topic, names, count);
+    if (!nearest && help_search(topic))
+        return EXIT_OK;
     return report_error(
         nearest ? error_new(ERROR_INPUT, "no help on \"%s\" (did you mean \"%s\"?)", topic, nearest)
                 : error_new(ERROR_INPUT, "no help on \"%s\"; see `bolide help`", topic));

@@ -98,7 +98,7 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
         .reading = case_reading(options, folders),
         .catalogue = &bolide_catalogue,
         .running = {.output = options->output,
-                    .overwrite = true,
+                    .overwrite = options->overwrite,
                     .ranks = options->ranks,
                     .alarm = terminal_alarm,
                     .threads = (int)options->threads,

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/file.h"
 #include "base/memory.h"
@@ -124,6 +125,18 @@ static struct error *folder_of(const struct cli_options *options, const char *pa
     return *folder ? NULL : error_new(ERROR_SYSTEM, "out of memory");
 }
 
+/* The runs of a study lie in its folder: it is theirs alone. */
+static struct error *check_folder(const char *folder, const struct cli_options *options)
+{
+    char *runs = path_join(folder, "convergence");
+    struct error *error = !runs ? error_new(ERROR_SYSTEM, "out of memory") : NULL;
+    if (runs && !options->overwrite && access(runs, F_OK) == 0)
+        error = error_new(
+            ERROR_INPUT, "%s: holds a convergence study already (--overwrite replaces it)", folder);
+    free(runs);
+    return ranks_agree(options->ranks, error);
+}
+
 static struct error *study_case(const char *path, const struct verify_options *verifying,
                                 const struct simulation_case *input,
                                 const struct cli_options *options)
@@ -131,6 +144,8 @@ static struct error *study_case(const char *path, const struct verify_options *v
     struct study study = {0};
     char *name = verify_name(path), *folder = NULL;
     struct error *error = folder_of(options, path, input, name, &folder);
+    if (!error)
+        error = check_folder(folder, options);
     if (!error)
         error = convergence_run(path, name, folder, verifying, &study);
     if (study.runs) {

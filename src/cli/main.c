@@ -82,6 +82,8 @@ static int run_command(int count, char **words, const struct ranks *ranks)
     struct cli_options options;
     struct error *error = options_read(command, count - 2, words + 2, &options);
     options.ranks = ranks;
+    if (!error && command->bit & (COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY))
+        error = ranks_agree(ranks, cases_locate(&options));
     int status = EXIT_OK;
     if (error)
         status = report_error(error);

@@ -25,8 +25,9 @@ static const struct option option_table[] = {
     {"--output", "DIR", "folder of the results (run: results/<name of the case>; verify: none)",
      OPTION_TEXT, AT(output), COMMAND_RUN | COMMAND_VERIFY},
     {"--overwrite", NULL, "replace the results that the folder holds", OPTION_FLAG, AT(overwrite),
+     COMMAND_RUN | COMMAND_VERIFY},
+    {"--resume", NULL, "continue from the folder's checkpoint (restart)", OPTION_FLAG, AT(resume),
      COMMAND_RUN},
-    {"--resume", NULL, "go on from the folder's checkpoint", OPTION_FLAG, AT(resume), COMMAND_RUN},
     {"--threads", "N", "number of threads (all processors)", OPTION_THREADS, AT(threads),
      COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY},
     {"--set", "PATH=VALUE", "replace a value of the case: run.until=3us; may be repeated",
@@ -181,8 +182,21 @@ struct error *options_read(const struct command *command, int count, char **word
 
 void options_free(struct cli_options *options)
 {
+    for (int i = 0; options->located && i < options->names.count; i++)
+        free(options->located[i]);
+    free(options->located);
     free(options->settings.text);
     free(options->names.text);
+}
+
+bool options_at(int index, const char **name, const char **help, unsigned *takers)
+{
+    if (index >= (int)COUNT_OF(option_table))
+        return false;
+    *name = option_table[index].name;
+    *help = option_table[index].help;
+    *takers = option_table[index].commands;
+    return true;
 }
 
 void options_print(const struct command *command)

@@ -57,9 +57,9 @@ struct place {
 
 /* Places on their way. */
 struct places {
-    int64_t count, room, errands, errand_room;
+    int64_t count, room, sends, send_room;
     struct place *place;
-    struct errand *errand;
+    struct send_item *send;
 };
 
 /* The places that a rank has got: so many that particles stood at, then images. */
@@ -105,10 +105,10 @@ static int32_t rank_of(const struct ranks *ranks, const double number[3])
 
 static bool send_to(struct places *places, int32_t rank)
 {
-    if (!memory_reserve((void **)&places->errand, &places->errand_room, places->errands + 1,
-                        places->errands, sizeof *places->errand))
+    if (!memory_reserve((void **)&places->send, &places->send_room, places->sends + 1,
+                        places->sends, sizeof *places->send))
         return false;
-    places->errand[places->errands++] = (struct errand){rank, (int32_t)places->count - 1};
+    places->send[places->sends++] = (struct send_item){rank, (int32_t)places->count - 1};
     return true;
 }
 
@@ -215,10 +215,10 @@ static struct error *compare_on_ranks(const struct measurement *measurement,
     struct error *error =
         ranks_agree(ranks, find_places(measurement, start, field, reach, &places));
     if (!error)
-        error = exchange_once(ranks, places.errand, (int32_t)places.errands, places.place,
+        error = exchange_once(ranks, places.send, (int32_t)places.sends, places.place,
                               sizeof *places.place, (void **)&received.place, &received.count);
     free(places.place);
-    free(places.errand);
+    free(places.send);
     if (!error)
         error = sort_places(&received);
     if (!error)

@@ -4,14 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* In a plane nothing happens along z but stress; on a line nothing across it but stress. */
-static bool is_shown(int components, int component, int dimension)
-{
-    if (components == 3)
-        return component < dimension;
-    return component < 3 || dimension == 3 || (dimension == 2 && component == 3);
-}
-
 static void add(struct chosen_fields *fields, const struct views *views, int view, int component)
 {
     const struct view *chosen = &views->view[view];
@@ -29,7 +21,7 @@ static void add_whole(struct chosen_fields *fields, const struct views *views, i
 {
     int components = views->view[view].components;
     for (int k = 0; k < components; k++)
-        if (is_shown(components, k, dimension))
+        if (view_component_shown(components, k, dimension))
             add(fields, views, view, k);
 }
 

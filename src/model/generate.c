@@ -32,11 +32,20 @@ struct walk {
     struct vec3 conflict_place;
 };
 
+struct bounds body_bounds(const struct simulation_case *input, int body)
+{
+    struct bounds bounds = shape_bounds(&case_body(input, body)->shape);
+    if (input->geometry == GEOMETRY_AXISYMMETRIC && bounds.high.x > 0.0)
+        bounds.low.x = maximum(bounds.low.x, 0.0);
+    return bounds;
+}
+
 struct lattice body_lattice(const struct simulation_case *input, int body)
 {
     const struct body_input *of = case_body(input, body);
     const double resolution = isnan(of->resolution) ? input->resolution : of->resolution;
-    return lattice_make(&of->lattice, &of->shape, resolution, (int)input->dimension);
+    return lattice_make(&of->lattice, &of->shape, body_bounds(input, body), resolution,
+                        (int)input->dimension);
 }
 
 double largest_diameter(const struct simulation_case *input)
@@ -115,6 +124,12 @@ static bool site_dropped(struct walk *walk, struct vec3 place)
     return false;
 }
 
+/* Beyond the axis of symmetry, or on it, but for rounding: there is nothing of a body. */
+static bool site_beyond_axis(const struct simulation_case *input, struct vec3 place)
+{
+    return input->geometry == GEOMETRY_AXISYMMETRIC && place.x <= 1e-9 * input->resolution;
+}
+
 /* The next site that becomes a particle, and where; false behind the last. */
 static bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place)
 {
@@ -124,7 +139,8 @@ static bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place)
         if (*site >= walk->row.first + walk->row.sites)
             walk_to_row(walk, *site);
         *place = lattice_place(&walk->lattice, &walk->row, *site);
-        if (shape_inside(shape, *place) && !site_dropped(walk, *place))
+        if (!site_beyond_axis(walk->input, *place) && shape_inside(shape, *place) &&
+            !site_dropped(walk, *place))
             return true;
     }
     return false;
@@ -146,8 +162,8 @@ static double depth_at(const struct simulation_case *input, struct vec3 place)
     return input->geometry == GEOMETRY_AXISYMMETRIC ? place.x : 1.0;
 }
 
-/* The wall that PLACE lies behind, -1 for none, the number of walls for the axis of symmetry, and beyond that the
- * outflow that it lies beyond. A particle on a wall would meet its own image. */
+/* The wall that PLACE lies behind, -1 for none, and from the number of walls on the outflow that it lies
+ * beyond. A particle on a wall would meet its own image. */
 static int wall_before(const struct simulation_case *input, struct vec3 place)
 {
     const double at[3] = {place.x, place.y, place.z};
@@ -161,9 +177,9 @@ static int wall_before(const struct simulation_case *input, struct vec3 place)
         const struct outflow_input *face = case_outflow(input, i);
         const double beyond = at[face->axis] - face->at;
         if ((face->side == WALL_LOW ? -beyond : beyond) > 1e-9 * input->resolution)
-            return walls + 1 + i;
+            return walls + i;
     }
-    return depth_at(input, place) > 0.0 ? -1 : walls;
+    return -1;
 }
 
 /* What one walk over a body found. */
@@ -262,6 +278,16 @@ static struct error *explore_body(const struct overlaps *overlaps, int body,
     return error;
 }
 
+/* Why BODY has no particle. */
+static const char *no_particle(const struct simulation_case *input, int body)
+{
+    if (input->geometry == GEOMETRY_AXISYMMETRIC && body_bounds(input, body).high.x <= 0.0)
+        return "no particle: x is the radius, and the whole body is at x < 0; move it to x > 0, or "
+               "mirror "
+               "it there";
+    return "no particle: the shape is smaller than the resolution, or replaced everywhere";
+}
+
 /* The mistakes that a walk over BODY has shown. Each pair of bodies is told once, by its first. */
 static struct error *judge_body(const struct simulation_case *input, int body,
                                 const struct ranks *ranks, const struct finding *findings)
@@ -271,17 +297,12 @@ static struct error *judge_body(const struct simulation_case *input, int body,
     const int other = finding->conflict, walls = input->walls.count;
     char place[PLACE_TEXT];
     struct error *error = NULL;
-    if (finding->wall == walls)
-        error = input_error(input, "bodies", name,
-                            "the particle at %s does not lie at x > 0: x is the radius",
-                            place_text(input, finding->wall_place, place));
-    else if (finding->wall >= 0)
-        error =
-            input_error(input, "bodies", name, "the particle at %s lies behind %s \"%s\"",
-                        place_text(input, finding->wall_place, place),
-                        finding->wall < walls ? "wall" : "outflow",
-                        finding->wall < walls ? input->walls.names[finding->wall]
-                                              : input->outflows.names[finding->wall - walls - 1]);
+    if (finding->wall >= 0)
+        error = input_error(input, "bodies", name, "the particle at %s lies behind %s \"%s\"",
+                            place_text(input, finding->wall_place, place),
+                            finding->wall < walls ? "wall" : "outflow",
+                            finding->wall < walls ? input->walls.names[finding->wall]
+                                                  : input->outflows.names[finding->wall - walls]);
     if (other >= 0 && !(other < body && findings[other].conflict == body))
         error = error_join(
             error, input_error(input, "bodies", name,
@@ -302,9 +323,8 @@ static struct error *judge_body(const struct simulation_case *input, int body,
                                               "its mass and energy are not finite: %g and %g",
                                               finding->summary.mass, finding->energy));
     if (ranks_sum(ranks, finding->summary.particles) == 0)
-        error = error_join(error, input_error(input, "bodies", name,
-                                              "no particle: the shape is smaller than the "
-                                              "resolution, or replaced everywhere"));
+        error =
+            error_join(error, input_error(input, "bodies", name, "%s", no_particle(input, body)));
     return error;
 }
 

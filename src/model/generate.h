@@ -20,6 +20,9 @@ struct body_summary {
                              fastest sound */
 };
 
+/* The bounds of BODY's shape; about an axis those of its part at x > 0, if it has one. */
+struct bounds body_bounds(const struct simulation_case *input, int body);
+
 struct lattice body_lattice(const struct simulation_case *input, int body);
 
 /* Largest initial particle diameter of a case, m: the store's cell follows from it. */
@@ -28,7 +31,8 @@ double largest_diameter(const struct simulation_case *input);
 /* Collective. Appends the particles of all bodies, each rank its slice of every lattice, with id, body,
  * material, mass, density, energy, position and velocity, and commits. ERROR_INPUT (located) when two
  * bodies overlap and neither replaces the other, when a body has no particle, or when a particle lies
- * behind a wall. A particle's mass is rho times the volume of its site. */
+ * behind a wall. A particle's mass is rho times the volume of its site. In axisymmetry x is the radius:
+ * bodies are cut at the axis. */
 struct error *generate_particles(struct simulation *simulation);
 
 /* What is no mistake but may be none of the user's wishes: a body so thin that one particle stands for its

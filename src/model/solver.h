@@ -1,5 +1,5 @@
-/* A solver is six functions. The run loop knows no method: it prepares, chooses the step, advances. A
- * solver is a choice of the catalogue's kind "solver"; its thing is a struct solver_class. */
+/* A solver is a choice of the catalogue's kind "solver"; its thing is a struct solver_class of functions.
+ * The run loop knows no method: it prepares, chooses the step, advances. */
 #ifndef BOLIDE_SOLVER_H
 #define BOLIDE_SOLVER_H
 

@@ -130,8 +130,11 @@ void views_of_particles(struct views *views, const struct simulation *simulation
         const struct field_declaration *declaration = &particles->field[i].declaration;
         if (declaration->number != NUMBER_DOUBLE || !declaration->unit)
             continue;
+        const char *unit = declaration->unit;
+        if (!strcmp(declaration->name, "mass")) /* in the unit of the totals */
+            unit = ledger_unit(LEDGER_MASS, particles->dimension, simulation->geometry);
         views_add(views, (struct view){.name = declaration->name,
-                                       .unit = declaration->unit,
+                                       .unit = unit,
                                        .help = declaration->help,
                                        .components = declaration->components,
                                        .data = particles->field[i].data});
@@ -172,6 +175,13 @@ const char *view_component_name(int components, int component)
     return components == 1 ? "" : component_names(components)[component];
 }
 
+bool view_component_shown(int components, int component, int dimension)
+{
+    if (components == 3)
+        return component < dimension;
+    return component < 3 || dimension == 3 || (dimension == 2 && component == 3);
+}
+
 /* The index of component NAME of a vector or tensor, -1 when there is none. */
 static int component_index(int components, const char *name)
 {
@@ -196,15 +206,19 @@ const struct view *views_find(const struct views *views, const char *name, int *
     return NULL;
 }
 
-static struct error *choose_component(const struct view *view)
+static struct error *choose_component(const struct view *view, int dimension)
 {
     char text[256] = "";
     size_t used = 0;
+    int shown = 0;
     for (int i = 0; i < view->components && used < sizeof text; i++)
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s.%s", i ? ", " : "",
+        if (view_component_shown(view->components, i, dimension))
+            used +=
+                (size_t)snprintf(text + used, sizeof text - used, "%s%s.%s", shown++ ? ", " : "",
                                  view->name, component_names(view->components)[i]);
-    return error_new(ERROR_INPUT, "\"%s\" has %d components, choose one: %s", view->name,
-                     view->components, text);
+    return error_new(ERROR_INPUT, "\"%s\" is a %s, choose %s: %s", view->name,
+                     view->components == 3 ? "vector" : "tensor",
+                     shown == 1 ? "its component" : "one of its components", text);
 }
 
 static struct error *no_such_field(const struct views *views, const char *field,
@@ -243,7 +257,7 @@ struct error *views_choose(const struct views *views, const char *field, const c
     if (!around)
         return no_such_field(views, field, more, count);
     if (around->components > 1 && (!*view || *component < 0))
-        return choose_component(around);
+        return choose_component(around, views->particles->dimension);
     if (!*view)
         return error_new(ERROR_INPUT, "\"%s\": %s has no components", field, whole);
     if (*component < 0)

@@ -42,6 +42,10 @@ struct error *views_choose(const struct views *views, const char *field, const c
 /* What COMPONENT of a view of COMPONENTS is called: "x", "xy"; "" for that of a scalar. */
 const char *view_component_name(int components, int component);
 
+/* Whether a component means something in DIMENSION dimensions: of a vector those along the axes that the
+ * case has, of a tensor those on the diagonal too, since stress acts along all three. */
+bool view_component_shown(int components, int component, int dimension);
+
 /* Copies the view of particles begin .. end - 1 to OUT. */
 void view_read(const struct view *view, int64_t begin, int64_t end, double *out);
 

@@ -40,9 +40,9 @@ struct meeting {
     int32_t *first;           /* of each key, the first own bin of it; -1 ends a list */
     int32_t *next;            /* of each own bin, the next one of its key */
     int32_t *told;            /* of each own bin, the last rank that needs it */
-    struct errand *errand;
-    int64_t errand_capacity, far_capacity;
-    int32_t errands, fars;
+    struct send_item *send;
+    int64_t send_capacity, far_capacity;
+    int32_t sends, fars;
     struct far_bin *far;
 };
 
@@ -83,10 +83,10 @@ static bool meet_bin(const struct mpm *mpm, struct meeting *m, const struct far_
                     if (m->told[b] == far->rank)
                         continue;
                     m->told[b] = far->rank;
-                    if (!memory_reserve((void **)&m->errand, &m->errand_capacity, m->errands + 1,
-                                        m->errands, sizeof *m->errand))
+                    if (!memory_reserve((void **)&m->send, &m->send_capacity, m->sends + 1,
+                                        m->sends, sizeof *m->send))
                         return false;
-                    m->errand[m->errands++] = (struct errand){far->rank, b};
+                    m->send[m->sends++] = (struct send_item){far->rank, b};
                 }
             }
     if (!met)
@@ -97,9 +97,9 @@ static bool meet_bin(const struct mpm *mpm, struct meeting *m, const struct far_
     return true;
 }
 
-static int compare_errands(const void *a, const void *b)
+static int compare_sends(const void *a, const void *b)
 {
-    const struct errand *x = a, *y = b;
+    const struct send_item *x = a, *y = b;
     if (x->rank != y->rank)
         return x->rank < y->rank ? -1 : 1;
     return x->item < y->item ? -1 : x->item > y->item;
@@ -129,7 +129,7 @@ static bool merge(struct mpm *mpm, const struct meeting *m)
         far && place &&
         memory_reserve((void **)&halo->bin, &halo->bin_capacity, count + 1, 0, sizeof *halo->bin) &&
         memory_reserve((void **)&halo->far, &halo->far_capacity, count + 1, 0, sizeof *halo->far) &&
-        memory_reserve((void **)&halo->goes, &halo->goes_capacity, m->errands, 0,
+        memory_reserve((void **)&halo->goes, &halo->goes_capacity, m->sends, 0,
                        sizeof *halo->goes) &&
         memory_reserve((void **)&halo->comes, &halo->comes_capacity, m->fars, 0,
                        sizeof *halo->comes);
@@ -150,8 +150,8 @@ static bool merge(struct mpm *mpm, const struct meeting *m)
         }
         halo->begin[g + 1] = to;
     }
-    for (int32_t k = 0; k < m->errands && done; k++)
-        halo->goes[k] = place[m->errand[k].item];
+    for (int32_t k = 0; k < m->sends && done; k++)
+        halo->goes[k] = place[m->send[k].item];
     for (int32_t k = 0; k < m->fars && done; k++) {
         int32_t at = halo->begin[m->far[k].layer];
         while (!halo->far[at] || halo->bin[at].key != m->far[k].key)
@@ -168,7 +168,7 @@ static void meeting_free(struct meeting *m)
     free(m->first);
     free(m->next);
     free(m->told);
-    free(m->errand);
+    free(m->send);
     free(m->far);
     block_table_free(&m->table);
 }
@@ -186,12 +186,12 @@ static struct error *plan_halo(struct mpm *mpm, const struct simulation *simulat
         if (all[k].rank != simulation->ranks->rank)
             done = meet_bin(mpm, &m, &all[k], range);
     free(all);
-    if (done && m.errands > 1)
-        qsort(m.errand, (size_t)m.errands, sizeof *m.errand, compare_errands);
+    if (done && m.sends > 1)
+        qsort(m.send, (size_t)m.sends, sizeof *m.send, compare_sends);
     done = done && merge(mpm, &m);
     struct error *error = ranks_agree(simulation->ranks, done ? NULL : out_of_memory());
     if (!error)
-        error = exchange_plan(&mpm->halo.exchange, simulation->ranks, m.errand, m.errands);
+        error = exchange_plan(&mpm->halo.exchange, simulation->ranks, m.send, m.sends);
     assert(error || mpm->halo.exchange.comes == m.fars);
     meeting_free(&m);
     return error;

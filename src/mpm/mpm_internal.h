@@ -46,7 +46,7 @@ struct halo {
     bool *far;       /* of each: another rank's */
     int64_t bin_capacity, far_capacity;
     int32_t begin[BIN_GROUPS + 1]; /* of the layers */
-    int32_t *goes, *comes; /* bins whose patches go, in the order of the errands, and come */
+    int32_t *goes, *comes; /* bins whose patches go, in the order of the items to send, and come */
     int64_t goes_capacity, comes_capacity;
     struct exchange exchange;
     double *received;

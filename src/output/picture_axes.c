@@ -147,25 +147,25 @@ static void cut_to(const struct canvas *canvas, char *clean, double room)
     }
 }
 
-void canvas_text(const struct canvas *canvas, enum text_style style, double x, double y,
-                 double along, double room, const char *text)
+void canvas_text(const struct canvas *canvas, enum text_style style, struct text_place place,
+                 const char *text)
 {
     enum { smallest_percent = 75 };
     char clean[512 + 8];
     clean_copy(clean, sizeof clean - 8, text);
     choose_font(canvas, style, 1.0);
     double width = advance(canvas, clean);
-    if (width > room) {
-        choose_font(canvas, style, maximum(room / width, smallest_percent / 100.0));
+    if (width > place.room) {
+        choose_font(canvas, style, maximum(place.room / width, smallest_percent / 100.0));
         width = advance(canvas, clean);
-        if (width > 1.01 * room) {
-            cut_to(canvas, clean, room);
+        if (width > 1.01 * place.room) {
+            cut_to(canvas, clean, place.room);
             width = advance(canvas, clean);
         }
     }
     double grey = styles[style].grey;
     cairo_set_source_rgb(canvas->pen, grey, grey, grey);
-    cairo_move_to(canvas->pen, x - along * width, y);
+    cairo_move_to(canvas->pen, place.x - place.along * width, place.y);
     cairo_show_text(canvas->pen, clean);
 }
 
@@ -173,9 +173,9 @@ double canvas_header(const struct canvas *canvas, double left, const char *title
 {
     double room = canvas->width - left - 12.0;
     if (title)
-        canvas_text(canvas, TEXT_TITLE, left, 25.0, 0.0, room, title);
+        canvas_text(canvas, TEXT_TITLE, (struct text_place){left, 25.0, 0.0, room}, title);
     if (note)
-        canvas_text(canvas, TEXT_NOTE, left, 44.0, 0.0, room, note);
+        canvas_text(canvas, TEXT_NOTE, (struct text_place){left, 44.0, 0.0, room}, note);
     return note ? 52.0 : 36.0;
 }
 
@@ -282,10 +282,14 @@ void axis_draw_below(const struct canvas *canvas, const struct axis *axis, doubl
     minor_marks(canvas, axis, 0.0, y);
     stroke_frame(canvas);
     for (int i = 0; i < axis->ticks.count; ++i)
-        canvas_text(canvas, TEXT_TICK, axis_place(axis, axis->ticks.at[i]), y + 16.0, 0.5,
-                    canvas->width, axis->ticks.text[i]);
-    canvas_text(canvas, TEXT_LABEL, 0.5 * (axis->start + axis->end), y + 33.0, 0.5,
-                canvas->width - 16.0, axis->label);
+        canvas_text(
+            canvas, TEXT_TICK,
+            (struct text_place){axis_place(axis, axis->ticks.at[i]), y + 16.0, 0.5, canvas->width},
+            axis->ticks.text[i]);
+    canvas_text(
+        canvas, TEXT_LABEL,
+        (struct text_place){0.5 * (axis->start + axis->end), y + 33.0, 0.5, canvas->width - 16.0},
+        axis->label);
 }
 
 static void axis_draw_left(const struct canvas *canvas, const struct axis *axis, double x)
@@ -301,15 +305,17 @@ static void axis_draw_left(const struct canvas *canvas, const struct axis *axis,
         double width = canvas_text_width(canvas, TEXT_TICK, axis->ticks.text[i]);
         widest = maximum(widest, minimum(width, room));
         /* A long number may become small, but never loses digits. */
-        canvas_text(canvas, TEXT_TICK, x - 7.0, axis_place(axis, axis->ticks.at[i]) + 4.0, 1.0,
-                    maximum(room, 0.76 * width), axis->ticks.text[i]);
+        canvas_text(canvas, TEXT_TICK,
+                    (struct text_place){x - 7.0, axis_place(axis, axis->ticks.at[i]) + 4.0, 1.0,
+                                        maximum(room, 0.76 * width)},
+                    axis->ticks.text[i]);
     }
     double middle = 0.5 * (axis->start + axis->end);
     cairo_save(canvas->pen);
     cairo_translate(canvas->pen, x - 7.0 - widest - 9.0, middle);
     cairo_rotate(canvas->pen, -acos(0.0));
-    canvas_text(canvas, TEXT_LABEL, 0.0, 0.0, 0.5,
-                2.0 * minimum(middle, canvas->height - middle) - 8.0, axis->label);
+    double room_along = 2.0 * minimum(middle, canvas->height - middle) - 8.0;
+    canvas_text(canvas, TEXT_LABEL, (struct text_place){0.0, 0.0, 0.5, room_along}, axis->label);
     cairo_restore(canvas->pen);
 }
 
@@ -340,26 +346,37 @@ static void draw_mark(const struct canvas *canvas, const struct legend_entry *en
     }
 }
 
-double legend_draw(const struct canvas *canvas, const struct legend_entry *entries, int count,
-                   double left, double top, double width, bool draw)
+static double legend_walk(const struct canvas *canvas, const struct legend *legend, bool draw)
 {
-    int rows = count > 0;
+    int rows = legend->entries > 0;
     double x = 0.0;
-    for (int i = 0; i < count; ++i) {
-        double mark = entries[i].mark == MARK_NONE ? 0.0 : 24.0;
-        double text = canvas_text_width(canvas, TEXT_TICK, entries[i].text);
-        text = minimum(text, width - mark);
-        if (x > 0.0 && x + mark + text > width) {
+    for (int i = 0; i < legend->entries; ++i) {
+        const struct legend_entry *entry = &legend->entry[i];
+        double mark = entry->mark == MARK_NONE ? 0.0 : 24.0;
+        double text = canvas_text_width(canvas, TEXT_TICK, entry->text);
+        text = minimum(text, legend->width - mark);
+        if (x > 0.0 && x + mark + text > legend->width) {
             ++rows;
             x = 0.0;
         }
-        double middle = top + (rows - 0.5) * LEGEND_ROW;
+        double middle = legend->top + (rows - 0.5) * LEGEND_ROW, left = legend->left + x;
         if (draw) {
-            draw_mark(canvas, &entries[i], left + x, middle);
-            canvas_text(canvas, TEXT_TICK, left + x + mark, middle + 4.0, 0.0, text + 1.0,
-                        entries[i].text);
+            draw_mark(canvas, entry, left, middle);
+            canvas_text(canvas, TEXT_TICK,
+                        (struct text_place){left + mark, middle + 4.0, 0.0, text + 1.0},
+                        entry->text);
         }
         x += mark + text + 20.0;
     }
     return rows * LEGEND_ROW;
+}
+
+double legend_height(const struct canvas *canvas, const struct legend *legend)
+{
+    return legend_walk(canvas, legend, false);
+}
+
+double legend_draw(const struct canvas *canvas, const struct legend *legend)
+{
+    return legend_walk(canvas, legend, true);
 }

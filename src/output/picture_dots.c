@@ -23,47 +23,47 @@ struct rows {
 };
 
 /* The rows that DOT may touch, its smooth rim included; one at least. */
-static struct rows rows_of(const struct easel *easel, const struct dot *dot)
+static struct rows rows_of(const struct viewport *viewport, const struct dot *dot)
 {
-    double y = easel->y - dot->up * easel->scale;
-    double reach = 0.5 * square_factor * dot->diameter * easel->scale + 2.0;
-    double last = easel->bottom - 1;
-    return (struct rows){(int)minimum(maximum(floor(y - reach), easel->top), last),
-                         1 + (int)minimum(maximum(floor(y + reach), easel->top), last)};
+    double y = viewport->y - dot->up * viewport->scale;
+    double reach = 0.5 * square_factor * dot->diameter * viewport->scale + 2.0;
+    double last = viewport->bottom - 1;
+    return (struct rows){(int)minimum(maximum(floor(y - reach), viewport->top), last),
+                         1 + (int)minimum(maximum(floor(y + reach), viewport->top), last)};
 }
 
 /* Deals the rows of EASEL: rank r gets those from cut[r] to cut[r + 1] - 1. COUNT has room for a number a row. */
-static void deal_rows(const struct ranks *ranks, const struct dots *dots, const struct easel *easel,
-                      int64_t *count, int *cut)
+static void deal_rows(const struct ranks *ranks, const struct dots *dots,
+                      const struct viewport *viewport, int64_t *count, int *cut)
 {
-    const int height = easel->bottom - easel->top;
+    const int height = viewport->bottom - viewport->top;
     int64_t total = 0, before = 0;
     for (int64_t i = 0; i < dots->count; ++i) {
-        struct rows rows = rows_of(easel, &dots->dot[i]);
-        ++count[(rows.first + rows.end) / 2 - easel->top];
+        struct rows rows = rows_of(viewport, &dots->dot[i]);
+        ++count[(rows.first + rows.end) / 2 - viewport->top];
     }
     ranks_sum_of(ranks, count, height);
     for (int row = 0; row < height; ++row)
         total += count[row];
     int rank = 0;
-    cut[0] = easel->top;
+    cut[0] = viewport->top;
     for (int row = 0; row < height; ++row) {
         while (rank + 1 < ranks->size && before * ranks->size >= total * (rank + 1))
-            cut[++rank] = easel->top + row;
+            cut[++rank] = viewport->top + row;
         before += count[row];
     }
     while (rank < ranks->size)
-        cut[++rank] = easel->bottom;
+        cut[++rank] = viewport->bottom;
 }
 
 /* Which ranks get which dots. */
-static struct error *find_errands(const struct ranks *ranks, const struct dots *dots,
-                                  const struct easel *easel, const int *cut,
-                                  struct errand **errands, int32_t *count)
+static struct error *find_send_items(const struct ranks *ranks, const struct dots *dots,
+                                     const struct viewport *viewport, const int *cut,
+                                     struct send_item **sends, int32_t *count)
 {
     int64_t room = 0;
     for (int64_t i = 0; i < dots->count; ++i) {
-        struct rows rows = rows_of(easel, &dots->dot[i]);
+        struct rows rows = rows_of(viewport, &dots->dot[i]);
         int low = 0, high = ranks->size; /* cut[low] <= rows.first < cut[high] */
         while (high - low > 1) {
             int middle = (low + high) / 2;
@@ -75,9 +75,9 @@ static struct error *find_errands(const struct ranks *ranks, const struct dots *
         for (int rank = low; rank < ranks->size && cut[rank] < rows.end; ++rank) {
             if (cut[rank] == cut[rank + 1])
                 continue;
-            if (!memory_reserve((void **)errands, &room, *count + 1, *count, sizeof **errands))
+            if (!memory_reserve((void **)sends, &room, *count + 1, *count, sizeof **sends))
                 return out_of_memory();
-            (*errands)[(*count)++] = (struct errand){rank, (int32_t)i};
+            (*sends)[(*count)++] = (struct send_item){rank, (int32_t)i};
         }
     }
     return NULL;
@@ -85,24 +85,23 @@ static struct error *find_errands(const struct ranks *ranks, const struct dots *
 
 /* The dots become those that touch the rows of this rank, FIRST to END - 1. */
 static struct error *pass_dots(const struct ranks *ranks, struct dots *dots,
-                               const struct easel *easel, int *first, int *end)
+                               const struct viewport *viewport, int *first, int *end)
 {
     int *cut = memory_allocate(((size_t)ranks->size + 1) * sizeof *cut);
-    int64_t *count = memory_allocate((size_t)(easel->bottom - easel->top) * sizeof *count);
-    struct errand *errands = NULL;
+    int64_t *count = memory_allocate((size_t)(viewport->bottom - viewport->top) * sizeof *count);
+    struct send_item *sends = NULL;
     int32_t goes = 0, comes;
     void *received;
     struct error *error = ranks_agree(ranks, cut && count ? NULL : out_of_memory());
     if (!error) {
-        deal_rows(ranks, dots, easel, count, cut);
+        deal_rows(ranks, dots, viewport, count, cut);
         *first = cut[ranks->rank];
         *end = cut[ranks->rank + 1];
-        error = ranks_agree(ranks, find_errands(ranks, dots, easel, cut, &errands, &goes));
+        error = ranks_agree(ranks, find_send_items(ranks, dots, viewport, cut, &sends, &goes));
     }
     if (!error)
-        error =
-            exchange_once(ranks, errands, goes, dots->dot, sizeof *dots->dot, &received, &comes);
-    free(errands);
+        error = exchange_once(ranks, sends, goes, dots->dot, sizeof *dots->dot, &received, &comes);
+    free(sends);
     free(cut);
     free(count);
     if (error)
@@ -139,29 +138,29 @@ static struct keyed *sort_dots(const struct dots *dots)
 }
 
 /* Paints every dot at FACTOR times its diameter by PAINT_ONE. */
-static void paint_layer(const struct pixels *pixels, const struct easel *easel,
+static void paint_layer(const struct pixels *pixels, const struct viewport *viewport,
                         const struct dots *dots, const struct keyed *order, double factor,
                         paint_function *paint_one)
 {
     for (int64_t k = 0; k < dots->count; ++k) {
         const struct dot *dot = &dots->dot[order[k].index];
-        double diameter = factor * dot->diameter * easel->scale;
-        struct colour colour = easel->colours ? colour_of(easel->colours, dot->value)
-                                              : colour_of_category((int)dot->value);
-        paint_one(pixels, easel->x + dot->across * easel->scale, easel->y - dot->up * easel->scale,
-                  diameter, colour);
+        double diameter = factor * dot->diameter * viewport->scale;
+        struct colour colour = viewport->colours ? colour_of(viewport->colours, dot->value)
+                                                 : colour_of_category((int)dot->value);
+        paint_one(pixels, viewport->x + dot->across * viewport->scale,
+                  viewport->y - dot->up * viewport->scale, diameter, colour);
     }
 }
 
-struct error *dots_paint(const struct ranks *ranks, struct dots *dots, const struct easel *easel,
-                         uint32_t **image)
+struct error *dots_paint(const struct ranks *ranks, struct dots *dots,
+                         const struct viewport *viewport, uint32_t **image)
 {
-    int first = easel->top, end = easel->bottom;
+    int first = viewport->top, end = viewport->bottom;
     int64_t total;
     *image = NULL;
     if (ranks->joined)
-        TRY(pass_dots(ranks, dots, easel, &first, &end));
-    const size_t bytes = (size_t)easel->right * sizeof(uint32_t);
+        TRY(pass_dots(ranks, dots, viewport, &first, &end));
+    const size_t bytes = (size_t)viewport->right * sizeof(uint32_t);
     const size_t size = (size_t)(end - first) * bytes;
     uint32_t *own = memory_allocate(size);
     struct keyed *order = sort_dots(dots);
@@ -169,15 +168,15 @@ struct error *dots_paint(const struct ranks *ranks, struct dots *dots, const str
     if (!error) {
         memset(own, 0xff, size); /* white */
         const struct pixels pixels = {.data = own,
-                                      .stride = easel->right,
+                                      .stride = viewport->right,
                                       .first_row = first,
-                                      .left = easel->left,
-                                      .right = easel->right,
+                                      .left = viewport->left,
+                                      .right = viewport->right,
                                       .top = first,
                                       .bottom = end};
-        if (easel->squares)
-            paint_layer(&pixels, easel, dots, order, square_factor, paint_square);
-        paint_layer(&pixels, easel, dots, order, disc_factor, paint_disc);
+        if (viewport->squares)
+            paint_layer(&pixels, viewport, dots, order, square_factor, paint_square);
+        paint_layer(&pixels, viewport, dots, order, disc_factor, paint_disc);
         error = ranks_gather(ranks, 0, own, end - first, bytes, (void **)image, &total);
     }
     free(own);

@@ -40,7 +40,7 @@ struct error *dots_take(const struct particles *particles, const struct shown *s
 
 /* What is painted upon: columns left .. right - 1 and rows top .. bottom - 1 of pixels, the middle of the extents at (x, y)
  * and SCALE pixels a metre. Small particles are painted as squares, too. */
-struct easel {
+struct viewport {
     int left, right, top, bottom;
     double x, y, scale;
     bool squares;
@@ -50,7 +50,7 @@ struct easel {
 /* Collective: paints the dots of all ranks over each other, what lies deeper first, of equal depth the lower id, so that
  * the picture is the same however they are stored. Rank 0 gets the rows, right pixels each, in fresh memory at *image;
  * the others NULL. DOTS lose their order. */
-struct error *dots_paint(const struct ranks *ranks, struct dots *dots, const struct easel *easel,
-                         uint32_t **image);
+struct error *dots_paint(const struct ranks *ranks, struct dots *dots,
+                         const struct viewport *viewport, uint32_t **image);
 
 #endif

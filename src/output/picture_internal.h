@@ -26,10 +26,13 @@ struct error *canvas_publish(const struct canvas *canvas, const char *path);
 
 enum text_style { TEXT_TITLE, TEXT_NOTE, TEXT_LABEL, TEXT_TICK };
 
-/* Writes TEXT with its base line at y; ALONG says which part of it stands at x: 0 its start, 0.5 its middle,
- * 1 its end. What is wider than ROOM is made smaller, then cut. */
-void canvas_text(const struct canvas *canvas, enum text_style style, double x, double y,
-                 double along, double room, const char *text);
+/* Where a text goes: its base line at y; ALONG says which part of it is at x: 0 its start, 0.5 its middle, 1
+ * its end. What is wider than ROOM is made smaller, then cut. */
+struct text_place {
+    double x, y, along, room;
+};
+void canvas_text(const struct canvas *canvas, enum text_style style, struct text_place place,
+                 const char *text);
 double canvas_text_width(const struct canvas *canvas, enum text_style style, const char *text);
 
 void canvas_colour(const struct canvas *canvas, struct colour colour);
@@ -100,9 +103,15 @@ struct legend_entry {
     const char *text;
 };
 
-/* Draws entries in rows from LEFT, TOP on, no wider than WIDTH; returns the height that they take. With DRAW
- * unset it only measures. */
-double legend_draw(const struct canvas *canvas, const struct legend_entry *entries, int count,
-                   double left, double top, double width, bool draw);
+/* Entries in rows from LEFT, TOP on, no wider than WIDTH. */
+struct legend {
+    const struct legend_entry *entry;
+    int entries;
+    double left, top, width;
+};
+
+/* The height that the rows take; legend_draw draws them too. */
+double legend_height(const struct canvas *canvas, const struct legend *legend);
+double legend_draw(const struct canvas *canvas, const struct legend *legend);
 
 #endif

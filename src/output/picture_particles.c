@@ -85,14 +85,39 @@ static void bar_end(const struct canvas *canvas, const struct colour_scale *colo
     cairo_fill(canvas->pen);
 }
 
-static void draw_colour_bar(const struct canvas *canvas, const struct page *page, double top,
-                            const struct colour_scale *colours, const struct dots *dots,
-                            const char *name, const char *unit)
+enum { LEGEND_MAX = 24 };
+
+/* What a picture shows with the particles. */
+struct surroundings {
+    const struct simulation *simulation;
+    const struct plane *plane;
+    const struct shown *shown;
+    const char *field;
+    struct colour_scale colours;
+    int entries;
+    struct legend_entry entry[LEGEND_MAX];
+};
+
+/* "plastic strain" of "plastic_strain", "velocity x" of "velocity.x". */
+static void field_text(const char *field, char *buffer, size_t size)
 {
+    snprintf(buffer, size, "%s", field);
+    for (char *letter = buffer; *letter; ++letter)
+        if (*letter == '_' || *letter == '.')
+            *letter = ' ';
+}
+
+/* The scale of the field, at TOP. */
+static void draw_colour_bar(const struct canvas *canvas, const struct page *page, double top,
+                            const struct surroundings *around, const struct dots *dots)
+{
+    const struct colour_scale *colours = &around->colours;
+    char name[LABEL_TEXT];
+    field_text(around->field, name, sizeof name);
     double middle = 0.5 * (page->x.start + page->x.end);
     double half = 0.5 * minimum(maximum(0.7 * (page->x.end - page->x.start), 300.0), 480.0);
     struct axis bar = {.range = colours->range, .start = middle - half, .end = middle + half};
-    axis_name(&bar, name, unit, range_reach(bar.range));
+    axis_name(&bar, name, around->shown->view->unit, range_reach(bar.range));
     axis_ticks(&bar, canvas);
     cairo_pattern_t *shades = cairo_pattern_create_linear(bar.start, 0.0, bar.end, 0.0);
     enum { shade_count = 96 };
@@ -114,7 +139,6 @@ static void draw_colour_bar(const struct canvas *canvas, const struct page *page
 }
 
 /* Collective: the categories that are in the picture; *count of them, at most LEGEND_MAX. */
-enum { LEGEND_MAX = 24 };
 static struct error *category_entries(const struct dots *dots, const struct ranks *ranks,
                                       const struct named_map *names, struct legend_entry *entries,
                                       int *count)
@@ -139,15 +163,6 @@ static struct error *category_entries(const struct dots *dots, const struct rank
     }
     free(present);
     return NULL;
-}
-
-/* "plastic strain" of "plastic_strain", "velocity x" of "velocity.x". */
-static void field_text(const char *field, char *buffer, size_t size)
-{
-    snprintf(buffer, size, "%s", field);
-    for (char *letter = buffer; *letter; ++letter)
-        if (*letter == '_' || *letter == '.')
-            *letter = ' ';
 }
 
 static const char *title_of(const struct simulation *simulation)
@@ -175,82 +190,69 @@ static void note_text(const struct simulation *simulation, const struct plane *p
 }
 
 /* Where the particles are painted. */
-static struct easel easel_of(const struct page *page, const struct plane *plane,
-                             const struct colour_scale *colours)
+static struct viewport viewport_of(const struct page *page, const struct plane *plane,
+                                   const struct colour_scale *colours)
 {
-    return (struct easel){.left = (int)floor(page->x.start * PIXELS_PER_POINT),
-                          .right = (int)floor(page->x.end * PIXELS_PER_POINT),
-                          .top = (int)floor(page->y.end * PIXELS_PER_POINT),
-                          .bottom = (int)floor(page->y.start * PIXELS_PER_POINT),
-                          .x = page->middle_x * PIXELS_PER_POINT,
-                          .y = page->middle_y * PIXELS_PER_POINT,
-                          .scale = page->scale * PIXELS_PER_POINT,
-                          .squares = plane->diameter * page->scale * PIXELS_PER_POINT < 14.0,
-                          .colours = colours};
+    return (struct viewport){.left = (int)floor(page->x.start * PIXELS_PER_POINT),
+                             .right = (int)floor(page->x.end * PIXELS_PER_POINT),
+                             .top = (int)floor(page->y.end * PIXELS_PER_POINT),
+                             .bottom = (int)floor(page->y.start * PIXELS_PER_POINT),
+                             .x = page->middle_x * PIXELS_PER_POINT,
+                             .y = page->middle_y * PIXELS_PER_POINT,
+                             .scale = page->scale * PIXELS_PER_POINT,
+                             .squares = plane->diameter * page->scale * PIXELS_PER_POINT < 14.0,
+                             .colours = colours};
 }
 
 /* Puts the IMAGE of the particles into the frame. */
-static void put_image(const struct canvas *canvas, const struct easel *easel, const uint32_t *image)
+static void put_image(const struct canvas *canvas, const struct viewport *viewport,
+                      const uint32_t *image)
 {
     cairo_surface_flush(canvas->surface);
     uint32_t *data = (uint32_t *)(void *)cairo_image_surface_get_data(canvas->surface);
     const int64_t stride = cairo_image_surface_get_stride(canvas->surface) / 4;
-    for (int64_t row = easel->top; row < easel->bottom; ++row)
-        memcpy(data + row * stride + easel->left,
-               image + (row - easel->top) * easel->right + easel->left,
-               (size_t)(easel->right - easel->left) * sizeof *data);
+    for (int64_t row = viewport->top; row < viewport->bottom; ++row)
+        memcpy(data + row * stride + viewport->left,
+               image + (row - viewport->top) * viewport->right + viewport->left,
+               (size_t)(viewport->right - viewport->left) * sizeof *data);
     cairo_surface_mark_dirty(canvas->surface);
 }
 
-/* What a picture shows beside the particles. */
-struct surroundings {
-    const struct simulation *simulation;
-    const struct plane *plane;
-    const struct shown *shown;
-    const char *field;
-    struct colour_scale colours;
-    int entries;
-    struct legend_entry entry[LEGEND_MAX];
-};
-
 /* The frame with the particles in it; below it the colour bar, unless a category is shown. */
 static void draw_page(const struct canvas *canvas, struct page *page, const struct dots *dots,
-                      const struct surroundings *around, const struct easel *easel,
+                      const struct surroundings *around, const struct viewport *viewport,
                       const uint32_t *image)
 {
     axis_ticks(&page->x, canvas);
     axis_ticks(&page->y, canvas);
-    put_image(canvas, easel, image);
+    put_image(canvas, viewport, image);
     axes_frame(canvas, &page->x, &page->y);
-    if (around->shown->view) {
-        char name[LABEL_TEXT];
-        field_text(around->field, name, sizeof name);
-        draw_colour_bar(canvas, page, page->y.start + AXIS_HEIGHT + BAR_GAP, &around->colours, dots,
-                        name, around->shown->view->unit);
-    }
+    if (around->shown->view)
+        draw_colour_bar(canvas, page, page->y.start + AXIS_HEIGHT + BAR_GAP, around, dots);
+    const struct text_place middle = {0.5 * (page->x.start + page->x.end),
+                                      0.5 * (page->y.start + page->y.end) + 4.0, 0.5,
+                                      page->x.end - page->x.start - 8.0};
     if (dots->of_all == 0)
-        canvas_text(canvas, TEXT_NOTE, 0.5 * (page->x.start + page->x.end),
-                    0.5 * (page->y.start + page->y.end) + 4.0, 0.5,
-                    page->x.end - page->x.start - 8.0, "no particles");
+        canvas_text(canvas, TEXT_NOTE, middle, "no particles");
 }
 
 /* How tall the header is, with the legend of a page of WIDTH; needed before there is a canvas of the right
  * height. */
-static struct error *measure_head(const struct legend_entry *entries, int count, double width,
-                                  double *head)
+static struct error *measure_head(const struct surroundings *around, double width, double *head)
 {
     struct canvas probe;
     struct error *error = canvas_create(1.0, 1.0, &probe);
     *head = canvas_header(&probe, 0.0, "", "") + 4.0;
     if (!error)
-        *head += legend_draw(&probe, entries, count, 0.0, 0.0, width, false);
+        *head += legend_height(&probe,
+                               &(struct legend){around->entry, around->entries, 0.0, 0.0, width});
     canvas_destroy(&probe);
     return error;
 }
 
 /* The picture itself. */
 static struct error *write_page(const char *path, struct page *page, const struct dots *dots,
-                                const struct surroundings *around, const struct easel *easel,
+                                const struct surroundings *around, const struct viewport *viewport,
                                 const uint32_t *image)
 {
     char note[2 * UNIT_TEXT + 32];
@@ -259,9 +261,9 @@ static struct error *write_page(const char *path, struct page *page, const struc
     struct error *error = canvas_create(page->width, page->height, &canvas);
     if (!error) {
         double top = canvas_header(&canvas, LEFT, title_of(around->simulation), note);
-        legend_draw(&canvas, around->entry, around->entries, LEFT, top, page->width - LEFT - RIGHT,
-                    true);
-        draw_page(&canvas, page, dots, around, easel, image);
+        legend_draw(&canvas, &(struct legend){around->entry, around->entries, LEFT, top,
+                                              page->width - LEFT - RIGHT});
+        draw_page(&canvas, page, dots, around, viewport, image);
         error = canvas_publish(&canvas, path);
     }
     canvas_destroy(&canvas);
@@ -277,7 +279,7 @@ static struct error *find_page(const struct surroundings *around, struct page *p
     double width = lay_out(around->plane, head, foot).width - LEFT - RIGHT;
     struct error *error = NULL;
     if (ranks->rank == 0)
-        error = measure_head(around->entry, around->entries, width, &head);
+        error = measure_head(around, width, &head);
     TRY(ranks_agree(ranks, error));
     ranks_broadcast(ranks, 0, &head, sizeof head);
     *page = lay_out(around->plane, head, foot);
@@ -303,11 +305,12 @@ static struct error *draw_plane(const char *path, struct surroundings *around, s
     if (!isnan(fixed.high))
         range = (struct range){minimum(range.low, fixed.high), fixed.high};
     around->colours = colour_scale_make(range);
-    struct easel easel = easel_of(&page, around->plane, shown->view ? &around->colours : NULL);
-    TRY(dots_paint(ranks, dots, &easel, &image));
+    struct viewport viewport =
+        viewport_of(&page, around->plane, shown->view ? &around->colours : NULL);
+    TRY(dots_paint(ranks, dots, &viewport, &image));
     struct error *error = NULL;
     if (ranks->rank == 0)
-        error = write_page(path, &page, dots, around, &easel, image);
+        error = write_page(path, &page, dots, around, &viewport, image);
     free(image);
     return ranks_agree(ranks, error);
 }

@@ -196,7 +196,8 @@ static double draw_legend(const struct canvas *canvas, const struct plot *plot, 
         entries[count++] = (struct legend_entry){series->line ? MARK_LINE : MARK_DOT,
                                                  series_colour(plot, s), series->label};
     }
-    return legend_draw(canvas, entries, count, LEFT, top, PLOT_WIDTH - LEFT - RIGHT, true);
+    return legend_draw(canvas,
+                       &(struct legend){entries, count, LEFT, top, PLOT_WIDTH - LEFT - RIGHT});
 }
 
 static struct error *draw_plot(const struct canvas *canvas, const struct plot *plot)

@@ -23,31 +23,40 @@ static void send(int to, const struct rows *rows, void *piece, void *request)
     }
 }
 
+/* What rank 0 takes rows with. */
+struct taking {
+    const struct rows *own;
+    void *piece, *request; /* room for some rows, and for a message */
+    int64_t at;            /* the next row of all */
+    rows_put *put;
+    void *sink;
+    struct error *error; /* the first: it ends the calls of put */
+};
+
 /* The COUNT rows of rank FROM. */
-static struct error *receive(int from, int64_t count, const struct rows *rows, void *piece,
-                             void *request, int64_t at, rows_put *put, void *sink,
-                             struct error *error)
+static void receive(struct taking *taking, int from, int64_t count)
 {
+    const struct rows *rows = taking->own;
     for (int64_t begin = 0; begin < count; begin += ROWS_AT_ONCE) {
         int64_t some = piece_from(begin, count);
         if (from == 0) {
-            rows->fill(rows->context, begin, begin + some, piece);
+            rows->fill(rows->context, begin, begin + some, taking->piece);
         } else {
-            const struct message message = {from, true, piece, some};
-            ranks_start(&message, 1, rows->bytes, request);
-            ranks_finish(1, request);
+            const struct message message = {from, true, taking->piece, some};
+            ranks_start(&message, 1, rows->bytes, taking->request);
+            ranks_finish(1, taking->request);
         }
-        if (!error)
-            error = put(sink, at + begin, some, piece);
+        if (!taking->error)
+            taking->error = taking->put(taking->sink, taking->at + begin, some, taking->piece);
     }
-    return error;
+    taking->at += count;
 }
 
 struct error *rows_pass(const struct ranks *ranks, const struct rows *rows, rows_put *put,
                         void *sink, struct error *error)
 {
     void *counts = NULL;
-    int64_t number = 0, most = (int64_t)ranks_maximum(ranks, (double)rows->count), at = 0;
+    int64_t number = 0, most = (int64_t)ranks_maximum(ranks, (double)rows->count);
     void *request = memory_allocate(ranks_request_size() + 1);
     void *piece = memory_allocate((size_t)piece_from(0, most) * rows->space);
     struct error *failure = ranks_agree(
@@ -56,13 +65,11 @@ struct error *rows_pass(const struct ranks *ranks, const struct rows *rows, rows
         failure = ranks_gather(ranks, 0, &rows->count, 1, sizeof rows->count, &counts, &number);
     if (!failure && ranks->rank != 0)
         send(0, rows, piece, request);
-    for (int r = 0; r < (int)number && piece; r++) {
-        int64_t count = ((int64_t *)counts)[r];
-        error = receive(r, count, rows, piece, request, at, put, sink, error);
-        at += count;
-    }
+    struct taking taking = {rows, piece, request, 0, put, sink, error};
+    for (int r = 0; r < (int)number && piece; r++)
+        receive(&taking, r, ((int64_t *)counts)[r]);
     free(counts);
     free(request);
     free(piece);
-    return error_join(error, failure);
+    return error_join(taking.error, failure);
 }

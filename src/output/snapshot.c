@@ -25,9 +25,9 @@ struct writing {
 struct column {
     const char *name;
     hid_t type;
-    int64_t rows;   /* of all ranks */
-    int components; /* 1: a plain list of numbers */
-    bool spread;    /* over the ranks, a row a particle; otherwise rank 0 knows all */
+    int64_t rows;     /* of all ranks */
+    int components;   /* 1: a plain list of numbers */
+    bool distributed; /* over the ranks, a row a particle; otherwise rank 0 knows all */
     void (*fill)(const void *context, int64_t begin, int64_t end, void *out);
     const void *context;
 };
@@ -75,14 +75,14 @@ static void write_column(struct writing *w, const struct column *column)
 {
     static const struct ranks alone = {0, 1, false};
     const size_t components = (size_t)column->components;
-    const struct rows rows = {column->spread ? w->simulation->particles.count : column->rows,
+    const struct rows rows = {column->distributed ? w->simulation->particles.count : column->rows,
                               components * H5Tget_size(column->type), components * sizeof(double),
                               column->fill, column->context};
-    if (!column->spread && !w->here)
+    if (!column->distributed && !w->here)
         return;
     struct sink sink = open_sink(w, column);
-    w->error =
-        rows_pass(column->spread ? w->simulation->ranks : &alone, &rows, put_rows, &sink, w->error);
+    w->error = rows_pass(column->distributed ? w->simulation->ranks : &alone, &rows, put_rows,
+                         &sink, w->error);
     if (sink.dataset >= 0)
         H5Dclose(sink.dataset);
     if (sink.space >= 0)

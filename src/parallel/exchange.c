@@ -12,8 +12,8 @@ static struct error *out_of_memory(void)
 }
 
 /* Sorts ERRANDS by rank; TO counts those of each. */
-static void sort_errands(struct exchange *x, int ranks, const struct errand *errands, int32_t count,
-                         const int32_t *to, int32_t *next)
+static void sort_items(struct exchange *x, int ranks, const struct send_item *sends, int32_t count,
+                       const int32_t *to, int32_t *next)
 {
     int32_t first = 0;
     for (int r = 0; r < ranks; r++) {
@@ -21,7 +21,7 @@ static void sort_errands(struct exchange *x, int ranks, const struct errand *err
         first += to[r];
     }
     for (int32_t k = 0; k < count; k++)
-        x->errand[next[errands[k].rank]++] = errands[k];
+        x->send[next[sends[k].rank]++] = sends[k];
 }
 
 static void add_messages(struct exchange *x, int ranks, const int32_t *counts, bool comes)
@@ -44,32 +44,32 @@ static int partners_of(int ranks, const int32_t *counts, int32_t *items)
 
 /* COUNTS is room for three numbers a rank. */
 static struct error *plan(struct exchange *x, const struct ranks *ranks,
-                          const struct errand *errands, int32_t count, int32_t *counts)
+                          const struct send_item *sends, int32_t count, int32_t *counts)
 {
     int32_t *to = counts, *from = counts + ranks->size, *next = from + ranks->size;
     for (int32_t k = 0; k < count; k++)
-        to[errands[k].rank]++;
+        to[sends[k].rank]++;
     ranks_swap_counts(ranks, to, from);
     int partners =
         partners_of(ranks->size, to, &x->goes) + partners_of(ranks->size, from, &x->comes);
-    x->errand = memory_allocate((size_t)count * sizeof *x->errand);
+    x->send = memory_allocate((size_t)count * sizeof *x->send);
     x->message = memory_allocate((size_t)partners * sizeof *x->message);
     x->requests = memory_allocate((size_t)partners * ranks_request_size());
-    if (!x->errand || !x->message || !x->requests)
+    if (!x->send || !x->message || !x->requests)
         return out_of_memory();
-    sort_errands(x, ranks->size, errands, count, to, next);
+    sort_items(x, ranks->size, sends, count, to, next);
     add_messages(x, ranks->size, from, true);
     add_messages(x, ranks->size, to, false);
     return NULL;
 }
 
 struct error *exchange_plan(struct exchange *exchange, const struct ranks *ranks,
-                            const struct errand *errands, int32_t count)
+                            const struct send_item *sends, int32_t count)
 {
     exchange_free(exchange);
     int32_t *counts = memory_allocate(3 * (size_t)ranks->size * sizeof *counts);
     TRY(ranks_agree(ranks, counts ? NULL : out_of_memory()));
-    struct error *error = plan(exchange, ranks, errands, count, counts);
+    struct error *error = plan(exchange, ranks, sends, count, counts);
     free(counts);
     return ranks_agree(ranks, error);
 }
@@ -88,7 +88,7 @@ void exchange_start(struct exchange *exchange, const void *items, size_t bytes, 
     assert((int64_t)exchange->goes * (int64_t)bytes <= exchange->buffer_bytes);
     for (int32_t k = 0; k < exchange->goes && items; k++)
         memcpy(out + (size_t)k * bytes,
-               (const char *)items + (size_t)exchange->errand[k].item * bytes, bytes);
+               (const char *)items + (size_t)exchange->send[k].item * bytes, bytes);
     for (int i = 0; i < exchange->messages; i++) {
         struct message *m = &exchange->message[i];
         char **at = m->comes ? &in : &out;
@@ -114,7 +114,7 @@ static struct error *pass(struct exchange *exchange, const struct ranks *ranks, 
     return NULL;
 }
 
-struct error *exchange_once(const struct ranks *ranks, const struct errand *errands, int32_t count,
+struct error *exchange_once(const struct ranks *ranks, const struct send_item *sends, int32_t count,
                             const void *items, size_t bytes, void **received, int32_t *came)
 {
     *received = NULL;
@@ -122,12 +122,12 @@ struct error *exchange_once(const struct ranks *ranks, const struct errand *erra
     if (!ranks->joined) {
         char *copy = *received = memory_allocate((size_t)count * bytes);
         for (int32_t k = 0; k < count && copy; k++)
-            memcpy(copy + (size_t)k * bytes, (const char *)items + (size_t)errands[k].item * bytes,
+            memcpy(copy + (size_t)k * bytes, (const char *)items + (size_t)sends[k].item * bytes,
                    bytes);
         return copy ? NULL : out_of_memory();
     }
     struct exchange exchange = {0};
-    struct error *error = exchange_plan(&exchange, ranks, errands, count);
+    struct error *error = exchange_plan(&exchange, ranks, sends, count);
     if (!error)
         error = pass(&exchange, ranks, items, bytes, received);
     *came = error ? 0 : exchange.comes;
@@ -138,7 +138,7 @@ struct error *exchange_once(const struct ranks *ranks, const struct errand *erra
 void exchange_free(struct exchange *exchange)
 {
     free(exchange->message);
-    free(exchange->errand);
+    free(exchange->send);
     free(exchange->requests);
     free(exchange->buffer);
     *exchange = (struct exchange){0};

@@ -7,7 +7,7 @@
 #include "parallel/ranks.h"
 
 /* ITEM goes to RANK. */
-struct errand {
+struct send_item {
     int32_t rank, item;
 };
 
@@ -15,22 +15,22 @@ struct exchange {
     int32_t goes, comes; /* items in all */
     int messages;
     struct message *message; /* data: not yet */
-    struct errand *errand;   /* by rank */
+    struct send_item *send;  /* by rank */
     void *buffer, *requests;
     int64_t buffer_bytes;
 };
 
-/* Collective: plans COUNT errands, in any order of ranks; items of one rank keep their order. Replaces an earlier
- * plan. */
+/* Collective: plans COUNT items to send, in any order of ranks; items of one rank keep their order.
+ * Replaces an earlier plan. */
 struct error *exchange_plan(struct exchange *exchange, const struct ranks *ranks,
-                            const struct errand *errands, int32_t count);
+                            const struct send_item *sends, int32_t count);
 
 /* Room for items of BYTES each. */
 struct error *exchange_reserve(struct exchange *exchange, size_t bytes);
 
-/* Sends the planned ones of ITEMS, BYTES each, for which there must be room (NULL: the caller has put them into the
- * buffer, in the order of the errands), and takes what comes to RECEIVED, which holds it once exchange_finish returns.
- * ITEMS may change before. */
+/* Sends the planned ones of ITEMS, BYTES each, for which there must be room (NULL: the caller has put
+ * them into the buffer, in the order of the items to send), and takes what comes to RECEIVED, which holds
+ * it once exchange_finish returns. ITEMS may change before. */
 void exchange_start(struct exchange *exchange, const void *items, size_t bytes, void *received);
 void exchange_finish(struct exchange *exchange);
 
@@ -38,7 +38,7 @@ void exchange_free(struct exchange *exchange);
 
 /* Collective, for what is sent once: the planned ones of ITEMS, BYTES each, go to their ranks; *came come, in fresh memory
  * at *received (free it). A rank alone gets what it sends. */
-struct error *exchange_once(const struct ranks *ranks, const struct errand *errands, int32_t count,
+struct error *exchange_once(const struct ranks *ranks, const struct send_item *sends, int32_t count,
                             const void *items, size_t bytes, void **received, int32_t *came);
 
 #endif

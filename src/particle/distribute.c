@@ -126,7 +126,7 @@ static void unpack(struct particles *p, int32_t i, const char *in)
 struct leaving {
     int64_t capacity;
     int32_t count, sent, filled;
-    struct errand *errand;
+    struct send_item *send;
 };
 
 static struct error *find_leaving(struct particles *p, struct leaving *leaving)
@@ -135,10 +135,10 @@ static struct error *find_leaving(struct particles *p, struct leaving *leaving)
         int32_t owner = particles_owner(p, particles_block_key(p, p->position[i]));
         if (owner == p->ranks->rank)
             continue;
-        if (!memory_reserve((void **)&leaving->errand, &leaving->capacity, leaving->count + 1,
-                            leaving->count, sizeof *leaving->errand))
+        if (!memory_reserve((void **)&leaving->send, &leaving->capacity, leaving->count + 1,
+                            leaving->count, sizeof *leaving->send))
             return out_of_memory();
-        leaving->errand[leaving->count++] = (struct errand){owner, i};
+        leaving->send[leaving->count++] = (struct send_item){owner, i};
     }
     return NULL;
 }
@@ -150,7 +150,7 @@ static struct error *take_in(struct particles *p, struct leaving *leaving, const
     const size_t bytes = bytes_that_go(p);
     int32_t k = 0, first;
     for (; k < count && leaving->filled < leaving->sent; k++)
-        unpack(p, leaving->errand[leaving->filled++].item, came + (size_t)k * bytes);
+        unpack(p, leaving->send[leaving->filled++].item, came + (size_t)k * bytes);
     TRY(particles_append(p, count - k, &first));
     for (; k < count; k++)
         unpack(p, first++, came + (size_t)k * bytes);
@@ -165,13 +165,13 @@ static struct error *send_some(struct particles *p, struct exchange *exchange,
     const size_t bytes = bytes_that_go(p);
     int32_t some = leaving->count - leaving->sent;
     some = some < AT_ONCE ? some : AT_ONCE;
-    TRY(exchange_plan(exchange, p->ranks, leaving->errand + leaving->sent, some));
+    TRY(exchange_plan(exchange, p->ranks, leaving->send + leaving->sent, some));
     char *coming = memory_allocate((size_t)exchange->comes * bytes);
     struct error *error =
         ranks_agree(p->ranks, coming ? exchange_reserve(exchange, bytes) : out_of_memory());
     if (!error) {
         for (int32_t k = 0; k < exchange->goes; k++)
-            pack(p, exchange->errand[k].item, (char *)exchange->buffer + (size_t)k * bytes);
+            pack(p, exchange->send[k].item, (char *)exchange->buffer + (size_t)k * bytes);
         exchange_start(exchange, NULL, bytes, coming);
         exchange_finish(exchange);
         leaving->sent += some;
@@ -189,9 +189,9 @@ static struct error *migrate(struct particles *p)
     while (!error && ranks_maximum(p->ranks, leaving.count - leaving.sent) > 0.0)
         error = send_some(p, &exchange, &leaving);
     for (int32_t k = leaving.filled; k < leaving.sent; k++)
-        particles_delete(p, leaving.errand[k].item);
+        particles_delete(p, leaving.send[k].item);
     exchange_free(&exchange);
-    free(leaving.errand);
+    free(leaving.send);
     return error ? error : ranks_agree(p->ranks, particles_commit(p));
 }
 

@@ -11,7 +11,7 @@ static const double margin = 1.0 + 1e-9;
 
 /* Errands in the making. */
 struct list {
-    struct errand *errand;
+    struct send_item *send;
     int64_t capacity;
     int32_t count;
 };
@@ -69,12 +69,12 @@ static struct region *own_regions(const struct particles *p, struct reach reach,
     return region;
 }
 
-static bool add_errand(struct list *list, int32_t rank, int32_t item)
+static bool add_send(struct list *list, int32_t rank, int32_t item)
 {
-    if (!memory_reserve((void **)&list->errand, &list->capacity, list->count + 1, list->count,
-                        sizeof *list->errand))
+    if (!memory_reserve((void **)&list->send, &list->capacity, list->count + 1, list->count,
+                        sizeof *list->send))
         return false;
-    list->errand[list->count++] = (struct errand){rank, item};
+    list->send[list->count++] = (struct send_item){rank, item};
     return true;
 }
 
@@ -90,16 +90,16 @@ static bool add_block(const struct particles *p, const struct block *block, stru
             if (near[k]->rank == last || !within(near[k], p->position[i], p->position[i], own))
                 continue;
             last = near[k]->rank;
-            if (!add_errand(list, last, i))
+            if (!add_send(list, last, i))
                 return false;
         }
     }
     return true;
 }
 
-static struct error *find_errands(const struct particles *p, struct reach reach, double skin,
-                                  const struct halo *halo, const struct region *own,
-                                  const struct region *whole, struct list *list)
+static struct error *find_send_items(const struct particles *p, struct reach reach, double skin,
+                                     const struct halo *halo, const struct region *own,
+                                     const struct region *whole, struct list *list)
 {
     const struct region **near = memory_allocate(2 * (size_t)halo->regions * sizeof *near);
     if (!near)
@@ -159,11 +159,12 @@ struct error *halo_plan(const struct particles *particles, struct reach reach, d
                              &halo->regions);
     struct list list = {0};
     if (!error)
-        error = ranks_agree(ranks, find_errands(particles, reach, skin, halo, own, &whole, &list));
+        error =
+            ranks_agree(ranks, find_send_items(particles, reach, skin, halo, own, &whole, &list));
     free(own);
     if (!error)
-        error = exchange_plan(&ghosts->exchange, ranks, list.errand, list.count);
-    free(list.errand);
+        error = exchange_plan(&ghosts->exchange, ranks, list.send, list.count);
+    free(list.send);
     return error ? error : introduce(particles, reach, ghosts);
 }
 

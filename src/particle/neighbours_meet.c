@@ -29,8 +29,8 @@ int motion_compare_key(const void *key, const void *far)
 }
 
 /* Which of our blocks touch those of other ranks. */
-static bool find_errands(const struct particles *p, const struct halo *halo, struct errand **errand,
-                         int32_t *count)
+static bool find_send_items(const struct particles *p, const struct halo *halo,
+                            struct send_item **send, int32_t *count)
 {
     int64_t capacity = 0, own[3];
     uint64_t key;
@@ -44,12 +44,12 @@ static bool find_errands(const struct particles *p, const struct halo *halo, str
                                                  sizeof *halo->region, motion_compare_key);
             bool is_new = other && other->rank != p->ranks->rank;
             for (int32_t e = first; e < *count && is_new; e++)
-                is_new = (*errand)[e].rank != other->rank;
+                is_new = (*send)[e].rank != other->rank;
             if (!is_new)
                 continue;
-            if (!memory_reserve((void **)errand, &capacity, *count + 1, *count, sizeof **errand))
+            if (!memory_reserve((void **)send, &capacity, *count + 1, *count, sizeof **send))
                 return false;
-            (*errand)[(*count)++] = (struct errand){other->rank, b};
+            (*send)[(*count)++] = (struct send_item){other->rank, b};
         }
     }
     return true;
@@ -58,13 +58,13 @@ static bool find_errands(const struct particles *p, const struct halo *halo, str
 struct error *motion_meet(struct block_motion *motion, const struct particles *p,
                           const struct halo *halo)
 {
-    struct errand *errand = NULL;
+    struct send_item *send = NULL;
     int32_t count = 0;
-    bool found = find_errands(p, halo, &errand, &count);
+    bool found = find_send_items(p, halo, &send, &count);
     struct error *error = ranks_agree(p->ranks, found ? NULL : motion_out_of_memory());
     if (!error)
-        error = exchange_plan(&motion->exchange, p->ranks, errand, count);
-    free(errand);
+        error = exchange_plan(&motion->exchange, p->ranks, send, count);
+    free(send);
     TRY(error);
     free(motion->far_key);
     motion->far_key = memory_allocate((size_t)motion->exchange.comes * sizeof *motion->far_key);

@@ -1,4 +1,4 @@
-/* The catalogue; each list stands in its own room. */
+/* The catalogue; each list is in its own module. */
 #include "run/catalogue.h"
 
 #include "exact/choices.h"
@@ -14,8 +14,8 @@
 enum { SHAPES = 0 SHAPE_LIST(COUNT_SHAPE) };
 
 static const struct choice solver_choices[] = {
-    {"sph", "smoothed particle hydrodynamics", sph_table, sizeof(struct sph_parameters),
-     &sph_class},
+    {"sph", "smoothed particle hydrodynamics: Riemann problems or artificial viscosity", sph_table,
+     sizeof(struct sph_parameters), &sph_class},
     {"mpm", "the material point method: particles on a grid that is made anew each step", mpm_table,
      sizeof(struct mpm_parameters), &mpm_class},
 };

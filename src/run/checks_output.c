@@ -85,10 +85,17 @@ struct error *check_results_write(const struct check_results *results, const cha
     for (int i = 0; i < results->count; i++) {
         const struct check_result *r = &results->item[i];
         csv_put_text(file, r->name);
-        fprintf(file, ",%s,%s,%.17g,%.17g,%.17g,%.17g,%s,", r->measure, r->unit, r->measured,
-                r->wanted, r->low, r->high, verdicts[r->verdict]);
+        fprintf(file, ",%s,%s,", r->measure, r->unit);
+        const double numbers[] = {r->measured, r->wanted, r->low, r->high};
+        for (size_t k = 0; k < COUNT_OF(numbers); k++) {
+            csv_put_number(file, numbers[k]);
+            putc(',', file);
+        }
+        fprintf(file, "%s,", verdicts[r->verdict]);
         csv_put_text(file, r->source);
-        fprintf(file, ",%.17g,", r->time);
+        putc(',', file);
+        csv_put_number(file, r->time);
+        putc(',', file);
         csv_put_text(file, r->falls_short);
         fputc('\n', file);
     }

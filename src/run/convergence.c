@@ -257,13 +257,14 @@ static struct error *judge_all(const struct simulation_case *input, const char *
                   : NULL;
 }
 
-/* Runs the study of INPUT, whose runs are RUNS. */
+/* Runs the study of INPUT. */
 static struct error *run_study(const struct simulation_case *input, const char *path,
-                               const char *name, const char *folder, int runs,
+                               const char *name, const char *folder,
                                const struct verify_options *options, struct study *study)
 {
+    const int runs = input->sweep_runs;
     TRY(make_quantities(input, runs, study));
-    TRY(run_foresee(input));
+    TRY(run_validate(input));
     TRY(check_runs(path, options, runs));
     struct verify_result result = {0};
     char *inside = folder ? path_join(folder, "convergence") : NULL;
@@ -290,7 +291,7 @@ struct error *convergence_run(const char *path, const char *name, const char *fo
     *study = (struct study){0};
     struct simulation_case *input;
     TRY(case_read(path, &studying.reading, options->catalogue, &input));
-    struct error *error = run_study(input, path, name, folder, input->sweep_runs, &studying, study);
+    struct error *error = run_study(input, path, name, folder, &studying, study);
     case_free(input);
     return error;
 }

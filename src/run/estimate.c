@@ -44,22 +44,12 @@ static double history_bytes(const struct simulation_case *input)
     return bytes;
 }
 
-static void join_bounds(struct bounds *all, const struct bounds *one)
-{
-    all->low = vec3_make(minimum(all->low.x, one->low.x), minimum(all->low.y, one->low.y),
-                         minimum(all->low.z, one->low.z));
-    all->high = vec3_make(maximum(all->high.x, one->high.x), maximum(all->high.y, one->high.y),
-                          maximum(all->high.z, one->high.z));
-}
-
-/* A mesostructure between walls stands for an endless one: there the walls bound it. */
+/* A mesostructure between walls stands for an infinite one: there the walls bound it. */
 static void find_mean_density(const struct simulation_case *input, struct estimate *estimate)
 {
-    struct bounds box = shape_bounds(&case_body(input, 0)->shape);
-    for (int i = 1; i < input->bodies.count; i++) {
-        const struct bounds one = shape_bounds(&case_body(input, i)->shape);
-        join_bounds(&box, &one);
-    }
+    struct bounds box = body_bounds(input, 0);
+    for (int i = 1; i < input->bodies.count; i++)
+        box = bounds_around(box, body_bounds(input, i));
     double low[3] = {box.low.x, box.low.y, box.low.z};
     double high[3] = {box.high.x, box.high.y, box.high.z};
     const bool axisymmetric = input->geometry == GEOMETRY_AXISYMMETRIC;
@@ -93,7 +83,7 @@ struct error *estimate_run(const struct simulation_case *input, int threads,
     struct error *error = estimate->body && estimate->material_mass && summary
                               ? generate_summary(input, summary)
                               : error_new(ERROR_SYSTEM, "out of memory");
-    error = error_join(error, run_foresee(input));
+    error = error_join(error, run_validate(input));
     for (int i = 0; i < bodies && !error; i++) {
         estimate->body[i].summary = summary[i];
         add_body(input, i, estimate);

@@ -352,7 +352,7 @@ struct error *run_case(const struct simulation_case *input, const struct run_opt
     return error;
 }
 
-struct error *run_foresee(const struct simulation_case *input)
+struct error *run_validate(const struct simulation_case *input)
 {
     const struct run_options options = {.threads = 1};
     struct run_result result;

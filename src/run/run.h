@@ -52,7 +52,7 @@ void run_result_free(struct run_result *result);
 
 /* The mistakes that a run of INPUT would tell before its first step, but for those of the particles
  * (generate_summary): walls, contacts, solver, checks, pictures. */
-struct error *run_foresee(const struct simulation_case *input);
+struct error *run_validate(const struct simulation_case *input);
 
 /* The step from TIME towards UNTIL where LIMIT is the largest allowed: what remains is spread over
  * the last two steps, so that no tiny step comes last. */

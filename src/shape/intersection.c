@@ -23,13 +23,8 @@ static struct bounds bounds(const void *shape)
 {
     const struct one_of_list *shapes = &((const struct shape_intersection *)shape)->shapes;
     struct bounds all = shape_bounds(&shapes->items[0]);
-    for (int i = 1; i < shapes->count; i++) {
-        const struct bounds one = shape_bounds(&shapes->items[i]);
-        all.low = vec3_make(maximum(all.low.x, one.low.x), maximum(all.low.y, one.low.y),
-                            maximum(all.low.z, one.low.z));
-        all.high = vec3_make(minimum(all.high.x, one.high.x), minimum(all.high.y, one.high.y),
-                             minimum(all.high.z, one.high.z));
-    }
+    for (int i = 1; i < shapes->count; i++)
+        all = bounds_common(all, shape_bounds(&shapes->items[i]));
     return all;
 }
 

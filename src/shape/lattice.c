@@ -67,10 +67,9 @@ static double whole_number(double extent, double step)
     return maximum(round(extent / step), 1.0);
 }
 
-static void make_lines(struct lattice *lattice, const struct one_of *shape, double resolution,
+static void make_lines(struct lattice *lattice, struct bounds bounds, double resolution,
                        int dimension)
 {
-    const struct bounds bounds = shape_bounds(shape);
     const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z};
     const double high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
     const double between_rows = lattice->kind == LATTICE_HEXAGONAL ? sqrt(0.75) : 1.0;
@@ -137,10 +136,10 @@ static struct lattice_row make_ring(const struct lattice *lattice, int64_t index
 }
 
 static void make_rings(struct lattice *lattice, const struct lattice_rings *rings,
-                       const struct one_of *shape, double resolution)
+                       const struct one_of *shape, struct bounds bounds, double resolution)
 {
     if (rings->center.count > 0)
-        lattice->radii = radii_over(shape_bounds(shape), vec3_of(&rings->center), resolution);
+        lattice->radii = radii_over(bounds, vec3_of(&rings->center), resolution);
     else
         shape_radii(shape, &lattice->radii);
     const double inner = lattice->radii.inner, outer = lattice->radii.outer;
@@ -165,13 +164,13 @@ static void make_rings(struct lattice *lattice, const struct lattice_rings *ring
 }
 
 struct lattice lattice_make(const struct one_of *lattice, const struct one_of *shape,
-                            double resolution, int dimension)
+                            struct bounds bounds, double resolution, int dimension)
 {
     struct lattice made = {.kind = (enum lattice_kind)lattice->index};
     if (made.kind == LATTICE_RINGS)
-        make_rings(&made, lattice->value, shape, resolution);
+        make_rings(&made, lattice->value, shape, bounds, resolution);
     else
-        make_lines(&made, shape, resolution, dimension);
+        make_lines(&made, bounds, resolution, dimension);
     return made;
 }
 

@@ -48,9 +48,9 @@ struct lattice_row {
  * right and has bounds. */
 const char *lattice_wrong(const struct one_of *lattice, const struct one_of *shape, int dimension);
 
-/* The lattice of SHAPE with sites RESOLUTION apart. */
+/* The lattice of SHAPE with sites RESOLUTION apart, as far as it is in BOUNDS. */
 struct lattice lattice_make(const struct one_of *lattice, const struct one_of *shape,
-                            double resolution, int dimension);
+                            struct bounds bounds, double resolution, int dimension);
 
 /* The row of SITE, the row after ROW, and the place of a site of a row. */
 struct lattice_row lattice_row_of(const struct lattice *lattice, int64_t site);

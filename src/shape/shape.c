@@ -49,3 +49,23 @@ bool bounds_finite(const struct bounds *bounds)
     return isfinite(bounds->low.x) && isfinite(bounds->low.y) && isfinite(bounds->low.z) &&
            isfinite(bounds->high.x) && isfinite(bounds->high.y) && isfinite(bounds->high.z);
 }
+
+static struct vec3 lower_ends(struct vec3 a, struct vec3 b)
+{
+    return vec3_make(minimum(a.x, b.x), minimum(a.y, b.y), minimum(a.z, b.z));
+}
+
+static struct vec3 higher_ends(struct vec3 a, struct vec3 b)
+{
+    return vec3_make(maximum(a.x, b.x), maximum(a.y, b.y), maximum(a.z, b.z));
+}
+
+struct bounds bounds_around(struct bounds a, struct bounds b)
+{
+    return (struct bounds){lower_ends(a.low, b.low), higher_ends(a.high, b.high)};
+}
+
+struct bounds bounds_common(struct bounds a, struct bounds b)
+{
+    return (struct bounds){higher_ends(a.low, b.low), lower_ends(a.high, b.high)};
+}

@@ -39,4 +39,9 @@ const char *shapes_wrong(const struct one_of_list *shapes, int dimension);
 
 bool bounds_finite(const struct bounds *bounds);
 
+/* What holds both of two bounds, and what they have in common, whose low end is above its high end where
+ * they lie apart. */
+struct bounds bounds_around(struct bounds a, struct bounds b);
+struct bounds bounds_common(struct bounds a, struct bounds b);
+
 #endif

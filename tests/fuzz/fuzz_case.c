@@ -73,7 +73,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     insist(write(descriptor, data, length) == (ssize_t)length, "no file in memory");
     struct simulation_case *input = read_case(descriptor, options, false);
     if (input) {
-        look_at(run_foresee(input));
+        look_at(run_validate(input));
         read_as_written(input);
         options.sweep_run = input->sweep_runs;
         if (options.sweep_run)

@@ -45,6 +45,11 @@ expect 2 "no help on" "$BOLIDE" help bodies.flyer.velocty
 expect 0 "--overwrite" "$BOLIDE" run --help
 expect 0 "--overwrite" "$BOLIDE" run case.yaml -h
 expect 2 "did you mean \"units\"" "$BOLIDE" help unit
+expect 0 "run --resume" "$BOLIDE" help restart
+expect 0 "tillotson.tension" "$BOLIDE" help tension
+expect 2 "no help on \"qwertyuiop\"" "$BOLIDE" help qwertyuiop
+[ -z "$("$BOLIDE" help fields | sed -n 's/^  \([a-z_]*\) .*/\1/p' | sort | uniq -d)" ] ||
+    { echo "FAILED: help fields lists a field twice"; status=1; }
 expect 2 "bolide verify" "$BOLIDE"
 expect 2 "did you mean \"verify\"" "$BOLIDE" verfy
 expect 2 "did you mean --overwrite" "$BOLIDE" run case.yaml --overwite
@@ -85,9 +90,9 @@ for command in check run; do
     expect 2 'plate.yaml:8:3: bodies.flyer: overlaps "target"' "$BOLIDE" $command plate.yaml
     expect 2 'plate.yaml:11:21: output.pictures.1: the particles have no field "presure" (did you mean "pressure"?)' \
         "$BOLIDE" $command plate.yaml
-    expect 2 'output.pictures.2: "velocity" has 3 components, choose one: velocity.x' "$BOLIDE" $command plate.yaml
+    expect 2 'output.pictures.2: "velocity" is a vector, choose its component: velocity.x' "$BOLIDE" $command plate.yaml
     expect 2 '`l1` needs an exact solution' "$BOLIDE" $command plate.yaml
-    expect 2 'choose one: velocity.x' "$BOLIDE" $command plate.yaml
+    expect 2 'choose its component: velocity.x' "$BOLIDE" $command plate.yaml
     expect 2 '`is` is in m, but the measure `mean` is in Pa' "$BOLIDE" $command plate.yaml
 done
 [ ! -e results/plate ] || { echo "FAILED: a run that cannot begin has written results"; status=1; }
@@ -95,6 +100,13 @@ right=(--set output.pictures=[] --set checks={} --set 'bodies.flyer.box={from: [
 expect 0 "600 particles" "$BOLIDE" check plate.yaml "${right[@]}"
 expect 0 "warning: " "$BOLIDE" check plate.yaml "${right[@]}" --set "resolution=5 mm"
 expect 0 "warning: " "$BOLIDE" run plate.yaml "${right[@]}" --set "resolution=5 mm"
+for path in "let.n=2" "run.until=1us" "bodies.flyer.velocity=[1m/s]" "solver.sph.courant=0.2"; do
+    expect 2 "(did you mean \"${path%=*}\"?)" "$BOLIDE" check plate.yaml "${right[@]}" --set "let={n: 1}" \
+        --set "${path#*.}"
+done
+expect 2 "unknown key \"courant\" (did you mean \"solver.mpm.courant\"?)" "$BOLIDE" check plate.yaml \
+    "${right[@]}" --set solver=mpm --set courant=0.2
+expect 2 'did you mean "steel-1006", "steel-1006-' "$BOLIDE" check plate.yaml --set materials.aluminium.library=steel
 expect 2 'no material "unobtainium" in the library (known: ' \
     "$BOLIDE" check plate.yaml --set materials.aluminium.library=unobtainium
 
@@ -106,6 +118,19 @@ rm -rf alone
 # A message that begins with the case's path is not prefixed once more.
 expect 2 "plate.yaml: could not run" "$BOLIDE" verify plate.yaml
 "$BOLIDE" verify plate.yaml 2>&1 | grep -q "^plate.yaml:11:21: output" || { echo "FAILED: verify's prefix"; status=1; }
+
+# A folder stands for its case.yaml.
+mkdir -p home/plate home/none
+cp plate.yaml home/plate/case.yaml
+expect 0 "600 particles" "$BOLIDE" check home/plate "${right[@]}"
+expect 0 "600 particles" "$BOLIDE" check home/plate/ "${right[@]}"
+expect 2 "home/plate/case.yaml:8:3: bodies.flyer" "$BOLIDE" run home/plate --overwrite
+expect 2 "home/plate: could not run" "$BOLIDE" verify home/plate/
+(cd home/plate && expect 0 "plate: plate (1-D" "$BOLIDE" check . "${right[@]}" && exit $status) || status=1
+for command in run check verify; do
+    expect 2 "home/none: a folder without a case.yaml; name a case file" "$BOLIDE" $command home/none
+done
+expect 0 "star pressure" "$BOLIDE" exact "$cases/riemann/gas"
 
 rm -rf results
 expect 0 "check passed: energy" "$BOLIDE" run "$cases/riemann/gas/case.yaml"
@@ -123,6 +148,9 @@ expect 0 "1 falls short" "$BOLIDE" verify "$cases/riemann/gas/case.yaml" \
     --set "checks.energy.at_least=1" --set "checks.energy.falls_short=a test"
 expect 1 "passes now: take \`falls_short\` away" "$BOLIDE" verify "$cases/riemann/gas/case.yaml" \
     --set "checks.energy.falls_short=a test"
+"$BOLIDE" verify "$cases/riemann/gas" --short --output verified >/dev/null 2>&1
+expect 2 "holds the results of a run already" "$BOLIDE" verify "$cases/riemann/gas" --short --output verified
+expect 0 "1 of 1 cases passed" "$BOLIDE" verify "$cases/riemann/gas" --short --output verified --overwrite
 expect 2 "nanometer" "$BOLIDE" run "$cases/riemann/gas/case.yaml" --overwrite \
     --set "resolution=1 nanometer"
 [ -s results/gas/checks.csv ] || { echo "FAILED: bad input removed results"; status=1; }

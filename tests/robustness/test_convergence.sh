@@ -12,7 +12,7 @@ fail() {
 study() {
     local wanted=$1 log=$2
     shift 2
-    "$BOLIDE" verify --convergence "$gas" --set run.until=2ms "$@" >"$log" 2>&1
+    "$BOLIDE" verify --convergence "$gas" --overwrite --set run.until=2ms "$@" >"$log" 2>&1
     local got=$?
     [ $got = "$wanted" ] || fail "$log: status $got, wanted $wanted: $(cat "$log")"
 }
@@ -55,6 +55,11 @@ cp results/gas/convergence-orders.csv before.csv
 levels='[1 mm, 4 mm, 2 mm]'
 study 0 again.log --set "$(order 'at_least: 0.2, source: theory')" --threads 1
 cmp before.csv results/gas/convergence-orders.csv || fail "another order of the values gives other orders"
+
+"$BOLIDE" verify --convergence "$gas" --set "$(order 'at_least: 0.2')" >there.log 2>&1
+[ $? = 2 ] || fail "a study that is there was replaced: $(cat there.log)"
+says there.log "results/gas: holds a convergence study already (--overwrite replaces it)"
+cmp before.csv results/gas/convergence-orders.csv || fail "a study that is there was changed"
 
 study 1 fails.log --set "$(order 'at_least: 3')" --output all
 says fails.log "riemann/gas: 1 of 1 orders failed"

@@ -25,7 +25,7 @@ FIELDS = {
     "id": 1,
     "material": 1,
     "body": 1,
-    "mass [kg]": 1,
+    "mass [kg m-2]": 1,  # the case is in 1-D
     "density [kg m-3]": 1,
     "energy [J kg-1]": 1,
     "pressure [Pa]": 1,
@@ -82,7 +82,7 @@ def check_fields(grid, count):
         expect(found == components, f"{name}: has {found} components, not {components}")
     expect(len(numpy.unique(fields["id"])) == count, "two particles have one id")
     expect((fields["density [kg m-3]"] > 0).all(), "a density is not positive")
-    expect((fields["mass [kg]"] > 0).all(), "a mass is not positive")
+    expect((fields["mass [kg m-2]"] > 0).all(), "a mass is not positive")
     speed = numpy.linalg.norm(fields["velocity [m s-1]"].astype(float), axis=1)
     expect(numpy.allclose(speed, fields["speed [m s-1]"], rtol=1e-5, atol=1e-6),
            "the speed is not the velocity's magnitude")

@@ -39,7 +39,7 @@ static bool is_told_right(const char *name)
     struct simulation_case *input = NULL;
     struct error *error = case_read(name, &options, &bolide_catalogue, &input);
     if (!error)
-        error = run_foresee(input);
+        error = run_validate(input);
     char *found = messages(error), *expected = expected_messages(name, strlen(name) - 5);
     bool right = error && error_kind(error) == ERROR_INPUT && strcmp(found, expected) == 0;
     if (!right)

@@ -184,9 +184,83 @@ static void the_slices_of_three_ranks_make_the_particles_of_one(void **state)
     assert_slices_agree(&w);
 }
 
+/* An odd and an even number of sites across, where one would be on the axis and none. */
+static void a_ball_on_the_axis_is_cut_there_and_has_its_mass(void **state)
+{
+    (void)state;
+    const struct ranks alone = ranks_alone();
+    for (int across = 199; across <= 200; across++) {
+        struct workshop w;
+        struct simulation simulation;
+        struct shape_ball ball = {VECTOR(0.0, 0.5), 1.0};
+        open_workshop(&w, 2, 2.0 / across);
+        w.input.geometry = GEOMETRY_AXISYMMETRIC;
+        add_body(&w, "ball", &ball)->start.density = 3.0;
+        assert_made(&w, &alone, &simulation);
+        const struct particles *p = &simulation.particles;
+        for (int i = 0; i < p->count; i++)
+            assert_true(p->position[i][0] >= 0.49 * w.input.resolution);
+        const double mass = particles_totals(p, &alone, -1).entry[LEDGER_MASS];
+        assert_float_equal(mass, 3.0 * 2.0 / 3.0, 0.002 * 2.0); /* rho 4/3 pi R^3 over 2 pi */
+        simulation_destroy(&simulation);
+    }
+}
+
+static void a_bar_on_the_axis_is_cut_there_and_has_its_exact_mass(void **state)
+{
+    (void)state;
+    const struct ranks alone = ranks_alone();
+    for (int across = 9; across <= 10; across++) {
+        struct workshop w;
+        struct simulation simulation;
+        struct shape_box box = {VECTOR(-1.0, 0.0), VECTOR(1.0, 3.0)};
+        open_workshop(&w, 2, 2.0 / across);
+        w.input.geometry = GEOMETRY_AXISYMMETRIC;
+        add_body(&w, "box", &box)->start.density = 8.0;
+        assert_made(&w, &alone, &simulation);
+        const double mass = particles_totals(&simulation.particles, &alone, -1).entry[LEDGER_MASS];
+        assert_float_equal(mass, 8.0 * 3.0 * 0.5, 1e-12); /* rho pi R^2 L over 2 pi */
+        simulation_destroy(&simulation);
+    }
+}
+
+static void a_ring_lattice_is_cut_at_the_axis_too(void **state)
+{
+    (void)state;
+    const struct ranks alone = ranks_alone();
+    struct workshop w;
+    struct simulation simulation;
+    struct shape_ball ball = {VECTOR(0.0, 0.0), 1.0};
+    open_workshop(&w, 2, 0.04);
+    w.input.geometry = GEOMETRY_AXISYMMETRIC;
+    struct body_input *body = add_body(&w, "ball", &ball);
+    struct lattice_rings rings = {.count = 0};
+    body->lattice = lattice_of(LATTICE_RINGS, &rings);
+    body->start.density = 3.0;
+    assert_made(&w, &alone, &simulation);
+    const double mass = particles_totals(&simulation.particles, &alone, -1).entry[LEDGER_MASS];
+    assert_float_equal(mass, 2.0, 0.01);
+    simulation_destroy(&simulation);
+}
+
+static void a_body_beyond_the_axis_is_told_to_move(void **state)
+{
+    (void)state;
+    struct workshop w;
+    struct shape_box box = {VECTOR(-2.0, 0.0), VECTOR(-1.0, 1.0)};
+    open_workshop(&w, 2, 0.1);
+    w.input.geometry = GEOMETRY_AXISYMMETRIC;
+    add_body(&w, "box", &box);
+    assert_refused(&w, 1, "the whole body is at x < 0; move it to x > 0");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_ball_on_the_axis_is_cut_there_and_has_its_mass),
+        cmocka_unit_test(a_bar_on_the_axis_is_cut_there_and_has_its_exact_mass),
+        cmocka_unit_test(a_ring_lattice_is_cut_at_the_axis_too),
+        cmocka_unit_test(a_body_beyond_the_axis_is_told_to_move),
         cmocka_unit_test(a_box_has_its_exact_mass_and_every_particle_its_start_state),
         cmocka_unit_test(the_spacing_is_adjusted_to_fill_the_bounds),
         cmocka_unit_test(a_grain_that_replaces_its_matrix_cuts_a_hole_of_its_own_form),

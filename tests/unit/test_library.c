@@ -167,6 +167,10 @@ static void a_slip_gets_the_nearest_name(void **state)
     assert_string_equal(text,
                         "no material \"tungsen\" in the library (did you mean \"tungsten\"?)");
     free(text);
+    text = library_unknown(folders, 1, "steel");
+    assert_non_null(strstr(text, "no material \"steel\" in the library (did you mean "
+                                 "\"steel-1006\", \"steel-1006-johnson-cook\","));
+    free(text);
     text = library_unknown(folders, 1, "unobtainium");
     assert_non_null(
         strstr(text, "no material \"unobtainium\" in the library (known: air, alumina,"));

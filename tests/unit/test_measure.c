@@ -375,7 +375,7 @@ static void mistakes_in_checks_are_told_before_the_run(void **state)
     choose(b, "mean", &wrong);
     expect_mistake(b, "no field \"presure\" (did you mean \"pressure\"?)");
     choose(b, "mean", &vector);
-    expect_mistake(b, "choose one: velocity.x");
+    expect_mistake(b, "choose its component: velocity.x");
     choose(b, "mean", &pressure);
     b->check.at_most = (struct quantity){1.0, metre};
     expect_mistake(b, "`at_most` is in m");

@@ -501,6 +501,27 @@ static void a_profile_has_mean_and_scatter_of_each_bin(void **state)
     drop_bench(b);
 }
 
+static void an_empty_bin_of_a_profile_is_not_a_number_and_has_no_sign(void **state)
+{
+    (void)state;
+    struct bench *b = make_bench(2);
+    struct profiles profiles;
+    b->profile.fields = (struct name_list){1, (char *[]){pressure}};
+    b->profile.width = 0.2;
+    assert_null(profiles_prepare(&b->simulation, &b->views, &profiles));
+    assert_null(profiles_write(&profiles, &b->simulation, &b->views, b->folder, 7));
+    char path[128];
+    struct csv csv;
+    snprintf(path, sizeof path, "%s/profiles/it-000007.csv", b->folder);
+    assert_null(csv_read(path, &csv));
+    assert_string_equal(csv_field(&csv, 3, 1), "0");
+    for (int column = 2; column < csv.columns; column++)
+        assert_string_equal(csv_field(&csv, 3, column), "nan");
+    csv_free(&csv);
+    profiles_free(&profiles);
+    drop_bench(b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -515,6 +536,7 @@ int main(void)
         cmocka_unit_test(peaks_count_when_they_rise_above_the_noise),
         cmocka_unit_test(a_check_of_a_probe_that_is_not_there_is_told),
         cmocka_unit_test(a_profile_has_mean_and_scatter_of_each_bin),
+        cmocka_unit_test(an_empty_bin_of_a_profile_is_not_a_number_and_has_no_sign),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -609,7 +609,7 @@ static void a_picture_that_cannot_be_is_told_before_anything_is_written(void **s
                    "output.pictures.2: the particles have no field \"presure\" (did you mean "
                    "\"pressure\"?)");
     const char *const vector[] = {"output.pictures=velocity", NULL};
-    expect_failure(flight_text, vector, &options, ERROR_INPUT, "choose one: velocity.x");
+    expect_failure(flight_text, vector, &options, ERROR_INPUT, "choose its component: velocity.x");
     assert_false(file_there("test_run_picture", "."));
 }
 

@@ -127,10 +127,10 @@ static void a_field_that_cannot_be_chosen_is_told_with_what_could(void **state)
         {"presure", "the particles have no field \"presure\" (did you mean \"pressure\"?)"},
         {"velocty.x", "the particles have no field \"velocty.x\" (did you mean \"velocity\"?)"},
         {"materal", "the particles have no field \"materal\" (did you mean \"material\"?)"},
-        {"velocity.q",
-         "\"velocity\" has 3 components, choose one: velocity.x, velocity.y, velocity.z"},
-        {"stress", "\"stress\" has 6 components, choose one: stress.xx, stress.yy, stress.zz, "
-                   "stress.xy, stress.yz, stress.zx"},
+        {"velocity.q", "\"velocity\" is a vector, choose one of its components: velocity.x, "
+                       "velocity.y, velocity.z"},
+        {"stress", "\"stress\" is a tensor, choose one of its components: stress.xx, stress.yy, "
+                   "stress.zz, stress.xy, stress.yz, stress.zx"},
         {"pressure.x", "\"pressure.x\": pressure has no components"},
     };
     static const char *const more[] = {"material"};
@@ -152,6 +152,60 @@ static void a_field_that_cannot_be_chosen_is_told_with_what_could(void **state)
     particles_destroy(&simulation.particles);
 }
 
+static void only_components_that_a_case_has_are_offered(void **state)
+{
+    (void)state;
+    static const struct {
+        int dimension;
+        const char *field, *told;
+    } cases[] = {
+        {1, "velocity", "\"velocity\" is a vector, choose its component: velocity.x"},
+        {1, "stress",
+         "\"stress\" is a tensor, choose one of its components: stress.xx, stress.yy, stress.zz"},
+        {2, "velocity",
+         "\"velocity\" is a vector, choose one of its components: velocity.x, velocity.y"},
+        {2, "stress",
+         "\"stress\" is a tensor, choose one of its components: stress.xx, stress.yy, "
+         "stress.zz, stress.xy"},
+    };
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        struct simulation simulation = {.dimension = cases[i].dimension};
+        struct views views = {0};
+        const struct view *view;
+        int component;
+        assert_null(particles_create(cases[i].dimension, 1.0, NULL, 0, &simulation.particles));
+        views_of_particles(&views, &simulation);
+        struct error *error = views_choose(&views, cases[i].field, NULL, 0, &view, &component);
+        assert_non_null(error);
+        assert_string_equal(error_message(error, 0), cases[i].told);
+        error_free(error);
+        particles_destroy(&simulation.particles);
+    }
+}
+
+static void a_particle_has_a_mass_in_the_unit_of_the_totals(void **state)
+{
+    (void)state;
+    static const struct {
+        int dimension;
+        enum case_geometry geometry;
+        const char *unit;
+    } cases[] = {{1, GEOMETRY_PLANE_STRAIN, "kg/m^2"},
+                 {2, GEOMETRY_PLANE_STRAIN, "kg/m"},
+                 {2, GEOMETRY_AXISYMMETRIC, "kg/rad"},
+                 {3, GEOMETRY_PLANE_STRAIN, "kg"}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        struct simulation simulation = {.dimension = cases[i].dimension,
+                                        .geometry = cases[i].geometry};
+        struct views views = {0};
+        int component;
+        assert_null(particles_create(cases[i].dimension, 1.0, NULL, 0, &simulation.particles));
+        views_of_particles(&views, &simulation);
+        assert_string_equal(views_find(&views, "mass", &component)->unit, cases[i].unit);
+        particles_destroy(&simulation.particles);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -160,6 +214,8 @@ int main(void)
         cmocka_unit_test(a_component_reads_as_a_column_of_the_whole),
         cmocka_unit_test(stress_and_speed_follow_from_the_fields),
         cmocka_unit_test(a_field_that_cannot_be_chosen_is_told_with_what_could),
+        cmocka_unit_test(only_components_that_a_case_has_are_offered),
+        cmocka_unit_test(a_particle_has_a_mass_in_the_unit_of_the_totals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
