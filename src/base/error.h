@@ -1,6 +1,7 @@
 /* Errors as values: a function that can fail returns NULL on success, else an error that its caller
- * owns. An error carries one or more messages, so that all mistakes of a file come in one go, but no more than
- * fifty. A message is one line: controls in what it quotes are written out (base/visible.h). */
+ * owns. An error carries one or more messages, so that all mistakes of a file come in one go, but
+ * no more than fifty. A message is one line: controls in what it quotes are written out
+ * (base/visible.h). */
 #ifndef BOLIDE_ERROR_H
 #define BOLIDE_ERROR_H
 
@@ -24,11 +25,12 @@ struct error *error_new(enum error_kind kind, const char *format, ...) BOLIDE_PR
 /* Puts "context: " before every message of ERROR and returns it; NULL stays NULL. */
 struct error *error_context(struct error *error, const char *format, ...) BOLIDE_PRINTF(2, 3);
 
-/* Joins the messages of two errors, either may be NULL; the graver kind (the larger) wins. Beyond the first fifty they
- * are only counted, by a last message. */
+/* Joins the messages of two errors, either may be NULL; the graver kind (the larger) wins. Beyond
+ * the first fifty they are only counted, by a last message. */
 struct error *error_join(struct error *first, struct error *second);
 
-/* True when further messages are only counted, so that there is no need to make them. NULL is not full. */
+/* True when further messages are only counted, so that there is no need to make them. NULL is not
+ * full. */
 bool error_is_full(const struct error *error);
 
 enum error_kind error_kind(const struct error *error);

@@ -19,15 +19,16 @@ struct named_quantity {
     struct quantity quantity;
 };
 
-/* Those that an expression may use. INDEX has the place of each; where it is empty, they are looked through. */
+/* Those that an expression may use. INDEX has the place of each; where it is empty, they are looked
+ * through. */
 struct named_quantities {
     int count;
     const struct named_quantity *at;
     struct name_index index;
 };
 
-/* Evaluates TEXT with NAMES (NULL: none). ERROR_INPUT tells what is wrong: an unknown unit or name (with
- * the nearest), a syntax error, a sum of different dimensions, a value that is not finite. */
+/* Evaluates TEXT with NAMES (NULL: none). ERROR_INPUT tells what is wrong: an unknown unit or name
+ * (with the nearest), a syntax error, a sum of different dimensions, a value that is not finite. */
 struct error *expression_evaluate(const char *text, const struct named_quantities *names,
                                   struct quantity *result);
 

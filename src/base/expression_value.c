@@ -166,7 +166,8 @@ static struct error *evaluate(struct expression_reading *reading, muParserHandle
     return NULL;
 }
 
-/* One number or name and nothing else, as most values of a case are: there is nothing to evaluate. */
+/* One number or name and nothing else, as most values of a case are: there is nothing to
+ * evaluate. */
 static bool is_single(const struct expression_reading *reading)
 {
     const char *formula = reading->formula;

@@ -1,4 +1,5 @@
-/* Where a name stands in a list, without looking through the list: cases may have a hundred thousand keys. */
+/* Where a name stands in a list, without looking through the list: cases may have a hundred
+ * thousand keys. */
 #ifndef BOLIDE_NAME_INDEX_H
 #define BOLIDE_NAME_INDEX_H
 
@@ -9,7 +10,8 @@ struct name_slot {
     int value;
 };
 
-/* A hash table with open addressing. All zero is empty. The names belong to the caller, and must stay where they are. */
+/* A hash table with open addressing. All zero is empty. The names belong to the caller, and must
+ * stay where they are. */
 struct name_index {
     int count, slots; /* slots: zero or a power of two */
     struct name_slot *slot;

@@ -38,7 +38,8 @@ bool is_control(uint32_t code)
     return false;
 }
 
-/* Writes the piece that TEXT starts with, as it is or written out, into PIECE; returns how many bytes of TEXT it is. */
+/* Writes the piece that TEXT starts with, as it is or written out, into PIECE; returns how many
+ * bytes of TEXT it is. */
 enum { PIECE = 16 };
 static size_t next_piece(const char *text, char piece[PIECE])
 {

@@ -1,5 +1,5 @@
-/* Text from outside that goes to a terminal, a log or a file name: which characters steer a terminal or hide what is
- * read, and the same text with these written out. */
+/* Text from outside that goes to a terminal, a log or a file name: which characters steer a
+ * terminal or hide what is read, and the same text with these written out. */
 #ifndef BOLIDE_VISIBLE_H
 #define BOLIDE_VISIBLE_H
 
@@ -7,16 +7,16 @@
 
 #include "base/base.h"
 
-/* The UTF-8 character that TEXT, of LENGTH bytes, starts with: how many bytes it has, 0 where there is none, and its
- * code point. */
+/* The UTF-8 character that TEXT, of LENGTH bytes, starts with: how many bytes it has, 0 where there
+ * is none, and its code point. */
 size_t utf8_character(const char *text, size_t length, uint32_t *code);
 
-/* True for what has no glyph and acts on what surrounds it: C0 and C1 controls, delete, line and paragraph separators,
- * marks that change the direction of the text, the byte order mark, tags. */
+/* True for what has no glyph and acts on what surrounds it: C0 and C1 controls, delete, line and
+ * paragraph separators, marks that change the direction of the text, the byte order mark, tags. */
 bool is_control(uint32_t code);
 
-/* The same text on one line, with controls written as \x1b or \u202e and bytes that are not UTF-8 as \xff; in fresh
- * memory, NULL when that is out. */
+/* The same text on one line, with controls written as \x1b or \u202e and bytes that are not UTF-8
+ * as \xff; in fresh memory, NULL when that is out. */
 char *text_visible(const char *text);
 
 /* Writes TEXT to FILE in that way. */

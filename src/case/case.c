@@ -38,8 +38,8 @@ static bool is_key_of_case(const char *key)
     return false;
 }
 
-/* An included file of which no key is one of a case is another kind of file, and perhaps not the user's own: none of
- * its lines may come to be quoted. */
+/* An included file of which no key is one of a case is another kind of file, and perhaps not the
+ * user's own: none of its lines may come to be quoted. */
 static struct error *check_included(const struct document *document)
 {
     const struct node *root = document->root;

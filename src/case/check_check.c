@@ -1,4 +1,5 @@
-/* What the tables cannot say of checks: their limits, what they are relative to, and the study that they serve. */
+/* What the tables cannot say of checks: their limits, what they are relative to, and the study that
+ * they serve. */
 #include <string.h>
 
 #include "case/checking.h"

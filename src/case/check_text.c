@@ -1,14 +1,17 @@
-/* What names and texts may hold: they come to terminals, file names, tables that spreadsheets open, and pages. */
+/* What names and texts may hold: they come to terminals, file names, tables that spreadsheets open,
+ * and pages. */
 #include <string.h>
 
 #include "case/checking.h"
 
-/* Bytes of a name, so that with a number and an ending it is that of a file; of the title; of other texts. */
+/* Bytes of a name, so that with a number and an ending it is that of a file; of the title; of other
+ * texts. */
 enum { NAME_MAX_BYTES = 100, TITLE_MAX_BYTES = 200, TEXT_MAX_BYTES = 2000 };
 
 static const char punctuation[] = "_-+.,:()/%'&#<>=";
 
-/* Letters beyond ASCII are all bytes that are none of it; controls are refused where texts are read. */
+/* Letters beyond ASCII are all bytes that are none of it; controls are refused where texts are
+ * read. */
 static bool is_letter_or_digit(char c)
 {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||

@@ -47,7 +47,8 @@ struct error *node_parse(const char *text, size_t length, const char *origin, bo
                          struct node **root);
 void node_free(struct node *node);
 
-/* An error at PLACE if TEXT holds control characters; in what is no KEY tabs and line breaks may stand. */
+/* An error at PLACE if TEXT holds control characters; in what is no KEY tabs and line breaks may
+ * stand. */
 struct error *refuse_controls(struct place place, const char *text, bool key);
 
 struct node *node_new(enum node_kind kind, struct place place);

@@ -15,7 +15,8 @@ static const char include_key[] = "include";
  * never end otherwise. */
 enum { INCLUDED_MAX = 64 };
 
-/* Bytes of a case with all that it includes; one of as many bodies as there may be has half of it. */
+/* Bytes of a case with all that it includes; one of as many bodies as there may be has half of
+ * it. */
 enum { FILES_MAX_BYTES = 16 << 20 };
 
 /* A file on the way from the first to the one that is read, and where it is asked for. */
@@ -70,8 +71,8 @@ static struct error *refuse(const struct source *source, const char *why)
     return place_error(source->place, include_key, "%s: %s", source->path, why);
 }
 
-/* Opens SOURCE and says which file it is. It must be a regular file, which has an end; to open another kind may wait
- * for ever or do something to a device. */
+/* Opens SOURCE and says which file it is. It must be a regular file, which has an end; to open
+ * another kind may wait for ever or do something to a device. */
 static struct error *open_source(struct source *source, FILE **file)
 {
     struct stat status;

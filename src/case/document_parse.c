@@ -224,8 +224,8 @@ static struct error *build_and_free(struct parse *parse, struct fy_event *event,
     return error;
 }
 
-/* Puts VALUE (taken) under KEY (taken) into MAP, whose keys are in INDEX. The key is not quoted: the file may be none of
- * ours. */
+/* Puts VALUE (taken) under KEY (taken) into MAP, whose keys are in INDEX. The key is not quoted:
+ * the file may be none of ours. */
 static struct error *add_entry(struct parse *parse, struct node *map, struct name_index *index,
                                struct node *value, char *key)
 {

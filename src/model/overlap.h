@@ -1,4 +1,5 @@
-/* Which bodies of a case may overlap a body, and what becomes of a place that lies in two of them. */
+/* Which bodies of a case may overlap a body, and what becomes of a place that lies in two of
+ * them. */
 #ifndef BOLIDE_OVERLAP_H
 #define BOLIDE_OVERLAP_H
 
@@ -14,8 +15,8 @@ struct rival {
     struct bounds bounds;
 };
 
-/* The bodies of a case, sorted by where they begin along an axis: a search tree, whose root is the middle of the list,
- * so that a body among thousands meets only its neighbours. */
+/* The bodies of a case, sorted by where they begin along an axis: a search tree, whose root is the
+ * middle of the list, so that a body among thousands meets only its neighbours. */
 struct overlaps {
     const struct simulation_case *input;
     struct bounds *bounds; /* of each body */
@@ -31,7 +32,8 @@ bool bounds_meet(const struct bounds *a, const struct bounds *b);
 struct error *overlaps_make(const struct simulation_case *input, struct overlaps *overlaps);
 void overlaps_free(struct overlaps *overlaps);
 
-/* The bodies that BODY does not simply replace and whose bounds meet its own, by their numbers. Free *RIVALS. */
+/* The bodies that BODY does not simply replace and whose bounds meet its own, by their numbers.
+ * Free *RIVALS. */
 struct error *overlaps_rivals(const struct overlaps *overlaps, int body, struct rival **rivals,
                               int *count);
 

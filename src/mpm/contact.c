@@ -60,9 +60,10 @@ static double ratio_at(enum grid_shape shape, double s, double size)
     return slope > 1e-9 ? mass / slope : s < 0.0 ? 0.0 : (double)INFINITY;
 }
 
-/* Particles are those of the first body of a layer. Slopes that jump from particle to particle do not tell s, so that for
- * linear functions they are endlessly small, and it is M(s)/N(s), M the integral of the function N. Particles much
- * smaller than a cell count as FINEST, which bounds the work. */
+/* Particles are those of the first body of a layer. Slopes that jump from particle to particle do
+ * not tell s, so that for linear functions they are endlessly small, and it is M(s)/N(s), M the
+ * integral of the function N. Particles much smaller than a cell count as FINEST, which bounds the
+ * work. */
 static const double finest = 1.0 / 1024;
 
 void mpm_note_surfaces(struct mpm *mpm)

@@ -84,8 +84,8 @@ static struct error *refuse_far_bodies(double edge, const struct simulation *sim
     return error;
 }
 
-/* A cell that is wider than all bodies resolves nothing. The default, two particles wide, may be twice as wide as a body
- * of one particle. */
+/* A cell that is wider than all bodies resolves nothing. The default, two particles wide, may be
+ * twice as wide as a body of one particle. */
 static struct error *refuse_wide_cell(double edge, const struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->input;
