@@ -191,9 +191,9 @@ static struct contact_push push_by_held(const struct meeting *m, int k, const do
     if (m->frozen) {
         const struct vec3 g = vector_at(grid_node(&layer->normal, block, k));
         const double area = sqrt(vec3_dot(g, g)); /* times the density */
-        push.impulse = contact_run_out(side, vector_at(held + NODE_FORCE), u,
-                                       area > 0.0 ? vec3_scale(1.0 / area, g) : g,
-                                       area * layer->sound_long, area * layer->sound_shear, dt);
+        const struct contact_outlet outlet = {area > 0.0 ? vec3_scale(1.0 / area, g) : g,
+                                              area * layer->sound_long, area * layer->sound_shear};
+        push.impulse = contact_run_out(side, vector_at(held + NODE_FORCE), u, outlet, dt);
         push.state = CONTACT_NONE;
         u = vec3_scale(1.0 / side.mass, vec3_add(side.momentum, push.impulse));
     } else {

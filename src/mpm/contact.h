@@ -62,13 +62,22 @@ BOLIDE_INLINE struct contact_push contact_push_held(struct contact_side a, struc
     return contact_limit(vec3_sub(vec3_scale(a.mass, velocity), a.momentum), normal, rule);
 }
 
-/* What body A gets in DT from one that keeps all of its state, as from matter that no wave has reached: the FORCE of its
- * stresses and Z A (u - v') of a surface of impedance times area ALONG and ACROSS its normal, v' the velocity at the end
- * (Lysmer and Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859). */
+/* A surface that waves run out of: its normal, of length one, and impedance times area along and across
+ * it. */
+struct contact_outlet {
+    struct vec3 normal;
+    double along, across;
+};
+
+/* What body A gets in DT from one of VELOCITY u that keeps all of its state, as from material that no
+ * wave has reached: the FORCE of its stresses and Z A (u - v') of the surface between, v' the velocity
+ * at the end (Lysmer and Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859). */
 BOLIDE_INLINE struct vec3 contact_run_out(struct contact_side a, struct vec3 force,
-                                          struct vec3 velocity, struct vec3 normal, double along,
-                                          double across, double dt)
+                                          struct vec3 velocity, struct contact_outlet outlet,
+                                          double dt)
 {
+    const struct vec3 normal = outlet.normal;
+    const double along = outlet.along, across = outlet.across;
     const struct vec3 pushed = vec3_add(a.momentum, vec3_scale(dt, force));
     const double p = vec3_dot(pushed, normal), u = vec3_dot(velocity, normal);
     const struct vec3 p_across = vec3_sub(pushed, vec3_scale(p, normal)),

@@ -15,15 +15,19 @@ struct given {
     double by_slope[3][3];
 };
 
-/* A particle in a cell whose first node stands at PLACE of the patch and has index FIRST. */
+/* A particle at X of half the size HALF, in cells, in a cell whose first node is at PLACE of the patch
+ * and has index FIRST. */
 struct reached {
     int place[3];
     int64_t first[3];
+    const double *x;
+    double half;
 };
 
 static void give(const struct mpm *mpm, const struct layer *layer, const struct reached *reached,
-                 const double *x, double half, const struct given *given, double *patch)
+                 const struct given *given, double *patch)
 {
+    const double *x = reached->x, half = reached->half;
     const enum grid_shape shape = (enum grid_shape)mpm->parameters.shape;
     const int dimension = layer->grid.dimension, window = 2 + 2 * layer->grid.reach;
     double value[3][4], slope[3][4];
@@ -136,9 +140,10 @@ static void give_bin(const struct mpm *mpm, const struct simulation *simulation,
         for (int32_t k = bin->cell[cell]; k < bin->cell[cell + 1]; k++) {
             const int32_t i = layer->bins.list[bin->first + k];
             const struct given given = surface->of(mpm, simulation, surface, i);
+            reached.x = p->position[i];
+            reached.half = mpm->half_size[p->body[i]];
             if (surface->body < 0 || p->body[i] == surface->body)
-                give(mpm, layer, &reached, p->position[i], mpm->half_size[p->body[i]], &given,
-                     patch);
+                give(mpm, layer, &reached, &given, patch);
         }
     }
 }
@@ -204,11 +209,12 @@ static void push_face(struct layer *layer, const struct surface *surface, double
 }
 
 /* The nodes of a block that do not have the surface get no force; what the others get in a step of DT is booked, with the
- * mean velocity of the step, where BOOKED. */
+ * mean velocity of the step, where the block is this rank's. */
 static void book_block(const struct mpm *mpm, const struct layer *layer,
-                       const struct surface *surface, int32_t block, bool booked, double dt,
+                       const struct surface *surface, int32_t block, double dt,
                        struct ledger *ledger)
 {
+    const bool booked = !mpm_is_far(mpm, layer, layer->grid.touch[block][0].bin);
     const enum ledger_cause cause = surface->load ? LEDGER_LOADS : LEDGER_OUTFLOWS;
     int64_t corner[3], at[3];
     grid_corner(&layer->grid, block, corner);
@@ -240,8 +246,7 @@ static void book_forces(const struct mpm *mpm, struct simulation *simulation,
         struct ledger own = {0};
 #pragma omp for schedule(static)
         for (int32_t n = 0; n < layer->grid.blocks; n++)
-            book_block(mpm, layer, surface, n, !mpm_is_far(mpm, layer, layer->grid.touch[n][0].bin),
-                       dt, &own);
+            book_block(mpm, layer, surface, n, dt, &own);
 #pragma omp critical(bolide_mpm_surface)
         ledger_join(&simulation->ledger, &own);
     }

@@ -256,7 +256,7 @@ static void find_velocities(struct mpm *mpm, struct simulation *simulation, doub
                 continue;
             grid_spread(&layer->grid, &layer->main, b);
             if (!layer->held)
-                transfer_velocity(&transfer, b, dt, scatter, move);
+                transfer_velocity(&transfer, b, (struct transfer_step){dt, move}, scatter);
         }
     }
     mpm->work += clock_seconds() - begin;
@@ -269,7 +269,7 @@ static void find_velocities(struct mpm *mpm, struct simulation *simulation, doub
  * with OF_MAIN, of the first. *FAILED becomes the one with the smallest id whose state is
  * impossible, if that is smaller than the one that was there. */
 static void find_states(struct mpm *mpm, struct simulation *simulation, struct layer *layer,
-                        double dt, bool of_main, bool move, int32_t *failed)
+                        struct transfer_step step, bool of_main, int32_t *failed)
 {
     const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
     const struct particles *p = &simulation->particles;
@@ -281,16 +281,17 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
         int32_t own = -1;
 #pragma omp for schedule(dynamic, 4)
         for (int32_t b = 0; b < layer->bins.count; b++) {
-            const double *of = grid_patch(&layer->grid, &layer->main, b) + NODE_VELOCITY;
+            struct nodal of = {grid_patch(&layer->grid, &layer->main, b) + NODE_VELOCITY,
+                               NODE_STRIDE};
             if (mpm_is_far(mpm, layer, b))
                 continue;
             if (!of_main) {
                 grid_spread(&layer->grid, &layer->back, b);
-                of = grid_patch(&layer->grid, &layer->back, b);
+                of = (struct nodal){grid_patch(&layer->grid, &layer->back, b), BACK_STRIDE};
             }
-            transfer_gradient(&transfer, b, dt, of, of_main ? NODE_STRIDE : BACK_STRIDE, move,
+            transfer_gradient(&transfer, b, step, of,
                               (struct rates){rate, (size_t)mpm->rate_capacity});
-            const int32_t found = mpm_update_points(mpm, simulation, layer, b, dt, rate);
+            const int32_t found = mpm_update_points(mpm, simulation, layer, b, step.dt, rate);
             if (found >= 0 && (own < 0 || p->id[found] < p->id[own]))
                 own = found;
         }
@@ -316,7 +317,8 @@ static struct error *update_states(struct mpm *mpm, struct simulation *simulatio
         mpm_join_velocities(mpm, simulation);
     const double started = clock_seconds();
     for (int g = 0; g < mpm->layers; g++)
-        find_states(mpm, simulation, &mpm->layer[g], dt, of_main, !first, &failed);
+        find_states(mpm, simulation, &mpm->layer[g], (struct transfer_step){dt, !first}, of_main,
+                    &failed);
     mpm->work += clock_seconds() - started;
     simulation_spend(simulation, "states", clock_seconds() - begin);
     return failed < 0 ? NULL : simulation_impossible(simulation, failed);

@@ -46,10 +46,17 @@ void transfer_scatter(const struct transfer *transfer, int32_t bin);
 /* Fills the patch of BIN in NORMAL with the gradient of mass, sum m grad N (2-23), which points out of the bodies. */
 void transfer_slopes(const struct transfer *transfer, int32_t bin);
 
-/* New velocities of the particles of BIN from its patch, where nodes have velocity and acceleration (2-15), and with
- * SCATTER their momentum in its patch of BACK (2-17); with MOVE they move (2-16). */
-void transfer_velocity(const struct transfer *transfer, int32_t bin, double dt, bool scatter,
-                       bool move);
+/* A step of DT in which the particles MOVE, or do not. */
+struct transfer_step {
+    double dt;
+    bool move;
+};
+
+/* New velocities of the particles of BIN from its patch, where nodes have velocity and acceleration
+ * (2-15), and with SCATTER their momentum in its patch of BACK (2-17); with STEP.move they move
+ * (2-16). */
+void transfer_velocity(const struct transfer *transfer, int32_t bin, struct transfer_step step,
+                       bool scatter);
 
 /* Particles of BIN get the velocities, and with ACCELERATIONS those too, that the nodes of the patch FROM have, and give them
  * back to the patch TO with their masses; both are laid out as that of the main field. */
@@ -63,9 +70,15 @@ struct rates {
     size_t stride;
 };
 
-/* Rates of strain and spin of the particles of BIN (2-18), (2-19) from nodal velocities at VELOCITY, STRIDE numbers a node in
- * the order of the patch; with MOVE the particles move as the patch of the main field has it. */
-void transfer_gradient(const struct transfer *transfer, int32_t bin, double dt,
-                       const double *velocity, int stride, bool move, struct rates rates);
+/* Numbers of the nodes of a patch, in its order: STRIDE a node. */
+struct nodal {
+    const double *data;
+    int stride;
+};
+
+/* Rates of strain and spin of the particles of BIN (2-18), (2-19) from nodal velocities; with STEP.move
+ * the particles move as the patch of the main field has it. */
+void transfer_gradient(const struct transfer *transfer, int32_t bin, struct transfer_step step,
+                       struct nodal velocity, struct rates rates);
 
 #endif

@@ -23,10 +23,11 @@ BOLIDE_INLINE int nodes_of(struct kind kind)
 /* Where the nodes of a particle may have a velocity that changes over them: what its gradient
  * adds at a node. */
 BOLIDE_INLINE void add_affine(const struct transfer *t, struct kind kind, const struct chunk *chunk,
-                              int lane, int a, int b, int c, double factor, double *momentum)
+                              int lane, const int at[3], double *momentum)
 {
+    const double value = weight_of(kind, chunk, lane, at[0], at[1], at[2]).value;
     const double *g = t->gradient[chunk->index[lane]];
-    const int at[3] = {a, b, c};
+    const double factor = value * t->mass[chunk->index[lane]];
     for (int i = 0; i < kind.dimension; i++)
         for (int j = 0; j < kind.dimension; j++)
             momentum[i] += factor * g[3 * i + j] * chunk->away[j][at[j]][lane];
@@ -141,10 +142,9 @@ BOLIDE_INLINE void bin_scatter(const struct transfer *t, struct kind kind, int32
             for (int lane = 0; lane < chunk.count && t->affine; lane++)
                 FOR_NODES(kind, a, b, c)
                 {
-                    const double value = weight_of(kind, &chunk, lane, a, b, c).value;
+                    const int at[3] = {a, b, c};
                     double *node = patch + node_of(t, kind, walk.base, a, b, c) * NODE_STRIDE;
-                    add_affine(t, kind, &chunk, lane, a, b, c, value * t->mass[chunk.index[lane]],
-                               node + NODE_MOMENTUM);
+                    add_affine(t, kind, &chunk, lane, at, node + NODE_MOMENTUM);
                 }
         }
         add_sums(t, kind, walk.base, sum, NODE_STRIDE, patch);
@@ -175,8 +175,8 @@ BOLIDE_INLINE void bin_slopes(const struct transfer *t, struct kind kind, int32_
 
 /* The same as `gather` with slopes: sum[i][j] is d data_i / d x_j. */
 BOLIDE_INLINE void gather_slopes(const struct transfer *t, struct kind kind,
-                                 const struct chunk *chunk, size_t base, const double *data,
-                                 int stride, double (*sum)[3][LANES])
+                                 const struct chunk *chunk, struct window from,
+                                 double (*sum)[3][LANES])
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -184,7 +184,7 @@ BOLIDE_INLINE void gather_slopes(const struct transfer *t, struct kind kind,
                 sum[i][j][lane] = 0.0;
     FOR_NODES(kind, a, b, c)
     {
-        const double *node = data + node_of(t, kind, base, a, b, c) * (size_t)stride;
+        const double *node = numbers_at(t, kind, from, a, b, c);
         ALIGNED double slope[3][LANES];
         for (int lane = 0; lane < kind.lanes; lane++) {
             const struct weight w = weight_of(kind, chunk, lane, a, b, c);
@@ -202,10 +202,10 @@ BOLIDE_INLINE void gather_slopes(const struct transfer *t, struct kind kind,
  * the second one of the shape function, sum_I N u (x_I - x) / sum_I N (x_I -
  * x)^2 (Jiang et al., ACM Trans. Graph. 34 (2015) 51). */
 BOLIDE_INLINE void keep_gradient(const struct transfer *t, struct kind kind,
-                                 const struct chunk *chunk, size_t base, const double *velocity)
+                                 const struct chunk *chunk, struct window velocity)
 {
     ALIGNED double sum[3][3][LANES];
-    gather_slopes(t, kind, chunk, base, velocity, NODE_STRIDE, sum);
+    gather_slopes(t, kind, chunk, velocity, sum);
     if (t->by_moments && kind.window > 2) {
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
@@ -214,7 +214,7 @@ BOLIDE_INLINE void keep_gradient(const struct transfer *t, struct kind kind,
         FOR_NODES(kind, a, b, c)
         {
             const int at[3] = {a, b, c};
-            const double *node = velocity + node_of(t, kind, base, a, b, c) * NODE_STRIDE;
+            const double *node = numbers_at(t, kind, velocity, a, b, c);
             for (int lane = 0; lane < kind.lanes; lane++) {
                 const double w = weight_of(kind, chunk, lane, a, b, c).value;
                 for (int i = 0; i < kind.dimension; i++)
@@ -239,16 +239,17 @@ BOLIDE_INLINE void keep_gradient(const struct transfer *t, struct kind kind,
 
 /* New velocities of the lanes of a chunk, from the sums over nodes of acceleration and velocity. */
 BOLIDE_INLINE void accelerate(const struct transfer *t, struct kind kind, const struct chunk *chunk,
-                              double dt, bool move, double (*push)[LANES], double (*flow)[LANES])
+                              struct transfer_step step, double (*push)[LANES],
+                              double (*flow)[LANES])
 {
     for (int lane = 0; lane < chunk->count; lane++) {
         double *u = t->velocity[chunk->index[lane]], *x = t->position[chunk->index[lane]];
         for (int k = 0; k < kind.dimension; k++) {
-            u[k] += dt * push[k][lane];
+            u[k] += step.dt * push[k][lane];
             if (t->flip < 1.0)
                 u[k] = t->flip * u[k] + (1.0 - t->flip) * flow[k][lane];
-            if (move)
-                x[k] += dt * flow[k][lane];
+            if (step.move)
+                x[k] += step.dt * flow[k][lane];
         }
     }
 }
@@ -266,17 +267,20 @@ BOLIDE_INLINE void add_momenta(const struct transfer *t, struct kind kind,
     }
 }
 
-BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int32_t bin, double dt,
-                                bool scatter_back, bool move)
+BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int32_t bin,
+                                struct transfer_step step, bool scatter_back)
 {
     const double *patch = grid_patch(t->grid, t->main, bin);
     double *back = scatter_back ? grid_patch(t->grid, t->back, bin) : NULL;
-    const bool blend = t->flip < 1.0 || move;
+    const bool blend = t->flip < 1.0 || step.move;
     if (back)
         memset(back, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *back);
     const struct corner corner = corner_of(t, kind, bin);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
+        const struct window flows = window_of(patch + NODE_VELOCITY, NODE_STRIDE, walk.base),
+                            accelerations =
+                                window_of(patch + NODE_ACCELERATION, NODE_STRIDE, walk.base);
         struct chunk chunk;
         ALIGNED double push[3][LANES], flow[3][LANES], weight[NODES_MAX][LANES];
         vector4 sum[NODES_MAX];
@@ -286,22 +290,20 @@ BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int3
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             find_weights(kind, &chunk, weight);
-            gather(t, kind, weight, walk.base, patch + NODE_ACCELERATION, NODE_STRIDE,
-                   kind.dimension, push);
+            gather(t, kind, weight, accelerations, kind.dimension, push);
             if (blend)
-                gather(t, kind, weight, walk.base, patch + NODE_VELOCITY, NODE_STRIDE,
-                       kind.dimension, flow);
-            accelerate(t, kind, &chunk, dt, move, push, flow);
+                gather(t, kind, weight, flows, kind.dimension, flow);
+            accelerate(t, kind, &chunk, step, push, flow);
             if (t->affine)
-                keep_gradient(t, kind, &chunk, walk.base, patch + NODE_VELOCITY);
+                keep_gradient(t, kind, &chunk, flows);
             if (!back)
                 continue;
             add_momenta(t, kind, &chunk, weight, sum);
             for (int lane = 0; lane < chunk.count && t->affine; lane++)
                 FOR_NODES(kind, a, b, c)
                 {
-                    const double value = weight_of(kind, &chunk, lane, a, b, c).value;
-                    add_affine(t, kind, &chunk, lane, a, b, c, t->mass[chunk.index[lane]] * value,
+                    const int at[3] = {a, b, c};
+                    add_affine(t, kind, &chunk, lane, at,
                                back + node_of(t, kind, walk.base, a, b, c) * BACK_STRIDE);
                 }
         }
@@ -324,10 +326,10 @@ BOLIDE_INLINE void bin_again(const struct transfer *t, struct kind kind, int32_t
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             find_weights(kind, &chunk, weight);
-            gather(t, kind, weight, walk.base, from + NODE_VELOCITY, NODE_STRIDE, kind.dimension,
-                   got + NODE_VELOCITY);
+            gather(t, kind, weight, window_of(from + NODE_VELOCITY, NODE_STRIDE, walk.base),
+                   kind.dimension, got + NODE_VELOCITY);
             if (accelerations)
-                gather(t, kind, weight, walk.base, from + NODE_ACCELERATION, NODE_STRIDE,
+                gather(t, kind, weight, window_of(from + NODE_ACCELERATION, NODE_STRIDE, walk.base),
                        kind.dimension, got + NODE_ACCELERATION);
             for (int lane = 0; lane < chunk.count; lane++) {
                 const double m = t->mass[chunk.index[lane]];
@@ -372,44 +374,45 @@ BOLIDE_INLINE void keep_rates(const struct transfer *t, struct kind kind, const 
 
 /* The radial velocity of the lanes of a chunk as the hoop strain sees it. */
 BOLIDE_INLINE void gather_around(const struct transfer *t, struct kind kind,
-                                 const struct chunk *chunk, size_t base, const double *velocity,
-                                 int stride, double *sum)
+                                 const struct chunk *chunk, struct window velocity, double *sum)
 {
     for (int lane = 0; lane < kind.lanes; lane++)
         sum[lane] = 0.0;
     for (int a = 0; a < kind.window; a++)
         for (int b = 0; b < kind.window; b++) {
-            const double *node = velocity + node_of(t, kind, base, a, b, 0) * (size_t)stride;
+            const double *node = numbers_at(t, kind, velocity, a, b, 0);
             for (int lane = 0; lane < kind.lanes; lane++)
                 sum[lane] += chunk->around[a][lane] * chunk->value[1][b][lane] * node[0];
         }
 }
 
-BOLIDE_INLINE void bin_gradient(const struct transfer *t, struct kind kind, int32_t bin, double dt,
-                                const double *of, int stride, bool move, struct rates rates)
+BOLIDE_INLINE void bin_gradient(const struct transfer *t, struct kind kind, int32_t bin,
+                                struct transfer_step step, struct nodal velocity,
+                                struct rates rates)
 {
     const bool round = kind.dimension == 2 && t->axisymmetric;
     const double *patch = grid_patch(t->grid, t->main, bin);
     const struct corner corner = corner_of(t, kind, bin);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
+        const struct window of = window_of(velocity.data, velocity.stride, walk.base),
+                            flows = window_of(patch + NODE_VELOCITY, NODE_STRIDE, walk.base);
         struct chunk chunk;
         ALIGNED double sum[3][3][LANES], flow[3][LANES], around[LANES];
         ALIGNED double weight[NODES_MAX][LANES];
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             find_weights(kind, &chunk, weight);
-            gather_slopes(t, kind, &chunk, walk.base, of, stride, sum);
+            gather_slopes(t, kind, &chunk, of, sum);
             if (round)
-                gather_around(t, kind, &chunk, walk.base, of, stride, around);
-            if (move)
-                gather(t, kind, weight, walk.base, patch + NODE_VELOCITY, NODE_STRIDE,
-                       kind.dimension, flow);
+                gather_around(t, kind, &chunk, of, around);
+            if (step.move)
+                gather(t, kind, weight, flows, kind.dimension, flow);
             keep_rates(t, kind, &chunk, sum, around, rates);
             rates.to += chunk.count;
-            for (int lane = 0; lane < chunk.count && move; lane++)
+            for (int lane = 0; lane < chunk.count && step.move; lane++)
                 for (int k = 0; k < kind.dimension; k++)
-                    t->position[chunk.index[lane]][k] += dt * flow[k][lane];
+                    t->position[chunk.index[lane]][k] += step.dt * flow[k][lane];
         }
     }
 }

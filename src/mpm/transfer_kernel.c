@@ -37,10 +37,10 @@ ISA_KERNEL(void, transfer_slopes, const struct transfer *t, int32_t bin){
 #undef CALL
 }
 
-ISA_KERNEL(void, transfer_velocity, const struct transfer *t, int32_t bin, double dt,
-           bool scatter_back, bool move){
+ISA_KERNEL(void, transfer_velocity, const struct transfer *t, int32_t bin,
+           struct transfer_step step, bool scatter_back){
 #define CALL(dimension, window) \
-    bin_velocity(t, kind_make(dimension, window, 1 << dimension), bin, dt, scatter_back, move)
+    bin_velocity(t, kind_make(dimension, window, 1 << dimension), bin, step, scatter_back)
     BY_KIND(t, CALL)
 #undef CALL
 }
@@ -53,11 +53,11 @@ ISA_KERNEL(void, transfer_again, const struct transfer *t, int32_t bin, const do
 #undef CALL
 }
 
-ISA_KERNEL(void, transfer_gradient, const struct transfer *t, int32_t bin, double dt,
-           const double *of, int stride, bool move, struct rates rates)
+ISA_KERNEL(void, transfer_gradient, const struct transfer *t, int32_t bin,
+           struct transfer_step step, struct nodal velocity, struct rates rates)
 {
 #define CALL(dimension, window) \
-    bin_gradient(t, kind_make(dimension, window, 1 << dimension), bin, dt, of, stride, move, rates)
+    bin_gradient(t, kind_make(dimension, window, 1 << dimension), bin, step, velocity, rates)
     BY_KIND(t, CALL)
 #undef CALL
 }

@@ -7,8 +7,8 @@ ISA_CHOOSE(void, transfer_scatter, (const struct transfer *transfer, int32_t bin
 ISA_CHOOSE(void, transfer_slopes, (const struct transfer *transfer, int32_t bin), (transfer, bin))
 
 ISA_CHOOSE(void, transfer_velocity,
-           (const struct transfer *transfer, int32_t bin, double dt, bool scatter, bool move),
-           (transfer, bin, dt, scatter, move))
+           (const struct transfer *transfer, int32_t bin, struct transfer_step step, bool scatter),
+           (transfer, bin, step, scatter))
 
 ISA_CHOOSE(void, transfer_again,
            (const struct transfer *transfer, int32_t bin, const double *from, bool accelerations,
@@ -16,6 +16,6 @@ ISA_CHOOSE(void, transfer_again,
            (transfer, bin, from, accelerations, to))
 
 ISA_CHOOSE(void, transfer_gradient,
-           (const struct transfer *transfer, int32_t bin, double dt, const double *velocity,
-            int stride, bool move, struct rates rates),
-           (transfer, bin, dt, velocity, stride, move, rates))
+           (const struct transfer *transfer, int32_t bin, struct transfer_step step,
+            struct nodal velocity, struct rates rates),
+           (transfer, bin, step, velocity, rates))

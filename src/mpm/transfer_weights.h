@@ -166,6 +166,25 @@ BOLIDE_INLINE size_t node_of(const struct transfer *t, struct kind kind, size_t 
     return base + ((size_t)a * side + (size_t)b) * side + (size_t)c;
 }
 
+/* The numbers of the nodes of a window: at DATA those of the patch, STRIDE a node. */
+struct window {
+    const double *data;
+    int stride;
+    size_t base; /* of the window's first node */
+};
+
+BOLIDE_INLINE struct window window_of(const double *data, int stride, size_t base)
+{
+    const struct window window = {data, stride, base};
+    return window;
+}
+
+BOLIDE_INLINE const double *numbers_at(const struct transfer *t, struct kind kind,
+                                       struct window window, int a, int b, int c)
+{
+    return window.data + node_of(t, kind, window.base, a, b, c) * (size_t)window.stride;
+}
+
 #define FOR_NODES(kind, a, b, c)                                             \
     for (int a = 0; a < (kind).window; a++)                                  \
         for (int b = 0; b < ((kind).dimension > 1 ? (kind).window : 1); b++) \
@@ -211,18 +230,16 @@ BOLIDE_INLINE void find_weights(struct kind kind, const struct chunk *chunk,
     }
 }
 
-/* For the lanes of a chunk: the sums over nodes, with their WEIGHT, of COUNT numbers at DATA,
- * STRIDE a node. */
+/* For the lanes of a chunk: the sums over nodes, with their WEIGHT, of COUNT of their numbers. */
 BOLIDE_INLINE void gather(const struct transfer *t, struct kind kind, const double (*weight)[LANES],
-                          size_t base, const double *data, int stride, int count,
-                          double (*sum)[LANES])
+                          struct window from, int count, double (*sum)[LANES])
 {
     for (int k = 0; k < count; k++)
         for (int lane = 0; lane < kind.lanes; lane++)
             sum[k][lane] = 0.0;
     FOR_NODES(kind, a, b, c)
     {
-        const double *node = data + node_of(t, kind, base, a, b, c) * (size_t)stride;
+        const double *node = numbers_at(t, kind, from, a, b, c);
         for (int k = 0; k < count; k++)
             for (int lane = 0; lane < kind.lanes; lane++)
                 sum[k][lane] += (*weight)[lane] * node[k];

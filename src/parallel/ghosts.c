@@ -26,12 +26,12 @@ struct images {
     image_code code[3][3];
 };
 
-static struct images images_of(const struct mirrors *mirrors, int dimension, const double x[3],
-                               double distance)
+static struct images images_of(struct near_walls walls, const double x[3])
 {
     struct images images = {{1, 1, 1}, {{0}}};
-    for (int axis = 0; axis < dimension; axis++)
-        images.count[axis] = images_along(mirrors, axis, x[axis], distance, images.code[axis]);
+    for (int axis = 0; axis < walls.dimension; axis++)
+        images.count[axis] =
+            images_along(walls.mirrors, axis, x[axis], walls.distance, images.code[axis]);
     return images;
 }
 
@@ -71,10 +71,16 @@ static bool reserve(struct ghosts *ghosts, int64_t needed)
     return true;
 }
 
-/* Plans the images of COUNT places X, STRIDE doubles apart, whose records stand from SOURCE on: each thread counts those
- * of a part of the places, and writes them behind those of the parts before. */
-static bool plan_part(const struct mirrors *mirrors, int dimension, const double *x, size_t stride,
-                      int32_t source, int32_t count, double distance, int threads,
+/* COUNT places X, STRIDE doubles apart, whose records are those from SOURCE on. */
+struct places {
+    const double *x;
+    size_t stride;
+    int32_t source, count;
+};
+
+/* Plans the images of places: each thread counts those of a part of the places, and writes them after
+ * those of the parts before. */
+static bool plan_part(struct near_walls walls, struct places places, int threads,
                       struct ghosts *ghosts)
 {
     enum { PARTS = 64 };
@@ -83,11 +89,11 @@ static bool plan_part(const struct mirrors *mirrors, int dimension, const double
 #pragma omp parallel num_threads(threads < PARTS ? threads : PARTS)
     {
         const int parts = omp_get_num_threads(), part = omp_get_thread_num();
-        const int32_t begin = (int32_t)((int64_t)count * part / parts);
-        const int32_t end = (int32_t)((int64_t)count * (part + 1) / parts);
+        const int32_t begin = (int32_t)((int64_t)places.count * part / parts);
+        const int32_t end = (int32_t)((int64_t)places.count * (part + 1) / parts);
         int32_t own = 0;
         for (int32_t i = begin; i < end; i++) {
-            struct images images = images_of(mirrors, dimension, x + (size_t)i * stride, distance);
+            struct images images = images_of(walls, places.x + (size_t)i * places.stride);
             own += number_of(&images);
         }
         number[part + 1] = own;
@@ -101,16 +107,15 @@ static bool plan_part(const struct mirrors *mirrors, int dimension, const double
             ghosts->count = room ? number[parts] : ghosts->count;
         }
         for (int32_t i = begin, g = number[part]; i < end && room && own > 0; i++) {
-            struct images images = images_of(mirrors, dimension, x + (size_t)i * stride, distance);
-            g = plan_images(&images, source + i, ghosts, g);
+            struct images images = images_of(walls, places.x + (size_t)i * places.stride);
+            g = plan_images(&images, places.source + i, ghosts, g);
         }
     }
     return room;
 }
 
-struct error *ghosts_plan(const struct mirrors *mirrors, int dimension, int32_t count,
-                          const double (*position)[3], double distance, int threads,
-                          struct ghosts *ghosts)
+struct error *ghosts_plan(struct near_walls walls, int32_t count, const double (*position)[3],
+                          int threads, struct ghosts *ghosts)
 {
     const size_t stride = sizeof *ghosts->remote / sizeof(double);
     static_assert(sizeof(struct remote) % sizeof(double) == 0, "places lie doubles apart");
@@ -121,11 +126,13 @@ struct error *ghosts_plan(const struct mirrors *mirrors, int dimension, int32_t 
         ghosts->image[g] = 0;
     }
     ghosts->count = ghosts->remotes;
-    room = room && plan_part(mirrors, dimension, (const double *)position, 3, 0, count, distance,
-                             threads, ghosts);
+    room = room && plan_part(walls, (struct places){(const double *)position, 3, 0, count}, threads,
+                             ghosts);
     ghosts->early = ghosts->count;
-    room = room && plan_part(mirrors, dimension, (const double *)ghosts->remote, stride, count,
-                             ghosts->remotes, distance, threads, ghosts);
+    room = room && plan_part(walls,
+                             (struct places){(const double *)ghosts->remote, stride, count,
+                                             ghosts->remotes},
+                             threads, ghosts);
     return room ? NULL
                 : error_new(ERROR_SYSTEM, "out of memory for the images of %d particles", count);
 }

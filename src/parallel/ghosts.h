@@ -59,12 +59,18 @@ BOLIDE_INLINE struct vec3 image_position(const struct mirrors *mirrors, image_co
     return x;
 }
 
-/* Makes the plan for COUNT particles at POSITION and those of other ranks, which are planned before: an image behind
- * each wall that is nearer to the particle than DISTANCE, and behind the corners of such walls. With THREADS threads, the
- * number of which does not show. */
-struct error *ghosts_plan(const struct mirrors *mirrors, int dimension, int32_t count,
-                          const double (*position)[3], double distance, int threads,
-                          struct ghosts *ghosts);
+/* A place has images behind each wall that is nearer than DISTANCE, and behind the corners of such
+ * walls. */
+struct near_walls {
+    const struct mirrors *mirrors;
+    int dimension;
+    double distance;
+};
+
+/* Makes the plan for COUNT particles at POSITION and those of other ranks, which are planned before,
+ * with THREADS threads, whose number does not change the plan. */
+struct error *ghosts_plan(struct near_walls walls, int32_t count, const double (*position)[3],
+                          int threads, struct ghosts *ghosts);
 
 /* Collective: brings the records of other ranks' particles, BYTES each, behind the OWNED ones at RECORD; they are there
  * when ghosts_finish returns. Images are the caller's. Needs exchange_reserve for records of that size. */

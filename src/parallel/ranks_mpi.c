@@ -136,20 +136,28 @@ void ranks_broadcast(const struct ranks *ranks, int from, void *data, int64_t by
         MPI_Bcast(at, bytes < PIECE ? (int)bytes : PIECE, MPI_BYTE, from, MPI_COMM_WORLD);
 }
 
-static struct error *gather(const struct ranks *ranks, int to, const void *own, int64_t count,
-                            MPI_Datatype type, size_t bytes, int *counts, int *places, void **all,
-                            int64_t *total)
+/* A gather of items of BYTES each, of TYPE, to rank TO or with -1 to all; room for how many come from
+ * each rank, and where to. */
+struct gathering {
+    int to;
+    MPI_Datatype type;
+    size_t bytes;
+    int *counts, *places;
+};
+
+static struct error *gather(const struct ranks *ranks, struct gathering g, const void *own,
+                            int64_t count, void **all, int64_t *total)
 {
-    const bool wanted = to < 0 || to == ranks->rank;
+    const bool wanted = g.to < 0 || g.to == ranks->rank;
     int mine = (int)count;
-    MPI_Allgather(&mine, 1, MPI_INT, counts, 1, MPI_INT, MPI_COMM_WORLD);
+    MPI_Allgather(&mine, 1, MPI_INT, g.counts, 1, MPI_INT, MPI_COMM_WORLD);
     int64_t sum = 0;
     for (int r = 0; r < ranks->size; r++) {
-        places[r] = (int)sum;
-        sum += counts[r];
+        g.places[r] = (int)sum;
+        sum += g.counts[r];
     }
     *total = wanted ? sum : 0;
-    *all = memory_allocate((size_t)*total * bytes + 1);
+    *all = memory_allocate((size_t)*total * g.bytes + 1);
     struct error *error = NULL;
     if (!*all)
         error =
@@ -157,10 +165,10 @@ static struct error *gather(const struct ranks *ranks, int to, const void *own, 
     else if (sum > INT32_MAX)
         error = error_new(ERROR_SYSTEM, "%lld items are too many for one rank", (long long)sum);
     TRY(ranks_agree(ranks, error));
-    if (to < 0)
-        MPI_Allgatherv(own, mine, type, *all, counts, places, type, MPI_COMM_WORLD);
+    if (g.to < 0)
+        MPI_Allgatherv(own, mine, g.type, *all, g.counts, g.places, g.type, MPI_COMM_WORLD);
     else
-        MPI_Gatherv(own, mine, type, *all, counts, places, type, to, MPI_COMM_WORLD);
+        MPI_Gatherv(own, mine, g.type, *all, g.counts, g.places, g.type, g.to, MPI_COMM_WORLD);
     return NULL;
 }
 
@@ -183,7 +191,8 @@ struct error *ranks_gather(const struct ranks *ranks, int to, const void *own, i
         ranks_agree(ranks, counts && places ? NULL : error_new(ERROR_SYSTEM, "out of memory"));
     if (!error) {
         MPI_Datatype type = items_of(bytes);
-        error = gather(ranks, to, own, count, type, bytes, counts, places, all, total);
+        const struct gathering gathering = {to, type, bytes, counts, places};
+        error = gather(ranks, gathering, own, count, all, total);
         MPI_Type_free(&type);
     }
     free(counts);

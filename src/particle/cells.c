@@ -106,9 +106,10 @@ size_t cells_bytes(int32_t count)
     return (size_t)count * sizeof(struct cell_point) + 2 * room_for(count);
 }
 
-void cells_make(struct cells *cells, int dimension, double edge, cells_point *point_of,
-                const void *context, int32_t count, struct scratch *scratch, int threads)
+void cells_make(struct cells *cells, int dimension, double edge, struct cell_points points,
+                struct scratch *scratch, int threads)
 {
+    const int32_t count = points.count;
     static_assert(sizeof(struct key_run) <= sizeof(struct keyed), "cells fit in the spare room");
     struct keyed *entry = scratch_part(scratch, room_for(count));
     struct keyed *spare = scratch_part(scratch, room_for(count));
@@ -116,13 +117,13 @@ void cells_make(struct cells *cells, int dimension, double edge, cells_point *po
     cells->point = scratch_part(scratch, (size_t)count * sizeof *cells->point);
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int32_t i = 0; i < count; i++) {
-        const struct cell_point point = point_of(context, i);
+        const struct cell_point point = points.point_of(points.context, i);
         entry[i] = (struct keyed){key_of_point(cells, &point), i};
     }
     radix_sort(entry, spare, count, threads);
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int32_t k = 0; k < count; k++)
-        cells->point[k] = point_of(context, entry[k].index);
+        cells->point[k] = points.point_of(points.context, entry[k].index);
     cells->cell = (struct key_run *)spare;
     cells->count = radix_runs(entry, count, threads, cells->cell);
     cells->slots = SLOTS_LEAST;

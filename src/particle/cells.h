@@ -31,10 +31,17 @@ struct cells {
 /* Point I of those that CONTEXT is about. */
 typedef struct cell_point cells_point(const void *context, int32_t i);
 
-/* Makes the cells of COUNT points, in any order, with THREADS threads. EDGE is the cell edge of level zero. Points are
+/* COUNT points of CONTEXT, in any order. */
+struct cell_points {
+    cells_point *point_of;
+    const void *context;
+    int32_t count;
+};
+
+/* Makes the cells of POINTS with THREADS threads. EDGE is the cell edge of level zero. Points are
  * neighbours when nearer than the sum of their reaches. The cells stand in parts of SCRATCH, of cells_bytes() together. */
-void cells_make(struct cells *cells, int dimension, double edge, cells_point *point_of,
-                const void *context, int32_t count, struct scratch *scratch, int threads);
+void cells_make(struct cells *cells, int dimension, double edge, struct cell_points points,
+                struct scratch *scratch, int threads);
 size_t cells_bytes(int32_t count);
 
 int cell_level(const struct cells *cells, int32_t cell);

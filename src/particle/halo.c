@@ -78,13 +78,18 @@ static bool add_send(struct list *list, int32_t rank, int32_t item)
     return true;
 }
 
+/* How far particles reach, in supports of SKIN more than that. */
+struct seen {
+    struct reach reach;
+    double skin;
+};
+
 /* The particles of block B that the NEAR regions, in the order of their ranks, must see. */
-static bool add_block(const struct particles *p, const struct block *block, struct reach reach,
-                      double skin, const struct region *const *near, int64_t count,
-                      struct list *list)
+static bool add_block(const struct particles *p, const struct block *block, struct seen seen,
+                      const struct region *const *near, int64_t count, struct list *list)
 {
     for (int32_t i = block->first; i < block->first + block->count; i++) {
-        double own = (1.0 + skin) * reach.smoothing * reach.diameter[i];
+        double own = (1.0 + seen.skin) * seen.reach.smoothing * seen.reach.diameter[i];
         int32_t last = -1;
         for (int64_t k = 0; k < count; k++) {
             if (near[k]->rank == last || !within(near[k], p->position[i], p->position[i], own))
@@ -97,7 +102,7 @@ static bool add_block(const struct particles *p, const struct block *block, stru
     return true;
 }
 
-static struct error *find_send_items(const struct particles *p, struct reach reach, double skin,
+static struct error *find_send_items(const struct particles *p, struct seen seen,
                                      const struct halo *halo, const struct region *own,
                                      const struct region *whole, struct list *list)
 {
@@ -116,7 +121,7 @@ static struct error *find_send_items(const struct particles *p, struct reach rea
         for (int64_t k = 0; k < candidates; k++)
             if (within(near[k], own[b].low, own[b].high, own[b].reach))
                 of_block[count++] = near[k];
-        done = add_block(p, &p->block[b], reach, skin, of_block, count, list);
+        done = add_block(p, &p->block[b], seen, of_block, count, list);
     }
     free(near);
     return done ? NULL : out_of_memory();
@@ -159,8 +164,8 @@ struct error *halo_plan(const struct particles *particles, struct reach reach, d
                              &halo->regions);
     struct list list = {0};
     if (!error)
-        error =
-            ranks_agree(ranks, find_send_items(particles, reach, skin, halo, own, &whole, &list));
+        error = ranks_agree(ranks, find_send_items(particles, (struct seen){reach, skin}, halo,
+                                                   own, &whole, &list));
     free(own);
     if (!error)
         error = exchange_plan(&ghosts->exchange, ranks, list.send, list.count);

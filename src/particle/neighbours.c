@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "particle/block_motion.h"
 #include "particle/cells.h"
 #include "particle/halo.h"
-#include "particle/neighbours_hold.h"
 #include "particle/row_kernel.h"
 
 /* Images are planned this far from a wall, in supports of the largest reach, so that the plan outlives
@@ -124,7 +124,8 @@ static struct error *make_cells(struct build *b, int32_t count, int threads)
     struct keyed *spare = scratch_part(scratch, (size_t)count * sizeof *spare);
     rank_points(b, entry, spare, count, threads);
     scratch->used = used;
-    cells_make(&b->cells, b->p->dimension, b->p->cell, point_of, b, count, scratch, threads);
+    const struct cell_points points = {point_of, b, count};
+    cells_make(&b->cells, b->p->dimension, b->p->cell, points, scratch, threads);
     return NULL;
 }
 
@@ -343,20 +344,21 @@ struct error *neighbours_build(struct neighbours *neighbours, struct particles *
                                const struct contact_groups *groups, int threads)
 {
     TRY(ranks_agree(particles->ranks, reserve(neighbours, particles, threads)));
-    double distance =
-        plan_margin * 2.0 * (1.0 + neighbours->skin) * largest_reach(particles, reach, threads);
+    const struct near_walls walls = {mirrors, particles->dimension,
+                                     plan_margin * 2.0 * (1.0 + neighbours->skin) *
+                                         largest_reach(particles, reach, threads)};
     struct halo halo;
     TRY(halo_plan(particles, reach, neighbours->skin, &neighbours->ghosts, &halo));
-    struct error *error = ghosts_plan(mirrors, particles->dimension, particles->count,
-                                      (const double(*)[3])particles->position, distance, threads,
-                                      &neighbours->ghosts);
+    struct error *error =
+        ghosts_plan(walls, particles->count, (const double(*)[3])particles->position, threads,
+                    &neighbours->ghosts);
     struct build build = {
         .n = neighbours, .p = particles, .reach = reach, .mirrors = mirrors, .groups = groups};
     if (!error)
         error = build_with(&build, threads);
     error = ranks_agree(particles->ranks, error);
     if (!error)
-        error = motion_start(neighbours, particles, reach, mirrors, distance, &halo, threads);
+        error = motion_start(neighbours, particles, reach, walls, &halo, threads);
     halo_free(&halo);
     neighbours->builds++;
     return error;

@@ -7,7 +7,7 @@
  *
  * Near rows are judged alike by the motion since they were found. For them the rows must have held all pairs within (1 +
  * near skin) times the support at that moment. */
-#include "particle/neighbours_hold.h"
+#include "particle/block_motion.h"
 
 enum {
     NEAR_LIFE = 3, /* steps that near rows must hold to be worth finding them */

@@ -142,11 +142,12 @@ static bool fill_blocks(struct particles *p, struct keyed *entry)
     return moved;
 }
 
-/* Particles BEGIN .. END - 1: gathers BYTES of each, and puts them back in their order. */
+/* Gathers BYTES of each of COUNT particles, which become those at TO, in the order of their entries; and
+ * puts those of particles BEGIN .. END - 1 back. */
 BOLIDE_INLINE void gather(char *to, const char *from, size_t stride, size_t bytes,
-                          const struct keyed *entry, int32_t begin, int32_t end)
+                          const struct keyed *entry, int32_t count)
 {
-    for (int32_t i = begin; i < end; i++)
+    for (int32_t i = 0; i < count; i++)
         memcpy(to + (size_t)i * bytes, from + (size_t)entry[i].index * stride, bytes);
 }
 
@@ -164,7 +165,8 @@ BOLIDE_INLINE void move_part(const struct particles *p, const struct sorting *s,
     const int parts = omp_get_num_threads(), part = omp_get_thread_num();
     const int32_t begin = (int32_t)((int64_t)p->count * part / parts);
     const int32_t end = (int32_t)((int64_t)p->count * (part + 1) / parts);
-    gather(s->room.slice, data, stride, bytes, s->entry, begin, end);
+    gather((char *)s->room.slice + (size_t)begin * bytes, data, stride, bytes, s->entry + begin,
+           end - begin);
 #pragma omp barrier
     put_back(data, s->room.slice, stride, bytes, begin, end);
 #pragma omp barrier

@@ -13,9 +13,11 @@ __global__ void scatter(struct transfer transfer, struct kind kind)
 __global__ void gather(struct transfer transfer, struct kind kind, const double *from, double *to,
                        struct rates rates)
 {
-    bin_velocity(&transfer, kind, (int32_t)blockIdx.x, 1e-9, true, true);
+    const struct transfer_step step = {1e-9, true};
+    const struct nodal velocity = {from, BACK_STRIDE};
+    bin_velocity(&transfer, kind, (int32_t)blockIdx.x, step, true);
     bin_again(&transfer, kind, (int32_t)blockIdx.x, from, true, to);
-    bin_gradient(&transfer, kind, (int32_t)blockIdx.x, 1e-9, from, BACK_STRIDE, true, rates);
+    bin_gradient(&transfer, kind, (int32_t)blockIdx.x, step, velocity, rates);
 }
 
 __global__ void step_particles(struct point_loop loop, const struct material *material,

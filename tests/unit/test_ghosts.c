@@ -64,7 +64,8 @@ static void a_plan_without_walls_is_empty(void **state)
     (void)state;
     double position[2][3] = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
     struct ghosts ghosts = {0};
-    assert_success(ghosts_plan(&none, 3, 2, (const double(*)[3])position, 1e9, 2, &ghosts));
+    assert_success(ghosts_plan((struct near_walls){&none, 3, 1e9}, 2, (const double(*)[3])position,
+                               2, &ghosts));
     assert_int_equal(ghosts.count, 0);
     ghosts_free(&ghosts);
 }
@@ -75,11 +76,13 @@ static void a_corner_gives_three_images_in_the_plane_and_seven_in_space(void **s
     double position[1][3] = {{-0.9, 2.1, -0.4}};
     static const image_code wanted[7] = {1, 3, 4, 9, 10, 12, 13};
     struct ghosts ghosts = {0};
-    assert_success(ghosts_plan(&box, 2, 1, (const double(*)[3])position, 0.2, 2, &ghosts));
+    assert_success(ghosts_plan((struct near_walls){&box, 2, 0.2}, 1, (const double(*)[3])position,
+                               2, &ghosts));
     assert_int_equal(ghosts.count, 3);
     for (int k = 0; k < 3; k++)
         assert_int_equal(ghosts.image[k], wanted[k]);
-    assert_success(ghosts_plan(&box, 3, 1, (const double(*)[3])position, 0.2, 2, &ghosts));
+    assert_success(ghosts_plan((struct near_walls){&box, 3, 0.2}, 1, (const double(*)[3])position,
+                               2, &ghosts));
     assert_int_equal(ghosts.count, 7);
     for (int k = 0; k < 7; k++) {
         assert_int_equal(ghosts.image[k], wanted[k]);
@@ -104,8 +107,8 @@ static void a_plan_holds_the_images_of_near_walls(void **state)
     for (int dimension = 1; dimension <= 3; dimension++)
         for (double distance = 0.1; distance < 2.0; distance *= 2.0) {
             struct ghosts ghosts = {0};
-            assert_success(ghosts_plan(&box, dimension, COUNT, (const double(*)[3])position,
-                                       distance, 2, &ghosts));
+            assert_success(ghosts_plan((struct near_walls){&box, dimension, distance}, COUNT,
+                                       (const double(*)[3])position, 2, &ghosts));
             int next = 0;
             for (int i = 0; i < COUNT; i++)
                 for (int image = 1; image < IMAGE_CODES; image++) {

@@ -287,9 +287,10 @@ static void particles_take_a_linear_field_from_nodes_as_it_is(void **state)
         memcpy(before, c->position, sizeof before);
         for (int32_t b = 0; b < c->bins.count; b++) {
             grid_spread(&c->grid, &c->main, b);
-            transfer_velocity(&c->transfer, b, dt, true, false);
-            transfer_gradient(&c->transfer, b, dt,
-                              grid_patch(&c->grid, &c->main, b) + NODE_VELOCITY, NODE_STRIDE, true,
+            transfer_velocity(&c->transfer, b, (struct transfer_step){dt, false}, true);
+            const struct nodal velocity = {grid_patch(&c->grid, &c->main, b) + NODE_VELOCITY,
+                                           NODE_STRIDE};
+            transfer_gradient(&c->transfer, b, (struct transfer_step){dt, true}, velocity,
                               (struct rates){&rate[0][c->bins.bin[b].first], PARTICLES + 7});
         }
         for (int32_t n = 0; n < c->grid.blocks; n++)
@@ -378,7 +379,7 @@ static void nodes_have_the_angular_momentum_of_particles_and_moments_bring_it_ba
         assert_near(spin_of_nodes(c, true), before, 1e-13 * scale);
         for (int32_t b = 0; b < c->bins.count; b++) {
             grid_spread(&c->grid, &c->main, b);
-            transfer_velocity(&c->transfer, b, 0.01, false, false);
+            transfer_velocity(&c->transfer, b, (struct transfer_step){0.01, false}, false);
         }
         const double lost = spin_of_particles(c) - before;
         assert_true(affine ? fabs(lost) < 1e-12 * scale : fabs(lost) > 1e-6 * scale);

@@ -1,6 +1,8 @@
-/* How long neighbour rows hold: the motion of blocks since the rows were built. Private to this room. */
-#ifndef BOLIDE_NEIGHBOURS_HOLD_H
-#define BOLIDE_NEIGHBOURS_HOLD_H
+/* How blocks of particles have moved since neighbour rows were built: what is noted then, and what other
+ * ranks note of blocks that touch. By this neighbours_hold.c judges whether rows hold. Private to this
+ * module. */
+#ifndef BOLIDE_BLOCK_MOTION_H
+#define BOLIDE_BLOCK_MOTION_H
 
 #include "parallel/block.h"
 #include "particle/halo.h"
@@ -56,11 +58,11 @@ struct error *motion_meet(struct block_motion *motion, const struct particles *p
                           const struct halo *halo);
 void motion_meet_again(struct block_motion *motion, const struct particles *p);
 
-/* Collective: takes down places and reaches at the time of building; images were planned within DISTANCE of walls, the
+/* Collective: takes down places and reaches at the time of building; images were planned near WALLS, the
  * blocks of all ranks are those of HALO. */
 struct error *motion_start(struct neighbours *neighbours, const struct particles *particles,
-                           struct reach reach, const struct mirrors *mirrors, double distance,
-                           const struct halo *halo, int threads);
+                           struct reach reach, struct near_walls walls, const struct halo *halo,
+                           int threads);
 void motion_free(struct neighbours *neighbours);
 
 /* Asks for near rows and takes down places and reaches, if they are wanted now. */

@@ -1,11 +1,11 @@
-/* What is taken down of the particles when rows are built or near rows are found, to judge by how long they hold; see
- * neighbours_hold.h. */
+/* What is noted of the particles when rows are built or near rows are found, to judge by how long they
+ * hold; see block_motion.h. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "parallel/block.h"
-#include "particle/neighbours_hold.h"
+#include "particle/block_motion.h"
 
 static struct error *reserve_motion(struct neighbours *n, const struct particles *p)
 {
@@ -162,21 +162,20 @@ static void list_touching(struct block_motion *motion, const struct particles *p
 }
 
 struct error *motion_start(struct neighbours *n, const struct particles *p, struct reach reach,
-                           const struct mirrors *mirrors, double distance, const struct halo *halo,
-                           int threads)
+                           struct near_walls walls, const struct halo *halo, int threads)
 {
     TRY(ranks_agree(p->ranks, reserve_motion(n, p)));
     if (p->ranks->joined)
         TRY(motion_meet(n->motion, p, halo));
     TRY(ranks_agree(p->ranks, reserve(n, p, threads)));
     struct block_motion *motion = n->motion;
-    motion->distance = distance;
+    motion->distance = walls.distance;
     motion->taken_approach = motion->taken_apart = 0.0;
-    motion->taken_wall = -distance;
+    motion->taken_wall = -walls.distance;
     double largest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : largest)
     for (int32_t b = 0; b < p->blocks; b++) {
-        start_block(n, p, reach, mirrors, b);
+        start_block(n, p, reach, walls.mirrors, b);
         list_touching(motion, p, b);
         for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++)
             largest = maximum(largest, n->origin_reach[i]);

@@ -1,9 +1,9 @@
-/* The blocks of other ranks that touch ours, and how they have moved; see neighbours_hold.h. */
+/* The blocks of other ranks that touch ours, and how they have moved; see block_motion.h. */
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "parallel/block.h"
-#include "particle/neighbours_hold.h"
+#include "particle/block_motion.h"
 
 struct error *motion_out_of_memory(void)
 {
