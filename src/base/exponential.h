@@ -1,5 +1,7 @@
-/* The exponential function, the logarithm and powers as formulas, which a compiler turns into vectors: the same bits in
- * every lane, for every instruction set, the first two within two units in the last place of the library's. */
+/* The exponential function, the logarithm, powers and roots as formulas, which a compiler turns into
+ * vectors: the same bits in every lane, for every instruction set and on a device. Point physics and
+ * kernels use these and never the library's. Errors stay below 2.5 units in the last place; those of
+ * a power grow with its logarithm. */
 #ifndef BOLIDE_EXPONENTIAL_H
 #define BOLIDE_EXPONENTIAL_H
 
@@ -61,6 +63,48 @@ BOLIDE_INLINE double power(double x, double n)
 {
     const double value = exponential(n * logarithm(x));
     return x > 0.0 ? value : 0.0;
+}
+
+/* e^x - 1, as exact for small x: with x = k ln 2 + r it is 2^k (e^r - 1) + (2^k - 1). */
+BOLIDE_INLINE double exponential_minus_one(double x)
+{
+    const double per_ln2 = 1.4426950408889634, ln2_high = 6.93147180369123816490e-01,
+                 ln2_low = 1.90821492927058770002e-10;
+    const double rounding = 6755399441055744.0; /* as in the exponential function */
+    x = maximum(minimum(x, 700.0), -700.0);
+    double shifted = x * per_ln2 + rounding, k = shifted - rounding;
+    double r = (x - k * ln2_high) - k * ln2_low;
+    double r2 = r * r, r4 = r2 * r2;
+    double t2 = 0.5 + r * (1.0 / 6.0), t4 = 1.0 / 24.0 + r * (1.0 / 120.0);
+    double t6 = 1.0 / 720.0 + r * (1.0 / 5040.0), t8 = 1.0 / 40320.0 + r * (1.0 / 362880.0);
+    double t10 = 1.0 / 3628800.0 + r * (1.0 / 39916800.0);
+    double t12 = 1.0 / 479001600.0 + r * (1.0 / 6227020800.0);
+    double tail = (t2 + r2 * t4) + r4 * ((t6 + r2 * t8) + r4 * (t10 + r2 * t12)), power;
+    uint64_t bits;
+    memcpy(&bits, &shifted, sizeof bits);
+    bits = (bits + 1023) << 52;
+    memcpy(&power, &bits, sizeof power); /* 2^k */
+    return power * (r + r2 * tail) + (power - 1.0);
+}
+
+/* The cube root of x, which is as the logarithm takes it, or zero: a step of Newton's method from
+ * the power. */
+BOLIDE_INLINE double cube_root(double x)
+{
+    const double y = exponential(logarithm(x) * (1.0 / 3.0));
+    return x > 0.0 ? y - (y * y * y - x) / (3.0 * y * y) : 0.0;
+}
+
+/* cos(arccos(c)/3) of c in [-1, 1]: the largest root of 4 y^3 - 3 y = c, and twice that the largest
+ * root of a cubic with three real ones. With y = 1/2 + z it is 6 z^2 + 4 z^3 = 1 + c, where Newton's
+ * method meets no double root: z grows as s = sqrt((1 + c)/6). */
+BOLIDE_INLINE double cosine_of_third(double c)
+{
+    const double d = 1.0 + c, s = sqrt(d * (1.0 / 6.0));
+    double z = s * (1.0 - s * (1.0 / 3.0 - s * 0.2)); /* within two percent */
+    for (int k = 0; k < 3; k++)
+        z -= (z * z * (6.0 + 4.0 * z) - d) / maximum(12.0 * z * (1.0 + z), 1e-300);
+    return 0.5 + z;
 }
 
 #endif

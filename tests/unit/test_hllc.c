@@ -193,17 +193,6 @@ static void a_side_without_volume_stays_elastic(void **state)
     assert_true(contact.velocity == 0.0);
 }
 
-static void the_exponential_is_that_of_the_library(void **state)
-{
-    (void)state;
-    struct dice dice = {5};
-    assert_true(exponential(0.0) == 1.0);
-    for (int k = 0; k < 10000; k++) {
-        double x = dice_between(&dice, -1.0, 1.0) * pow(10.0, dice_between(&dice, -6.0, 2.8));
-        assert_close(exponential(x), exp(x), 6e-16);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -215,7 +204,6 @@ int main(void)
         cmocka_unit_test(without_yield_it_is_the_acoustic_contact),
         cmocka_unit_test(a_contact_without_doubt_is_the_elastic_one),
         cmocka_unit_test(a_side_without_volume_stays_elastic),
-        cmocka_unit_test(the_exponential_is_that_of_the_library),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
