@@ -14,6 +14,7 @@
 #include "material/eos/ideal_gas.h"
 #include "material/eos/jwl.h"
 #include "material/eos/mie_grueneisen.h"
+#include "material/eos/noble_abel.h"
 #include "material/eos/polynomial.h"
 #include "material/eos/rubber.h"
 #include "material/eos/stiffened_gas.h"
@@ -34,7 +35,8 @@
     X(grueneisen_polynomial) \
     X(tillotson)             \
     X(jwl)                   \
-    X(hjc)
+    X(hjc)                   \
+    X(noble_abel)
 
 /* Those whose pores close for good: eos_<identifier>_compact() notes it in the history. */
 #define EOS_COMPACTING(X) X(hjc)

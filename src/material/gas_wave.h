@@ -6,7 +6,7 @@
 #ifndef BOLIDE_GAS_WAVE_H
 #define BOLIDE_GAS_WAVE_H
 
-#include "base/base.h"
+#include "base/exponential.h"
 
 /* A change of velocity (m/s) and its derivative by the pressure behind the wave (m/s/Pa). */
 struct gas_push {
@@ -25,9 +25,10 @@ BOLIDE_INLINE struct gas_push gas_wave_push(double rho, double p, double c, doub
         push.value = rise * root;
         push.slope = root * (1.0 - 0.5 * rise / (pressure + b));
     } else {
-        double logarithm = log(pressure / p);
-        push.value = 2.0 * c / (gamma - 1.0) * expm1(0.5 * (gamma - 1.0) / gamma * logarithm);
-        push.slope = exp(-0.5 * (gamma + 1.0) / gamma * logarithm) / (rho * c);
+        double fall = logarithm(pressure / p);
+        push.value =
+            2.0 * c / (gamma - 1.0) * exponential_minus_one(0.5 * (gamma - 1.0) / gamma * fall);
+        push.slope = exponential(-0.5 * (gamma + 1.0) / gamma * fall) / (rho * c);
     }
     return push;
 }

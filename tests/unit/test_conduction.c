@@ -148,9 +148,6 @@ static void what_conduction_lacks_is_told(void **state)
     } mistakes[] = {
         {"materials.steel.heat={capacity: 460 J/(kg*K)}", "materials.steel", "conductivity"},
         {"materials.steel.heat={conductivity: 50 W/(m*K)}", "materials.steel", "capacity"},
-        {"materials.aluminium.eos={polynomial: {density: 2500 kg/m^3, bulk_modulus: 50 GPa, "
-         "second_modulus: 0 GPa, third_modulus: 0 GPa}}",
-         "materials.aluminium", "gives no temperature"},
         {"solver.sph={method: {contact: {motion: none}}}", "solver.sph.method.contact.motion",
          "unless heat is conducted"},
         {"checks={hot: {l1: temperature, at_most: 1, against: {gas-riemann: {left: {density: 1 "

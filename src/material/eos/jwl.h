@@ -42,7 +42,8 @@ BOLIDE_INLINE struct eos_value eos_jwl(const struct eos_jwl *jwl, double density
     (void)history;
     struct eos_value value;
     double compression = density / jwl->density, volume = 1.0 / compression;
-    double first = jwl->a * exp(-jwl->r1 * volume), second = jwl->b * exp(-jwl->r2 * volume);
+    double first = jwl->a * exponential(-jwl->r1 * volume),
+           second = jwl->b * exponential(-jwl->r2 * volume);
     double share1 = 1.0 - jwl->omega * compression / jwl->r1;
     double share2 = 1.0 - jwl->omega * compression / jwl->r2;
     double heat = energy + jwl->energy / jwl->density;
@@ -62,7 +63,8 @@ BOLIDE_INLINE struct eos_traits eos_jwl_traits(const struct eos_jwl *jwl)
     /* -V (d2p/dV2)/(4 dp/dV) of the isentrope p = A exp(-R_1 V) + B exp(-R_2 V) + C V^(-1-w) at
      * rest */
     const double none[POINT_HISTORY] = {0.0};
-    double first = jwl->a * exp(-jwl->r1), second = jwl->b * exp(-jwl->r2), w = jwl->omega;
+    double first = jwl->a * exponential(-jwl->r1), second = jwl->b * exponential(-jwl->r2),
+           w = jwl->omega;
     double third = eos_jwl(jwl, jwl->density, 0.0, none).pressure - first - second;
     double fall = jwl->r1 * first + jwl->r2 * second + (1.0 + w) * third;
     traits.shock_slope =

@@ -90,17 +90,17 @@ BOLIDE_INLINE double mie_grueneisen_adiabat(const struct heat *heat,
                                             const struct eos_mie_grueneisen *solid, double eta)
 {
     /* The adiabat is held beyond its largest compression, as the equation of state holds it. */
-    double end = -log(maximum(1.0 - solid->slope * eta, 1e-3)), integral = 0.0;
+    double end = -logarithm(maximum(1.0 - solid->slope * eta, 1e-3)), integral = 0.0;
     for (int k = 0; k < QUADRATURE; k++) {
         const struct quadrature q = quadrature_point(k);
-        double grown = exp(0.5 * end * (1.0 + q.at));
+        double grown = exponential(0.5 * end * (1.0 + q.at));
         double over = grown - 1.0, left = 1.0 - over / (grown * solid->slope); /* 1 - y */
-        integral += q.weight * exp(solid->gamma * log(left)) * square(over);
+        integral += q.weight * power(left, solid->gamma) * square(over);
     }
     integral *= 0.5 * end / (solid->slope * square(solid->slope));
     double work =
         solid->slope > 0.0 ? square(solid->sound) * solid->slope / heat->capacity * integral : 0.0;
-    return (heat->temperature + work) / pow(1.0 - eta, solid->gamma);
+    return (heat->temperature + work) / power(1.0 - eta, solid->gamma);
 }
 
 /* The cold curve in tension, (1.68) and (3.3), and the shock adiabat in compression, (1.66). */

@@ -46,7 +46,7 @@ BOLIDE_INLINE struct heat_curve eos_rubber_curve(const struct eos_rubber *rubber
 {
     double ratio = rubber->density / density;
     struct heat_curve curve = {heat->temperature,
-                               square(rubber->sound) * (ratio - 1.0 - log(ratio))};
+                               square(rubber->sound) * (ratio - 1.0 - logarithm(ratio))};
     return curve;
 }
 

@@ -54,7 +54,7 @@ BOLIDE_INLINE struct heat_curve eos_stiffened_gas_curve(const struct eos_stiffen
 {
     struct heat_curve curve;
     double ratio = density / gas->density, g = gas->gamma, c2 = square(gas->sound);
-    double rise = pow(ratio, g - 1.0);
+    double rise = power(ratio, g - 1.0);
     curve.temperature = heat->temperature * rise;
     curve.energy = c2 * ((rise / g - 1.0) / (g - 1.0) + 1.0 / (g * ratio));
     return curve;

@@ -73,7 +73,7 @@ BOLIDE_INLINE struct eos_value eos_tillotson_vapour(const struct eos_tillotson *
     struct eos_value value;
     double eta = density / t->density, mu = eta - 1.0, thin = 1.0 / eta - 1.0;
     double ratio = energy / (t->energy * square(eta)), w = 1.0 + ratio;
-    double fade = exp(-t->alpha * square(thin)), cold = exp(-t->beta * thin);
+    double fade = exponential(-t->alpha * square(thin)), cold = exponential(-t->beta * thin);
     double thermal = t->b * density * energy / w, elastic = t->bulk_modulus * mu * cold;
     value.pressure = t->a * density * energy + (thermal + elastic) * fade;
     /* dthin/drho = -1/(eta rho) */

@@ -8,6 +8,7 @@
 #ifndef BOLIDE_STRENGTH_ELASTIC_H
 #define BOLIDE_STRENGTH_ELASTIC_H
 
+#include "base/exponential.h"
 #include "material/point.h"
 
 /* The tensor S turned by the angle |angle| about the axis ANGLE (radians): R S R^T, by Rodrigues'
@@ -65,7 +66,7 @@ BOLIDE_INLINE double sym3_largest(struct sym3 s)
     double determinant = s.xx * (s.yy * s.zz - s.yz * s.yz) - s.xy * (s.xy * s.zz - s.yz * s.zx) +
                          s.zx * (s.xy * s.yz - s.yy * s.zx);
     double half = 0.5 * determinant / (radius * square(radius));
-    return 2.0 * radius * cos(acos(maximum(-1.0, minimum(1.0, half))) / 3.0);
+    return 2.0 * radius * cosine_of_third(maximum(-1.0, minimum(1.0, half)));
 }
 
 /* The equivalent strain rate of a deviator, sqrt(2/3 e:e), of STRAIN_RATE with its trace. */

@@ -14,6 +14,7 @@
 #ifndef BOLIDE_STRENGTH_HJC_H
 #define BOLIDE_STRENGTH_HJC_H
 
+#include "base/exponential.h"
 #include "material/strength/common.h"
 
 enum hjc_tensile_stress { HJC_MEAN, HJC_PRINCIPAL };
@@ -81,9 +82,9 @@ BOLIDE_INLINE double hjc_stress(const struct strength_hjc *concrete, double pres
     double relative = pressure / concrete->strength;
     double whole = concrete->a * (1.0 - damage);
     if (relative > 0.0)
-        whole += concrete->b * pow(relative, concrete->n);
+        whole += concrete->b * power(relative, concrete->n);
     if (rate > concrete->rate)
-        whole *= 1.0 + concrete->c * log(rate / concrete->rate);
+        whole *= 1.0 + concrete->c * logarithm(rate / concrete->rate);
     return concrete->strength * minimum(whole, concrete->most);
 }
 
@@ -91,7 +92,7 @@ BOLIDE_INLINE double hjc_stress(const struct strength_hjc *concrete, double pres
 BOLIDE_INLINE double hjc_failure_strain(const struct strength_hjc *concrete, double pressure)
 {
     double relative = (pressure + concrete->tension) / concrete->strength;
-    double strain = relative > 0.0 ? concrete->d1 * pow(relative, concrete->d2) : 0.0;
+    double strain = relative > 0.0 ? concrete->d1 * power(relative, concrete->d2) : 0.0;
     return maximum(strain, concrete->least_strain);
 }
 
@@ -103,8 +104,8 @@ BOLIDE_INLINE double hjc_tensile_damage(const struct strength_hjc *concrete, dou
         return damage;
     double from = maximum(damage, concrete->tensile_start);
     double over = stress / concrete->tensile_threshold - 1.0;
-    double growth = concrete->tensile_growth * pow(over, concrete->tensile_exponent) * dt;
-    double after = 1.0 / (1.0 + (1.0 - from) / from * exp(-growth));
+    double growth = concrete->tensile_growth * power(over, concrete->tensile_exponent) * dt;
+    double after = 1.0 / (1.0 + (1.0 - from) / from * exponential(-growth));
     return after >= concrete->tensile_limit ? 1.0 : after;
 }
 
