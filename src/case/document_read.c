@@ -280,8 +280,11 @@ static void complain_missing(struct reading *reading, const struct node *map,
 static bool suggest_path(struct reading *reading, const struct node *entry,
                          const struct parameter *table, const char *const *names, int count)
 {
-    char *meant =
-        nearest_name(entry->key, names, count) ? NULL : document_suggest(reading, table, entry);
+    /* Each search walks the document: a file of nothing but unknown keys must not take for ever. */
+    enum { SEARCHES = 20 };
+    const bool search = (!reading->error || error_count(reading->error) < SEARCHES) &&
+                        !nearest_name(entry->key, names, count);
+    char *meant = search ? document_suggest(reading, table, entry) : NULL;
     if (meant)
         complain(reading, entry->key_place, NULL, "unknown key \"%.60s\" (did you mean \"%s\"?)",
                  entry->key, meant);
