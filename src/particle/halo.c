@@ -164,8 +164,8 @@ struct error *halo_plan(const struct particles *particles, struct reach reach, d
                              &halo->regions);
     struct list list = {0};
     if (!error)
-        error = ranks_agree(ranks, find_send_items(particles, (struct seen){reach, skin}, halo,
-                                                   own, &whole, &list));
+        error = ranks_agree(ranks, find_send_items(particles, (struct seen){reach, skin}, halo, own,
+                                                   &whole, &list));
     free(own);
     if (!error)
         error = exchange_plan(&ghosts->exchange, ranks, list.send, list.count);
