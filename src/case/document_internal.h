@@ -132,6 +132,14 @@ void complain_unknown(struct reading *reading, struct place place, const struct 
 
 /* The path that UNKNOWN, an entry at the top of a document that TABLE describes, may be meant for: that of
  * an entry or a key of its name further down. In fresh memory; NULL when there is none. */
+/* Writes PATH, of which NULL is the whole document, into the SIZE bytes of TEXT; returns the length. */
+size_t path_text(const struct path *path, char *text, size_t size);
+
+/* The path of a key NAME within the choices of TABLE, which is at PREFIX; NULL when there is none.
+ * Owned by the caller. */
+char *document_suggest_inside(const struct reading *reading, const struct parameter *table,
+                              const char *name, const char *prefix);
+
 char *document_suggest(const struct reading *reading, const struct parameter *table,
                        const struct node *unknown);
 

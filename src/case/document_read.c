@@ -293,6 +293,22 @@ static bool suggest_path(struct reading *reading, const struct node *entry,
     return told;
 }
 
+/* The same of an entry of the table at PATH whose key belongs to a choice in the table: an option of one
+ * scheme given among those of all. */
+static bool suggest_choice(struct reading *reading, const struct node *entry,
+                           const struct path *path, const struct parameter *table)
+{
+    char prefix[1024];
+    path_text(path, prefix, sizeof prefix);
+    char *meant = document_suggest_inside(reading, table, entry->key, prefix);
+    if (meant)
+        complain(reading, entry->key_place, path, "unknown key \"%.60s\" (did you mean \"%s\"?)",
+                 entry->key, meant);
+    const bool told = meant != NULL;
+    free(meant);
+    return told;
+}
+
 /* A misspelt key counts as given, so that one slip gives one message. */
 static void read_table(struct reading *reading, const struct node *map, const struct path *path,
                        const struct parameter *table, void *values)
@@ -314,7 +330,8 @@ static void read_table(struct reading *reading, const struct node *map, const st
                        (char *)values + parameter->offset);
             given[owner[at]] = true;
         } else if (path || strcmp(entry->key, let_key) != 0) {
-            if (!path && suggest_path(reading, entry, table, names, count))
+            if (path ? suggest_choice(reading, entry, path, table)
+                     : suggest_path(reading, entry, table, names, count))
                 continue;
             complain_unknown(reading, entry->key_place, path,
                              strchr(entry->key, ':') ? "a blank is missing behind the colon in"

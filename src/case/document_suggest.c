@@ -88,6 +88,13 @@ static char *choice_path(const struct reading *reading, const struct parameter *
     return found;
 }
 
+char *document_suggest_inside(const struct reading *reading, const struct parameter *table,
+                              const char *name, const char *prefix)
+{
+    enum { BELOW = 2 }; /* the key of a choice, and the key inside */
+    return key_path(reading, table, name, prefix, BELOW);
+}
+
 char *document_suggest(const struct reading *reading, const struct parameter *table,
                        const struct node *unknown)
 {

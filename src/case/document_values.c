@@ -7,7 +7,7 @@
 #include "case/document_internal.h"
 
 /* Writes PATH into the SIZE bytes of TEXT; returns the length. */
-static size_t path_text(const struct path *path, char *text, size_t size)
+size_t path_text(const struct path *path, char *text, size_t size)
 {
     if (!path) {
         text[0] = '\0';

@@ -36,7 +36,7 @@ if [ "$("$BOLIDE" help fields | grep -c sound_long)" != 1 ]; then
 fi
 expect 0 "velocity at the start" "$BOLIDE" help bodies.flyer.velocity
 expect 0 "velocity at the start" "$BOLIDE" help bodies.flyer.velocity.1
-expect 0 "margin of neighbour rows" "$BOLIDE" help solver.sph.skin
+expect 0 "margin of the neighbour lists" "$BOLIDE" help solver.sph.skin
 expect 0 "the corner of the low coordinates" "$BOLIDE" help bodies.a.union.2.box.from
 expect 0 "value of the field at the front" "$BOLIDE" help "checks.elastic front.front.value"
 expect 0 "density at zero pressure" "$BOLIDE" help materials.al.eos.barotropic.density
@@ -48,8 +48,8 @@ expect 2 "did you mean \"units\"" "$BOLIDE" help unit
 expect 0 "run --resume" "$BOLIDE" help restart
 expect 0 "tillotson.tension" "$BOLIDE" help tension
 expect 2 "no help on \"qwertyuiop\"" "$BOLIDE" help qwertyuiop
-[ -z "$("$BOLIDE" help fields | sed -n 's/^  \([a-z_]*\) .*/\1/p' | sort | uniq -d)" ] ||
-    { echo "FAILED: help fields lists a field twice"; status=1; }
+[ "$("$BOLIDE" help fields | grep -c '^  sound_long ')" = 1 ] ||
+    { echo "FAILED: help fields lists a field of every solver twice"; status=1; }
 expect 2 "bolide verify" "$BOLIDE"
 expect 2 "did you mean \"verify\"" "$BOLIDE" verfy
 expect 2 "did you mean --overwrite" "$BOLIDE" run case.yaml --overwite

@@ -41,7 +41,7 @@ for file in fifo /dev/zero /dev/tty; do
     { echo "include: $file"; plate; } >include.yaml
     refuse 10 "include.yaml:1:10: include: $file: this is not a regular file" "$BOLIDE" check include.yaml
 done
-refuse 10 "folder: this is a folder" "$BOLIDE" check folder
+refuse 10 "folder: a folder without a case.yaml" "$BOLIDE" check folder
 truncate -s 40M large.yaml
 refuse 10 "large.yaml: File too large" "$BOLIDE" check large.yaml
 

@@ -23,7 +23,7 @@ enum { STEPS = 50 };
 
 /* Copper runs into aluminium before a wall; waves run out of the copper. */
 static const char line_case[] =
-    "format: 1\ndimension: 1\n" ONE_OF_MANY("method: hllc, reconstruction: all") MATERIALS
+    "format: 1\ndimension: 1\n" ONE_OF_MANY("method: {hllc: {reconstruction: all}}") MATERIALS
     "bodies:\n"
     "  end: {material: copper, velocity: [300 m/s], box: {from: [-33 mm], to: [-30 mm]}, frozen: "
     "yes}\n"
@@ -48,7 +48,7 @@ static const char line_case[] =
 
 /* A hot gas drives a rod through a barrel. */
 static const char ring_case[] = "format: 1\ndimension: 2\ngeometry: axisymmetric\n" ONE_OF_MANY(
-    "method: hllc, correction: symmetric, reconstruction: velocity") MATERIALS
+    "method: {hllc: {correction: symmetric, reconstruction: velocity}}") MATERIALS
     "bodies:\n"
     "  charge: {material: gas, box: {from: [0 mm, -5 mm], to: [10 mm, 0 mm]}, density: 1500 "
     "kg/m^3, pressure: 3 GPa}\n"
@@ -58,7 +58,7 @@ static const char ring_case[] = "format: 1\ndimension: 2\ngeometry: axisymmetric
     "  barrel: {mirror: x, at: 10 mm, side: high}\n";
 
 static const char space_case[] =
-    "format: 1\ndimension: 3\n" ONE_OF_MANY("method: hllc, continuity: mass") MATERIALS
+    "format: 1\ndimension: 3\n" ONE_OF_MANY("method: {hllc: {continuity: mass}}") MATERIALS
     "bodies:\n"
     "  striker: {material: copper, box: {from: [-5 mm, 1 mm, 0 mm], to: [0 mm, 8 mm, 7 mm]}, "
     "velocity: [400 m/s, 50 m/s, 0 m/s]}\n"
@@ -99,7 +99,7 @@ static void two_metals_in_the_plane_have_one_hash(void **state)
 {
     (void)state;
     judge(PLANE("method: hllc"));
-    judge(PLANE("method: monaghan, pair_stress: product"));
+    judge(PLANE("method: {monaghan: {pair_stress: product}}"));
 }
 
 static void a_gas_and_a_rod_on_the_axis_have_one_hash(void **state)

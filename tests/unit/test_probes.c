@@ -13,7 +13,9 @@
 #include "build_case.h"
 #include "measure/probes.h"
 #include "measure/profiles.h"
+#include "run/catalogue.h"
 #include "run/checks.h"
+#include "shape/kinds.h"
 
 /* Two bodies of EACH x EACH particles in a plane, or EACH^3 in space, 0.1 m apart, side by side along x. */
 enum { BODIES = 2, EACH = 4 };
@@ -62,6 +64,13 @@ static struct bench *make_bench(int dimension)
     assert_non_null(b);
     b->names[0] = left;
     b->names[1] = right;
+    for (int body = 0; body < BODIES; body++) {
+        static struct shape_box box[BODIES] = {
+            {{3, {-0.05, -0.05, -0.05}}, {3, {0.35, 0.35, 0.35}}},
+            {{3, {0.95, -0.05, -0.05}}, {3, {1.35, 0.35, 0.35}}}};
+        b->body[body].shape =
+            (struct one_of){0, catalogue_find(&bolide_catalogue, "shape", "box"), &box[body]};
+    }
     b->probe_names[0] = it;
     b->input.dimension = dimension;
     b->input.resolution = 0.1;

@@ -41,8 +41,7 @@ extern const struct field_row muscl_rows[];
 
 BOLIDE_INLINE struct muscl_kind muscl_kind_of(const struct sph *sph)
 {
-    const struct muscl_state *state = sph->state;
-    return state->kind;
+    return ((const struct muscl_state *)sph->state)->kind;
 }
 
 struct muscl_fields muscl_fields_of(const struct sph *sph, const struct simulation *simulation);
