@@ -5,8 +5,6 @@
 #include "sph/contact/kernel.h"
 
 #include "base/isa.h"
-#include "riemann/dukowicz.h"
-#include "riemann/exact_gas.h"
 #include "sph/kernel.h"
 #include "sph/record.h"
 
@@ -71,104 +69,104 @@ INLINE void find_places(struct pair_kind kind, double smoothing, const double *o
     }
 }
 
-/* What lies between the two of a pair: velocity and tractions, and their parts along it. */
-struct between {
-    struct vec3 du, ti, tj;
-    double u, i, j;
+/* The two sides of a pair along e, and the difference between them. What the spins of a pair add at its contact (turn) is
+ * taken from the difference, and the part of i given apart. */
+struct sides {
+    struct pair_side left, right;
+    struct pair_difference difference;
+    struct vec3 own_turn;
 };
 
-INLINE struct between between_of(struct pair_kind kind, const double *own,
-                                 const struct lanes *lanes, int k, struct vec3 e)
+INLINE struct sides sides_of(struct pair_kind kind, const double *own, const struct lanes *lanes,
+                             int k, double r, struct vec3 e)
 {
-    const int dimension = kind.dimension;
-    const int u = record_velocity(dimension), s = record_stress(dimension);
-    struct between b = {.i = own[s], .j = lanes->field[s][k]};
-    b.du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
-                    vector_from(dimension, own + u, 1));
-    b.u = vec3_dot(b.du, e);
-    if (kind.shear && dimension > 1) {
-        b.ti = traction_of(dimension, stress_from(dimension, own + s, 1), e);
-        b.tj = traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), e);
-        b.i = vec3_dot(b.ti, e);
-        b.j = vec3_dot(b.tj, e);
+    const int dimension = kind.dimension, u = record_velocity(dimension);
+    const bool shear = kind.shear && dimension > 1;
+    const int s = record_stress(dimension), z = record_impedance(dimension, shear);
+    const int across_z = shear ? z + 1 : z, q = record_bend(dimension, shear);
+    struct sides pair = {
+        .left = {.impedance = own[z], .shear_impedance = own[across_z]},
+        .right = {.impedance = lanes->field[z][k], .shear_impedance = lanes->field[across_z][k]}};
+    pair.left.stress = own[s];
+    pair.right.stress = lanes->field[s][k];
+    if (record_has_bend(kind)) {
+        pair.left.density = own[q];
+        pair.left.bend = own[q + 1];
+        pair.right.density = lanes->field[q][k];
+        pair.right.bend = lanes->field[q + 1][k];
     }
-    return b;
+    const struct vec3 du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
+                                    vector_from(dimension, own + u, 1));
+    pair.difference.velocity = vec3_dot(du, e);
+    if (dimension > 1)
+        pair.difference.sliding = vec3_sub(du, vec3_scale(pair.difference.velocity, e));
+    if (kind.turn) {
+        const int d = record_diameter(dimension), spin = record_spin(kind);
+        double share = own[d] / (own[d] + lanes->field[d][k]);
+        struct vec3 spin_i = spin_from(dimension, own + spin, 1);
+        struct vec3 spin_j = spin_from(dimension, &lanes->field[spin][k], LANES);
+        pair.own_turn = vec3_scale(share * r, vec3_cross(spin_i, e));
+        pair.difference.sliding =
+            vec3_sub(pair.difference.sliding,
+                     vec3_add(pair.own_turn, vec3_scale((1.0 - share) * r, vec3_cross(spin_j, e))));
+    }
+    if (shear) {
+        const struct vec3 ti = traction_of(dimension, stress_from(dimension, own + s, 1), e);
+        const struct vec3 tj =
+            traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), e);
+        pair.left.stress = vec3_dot(ti, e);
+        pair.right.stress = vec3_dot(tj, e);
+        pair.left.shear = vec3_sub(ti, vec3_scale(pair.left.stress, e));
+        pair.right.shear = vec3_sub(tj, vec3_scale(pair.right.stress, e));
+        pair.difference.shear = vec3_sub(pair.right.shear, pair.left.shear);
+    }
+    return pair;
 }
 
 /* Contact problems that are not the usual ones, along the pairs of eight lanes, and how parts across them meet. */
 struct contacts {
-    double u[LANES] ALIGNED, i[LANES] ALIGNED, j[LANES] ALIGNED;
     double stress[LANES] ALIGNED, jump[LANES] ALIGNED;
     double left[LANES] ALIGNED, right[LANES] ALIGNED;
     double compliance[LANES] ALIGNED, impedance[LANES] ALIGNED;
 };
 
-/* Impedances stand at Z and, across, at ACROSS_Z, density and bend from Q on. STAR is a constant where this is inlined. */
-INLINE void solve_by(enum pair_star star, const double *own, const struct lanes *lanes, int z,
-                     int across_z, int q, struct contacts *c)
+/* STAR is a constant where this is inlined. */
+INLINE void solve_by(enum pair_star star, struct pair_kind kind, const double *own,
+                     const struct lanes *lanes, const struct pairs *pairs, struct contacts *c)
 {
+    const struct pair_law law = {.star = star};
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
-        const struct two_inverses inverse =
-            inverses_of_sums(own[z], lanes->field[z][k], own[across_z], lanes->field[across_z][k]);
-        struct contact_weights along = riemann_mean_weights(), across = along;
-        if (star != STAR_MEAN) {
-            along = contact_weights_of(own[z], lanes->field[z][k], inverse.first);
-            across = contact_weights_of(own[across_z], lanes->field[across_z][k], inverse.second);
-        }
-        c->left[k] = across.left;
-        c->right[k] = across.right;
-        c->compliance[k] = across.compliance;
-        c->impedance[k] = across.impedance;
-        if (star == STAR_DUKOWICZ || star == STAR_EXACT_GAS) {
-            struct side left = {own[z], 0.0, c->i[k], own[q], own[q + 1]};
-            struct side right = {lanes->field[z][k], c->u[k], c->j[k], lanes->field[q][k],
-                                 lanes->field[q + 1][k]};
-            struct contact contact = star == STAR_DUKOWICZ ? riemann_dukowicz(left, right)
-                                                           : riemann_exact_gas(left, right);
-            c->stress[k] = contact.stress;
-            c->jump[k] = contact.velocity;
-        } else {
-            c->stress[k] = contact_stress(along, c->i[k], c->j[k], c->u[k]);
-            c->jump[k] = contact_velocity_jump(along, c->u[k], c->j[k] - c->i[k]);
-        }
-    }
-}
-
-/* One for all kinds. */
-static void solve_contacts(struct pair_kind kind, const double *own, const struct lanes *lanes,
-                           struct contacts *contacts)
-{
-    const bool shear = kind.shear && kind.dimension > 1;
-    const int z = record_impedance(kind.dimension, shear), across_z = shear ? z + 1 : z;
-    const int q = record_bend(kind.dimension, shear);
-    switch (kind.star) {
-    case STAR_ACOUSTIC:
-        solve_by(STAR_ACOUSTIC, own, lanes, z, across_z, q, contacts);
-        break;
-    case STAR_MEAN:
-        solve_by(STAR_MEAN, own, lanes, z, across_z, q, contacts);
-        break;
-    case STAR_DUKOWICZ:
-        solve_by(STAR_DUKOWICZ, own, lanes, z, across_z, q, contacts);
-        break;
-    case STAR_EXACT_GAS:
-        solve_by(STAR_EXACT_GAS, own, lanes, z, across_z, q, contacts);
+        const struct vec3 e = vector_from(kind.dimension, &pairs->e[0][k], LANES);
+        const struct sides pair = sides_of(kind, own, lanes, k, pairs->r[k], e);
+        const struct pair_weights weights = pair_weights_of(&pair.left, &pair.right, star);
+        const struct contact contact =
+            pair_along(&pair.left, &pair.right, pair.difference.velocity, &law, &weights.along);
+        c->left[k] = weights.across.left;
+        c->right[k] = weights.across.right;
+        c->compliance[k] = weights.across.compliance;
+        c->impedance[k] = weights.across.impedance;
+        c->stress[k] = contact.stress;
+        c->jump[k] = contact.velocity;
     }
 }
 
 INLINE void find_contacts(struct pair_kind kind, const double *own, const struct lanes *lanes,
                           const struct pairs *pairs, struct contacts *contacts)
 {
-#pragma omp simd simdlen(8)
-    for (int k = 0; k < LANES; k++) {
-        const struct vec3 e = vector_from(kind.dimension, &pairs->e[0][k], LANES);
-        const struct between b = between_of(kind, own, lanes, k, e);
-        contacts->u[k] = b.u;
-        contacts->i[k] = b.i;
-        contacts->j[k] = b.j;
+    switch (kind.star) {
+    case STAR_MEAN:
+        solve_by(STAR_MEAN, kind, own, lanes, pairs, contacts);
+        break;
+    case STAR_DUKOWICZ:
+        solve_by(STAR_DUKOWICZ, kind, own, lanes, pairs, contacts);
+        break;
+    case STAR_EXACT_GAS:
+        solve_by(STAR_EXACT_GAS, kind, own, lanes, pairs, contacts);
+        break;
+    default:
+        solve_by(STAR_ACOUSTIC, kind, own, lanes, pairs, contacts);
     }
-    solve_contacts(kind, own, lanes, contacts);
 }
 
 /* Adds up what contacts give. The USUAL ones, acoustic and under no law, are solved on the way; others stand in CONTACTS. */
@@ -178,70 +176,31 @@ INLINE void add_contacts(struct pair_kind kind, bool usual, const double *own,
 {
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
-    const int d = record_diameter(dimension), z = record_impedance(dimension, shear);
-    const int depth = record_depth(kind), spin = record_spin(kind);
+    const int depth = record_depth(kind);
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const double r = pairs->r[k], weight = pairs->weight[k];
         const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
-        const struct between b = between_of(kind, own, lanes, k, e);
-        double stress, jump, opened = 0.0;
-        struct contact_weights across;
+        const struct sides pair = sides_of(kind, own, lanes, k, r, e);
+        struct pair_law law = {.star = STAR_ACOUSTIC, .shear = shear, .cuts = !usual};
+        struct pair_contact star;
         if (usual) {
-            const int across_z = shear ? z + 1 : z;
-            const struct two_inverses inverse = inverses_of_sums(
-                own[z], lanes->field[z][k], own[across_z], lanes->field[across_z][k]);
-            const struct contact_weights along =
-                contact_weights_of(own[z], lanes->field[z][k], inverse.first);
-            across = contact_weights_of(own[across_z], lanes->field[across_z][k], inverse.second);
-            stress = contact_stress(along, b.i, b.j, b.u);
-            jump = contact_velocity_jump(along, b.u, b.j - b.i);
+            star = contact_pair(&pair.left, &pair.right, &pair.difference, &law);
         } else {
-            across = (struct contact_weights){contacts->left[k], contacts->right[k],
-                                              contacts->compliance[k], contacts->impedance[k]};
-            stress = contacts->stress[k];
-            opened = stress > 0.0 ? lanes->open[k] : 0.0;
-            jump = opened > 0.0 ? -b.i / own[z] : contacts->jump[k];
-            stress = opened > 0.0 ? 0.0 : stress;
+            const struct contact along = {contacts->jump[k], contacts->stress[k]};
+            const struct contact_weights across = {contacts->left[k], contacts->right[k],
+                                                   contacts->compliance[k], contacts->impedance[k]};
+            law.slip = lanes->slip[k];
+            law.open = lanes->open[k];
+            star = pair_across(&pair.left, &pair.right, &pair.difference, &law, along, &across);
         }
-        struct vec3 t = vec3_scale(stress, e), w = vec3_scale(jump, e);
-        if (dimension > 1) {
-            struct vec3 across_u = vec3_sub(b.du, vec3_scale(b.u, e));
-            struct vec3 own_turn = {0.0, 0.0, 0.0}; /* what the spin of i adds at the contact */
-            if (kind.turn) {
-                double share = own[d] / (own[d] + lanes->field[d][k]);
-                struct vec3 spin_i = spin_from(dimension, own + spin, 1);
-                struct vec3 spin_j = spin_from(dimension, &lanes->field[spin][k], LANES);
-                own_turn = vec3_scale(share * r, vec3_cross(spin_i, e));
-                across_u = vec3_sub(
-                    across_u,
-                    vec3_add(own_turn, vec3_scale((1.0 - share) * r, vec3_cross(spin_j, e))));
-            }
-            if (shear) {
-                struct vec3 ai = vec3_sub(b.ti, vec3_scale(b.i, e));
-                struct vec3 aj = vec3_sub(b.tj, vec3_scale(b.j, e));
-                struct vec3 da = vec3_sub(aj, ai);
-                struct vec3 ta =
-                    vec3_add(vec3_add(vec3_scale(across.left, aj), vec3_scale(across.right, ai)),
-                             vec3_scale(across.impedance, across_u));
-                struct vec3 wa =
-                    vec3_add(vec3_scale(across.right, across_u), vec3_scale(across.compliance, da));
-                if (!usual) {
-                    bool free = opened > 0.0 || lanes->slip[k] > 0.0;
-                    double still = own[z + 1] > 0.0 ? -1.0 / own[z + 1] : 0.0;
-                    ta = vec3_scale(free ? 0.0 : 1.0, ta);
-                    wa.x = free ? still * ai.x : wa.x;
-                    wa.y = free ? still * ai.y : wa.y;
-                    wa.z = free ? still * ai.z : wa.z;
-                }
-                t = vec3_add(t, ta);
-                w = vec3_add(w, wa);
-                if (kind.turn)
-                    w = vec3_add(w, own_turn);
-            } else {
-                w = vec3_add(w, vec3_scale(0.5, across_u));
-            }
-        }
+        struct vec3 t = vec3_scale(star.stress, e), w = vec3_scale(star.velocity, e);
+        if (shear)
+            t = vec3_add(t, star.shear);
+        if (dimension > 1)
+            w = vec3_add(w, star.sliding);
+        if (kind.turn)
+            w = vec3_add(w, pair.own_turn);
         double force_weight = weight;
         if (kind.depth) {
             double pair_depth = 0.5 * fabs(own[depth] + lanes->field[depth][k]);

@@ -9,17 +9,10 @@
 #define BOLIDE_SPH_PAIR_KERNEL_H
 
 #include "particle/neighbours.h"
+#include "riemann/contact_pair.h"
 #include "sph/layout.h"
 
-/* Where the contact velocity and stress along a pair come from. */
-enum pair_star {
-    STAR_ACOUSTIC,  /* contact SPH: riemann/acoustic.h */
-    STAR_MEAN,      /* standard SPH: arithmetic means */
-    STAR_DUKOWICZ,  /* contact SPH for strong shocks: riemann/dukowicz.h */
-    STAR_EXACT_GAS, /* contact SPH of ideal gases: riemann/exact_gas.h */
-};
-
-/* What instantiates a kernel. `shear`: stress is a tensor and shear impedances count. `drift`: the mean of
+/* What instantiates a kernel. `star`: means, or one of the Riemann problems but STAR_SHOCK. `shear`: stress is a tensor and shear impedances count. `drift`: the mean of
  * contact velocities is wanted too. `depth`: particles of the plane have a depth, the radius r of axisymmetry (-r
  * behind the axis) or the thickness of a plate. `turn`: velocities are those at the contact point (acoustic, with
  * shear). */

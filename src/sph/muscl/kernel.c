@@ -4,7 +4,7 @@
 #include "sph/muscl/kernel.h"
 
 #include "base/isa.h"
-#include "riemann/shock.h"
+#include "riemann/contact_pair.h"
 #include "sph/kernel.h"
 #include "sph/muscl/slopes.h"
 #include "sph/muscl/sums.h"
@@ -252,60 +252,46 @@ INLINE void add_contacts(struct muscl_kind kind, bool with_law, const double *ow
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
-        const double along_u = pairs->along_u[k], along_i = pairs->along_i[k];
-        const double along_j = pairs->along_j[k], along_s = along_j - along_i;
-        const double rise_u = pairs->share[0][k] * along_u;
-        const double jump_u = along_u - rise_u - pairs->share[1][k] * along_u;
-        const double left_s = along_i + pairs->share[2][k] * along_s;
-        const double right_s = along_j - pairs->share[3][k] * along_s, jump_s = right_s - left_s;
-        struct contact_weights along = riemann_shock_weights(own[z], lanes->field[z][k], own[q],
-                                                             lanes->field[q][k], jump_u, jump_s);
-        /* fluids that shear past each other are not braked as if they met */
-        double brake = 1.0;
+        struct pair_side left = {.impedance = own[z],
+                                 .bend = own[q],
+                                 .stress = pairs->along_i[k],
+                                 .carried = {pairs->share[0][k], pairs->share[2][k], 0.0, 0.0}};
+        struct pair_side right = {.impedance = lanes->field[z][k],
+                                  .bend = lanes->field[q][k],
+                                  .stress = pairs->along_j[k],
+                                  .carried = {pairs->share[1][k], pairs->share[3][k], 0.0, 0.0}};
+        struct pair_difference difference = {.velocity = pairs->along_u[k]};
+        struct pair_law law = {.star = STAR_SHOCK,
+                               .shear = shear,
+                               .carried = true,
+                               .cuts = with_law,
+                               .slip = with_law ? lanes->slip[k] : 0.0,
+                               .open = with_law ? lanes->open[k] : 0.0,
+                               .brake = 1.0};
         if (dimension > 1) {
+            /* fluids that shear past each other are not braked as if they met */
             const double own_share = -own[z + 1], other_share = -lanes->field[z + 1][k];
-            brake = minimum(own_share, other_share) > 0.0 ? maximum(own_share, other_share) : 1.0;
+            law.brake =
+                minimum(own_share, other_share) > 0.0 ? maximum(own_share, other_share) : 1.0;
+            difference.sliding = vector_from(dimension, &pairs->across_u[0][k], LANES);
+            left.carried.sliding = pairs->share[4][k];
+            right.carried.sliding = pairs->share[5][k];
         }
-        double stress = contact_stress(along, left_s, right_s, brake * jump_u);
-        double jump = rise_u + contact_velocity_jump(along, jump_u, jump_s);
-        double opened = 0.0;
-        if (with_law) {
-            opened = stress > 0.0 ? lanes->open[k] : 0.0;
-            jump = opened > 0.0 ? -along_i / own[z] : jump;
-            stress = opened > 0.0 ? 0.0 : stress;
+        if (shear) {
+            const struct vec3 ti = vector_from(dimension, &pairs->traction[0][k], LANES);
+            left.shear_impedance = maximum(own[z + 1], 0.0);
+            right.shear_impedance = maximum(lanes->field[z + 1][k], 0.0);
+            left.shear = vec3_sub(ti, vec3_scale(left.stress, n));
+            difference.shear = vector_from(dimension, &pairs->across_s[0][k], LANES);
+            left.carried.shear = pairs->share[6][k];
+            right.carried.shear = pairs->share[7][k];
         }
-        struct vec3 t = vec3_scale(stress, n), w = vec3_scale(jump, n);
-        if (dimension > 1) {
-            const struct vec3 across_u = vector_from(dimension, &pairs->across_u[0][k], LANES);
-            const double left_v = pairs->share[4][k], open_v = 1.0 - left_v - pairs->share[5][k];
-            if (shear) {
-                const struct vec3 da = vector_from(dimension, &pairs->across_s[0][k], LANES);
-                const struct vec3 ti = vector_from(dimension, &pairs->traction[0][k], LANES);
-                const double left_a = pairs->share[6][k], right_a = pairs->share[7][k];
-                struct contact_weights across = riemann_acoustic_weights(
-                    maximum(own[z + 1], 0.0), maximum(lanes->field[z + 1][k], 0.0));
-                /* of the jump DA, what reaches the contact: that from the right by the left's share, and back */
-                double share = across.left * (1.0 - right_a) + across.right * left_a;
-                struct vec3 ai = vec3_sub(ti, vec3_scale(along_i, n));
-                struct vec3 ta = vec3_add(vec3_add(ai, vec3_scale(share, da)),
-                                          vec3_scale(across.impedance * open_v, across_u));
-                struct vec3 wa =
-                    vec3_add(vec3_scale(left_v + across.right * open_v, across_u),
-                             vec3_scale(across.compliance * (1.0 - left_a - right_a), da));
-                if (with_law) {
-                    bool free = opened > 0.0 || lanes->slip[k] > 0.0;
-                    double still = own[z + 1] > 0.0 ? -1.0 / own[z + 1] : 0.0;
-                    ta = vec3_scale(free ? 0.0 : 1.0, ta);
-                    wa.x = free ? still * ai.x : wa.x;
-                    wa.y = free ? still * ai.y : wa.y;
-                    wa.z = free ? still * ai.z : wa.z;
-                }
-                t = vec3_add(t, ta);
-                w = vec3_add(w, wa);
-            } else {
-                w = vec3_add(w, vec3_scale(left_v + 0.5 * open_v, across_u));
-            }
-        }
+        const struct pair_contact star = contact_pair(&left, &right, &difference, &law);
+        struct vec3 t = vec3_scale(star.stress, n), w = vec3_scale(star.velocity, n);
+        if (shear)
+            t = vec3_add(t, star.shear);
+        if (dimension > 1)
+            w = vec3_add(w, star.sliding);
         const double weight = pairs->weight[k];
         double force_weight = weight * pairs->area[k];
         if (kind.depth) {

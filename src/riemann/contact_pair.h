@@ -1,0 +1,177 @@
+/* The contact of two particles: what a pair of them exchanges, for every scheme that solves a Riemann problem along a pair
+ * and splits velocity and traction into the part along its axis and the part across it. Both parts are linear in the
+ * differences between the two sides (acoustic.h); the part along may be one of strong shocks instead; and a contact law
+ * may open the contact or let it slip.
+ *
+ * Values may be carried to the contact first by limited slopes: the left side's by a fraction l of the difference between
+ * the two, the right side's by a fraction r, so that 1 - l - r of it is left to the Riemann problem. Source: Parshikov
+ * (2013), (1.20)-(1.37), and docs/sph.md for the laws and the slopes. */
+#ifndef BOLIDE_RIEMANN_CONTACT_PAIR_H
+#define BOLIDE_RIEMANN_CONTACT_PAIR_H
+
+#include "base/vector.h"
+#include "riemann/dukowicz.h"
+#include "riemann/exact_gas.h"
+#include "riemann/shock.h"
+
+/* Where stress and velocity along the axis come from. */
+enum pair_star {
+    STAR_ACOUSTIC,  /* acoustic.h */
+    STAR_MEAN,      /* arithmetic means: no Riemann problem */
+    STAR_DUKOWICZ,  /* dukowicz.h */
+    STAR_EXACT_GAS, /* exact_gas.h */
+    STAR_SHOCK,     /* shock.h: acoustic, by the impedances of shocks */
+};
+
+/* Fractions of the differences between the sides that slopes carry to the contact. */
+struct pair_carried {
+    double velocity, stress; /* along the axis */
+    double sliding, shear;   /* across it */
+};
+
+/* A side: impedances rho C_l and rho C_t (0 for a fluid), density and bend as the solver of strong shocks takes them
+ * (STAR_SHOCK: rho times the slope, side.h otherwise), stress along the axis and traction across it, at the particle. */
+struct pair_side {
+    double impedance, shear_impedance, density, bend;
+    double stress;
+    struct vec3 shear;
+    struct pair_carried carried;
+};
+
+/* What the right side has more than the left: velocity along the axis, and across it velocity and traction. */
+struct pair_difference {
+    double velocity;
+    struct vec3 sliding, shear;
+};
+
+/* How the two meet. All but the last three are constants where this is inlined. */
+struct pair_law {
+    enum pair_star star;
+    bool shear;   /* the sides have traction across the axis */
+    bool carried; /* by slopes */
+    bool cuts;    /* one of the next two may be set */
+    double slip;  /* not zero: no traction across the axis */
+    double open;  /* not zero: no tension */
+    double
+        brake; /* of the difference of velocities, what counts in the stress; 1 but for fluids that slide past each other */
+};
+
+/* sigma* and U* less the velocity of the left side, along the axis and across it. */
+struct pair_contact {
+    double stress, velocity;
+    struct vec3 shear, sliding;
+};
+
+/* What both parts of a contact are linear in. */
+struct pair_weights {
+    struct contact_weights along, across;
+};
+
+BOLIDE_INLINE struct pair_weights pair_weights_of(const struct pair_side *left,
+                                                  const struct pair_side *right,
+                                                  enum pair_star star)
+{
+    struct pair_weights weights = {riemann_mean_weights(), riemann_mean_weights()};
+    if (star == STAR_SHOCK) { /* the part along is weighed by its own shocks */
+        weights.across = riemann_acoustic_weights(left->shear_impedance, right->shear_impedance);
+    } else if (star != STAR_MEAN) {
+        const struct two_inverses inverse = inverses_of_sums(
+            left->impedance, right->impedance, left->shear_impedance, right->shear_impedance);
+        weights.along = contact_weights_of(left->impedance, right->impedance, inverse.first);
+        weights.across =
+            contact_weights_of(left->shear_impedance, right->shear_impedance, inverse.second);
+    }
+    return weights;
+}
+
+/* Stress and velocity along the axis, before the law. */
+BOLIDE_INLINE struct contact pair_along(const struct pair_side *left, const struct pair_side *right,
+                                        double velocity, const struct pair_law *law,
+                                        const struct contact_weights *along)
+{
+    struct contact contact;
+    if (law->star == STAR_DUKOWICZ || law->star == STAR_EXACT_GAS) {
+        const struct side l = {left->impedance, 0.0, left->stress, left->density, left->bend};
+        const struct side r = {right->impedance, velocity, right->stress, right->density,
+                               right->bend};
+        return law->star == STAR_DUKOWICZ ? riemann_dukowicz(l, r) : riemann_exact_gas(l, r);
+    }
+    if (law->carried) {
+        const double stress = right->stress - left->stress;
+        const double rise = left->carried.velocity * velocity;
+        const double jump = velocity - rise - right->carried.velocity * velocity;
+        const double left_stress = left->stress + left->carried.stress * stress;
+        const double right_stress = right->stress - right->carried.stress * stress;
+        const double step = right_stress - left_stress;
+        const struct contact_weights w =
+            law->star == STAR_SHOCK ? riemann_shock_weights(left->impedance, right->impedance,
+                                                            left->bend, right->bend, jump, step)
+                                    : *along;
+        contact.stress = contact_stress(w, left_stress, right_stress, law->brake * jump);
+        contact.velocity = rise + contact_velocity_jump(w, jump, step);
+        return contact;
+    }
+    contact.stress = contact_stress(*along, left->stress, right->stress, velocity);
+    contact.velocity = contact_velocity_jump(*along, velocity, right->stress - left->stress);
+    return contact;
+}
+
+/* Adds the law, and what is across the axis. */
+BOLIDE_INLINE struct pair_contact pair_across(const struct pair_side *left,
+                                              const struct pair_side *right,
+                                              const struct pair_difference *difference,
+                                              const struct pair_law *law, struct contact along,
+                                              const struct contact_weights *across)
+{
+    const struct vec3 none = {0.0, 0.0, 0.0};
+    struct pair_contact c = {along.stress, along.velocity, none, none};
+    double opened = 0.0;
+    if (law->cuts) {
+        opened = along.stress > 0.0 ? law->open : 0.0;
+        c.velocity = opened > 0.0 ? -left->stress / left->impedance : along.velocity;
+        c.stress = opened > 0.0 ? 0.0 : along.stress;
+    }
+    const struct pair_carried l = left->carried, r = right->carried;
+    const double open = 1.0 - l.sliding - r.sliding;
+    if (!law->shear) {
+        c.sliding = vec3_scale(law->carried ? l.sliding + 0.5 * open : 0.5, difference->sliding);
+        return c;
+    }
+    if (law->carried) {
+        /* of the difference of tractions, what reaches the contact: the right side's by the left's weight, and back */
+        const double fraction = across->left * (1.0 - r.shear) + across->right * l.shear;
+        c.shear = vec3_add(vec3_add(left->shear, vec3_scale(fraction, difference->shear)),
+                           vec3_scale(across->impedance * open, difference->sliding));
+        c.sliding =
+            vec3_add(vec3_scale(l.sliding + across->right * open, difference->sliding),
+                     vec3_scale(across->compliance * (1.0 - l.shear - r.shear), difference->shear));
+    } else {
+        c.shear = vec3_add(vec3_add(vec3_scale(across->left, right->shear),
+                                    vec3_scale(across->right, left->shear)),
+                           vec3_scale(across->impedance, difference->sliding));
+        c.sliding = vec3_add(vec3_scale(across->right, difference->sliding),
+                             vec3_scale(across->compliance, difference->shear));
+    }
+    if (law->cuts) {
+        const bool free = opened > 0.0 || law->slip > 0.0;
+        const double still = left->shear_impedance > 0.0 ? -1.0 / left->shear_impedance : 0.0;
+        c.shear = vec3_scale(free ? 0.0 : 1.0, c.shear);
+        c.sliding.x = free ? still * left->shear.x : c.sliding.x;
+        c.sliding.y = free ? still * left->shear.y : c.sliding.y;
+        c.sliding.z = free ? still * left->shear.z : c.sliding.z;
+    }
+    return c;
+}
+
+/* The contact of LEFT and RIGHT under LAW, as the left side sees it. */
+BOLIDE_INLINE struct pair_contact contact_pair(const struct pair_side *left,
+                                               const struct pair_side *right,
+                                               const struct pair_difference *difference,
+                                               const struct pair_law *law)
+{
+    const struct pair_weights weights = pair_weights_of(left, right, law->star);
+    const struct contact along = pair_along(left, right, difference->velocity, law, &weights.along);
+    return pair_across(left, right, difference, law, along, &weights.across);
+}
+
+#endif
