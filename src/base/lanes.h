@@ -9,9 +9,6 @@ enum { LANES = 8 };
 
 #define ALIGNED __attribute__((aligned(64)))
 
-/* A kernel is instantiated by inlining all of it with its kind as a constant. */
-#define INLINE BOLIDE_INLINE
-
 /* What few particles need stays out of the way of what all do: of registers, and of the time to
  * compile. */
 #if defined(__CUDACC__)

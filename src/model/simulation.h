@@ -5,16 +5,10 @@
 #include "case/case.h"
 #include "model/ledger.h"
 #include "parallel/ghosts.h"
+#include "particle/contact_law.h"
 #include "particle/particles.h"
 
 enum { CONTACT_GROUPS = 16, MATERIALS_MAX = 256, PHASES_MAX = 16 };
-
-/* The law between two contact groups: bits, and behind them which surface; zero is full contact. */
-enum contact_law {
-    LAW_SLIP = 1,       /* no shear traction but friction */
-    LAW_NO_TENSION = 2, /* the contact opens instead of pulling */
-    LAW_SURFACE = 4,    /* times the index of the surface */
-};
 
 /* What else a law may say. Surface 0 has no friction and the mean normal. */
 struct contact_surface {

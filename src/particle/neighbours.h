@@ -12,6 +12,7 @@
 #define BOLIDE_NEIGHBOURS_H
 
 #include "parallel/ghosts.h"
+#include "particle/contact_law.h"
 #include "particle/particles.h"
 
 /* The two top bits of a row's entry say which part of the row it belongs to, the others which record: an

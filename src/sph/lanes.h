@@ -13,16 +13,15 @@
 #endif
 
 #include "base/lanes.h"
+#include "base/wide.h"
 #include "particle/neighbours.h"
 
 enum { LANES_CHUNK = 512, PLACE_STRIDE = 4 };
 
 #if defined(__AVX512F__)
-typedef double vector8 __attribute__((vector_size(64)));
-
 /* Turns eight rows of four into four columns. Halves of registers are put together while they are loaded, which leaves
  * less to the one port that shuffles. */
-INLINE void transpose_four(const double *const row[LANES], int offset, vector8 column[4])
+BOLIDE_INLINE void transpose_four(const double *const row[LANES], int offset, vector8 column[4])
 {
     vector8 pair[4], half[4];
     for (int k = 0; k < 4; k++) {
@@ -43,7 +42,7 @@ INLINE void transpose_four(const double *const row[LANES], int offset, vector8 c
 #endif
 
 /* Turns four columns of eight rows, from OFFSET on, into lanes. */
-INLINE void transpose(const double *const row[LANES], int offset, double (*column)[LANES])
+BOLIDE_INLINE void transpose(const double *const row[LANES], int offset, double (*column)[LANES])
 {
 #if defined(__AVX512F__)
     vector8 four[4];
@@ -56,7 +55,7 @@ INLINE void transpose(const double *const row[LANES], int offset, double (*colum
 #endif
 }
 
-INLINE double across_lanes(const double lane[LANES])
+BOLIDE_INLINE double across_lanes(const double lane[LANES])
 {
     return ((lane[0] + lane[4]) + (lane[2] + lane[6])) +
            ((lane[1] + lane[5]) + (lane[3] + lane[7]));
@@ -64,7 +63,7 @@ INLINE double across_lanes(const double lane[LANES])
 
 /* The sums over lanes of COUNT accumulators, a multiple of eight, each in the order of across_lanes. */
 #if defined(__AVX512F__)
-INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
+BOLIDE_INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
 {
     for (int first = 0; first < count; first += LANES) {
         vector8 a[8], half[4], quarter[2];
@@ -83,7 +82,7 @@ INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
     }
 }
 #else
-INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
+BOLIDE_INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
 {
     for (int k = 0; k < count; k++)
         total[k] = across_lanes(lane[k]);
@@ -102,14 +101,16 @@ struct lane_records {
 };
 
 /* Finds the records of the eight neighbours of LIST. */
-INLINE void lanes_rows(struct lane_records records, const uint32_t *list, const double *row[LANES])
+BOLIDE_INLINE void lanes_rows(struct lane_records records, const uint32_t *list,
+                              const double *row[LANES])
 {
     for (int k = 0; k < LANES; k++) /* NOLINTNEXTLINE(clang-analyzer-core.*): it is filled up */
         row[k] = records.record + (size_t)list[k] * (size_t)records.stride;
 }
 
 /* Turns the records of the eight neighbours of LIST into lanes, stride fields. */
-INLINE void lanes_stage(struct lane_records records, const uint32_t *list, double (*field)[LANES])
+BOLIDE_INLINE void lanes_stage(struct lane_records records, const uint32_t *list,
+                               double (*field)[LANES])
 {
     const double *row[LANES];
     lanes_rows(records, list, row);
@@ -118,8 +119,8 @@ INLINE void lanes_stage(struct lane_records records, const uint32_t *list, doubl
 }
 
 /* Writes to LIST what bits BITS hold of the entries within support of the particle, and returns how many. */
-INLINE int lanes_compress(struct lane_records records, const double *own, const uint32_t *entry,
-                          int count, uint32_t bits, uint32_t *list)
+BOLIDE_INLINE int lanes_compress(struct lane_records records, const double *own,
+                                 const uint32_t *entry, int count, uint32_t bits, uint32_t *list)
 {
     const double *place = records.place ? records.place : records.record;
     const size_t stride = records.place ? PLACE_STRIDE : (size_t)records.stride;
@@ -141,8 +142,9 @@ INLINE int lanes_compress(struct lane_records records, const double *own, const 
 
 #if defined(__AVX512F__)
 /* The same, eight at once; rows of a line are too short for it. */
-INLINE int lanes_compress_wide(struct lane_records records, const double *own,
-                               const uint32_t *entry, int count, uint32_t bits, uint32_t *list)
+BOLIDE_INLINE int lanes_compress_wide(struct lane_records records, const double *own,
+                                      const uint32_t *entry, int count, uint32_t bits,
+                                      uint32_t *list)
 {
     const double *place = records.place ? records.place : records.record;
     const size_t stride = records.place ? PLACE_STRIDE : (size_t)records.stride;
@@ -179,8 +181,8 @@ INLINE int lanes_compress_wide(struct lane_records records, const double *own,
 #endif
 
 /* The better of both; LIST has room for COUNT + LANES. */
-INLINE int lanes_keep(struct lane_records records, const double *own, const uint32_t *entry,
-                      int count, uint32_t bits, uint32_t *list)
+BOLIDE_INLINE int lanes_keep(struct lane_records records, const double *own, const uint32_t *entry,
+                             int count, uint32_t bits, uint32_t *list)
 {
 #if defined(__AVX512F__)
     if (records.dimension > 1)
@@ -190,7 +192,7 @@ INLINE int lanes_keep(struct lane_records records, const double *own, const uint
 }
 
 /* Where the part PART of a row ends that begins at BEGIN; most rows have but one. */
-INLINE int lanes_part(const uint32_t *entry, int begin, int count, unsigned part)
+BOLIDE_INLINE int lanes_part(const uint32_t *entry, int begin, int count, unsigned part)
 {
     if (begin < count && entry[count - 1] >> ENTRY_PART_SHIFT == part)
         return count;
@@ -208,8 +210,8 @@ struct lane_walk {
 
 /* Makes `ready` neighbours of ENTRY ready, a multiple of eight, for the particle of record OWN; false when
  * nothing is left. WALK begins with its three numbers zero; the caller takes all that is ready. */
-INLINE bool lanes_walk(struct lane_walk *walk, struct lane_records records, const double *own,
-                       const uint32_t *entry, int count)
+BOLIDE_INLINE bool lanes_walk(struct lane_walk *walk, struct lane_records records,
+                              const double *own, const uint32_t *entry, int count)
 {
     if (walk->looked_at >= count)
         return false;

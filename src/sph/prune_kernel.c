@@ -5,8 +5,8 @@
 #include "sph/prune.h"
 
 /* Finds the near row of particle I and writes it to NEAR; returns how many entries it has. */
-INLINE uint32_t prune_row(const struct prune_loop *loop, struct lane_records records, int32_t i,
-                          uint32_t *near)
+BOLIDE_INLINE uint32_t prune_row(const struct prune_loop *loop, struct lane_records records,
+                                 int32_t i, uint32_t *near)
 {
     const double *own = records.record + (size_t)i * (size_t)records.stride;
     const uint32_t *entry = neighbours_row(loop->neighbours, i);

@@ -8,13 +8,13 @@
 #include "sph/lanes.h"
 
 /* The vector that stands STEP doubles apart from V on. */
-INLINE struct vec3 vector_from(int dimension, const double *v, int step)
+BOLIDE_INLINE struct vec3 vector_from(int dimension, const double *v, int step)
 {
     return vec3_make(v[0], dimension > 1 ? v[step] : 0.0, dimension > 2 ? v[2 * step] : 0.0);
 }
 
 /* The stress that stands STEP doubles apart from S on, in the order of the record. */
-INLINE struct sym3 stress_from(int dimension, const double *s, int step)
+BOLIDE_INLINE struct sym3 stress_from(int dimension, const double *s, int step)
 {
     struct sym3 stress = {s[0], 0.0, 0.0, 0.0, 0.0, 0.0};
     if (dimension == 2) {
@@ -31,7 +31,7 @@ INLINE struct sym3 stress_from(int dimension, const double *s, int step)
     return stress;
 }
 
-INLINE struct vec3 traction_of(int dimension, struct sym3 s, struct vec3 e)
+BOLIDE_INLINE struct vec3 traction_of(int dimension, struct sym3 s, struct vec3 e)
 {
     if (dimension == 1)
         return vec3_make(s.xx * e.x, 0.0, 0.0);
@@ -40,22 +40,31 @@ INLINE struct vec3 traction_of(int dimension, struct sym3 s, struct vec3 e)
     return sym3_dot(s, e);
 }
 
-/* The contact laws between the body of particle I and the eight neighbours of LIST: which cut shear, which tension. */
-INLINE void stage_laws(const struct neighbours *n, const struct contact_groups *groups,
-                       const uint16_t *body, int32_t i, const uint32_t *list, double *slip,
-                       double *open)
+/* What the contact laws between particles follow from. */
+struct laws {
+    const struct neighbours *neighbours;
+    const struct contact_groups *groups;
+    const uint16_t *body; /* of owned particles */
+};
+
+/* The laws between the body of particle I and the eight neighbours of LIST: which cut shear, which tension. */
+BOLIDE_INLINE void stage_laws(const struct laws *laws, int32_t i, const uint32_t *list,
+                              double *slip, double *open)
 {
-    const uint8_t *law = groups->law + (size_t)groups->of_body[body[i]] * (size_t)groups->groups;
+    const struct neighbours *n = laws->neighbours;
+    const struct contact_groups *groups = laws->groups;
+    const uint8_t *law =
+        groups->law + (size_t)groups->of_body[laws->body[i]] * (size_t)groups->groups;
     for (int k = 0; k < LANES; k++) {
         int32_t j = (int32_t)list[k];
         if (j >= n->count && j < n->count + n->ghosts.count)
             j = n->ghosts.source[j - n->count];
-        unsigned bits = j < n->count ? law[groups->of_body[body[j]]]
+        unsigned bits = j < n->count ? law[groups->of_body[laws->body[j]]]
                         : j < n->count + n->ghosts.remotes
                             ? law[groups->of_body[n->ghosts.remote[j - n->count].body]]
                             : 0;
-        slip[k] = bits & 1 ? 1.0 : 0.0;
-        open[k] = bits & 2 ? 1.0 : 0.0;
+        slip[k] = bits & LAW_SLIP ? 1.0 : 0.0;
+        open[k] = bits & LAW_NO_TENSION ? 1.0 : 0.0;
     }
 }
 

@@ -21,8 +21,8 @@ struct trial {
 static void pack(const struct trial *t, int32_t i, image_code image, double *record)
 {
     const struct particles *p = &t->scene.particles;
-    const int dimension = t->loop.dimension;
-    const double *x = p->position[i], depth = t->loop.depth ? p->velocity[i][0] : 1.0;
+    const int dimension = t->loop.kind.dimension;
+    const double *x = p->position[i], depth = t->loop.kind.depth ? p->velocity[i][0] : 1.0;
     struct vec3 place = image_position(&t->scene.mirrors, image, vec3_make(x[0], x[1], x[2]));
     const double at[3] = {place.x, place.y, place.z};
     memset(record, 0, HEAT_STRIDE * sizeof *record);
@@ -32,7 +32,7 @@ static void pack(const struct trial *t, int32_t i, image_code image, double *rec
     record[heat_record_temperature(dimension)] = p->energy[i];
     record[heat_record_conductivity(dimension)] = p->pressure[i];
     record[heat_record_diffusivity(dimension)] = p->plastic_strain[i];
-    if (t->loop.depth)
+    if (t->loop.kind.depth)
         record[heat_record_depth(dimension)] = image % 3 == 1 ? -depth : depth;
 }
 
@@ -79,7 +79,7 @@ static void trial_create(struct trial *t, int dimension, bool depth, enum heat_f
     struct dice dice = {seed};
     struct scene *scene = &t->scene;
     const double size = pow(count, 1.0 / dimension);
-    *t = (struct trial){.loop = {.dimension = dimension, .depth = depth, .form = form}};
+    *t = (struct trial){.loop = {.kind = {dimension, depth, form}}};
     scene_create(scene, dimension, count, 3.0, skin);
     for (int32_t i = 0; i < count; i++) {
         for (int axis = 0; axis < dimension; axis++)
@@ -119,7 +119,7 @@ static double naive_pair(const struct trial *t, int32_t i, int32_t j, image_code
 {
     const struct particles *p = &t->scene.particles;
     double own[HEAT_STRIDE], other[HEAT_STRIDE], r2 = 0.0;
-    const int n = t->loop.dimension;
+    const int n = t->loop.kind.dimension;
     pack(t, i, 0, own);
     pack(t, j, image, other);
     for (int axis = 0; axis < n; axis++)
@@ -130,11 +130,12 @@ static double naive_pair(const struct trial *t, int32_t i, int32_t j, image_code
     double ti = p->energy[i], tj = p->energy[j], li = p->pressure[i], lj = p->pressure[j];
     if (li == 0.0 || lj == 0.0)
         return 0.0;
-    double s = t->loop.form == HEAT_CONTACT ? p->plastic_strain[i] / p->plastic_strain[j] : 1.0;
+    double s =
+        t->loop.kind.form == HEAT_CONTACT ? p->plastic_strain[i] / p->plastic_strain[j] : 1.0;
     double contact = (li * ti + lj * tj * s) / (li + lj * s); /* (1.51), (1.47) */
     double qi = -li * (contact - ti) / (0.5 * r), qj = -lj * (tj - contact) / (0.5 * r);
     double weight = other[heat_record_volume(n)] * naive_slope(r, h, n) / p->density[i];
-    if (t->loop.depth)
+    if (t->loop.kind.depth)
         weight *= 0.5 * fabs(own[heat_record_depth(n)] + other[heat_record_depth(n)]) /
                   own[heat_record_depth(n)];
     *size += fabs(weight) * (li + lj) * (ti + tj) / r;
@@ -238,7 +239,7 @@ static void heat_is_conserved_and_walls_pass_none(void **state)
 static void a_particle_and_its_image_pass_nothing(void **state)
 {
     (void)state;
-    struct trial t = {.loop = {.dimension = 1}};
+    struct trial t = {.loop = {.kind = {.dimension = 1}}};
     struct dice dice = {3};
     scene_create(&t.scene, 1, 1, 3.0, 0.15);
     t.scene.particles.position[0][0] = 0.3;
@@ -259,7 +260,7 @@ static void on_a_line_with_h_equal_to_d_the_loop_is_the_laplacian(void **state)
     enum { COUNT = 60 };
     const double d = 0.75;
     for (int form = 0; form < 2; form++) {
-        struct trial t = {.loop = {.dimension = 1, .form = (enum heat_form)form}};
+        struct trial t = {.loop = {.kind = {1, false, (enum heat_form)form}}};
         struct dice dice = {9};
         scene_create(&t.scene, 1, COUNT, 3.0, 0.15);
         t.scene.reach.smoothing = 1.0;

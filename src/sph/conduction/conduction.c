@@ -132,19 +132,19 @@ void conduction_prepare(struct sph *sph, struct simulation *simulation,
 {
     const struct particles *p = &simulation->particles;
     const struct sph_records records = {sph->conduction.record, HEAT_STRIDE, reflect, NULL};
-    const struct heat_loop loop = {
-        .dimension = simulation->dimension,
-        .depth = sph_deep(simulation),
-        .form = sph->parameters.conduction == SPH_CONDUCTION_CONTACT ? HEAT_CONTACT : HEAT_HARMONIC,
-        .record = records.first,
-        .empty = p->count + sph->neighbours.ghosts.count,
-        .smoothing = sph->parameters.smoothing,
-        .neighbours = &sph->neighbours,
-        .density = p->density,
-        .rate = fields->heat_rate};
+    const struct heat_loop loop = {.kind = {simulation->dimension, sph_deep(simulation),
+                                            sph->parameters.conduction == SPH_CONDUCTION_CONTACT
+                                                ? HEAT_CONTACT
+                                                : HEAT_HARMONIC},
+                                   .record = records.first,
+                                   .empty = p->count + sph->neighbours.ghosts.count,
+                                   .smoothing = sph->parameters.smoothing,
+                                   .neighbours = &sph->neighbours,
+                                   .density = p->density,
+                                   .rate = fields->heat_rate};
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++)
-        pack_owned(simulation, fields, loop.depth, i, records.first + (size_t)i * HEAT_STRIDE);
+        pack_owned(simulation, fields, loop.kind.depth, i, records.first + (size_t)i * HEAT_STRIDE);
     sph_records_start(sph, simulation, &records);
     sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &loop, 4});
     const struct limit own = sph_smallest_limit(sph, simulation, limit_of_particle, fields);

@@ -2,38 +2,11 @@
 #include "sph/conduction/kernel.h"
 
 #include "base/isa.h"
-#include "sph/kernel.h"
-#include "sph/lanes.h"
+#include "sph/conduction/body.h"
 
-/* One own particle against eight neighbours: adds V W' k (T_j - T_i)/r. */
-INLINE void add_lanes(int dimension, bool depth, enum heat_form form, double smoothing,
-                      const double *own, double (*field)[LANES], double sum[LANES])
+BOLIDE_INLINE void row_rate(const struct heat_loop *loop, struct heat_kind kind, int32_t i)
 {
-    const int d = dimension, v = heat_record_volume(dimension);
-    const int t = heat_record_temperature(dimension), w = heat_record_depth(dimension);
-    const int c = heat_record_conductivity(dimension), q = heat_record_diffusivity(dimension);
-#pragma omp simd simdlen(8)
-    for (int k = 0; k < LANES; k++) {
-        double r2 = square(field[0][k] - own[0]);
-        if (dimension > 1)
-            r2 += square(field[1][k] - own[1]);
-        if (dimension > 2)
-            r2 += square(field[2][k] - own[2]);
-        double r = sqrt(maximum(r2, 1e-200));
-        double inverse_h = 2.0 / (smoothing * (own[d] + field[d][k]));
-        double weight = field[v][k] * kernel_slope(r, inverse_h, dimension);
-        if (depth)
-            weight *= 0.5 * fabs(own[w] + field[w][k]);
-        double conductivity =
-            heat_pair_conductivity(form, own[c], own[q], field[c][k], field[q][k]);
-        sum[k] += weight * conductivity * (field[t][k] - own[t]) / r;
-    }
-}
-
-INLINE void row_rate(const struct heat_loop *loop, int dimension, bool depth, enum heat_form form,
-                     int32_t i)
-{
-    const struct lane_records records = {loop->record, HEAT_STRIDE,     dimension,
+    const struct lane_records records = {loop->record, HEAT_STRIDE,     kind.dimension,
                                          loop->empty,  loop->smoothing, NULL};
     const double *own = loop->record + (size_t)i * HEAT_STRIDE;
     const uint32_t *entry = neighbours_row(loop->neighbours, i);
@@ -44,17 +17,18 @@ INLINE void row_rate(const struct heat_loop *loop, int dimension, bool depth, en
     while (lanes_walk(&walk, records, own, entry, count))
         for (int k = 0; k < walk.ready; k += LANES) {
             lanes_stage(records, walk.list + k, field);
-            add_lanes(dimension, depth, form, loop->smoothing, own, field, sum);
+            add_lanes(kind, loop->smoothing, own, field, sum);
         }
-    double per = depth ? loop->density[i] * own[heat_record_depth(dimension)] : loop->density[i];
-    loop->rate[i] = -across_lanes(sum) / per;
+    const double depth = kind.depth ? own[heat_record_depth(kind.dimension)] : 1.0;
+    loop->rate[i] = -across_lanes(sum) / (loop->density[i] * depth);
 }
 
-#define INSTANCE(name, dimension, depth, form)                                 \
+#define INSTANCE(name, ...)                                                    \
     static void name(const struct heat_loop *loop, int32_t begin, int32_t end) \
     {                                                                          \
+        const struct heat_kind kind = {__VA_ARGS__};                           \
         for (int32_t i = begin; i < end; i++)                                  \
-            row_rate(loop, dimension, depth, form, i);                         \
+            row_rate(loop, kind, i);                                           \
     }
 
 INSTANCE(line_contact, 1, false, HEAT_CONTACT)
@@ -73,5 +47,5 @@ ISA_KERNEL(void, heat_loop_run, const struct heat_loop *loop, int32_t begin, int
                                           {plane_contact, plane_harmonic},
                                           {space_contact, space_harmonic},
                                           {deep_contact, deep_harmonic}};
-    table[loop->depth ? 3 : loop->dimension - 1][loop->form](loop, begin, end);
+    table[loop->kind.depth ? 3 : loop->kind.dimension - 1][loop->kind.form](loop, begin, end);
 }

@@ -44,10 +44,15 @@ BOLIDE_INLINE double heat_pair_conductivity(enum heat_form form, double conducti
            maximum(conductivity_i * root_j + conductivity_j * root_i, 1e-200);
 }
 
-struct heat_loop {
+/* What instantiates a kernel. */
+struct heat_kind {
     int dimension;
     bool depth; /* particles have one; dimension is 2 */
     enum heat_form form;
+};
+
+struct heat_loop {
+    struct heat_kind kind;
     const double *record; /* owned, ghosts, and one of zeros behind them */
     int32_t empty;        /* index of the record of zeros */
     double smoothing;     /* alpha: h = alpha (D_i + D_j)/2 (1.19) */

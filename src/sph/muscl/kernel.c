@@ -4,326 +4,29 @@
 #include "sph/muscl/kernel.h"
 
 #include "base/isa.h"
-#include "riemann/contact_pair.h"
-#include "sph/kernel.h"
-#include "sph/muscl/slopes.h"
-#include "sph/muscl/sums.h"
+#include "sph/muscl/body.h"
 
-enum {
-    FIELDS = 32,
-    GROUPS = 4 /* of eight neighbours: most rows in space fit */
+/* Neighbours of one part of a row, and whether contact laws act. */
+struct part {
+    const uint32_t *entry;
+    int count;
+    bool with_law;
 };
 
-/* Eight neighbours: their records, and what stands in front of the rows there. */
-struct lanes {
-    const double *record[LANES];
-    double field[FIELDS][LANES] ALIGNED;
-    double slip[LANES] ALIGNED, open[LANES] ALIGNED;
-};
-
-/* Eight pairs between the parts of the kernel. Each part runs over all groups before the next begins: what one group
- * waits for, another fills. */
-struct pairs {
-    double x[3][LANES] ALIGNED, e[3][LANES] ALIGNED, n[3][LANES] ALIGNED;
-    double c[3][LANES] ALIGNED; /* -V W' 2 D_i/(D_i + D_j) e */
-    /* what values in rows change by over x, by the neighbour's slopes */
-    double wide[ROW][LANES] ALIGNED;
-    double weight[LANES] ALIGNED, area[LANES] ALIGNED; /* V W', |a| */
-    double near[LANES] ALIGNED;                        /* 2 D_i/(D_i + D_j) */
-    /* along n and across: changes over the pair, own stress, and shares of the slopes, times near */
-    double along_u[LANES] ALIGNED, along_i[LANES] ALIGNED, along_j[LANES] ALIGNED;
-    double across_u[3][LANES] ALIGNED, across_s[3][LANES] ALIGNED, traction[3][LANES] ALIGNED;
-    double share[8][LANES] ALIGNED;
-};
-
-/* Adds V to the sums of a vector that begin at AT, and V^a E^b to those of a tensor. */
-INLINE void add_vector(int dimension, double (*sums)[LANES], int at, int k, struct vec3 v)
-{
-    sums[at][k] += v.x;
-    if (dimension > 1)
-        sums[at + 1][k] += v.y;
-    if (dimension > 2)
-        sums[at + 2][k] += v.z;
-}
-
-INLINE void add_product(int dimension, double (*sums)[LANES], int at, int k, struct vec3 v,
-                        struct vec3 e)
-{
-    add_vector(dimension, sums, at, k, vec3_scale(v.x, e));
-    if (dimension > 1)
-        add_vector(dimension, sums, at + dimension, k, vec3_scale(v.y, e));
-    if (dimension > 2)
-        add_vector(dimension, sums, at + 2 * dimension, k, vec3_scale(v.z, e));
-}
-
-INLINE void put_vector(int dimension, double (*to)[LANES], int k, struct vec3 v)
-{
-    to[0][k] = v.x;
-    if (dimension > 1)
-        to[1][k] = v.y;
-    if (dimension > 2)
-        to[2][k] = v.z;
-}
-
-/* One own particle against eight neighbours: where they are, and how much they count. */
-INLINE void find_places(struct muscl_kind kind, double smoothing, const double *own,
-                        const struct lanes *lanes, struct pairs *pairs, double (*sums)[LANES])
-{
-    const int dimension = kind.dimension;
-    const int d = record_diameter(dimension), v = record_volume(dimension);
-    const int l = muscl_correction(kind), z = muscl_impedance(kind);
-    const struct layout at = layout_of(kind);
-#pragma omp simd simdlen(8)
-    for (int k = 0; k < LANES; k++) {
-        const struct vec3 x = vec3_sub(vector_from(dimension, &lanes->field[0][k], LANES),
-                                       vector_from(dimension, own, 1));
-        struct sym3 both = sym3_add(stress_from(dimension, own + l, 1),
-                                    stress_from(dimension, &lanes->field[l][k], LANES));
-        struct vec3 lx = traction_of(dimension, both, x);
-        double r = sqrt(maximum(vec3_dot(x, x), 1e-80));
-        double ar = dimension == 1 ? fabs(lx.x) : sqrt(maximum(vec3_dot(lx, lx), 1e-80));
-        double two_h = smoothing * (own[d] + lanes->field[d][k]);
-        double inverse = 1.0 / (r * ar * two_h); /* one division serves three */
-        double inverse_r = inverse * (ar * two_h), inverse_h = 2.0 * (inverse * (r * ar));
-        struct vec3 e = vec3_scale(inverse_r, x);
-        put_vector(dimension, pairs->x, k, x);
-        put_vector(dimension, pairs->e, k, e);
-        put_vector(dimension, pairs->n, k,
-                   dimension == 1 ? e : vec3_scale(inverse * (r * two_h), lx));
-        double weight = lanes->field[v][k] * kernel_slope(r, inverse_h, dimension);
-        pairs->weight[k] = weight;
-        pairs->area[k] = 0.5 * (ar * inverse_r);
-        double near = smoothing * own[d] * inverse_h;
-        pairs->near[k] = near;
-        put_vector(dimension, pairs->c, k, vec3_scale(-weight * near, e));
-        sums[at.weight][k] += weight;
-        sums[at.impedance][k] += weight * lanes->field[z][k];
-    }
-}
-
-/* What stands in rows, one neighbour after the other: what these change by over x, and their sums of slopes. */
-INLINE void walk_rows(struct muscl_kind kind, const double *own, const struct lanes *lanes,
-                      struct pairs *pairs, double (*sums)[ROW])
-{
-    const int wide = muscl_wide(kind), first = muscl_wide_rows(kind);
-    const int next = first + kind.dimension * wide;
-    double change[LANES][ROW] ALIGNED;
-    const double *row[LANES];
-    for (int k = 0; k < LANES; k++) {
-        const double *g = lanes->record[k] + first, *q = lanes->record[k] + next;
-#pragma omp simd
-        for (int f = 0; f < wide; f++) {
-            double sum = pairs->x[0][k] * g[f] + pairs->x[1][k] * g[wide + f];
-            if (kind.dimension > 2)
-                sum += pairs->x[2][k] * g[2 * wide + f];
-            change[k][f] = sum;
-            double dq = q[f] - own[next + f];
-            sums[0][f] += pairs->c[0][k] * dq;
-            sums[1][f] += pairs->c[1][k] * dq;
-            if (kind.dimension > 2)
-                sums[2][f] += pairs->c[2][k] * dq;
-        }
-        row[k] = change[k];
-    }
-    for (int f = 0; f < wide; f += 4)
-        transpose(row, f, pairs->wide + f);
-}
-
-/* Adds to the sums what the next step's slopes follow from. */
-INLINE void add_slopes(struct muscl_kind kind, const double *own, const struct lanes *lanes,
-                       const struct pairs *pairs, double (*sums)[LANES])
-{
-    const int dimension = kind.dimension, values = muscl_values(kind), narrow = muscl_narrow(kind);
-    const struct layout at = layout_of(kind);
-#pragma omp simd simdlen(8)
-    for (int k = 0; k < LANES; k++) {
-        const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
-        const struct vec3 c = vector_from(dimension, &pairs->c[0][k], LANES);
-        const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
-        struct vec3 m = vec3_scale(vec3_dot(x, e), c);
-        add_vector(dimension, sums, at.offset, k, m);
-        sums[at.moment][k] += m.x * e.x;
-        if (dimension == 2) {
-            sums[at.moment + 1][k] += m.y * e.y;
-            sums[at.moment + 2][k] += m.x * e.y;
-        }
-        if (dimension == 3) {
-            sums[at.moment + 1][k] += m.y * e.y;
-            sums[at.moment + 2][k] += m.z * e.z;
-            sums[at.moment + 3][k] += m.x * e.y;
-            sums[at.moment + 4][k] += m.y * e.z;
-            sums[at.moment + 5][k] += m.z * e.x;
-        }
-        for (int f = values - narrow; f < values; f++) {
-            const int from = muscl_next(kind, f), to = at.narrow + f - (values - narrow);
-            double dq = lanes->field[from][k] - own[from];
-            sums[to][k] += dq * c.x;
-            if (dimension > 1)
-                sums[to + narrow][k] += dq * c.y;
-            if (dimension > 2)
-                sums[to + 2 * narrow][k] += dq * c.z;
-        }
-    }
-}
-
-/* What lies between the two of a pair, along n and across, and which shares of it their slopes carry: none but between two
- * particles of the material MATTER. */
-INLINE void find_changes(struct muscl_kind kind, double matter, const double *own,
-                         const struct lanes *lanes, struct pairs *pairs)
-{
-    const int dimension = kind.dimension;
-    const bool shear = kind.shear && dimension > 1;
-    const int u = record_velocity(dimension), s = record_stress(dimension);
-    const int z = muscl_impedance(kind), q = muscl_bend(kind), other = muscl_material(kind);
-#pragma omp simd simdlen(8)
-    for (int k = 0; k < LANES; k++) {
-        const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
-        const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
-        const struct vec3 du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
-                                        vector_from(dimension, own + u, 1));
-        const double along_u = vec3_dot(du, n), speed = fabs(along_u);
-        const bool smooth = matter == lanes->field[other][k] && speed * own[q] < own[z] &&
-                            speed * lanes->field[q][k] < lanes->field[z][k];
-        const double near = pairs->near[k], near_i = smooth ? near : 0.0,
-                     near_j = smooth ? 2.0 - near : 0.0;
-        const struct slopes here = {own, NULL, 1};
-        const struct slopes there = {&lanes->field[0][k], &pairs->wide[0][k], LANES};
-        const struct vec3 ui = change_of_velocity(kind, here, x);
-        const struct vec3 uj = change_of_velocity(kind, there, x);
-        const struct sym3 hi = change_of_stress(kind, here, x);
-        const struct sym3 hj = change_of_stress(kind, there, x);
-        struct vec3 ti = {0.0, 0.0, 0.0}, tj = ti, dti = ti, dtj = ti;
-        double along_i = own[s], along_j = lanes->field[s][k], si_n = hi.xx, sj_n = hj.xx;
-        if (shear) {
-            ti = traction_of(dimension, stress_from(dimension, own + s, 1), n);
-            tj = traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), n);
-            dti = traction_of(dimension, hi, n);
-            dtj = traction_of(dimension, hj, n);
-            along_i = vec3_dot(ti, n);
-            along_j = vec3_dot(tj, n);
-            si_n = vec3_dot(dti, n);
-            sj_n = vec3_dot(dtj, n);
-        }
-        const double along_s = along_j - along_i;
-        const double twice_u = 2.0 * along_u, twice_s = 2.0 * along_s;
-        const struct change change_u = {square(along_u), twice_u * vec3_dot(ui, n),
-                                        twice_u * vec3_dot(uj, n)};
-        const struct change change_s = {square(along_s), twice_s * si_n, twice_s * sj_n};
-        struct shares of_u, of_s, of_v = {0.0, 0.0}, of_a = of_v;
-        limited_shares(change_u, change_s, &of_u, &of_s);
-        pairs->along_u[k] = along_u;
-        pairs->along_i[k] = along_i;
-        pairs->along_j[k] = along_j;
-        pairs->share[0][k] = near_i * of_u.own;
-        pairs->share[1][k] = near_j * of_u.other;
-        pairs->share[2][k] = near_i * of_s.own;
-        pairs->share[3][k] = near_j * of_s.other;
-        if (dimension > 1) {
-            const struct vec3 across_u = vec3_sub(du, vec3_scale(along_u, n));
-            const struct vec3 across_s =
-                shear ? vec3_sub(vec3_sub(tj, ti), vec3_scale(along_s, n)) : ti;
-            const struct vec3 twice_v = vec3_scale(2.0, across_u),
-                              twice_a = vec3_scale(2.0, across_s);
-            const struct change change_v = {vec3_dot(across_u, across_u), vec3_dot(twice_v, ui),
-                                            vec3_dot(twice_v, uj)};
-            const struct change change_a = {vec3_dot(across_s, across_s), vec3_dot(twice_a, dti),
-                                            vec3_dot(twice_a, dtj)};
-            limited_shares(change_v, change_a, &of_v, &of_a);
-            put_vector(dimension, pairs->across_u, k, across_u);
-            put_vector(dimension, pairs->across_s, k, across_s);
-            put_vector(dimension, pairs->traction, k, ti);
-            pairs->share[4][k] = near_i * of_v.own;
-            pairs->share[5][k] = near_j * of_v.other;
-            pairs->share[6][k] = near_i * of_a.own;
-            pairs->share[7][k] = near_j * of_a.other;
-        }
-    }
-}
-
-/* Solves the contact problems and adds up what they give. */
-INLINE void add_contacts(struct muscl_kind kind, bool with_law, const double *own,
-                         const struct lanes *lanes, const struct pairs *pairs,
-                         double (*sums)[LANES])
-{
-    const int dimension = kind.dimension;
-    const bool shear = kind.shear && dimension > 1;
-    const int z = muscl_impedance(kind), q = muscl_bend(kind);
-    const struct layout at = layout_of(kind);
-#pragma omp simd simdlen(8)
-    for (int k = 0; k < LANES; k++) {
-        const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
-        struct pair_side left = {.impedance = own[z],
-                                 .bend = own[q],
-                                 .stress = pairs->along_i[k],
-                                 .carried = {pairs->share[0][k], pairs->share[2][k], 0.0, 0.0}};
-        struct pair_side right = {.impedance = lanes->field[z][k],
-                                  .bend = lanes->field[q][k],
-                                  .stress = pairs->along_j[k],
-                                  .carried = {pairs->share[1][k], pairs->share[3][k], 0.0, 0.0}};
-        struct pair_difference difference = {.velocity = pairs->along_u[k]};
-        struct pair_law law = {.star = STAR_SHOCK,
-                               .shear = shear,
-                               .carried = true,
-                               .cuts = with_law,
-                               .slip = with_law ? lanes->slip[k] : 0.0,
-                               .open = with_law ? lanes->open[k] : 0.0,
-                               .brake = 1.0};
-        if (dimension > 1) {
-            /* fluids that shear past each other are not braked as if they met */
-            const double own_share = -own[z + 1], other_share = -lanes->field[z + 1][k];
-            law.brake =
-                minimum(own_share, other_share) > 0.0 ? maximum(own_share, other_share) : 1.0;
-            difference.sliding = vector_from(dimension, &pairs->across_u[0][k], LANES);
-            left.carried.sliding = pairs->share[4][k];
-            right.carried.sliding = pairs->share[5][k];
-        }
-        if (shear) {
-            const struct vec3 ti = vector_from(dimension, &pairs->traction[0][k], LANES);
-            left.shear_impedance = maximum(own[z + 1], 0.0);
-            right.shear_impedance = maximum(lanes->field[z + 1][k], 0.0);
-            left.shear = vec3_sub(ti, vec3_scale(left.stress, n));
-            difference.shear = vector_from(dimension, &pairs->across_s[0][k], LANES);
-            left.carried.shear = pairs->share[6][k];
-            right.carried.shear = pairs->share[7][k];
-        }
-        const struct pair_contact star = contact_pair(&left, &right, &difference, &law);
-        struct vec3 t = vec3_scale(star.stress, n), w = vec3_scale(star.velocity, n);
-        if (shear)
-            t = vec3_add(t, star.shear);
-        if (dimension > 1)
-            w = vec3_add(w, star.sliding);
-        const double weight = pairs->weight[k];
-        double force_weight = weight * pairs->area[k];
-        if (kind.depth) {
-            const int depth = muscl_depth(kind);
-            double pair_depth = 0.5 * fabs(own[depth] + lanes->field[depth][k]);
-            sums[at.hoop][k] += force_weight * (pair_depth - own[depth]) * n.x;
-            sums[at.hoop + 1][k] += force_weight * pairs->x[0][k] * n.x;
-            force_weight *= pair_depth;
-        }
-        t = vec3_scale(force_weight, t);
-        sums[at.power][k] += vec3_dot(t, w);
-        add_vector(dimension, sums, at.traction, k, t);
-        if (dimension == 1)
-            sums[at.drift][k] += weight * w.x;
-        add_product(dimension, sums, at.gradient, k, w,
-                    vec3_scale(weight, vector_from(dimension, &pairs->e[0][k], LANES)));
-    }
-}
-
-/* Adds the entries of one part of a row. */
-INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool with_law,
-                     int32_t i, const uint32_t *entry, int count, struct sums *sums)
+/* Adds the contacts of one part of a row. */
+BOLIDE_INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, struct part part,
+                            int32_t i, struct sums *sums)
 {
     const struct lane_records records = {loop->record, muscl_stride(kind), kind.dimension,
                                          loop->empty,  loop->smoothing,    loop->place};
     const double *own = loop->record + (size_t)i * (size_t)records.stride;
-    const double matter = with_law ? -1.0 : own[muscl_material(kind)]; /* no material is -1 */
+    const struct laws laws = {loop->neighbours, loop->groups, loop->body};
+    const double matter = part.with_law ? -1.0 : own[muscl_material(kind)]; /* no material is -1 */
     struct lane_walk walk;
     struct lanes lanes[GROUPS];
     struct pairs pairs[GROUPS];
     walk.looked_at = walk.ready = walk.waiting = 0;
-    while (lanes_walk(&walk, records, own, entry, count))
+    while (lanes_walk(&walk, records, own, part.entry, part.count))
         for (int first = 0; first < walk.ready; first += GROUPS * LANES) {
             int left = (walk.ready - first) / LANES, groups = left < GROUPS ? left : GROUPS;
             for (int m = 0; m < groups; m++) {
@@ -331,9 +34,8 @@ INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool
                 lanes_rows(records, list, lanes[m].record);
                 for (int f = 0; f < muscl_fields(kind); f += 4)
                     transpose(lanes[m].record, f, lanes[m].field + f);
-                if (with_law)
-                    stage_laws(loop->neighbours, loop->groups, loop->body, i, list, lanes[m].slip,
-                               lanes[m].open);
+                if (part.with_law)
+                    stage_laws(&laws, i, list, lanes[m].slip, lanes[m].open);
             }
             for (int m = 0; m < groups; m++)
                 find_places(kind, loop->smoothing, own, &lanes[m], &pairs[m], sums->lane);
@@ -342,7 +44,7 @@ INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool
                     walk_rows(kind, own, &lanes[m], &pairs[m], sums->row);
             for (int m = 0; m < groups; m++)
                 find_changes(kind, matter, own, &lanes[m], &pairs[m]);
-            if (with_law)
+            if (part.with_law)
                 for (int m = 0; m < groups; m++)
                     add_contacts(kind, true, own, &lanes[m], &pairs[m], sums->lane);
             else
@@ -354,27 +56,33 @@ INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, bool
 }
 
 /* An instance of add_part out of line. */
-typedef void add_apart(const struct muscl_loop *loop, bool with_law, int32_t i,
-                       const uint32_t *entry, int count, struct sums *sums);
+typedef void add_apart(const struct muscl_loop *loop, struct part part, int32_t i,
+                       struct sums *sums);
 
-/* Adds the entries from BEGIN on that are of part PART; returns where the next part begins. */
-static int add_other_part(const struct muscl_loop *loop, add_apart *add, int32_t i,
-                          const uint32_t *entry, int begin, int count, unsigned part,
-                          struct sums *sums)
+/* What of a row has not been added yet. */
+struct rest {
+    const uint32_t *entry;
+    int begin, count;
+};
+
+/* Adds the entries of part PART, if they come next. */
+static void add_next(const struct muscl_loop *loop, add_apart *add, int32_t i, struct rest *rest,
+                     unsigned part, struct sums *sums)
 {
-    const int end = lanes_part(entry, begin, count, part);
-    if (end > begin)
-        add(loop, part & PART_LAW, i, entry + begin, end - begin, sums);
-    return end;
+    const int end = lanes_part(rest->entry, rest->begin, rest->count, part);
+    if (end > rest->begin)
+        add(loop, (struct part){rest->entry + rest->begin, end - rest->begin, part & PART_LAW}, i,
+            sums);
+    rest->begin = end;
 }
 
 /* Most rows have but the first part, which nothing stands in the way of. */
-INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, add_apart *add,
-                      int32_t i)
+BOLIDE_INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, add_apart *add,
+                             int32_t i)
 {
     const struct layout at = layout_of(kind);
-    int count;
-    const uint32_t *entry = neighbours_walk(loop->neighbours, i, &count);
+    struct rest rest = {0};
+    rest.entry = neighbours_walk(loop->neighbours, i, &rest.count);
     const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
     double factor =
         -2.0 / (kind.depth ? loop->density[i] * own[muscl_depth(kind)] : loop->density[i]);
@@ -383,16 +91,16 @@ INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, add
     struct sums sums = nothing;
     double all[TOTALS], images[TOTALS];
     const double *of_images = none;
-    int done = lanes_part(entry, 0, count, 0);
-    if (done > 0)
-        add_part(loop, kind, false, i, entry, done, &sums);
-    if (done < count)
-        done = add_other_part(loop, add, i, entry, done, count, PART_LAW, &sums);
+    rest.begin = lanes_part(rest.entry, 0, rest.count, 0);
+    if (rest.begin > 0)
+        add_part(loop, kind, (struct part){rest.entry, rest.begin, false}, i, &sums);
+    if (rest.begin < rest.count)
+        add_next(loop, add, i, &rest, PART_LAW, &sums);
     sums_totals(kind, &sums, all);
-    if (done < count) {
+    if (rest.begin < rest.count) {
         sums = nothing;
-        done = add_other_part(loop, add, i, entry, done, count, PART_IMAGE, &sums);
-        add_other_part(loop, add, i, entry, done, count, PART_IMAGE | PART_LAW, &sums);
+        add_next(loop, add, i, &rest, PART_IMAGE, &sums);
+        add_next(loop, add, i, &rest, PART_IMAGE | PART_LAW, &sums);
         sums_totals(kind, &sums, images);
         for (int a = 0; a < at.count; a++)
             all[a] += images[a];
@@ -402,18 +110,18 @@ INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, add
 }
 
 /* Each body of the rows' loop is an instance; its name says of which kind. */
-#define INSTANCE(name, ...)                                                                 \
-    APART void name##_part(const struct muscl_loop *loop, bool with_law, int32_t i,         \
-                           const uint32_t *entry, int count, struct sums *sums)             \
-    {                                                                                       \
-        struct sums copy = *sums; /* that nothing else points at */                         \
-        add_part(loop, (struct muscl_kind){__VA_ARGS__}, with_law, i, entry, count, &copy); \
-        *sums = copy;                                                                       \
-    }                                                                                       \
-    static void name(const struct muscl_loop *loop, int32_t begin, int32_t end)             \
-    {                                                                                       \
-        for (int32_t i = begin; i < end; i++)                                               \
-            row_rates(loop, (struct muscl_kind){__VA_ARGS__}, name##_part, i);              \
+#define INSTANCE(name, ...)                                                            \
+    APART void name##_part(const struct muscl_loop *loop, struct part part, int32_t i, \
+                           struct sums *sums)                                          \
+    {                                                                                  \
+        struct sums copy = *sums; /* that nothing else points at */                    \
+        add_part(loop, (struct muscl_kind){__VA_ARGS__}, part, i, &copy);              \
+        *sums = copy;                                                                  \
+    }                                                                                  \
+    static void name(const struct muscl_loop *loop, int32_t begin, int32_t end)        \
+    {                                                                                  \
+        for (int32_t i = begin; i < end; i++)                                          \
+            row_rates(loop, (struct muscl_kind){__VA_ARGS__}, name##_part, i);         \
     }
 
 INSTANCE(line, 1, false, false)

@@ -19,8 +19,8 @@ struct change {
 };
 
 /* Those of two quantities, with one division. */
-INLINE void limited_shares(struct change first, struct change second, struct shares *of_first,
-                           struct shares *of_second)
+BOLIDE_INLINE void limited_shares(struct change first, struct change second,
+                                  struct shares *of_first, struct shares *of_second)
 {
     const double tiny = 1e-70;
     double a = maximum(first.own - first.square, 0.0);
@@ -40,8 +40,8 @@ INLINE void limited_shares(struct change first, struct change second, struct sha
 }
 
 /* What value F changes by over X by the slopes of RECORD, whose fields stand STEP doubles apart. */
-INLINE double change_of(struct muscl_kind kind, const double *record, int step, int f,
-                        struct vec3 x)
+BOLIDE_INLINE double change_of(struct muscl_kind kind, const double *record, int step, int f,
+                               struct vec3 x)
 {
     const double *g = record + muscl_slope(kind, f) * step;
     step *= muscl_slope_step(kind, f);
@@ -58,19 +58,20 @@ struct slopes {
     int step;
 };
 
-INLINE double changed(struct muscl_kind kind, struct slopes by, int f, struct vec3 x)
+BOLIDE_INLINE double changed(struct muscl_kind kind, struct slopes by, int f, struct vec3 x)
 {
     return by.wide && f < muscl_wide(kind) ? by.wide[f * LANES]
                                            : change_of(kind, by.record, by.step, f, x);
 }
 
-INLINE struct vec3 change_of_velocity(struct muscl_kind kind, struct slopes by, struct vec3 x)
+BOLIDE_INLINE struct vec3 change_of_velocity(struct muscl_kind kind, struct slopes by,
+                                             struct vec3 x)
 {
     return vec3_make(changed(kind, by, 0, x), kind.dimension > 1 ? changed(kind, by, 1, x) : 0.0,
                      kind.dimension > 2 ? changed(kind, by, 2, x) : 0.0);
 }
 
-INLINE struct sym3 change_of_stress(struct muscl_kind kind, struct slopes by, struct vec3 x)
+BOLIDE_INLINE struct sym3 change_of_stress(struct muscl_kind kind, struct slopes by, struct vec3 x)
 {
     const int first = kind.dimension;
     struct sym3 change = {changed(kind, by, first, x), 0.0, 0.0, 0.0, 0.0, 0.0};

@@ -22,7 +22,7 @@ struct layout {
     int count;
 };
 
-INLINE struct layout layout_of(struct muscl_kind kind)
+BOLIDE_INLINE struct layout layout_of(struct muscl_kind kind)
 {
     const int dimension = kind.dimension, tensor = tensor_components(dimension);
     struct layout at;
@@ -48,7 +48,7 @@ struct sums {
 };
 
 /* The totals in the order of the layout. */
-INLINE void sums_totals(struct muscl_kind kind, struct sums *sums, double *all)
+BOLIDE_INLINE void sums_totals(struct muscl_kind kind, struct sums *sums, double *all)
 {
     const struct layout at = layout_of(kind);
     const int values = muscl_values(kind), wide = muscl_wide(kind), narrow = muscl_narrow(kind);
@@ -60,7 +60,7 @@ INLINE void sums_totals(struct muscl_kind kind, struct sums *sums, double *all)
 }
 
 /* det M times the inverse of M; *DET is det M. */
-INLINE struct sym3 adjoint_of(int dimension, struct sym3 m, double *det)
+BOLIDE_INLINE struct sym3 adjoint_of(int dimension, struct sym3 m, double *det)
 {
     if (dimension < 3)
         m.zz = 1.0;
@@ -76,7 +76,7 @@ INLINE struct sym3 adjoint_of(int dimension, struct sym3 m, double *det)
 /* The inverse of the second moment M, 1 on a complete lattice. Where neighbours lie to one side or in a plane M is
  * nearly singular, and its inverse gives way to the unit tensor as its norm grows from 16 to 32; the corner of a cubic
  * lattice has 5, of a distorted one up to 16. */
-INLINE struct sym3 correction_of(int dimension, struct sym3 m)
+BOLIDE_INLINE struct sym3 correction_of(int dimension, struct sym3 m)
 {
     const struct sym3 one = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
     double det;
@@ -88,13 +88,13 @@ INLINE struct sym3 correction_of(int dimension, struct sym3 m)
 }
 
 /* Rows V of a tensor, times L. */
-INLINE struct vec3 corrected(int dimension, struct sym3 l, const double *v)
+BOLIDE_INLINE struct vec3 corrected(int dimension, struct sym3 l, const double *v)
 {
     return sym3_dot(l, vector_from(dimension, v, 1));
 }
 
 /* The moment M, in the order of a record. */
-INLINE void write_tensor(int dimension, struct sym3 m, double *to)
+BOLIDE_INLINE void write_tensor(int dimension, struct sym3 m, double *to)
 {
     to[0] = m.xx;
     if (dimension == 2) {
@@ -112,7 +112,7 @@ INLINE void write_tensor(int dimension, struct sym3 m, double *to)
 
 /* The moment for forces. Where neighbours lie to one side it is completed by what is missing on the other side, a free
  * surface that no stress acts on: with the first moment o, M + o o |o|^2/(o.M.o), which doubles it at the end of a line. */
-INLINE struct sym3 moment_of_forces(struct sym3 m, struct vec3 o)
+BOLIDE_INLINE struct sym3 moment_of_forces(struct sym3 m, struct vec3 o)
 {
     double across = vec3_dot(o, sym3_dot(m, o));
     double scale = across > 0.0 ? vec3_dot(o, o) / across : 0.0;
@@ -125,8 +125,8 @@ INLINE struct sym3 moment_of_forces(struct sym3 m, struct vec3 o)
  * 1 on the average of any arrangement that fills space; elastic waves change it by less than the slack.
  * And how thinly neighbours stand on some axis: the norm of the inverse of the MOMENT of forces, 100 at most. At the start it
  * counts as that of a moment with 1/sqrt(3) on one axis and 1 on the others, at least. */
-INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                          struct sym3 m, struct sym3 moment)
+BOLIDE_INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                                 struct sym3 m, struct sym3 moment)
 {
     const double slack = 0.005;
     const double filled = kind.dimension == 2 ? 0.5 * (m.xx + m.yy) : (m.xx + m.yy + m.zz) / 3.0;
@@ -142,8 +142,8 @@ INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kind kind,
 }
 
 /* Strain rate, spin and, on a line, drift. O is the first moment. */
-INLINE void write_strain(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                         const double *all, struct sym3 l, struct vec3 o)
+BOLIDE_INLINE void write_strain(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                                const double *all, struct sym3 l, struct vec3 o)
 {
     const int dimension = kind.dimension;
     const struct layout at = layout_of(kind);
@@ -171,7 +171,8 @@ INLINE void write_strain(const struct muscl_loop *loop, struct muscl_kind kind, 
 }
 
 /* The slopes of all values, by direction: L times their sums. */
-INLINE void find_slopes(struct muscl_kind kind, const double *sums, struct sym3 l, double *slope)
+BOLIDE_INLINE void find_slopes(struct muscl_kind kind, const double *sums, struct sym3 l,
+                               double *slope)
 {
     const int values = muscl_values(kind);
     const double rows[3][3] = {{l.xx, l.xy, l.zx}, {l.xy, l.yy, l.yz}, {l.zx, l.yz, l.zz}};
@@ -184,17 +185,26 @@ INLINE void find_slopes(struct muscl_kind kind, const double *sums, struct sym3 
         }
 }
 
+/* The first moment of a row, its second, that for forces, and the inverse of the second. */
+struct moments {
+    struct vec3 first;
+    struct sym3 second, of_forces, inverse;
+};
+
 /* The force on a unit of volume that the values after the step will make: from their slopes, and from the stress that
  * ends at a free surface. There, with the first moment O and the mean distance r of neighbours, sigma.O 2/r is what
  * neighbours on one side only add up to. Inside O is small and says nothing of a surface: it counts by |O|^3/(O.M.O),
  * one at a flat surface and beyond. Without this a free surface would feel what pulls it half a step late, and thin
  * plates would ring louder and louder. */
-INLINE struct vec3 expected_force(struct muscl_kind kind, const double *own, const double *all,
-                                  struct sym3 m, struct vec3 o, struct sym3 l, double share)
+BOLIDE_INLINE struct vec3 expected_force(struct muscl_kind kind, const double *own,
+                                         const double *all, const struct moments *moments,
+                                         struct sym3 l, double share)
 {
     const int dimension = kind.dimension, stresses = muscl_stresses(kind);
     const int values = muscl_values(kind);
     const struct layout at = layout_of(kind);
+    const struct sym3 m = moments->second;
+    const struct vec3 o = moments->first;
     double slopes[3 * (ROW + 1)], stress[6];
     find_slopes(kind, all + at.slopes, l, slopes);
     for (int b = 0; b < stresses; b++)
@@ -219,19 +229,18 @@ INLINE struct vec3 expected_force(struct muscl_kind kind, const double *own, con
 }
 
 /* What the next step starts from. */
-INLINE void write_gradients(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                            const double *all, struct sym3 m, struct sym3 moment, struct sym3 l,
-                            struct vec3 o)
+BOLIDE_INLINE void write_gradients(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                                   const double *all, const struct moments *moments)
 {
     const int dimension = kind.dimension, stresses = muscl_stresses(kind);
     const int values = muscl_values(kind);
     const struct layout at = layout_of(kind);
     const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
-    const struct sym3 of_forces = correction_of(dimension, moment);
+    const struct sym3 of_forces = correction_of(dimension, moments->of_forces);
     write_tensor(dimension, of_forces,
                  loop->rates.correction + (size_t)i * (size_t)tensor_components(dimension));
     double slope[3 * (ROW + 1)];
-    find_slopes(kind, all + at.slopes, l, slope);
+    find_slopes(kind, all + at.slopes, moments->inverse, slope);
     double *g = loop->rates.velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
     double *h = loop->rates.stress_gradient + (size_t)i * (size_t)(dimension * stresses);
     /* Beside matter of far higher impedance the stress is that matter's, and so is the slope. */
@@ -243,14 +252,14 @@ INLINE void write_gradients(const struct muscl_loop *loop, struct muscl_kind kin
         for (int b = 0; b < stresses; b++)
             h[a * stresses + b] = share * slope[a * values + dimension + b];
     }
-    const struct vec3 force = expected_force(kind, own, all, m, o, of_forces, share);
+    const struct vec3 force = expected_force(kind, own, all, moments, of_forces, share);
     const double forces[3] = {force.x, force.y, force.z};
     memcpy(loop->rates.force[i], forces, sizeof forces);
 }
 
 /* FACTOR turns sums of forces into those of a unit of mass; IMAGES are the tractions of images. */
-INLINE void write_rates(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                        double factor, const double *all, const double *images)
+BOLIDE_INLINE void write_rates(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                               double factor, const double *all, const double *images)
 {
     const struct pair_rates *rates = &loop->rates.sums;
     const struct layout at = layout_of(kind);
@@ -269,14 +278,15 @@ INLINE void write_rates(const struct muscl_loop *loop, struct muscl_kind kind, i
         rates->hoop_pull[i] = 1.0 + all[at.hoop + 1] - 2.0 * all[at.hoop];
         rates->hoop_strain[i] = 1.0;
     }
-    const struct sym3 m = stress_from(kind.dimension, all + at.moment, 1);
-    const struct vec3 offset = vector_from(kind.dimension, all + at.offset, 1);
-    const struct sym3 l = correction_of(kind.dimension, m);
-    const struct sym3 moment = moment_of_forces(m, offset);
+    struct moments moments;
+    moments.first = vector_from(kind.dimension, all + at.offset, 1);
+    moments.second = stress_from(kind.dimension, all + at.moment, 1);
+    moments.inverse = correction_of(kind.dimension, moments.second);
+    moments.of_forces = moment_of_forces(moments.second, moments.first);
     if (kind.dimension > 1)
-        write_packing(loop, kind, i, m, moment);
-    write_strain(loop, kind, i, all, l, offset);
-    write_gradients(loop, kind, i, all, m, moment, l, offset);
+        write_packing(loop, kind, i, moments.second, moments.of_forces);
+    write_strain(loop, kind, i, all, moments.inverse, moments.first);
+    write_gradients(loop, kind, i, all, &moments);
 }
 
 #endif

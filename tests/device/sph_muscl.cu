@@ -1,0 +1,24 @@
+/* Device code of second-order contact SPH: what the body of its pair loop does with a particle and eight
+ * neighbours. The kind is known at run time only. */
+#include "sph/muscl/body.h"
+
+__global__ void add_pairs(struct muscl_kind kind, double smoothing, double material,
+                          const double *record, const struct lanes *lanes, struct sums *sums)
+{
+    const int i = (int)blockIdx.x;
+    struct pairs pairs;
+    find_places(kind, smoothing, record, &lanes[i], &pairs, sums[i].lane);
+    walk_rows(kind, record, &lanes[i], &pairs, sums[i].row);
+    find_changes(kind, material, record, &lanes[i], &pairs);
+    add_contacts(kind, true, record, &lanes[i], &pairs, sums[i].lane);
+    add_slopes(kind, record, &lanes[i], &pairs, sums[i].lane);
+}
+
+__global__ void write_sums(struct muscl_loop loop, struct muscl_kind kind, double factor,
+                           struct sums *sums)
+{
+    const int i = (int)blockIdx.x;
+    double all[TOTALS];
+    sums_totals(kind, &sums[i], all);
+    write_rates(&loop, kind, i, factor, all, all);
+}
