@@ -44,16 +44,18 @@ struct pair_difference {
     struct vec3 sliding, shear;
 };
 
-/* How the two meet. All but the last three are constants where this is inlined. */
+/* How pairs of a kind meet: constants where this is inlined. */
 struct pair_law {
     enum pair_star star;
     bool shear;   /* the sides have traction across the axis */
     bool carried; /* by slopes */
-    bool cuts;    /* one of the next two may be set */
-    double slip;  /* not zero: no traction across the axis */
-    double open;  /* not zero: no tension */
-    double
-        brake; /* of the difference of velocities, what counts in the stress; 1 but for fluids that slide past each other */
+    bool cuts;    /* contact laws may act */
+};
+
+/* What a pair of its own adds to that: not zero where it carries no traction across the axis, and where it carries no
+ * tension; and of the difference of velocities, what counts in the stress: 1 but for fluids that slide past each other. */
+struct pair_limits {
+    double slip, open, brake;
 };
 
 /* sigma* and U* less the velocity of the left side, along the axis and across it. */
@@ -86,17 +88,17 @@ BOLIDE_INLINE struct pair_weights pair_weights_of(const struct pair_side *left,
 
 /* Stress and velocity along the axis, before the law. */
 BOLIDE_INLINE struct contact pair_along(const struct pair_side *left, const struct pair_side *right,
-                                        double velocity, const struct pair_law *law,
+                                        double velocity, double brake, struct pair_law law,
                                         const struct contact_weights *along)
 {
     struct contact contact;
-    if (law->star == STAR_DUKOWICZ || law->star == STAR_EXACT_GAS) {
+    if (law.star == STAR_DUKOWICZ || law.star == STAR_EXACT_GAS) {
         const struct side l = {left->impedance, 0.0, left->stress, left->density, left->bend};
         const struct side r = {right->impedance, velocity, right->stress, right->density,
                                right->bend};
-        return law->star == STAR_DUKOWICZ ? riemann_dukowicz(l, r) : riemann_exact_gas(l, r);
+        return law.star == STAR_DUKOWICZ ? riemann_dukowicz(l, r) : riemann_exact_gas(l, r);
     }
-    if (law->carried) {
+    if (law.carried) {
         const double stress = right->stress - left->stress;
         const double rise = left->carried.velocity * velocity;
         const double jump = velocity - rise - right->carried.velocity * velocity;
@@ -104,10 +106,10 @@ BOLIDE_INLINE struct contact pair_along(const struct pair_side *left, const stru
         const double right_stress = right->stress - right->carried.stress * stress;
         const double step = right_stress - left_stress;
         const struct contact_weights w =
-            law->star == STAR_SHOCK ? riemann_shock_weights(left->impedance, right->impedance,
-                                                            left->bend, right->bend, jump, step)
-                                    : *along;
-        contact.stress = contact_stress(w, left_stress, right_stress, law->brake * jump);
+            law.star == STAR_SHOCK ? riemann_shock_weights(left->impedance, right->impedance,
+                                                           left->bend, right->bend, jump, step)
+                                   : *along;
+        contact.stress = contact_stress(w, left_stress, right_stress, brake * jump);
         contact.velocity = rise + contact_velocity_jump(w, jump, step);
         return contact;
     }
@@ -116,35 +118,51 @@ BOLIDE_INLINE struct contact pair_along(const struct pair_side *left, const stru
     return contact;
 }
 
+/* What slopes leave of the difference of velocities across the axis. */
+BOLIDE_INLINE double pair_open(const struct pair_side *left, const struct pair_side *right)
+{
+    return 1.0 - left->carried.sliding - right->carried.sliding;
+}
+
+/* The part along the axis, and the weights of that across it. */
+struct pair_solved {
+    struct contact along;
+    struct contact_weights across;
+};
+
 /* Adds the law, and what is across the axis. */
 BOLIDE_INLINE struct pair_contact pair_across(const struct pair_side *left,
                                               const struct pair_side *right,
                                               const struct pair_difference *difference,
-                                              const struct pair_law *law, struct contact along,
-                                              const struct contact_weights *across)
+                                              struct pair_limits limits, struct pair_law law,
+                                              const struct pair_solved *solved)
 {
     const struct vec3 none = {0.0, 0.0, 0.0};
+    const struct contact along = solved->along;
+    const struct contact_weights *across = &solved->across;
     struct pair_contact c = {along.stress, along.velocity, none, none};
     double opened = 0.0;
-    if (law->cuts) {
-        opened = along.stress > 0.0 ? law->open : 0.0;
+    if (law.cuts) {
+        opened = along.stress > 0.0 ? limits.open : 0.0;
         c.velocity = opened > 0.0 ? -left->stress / left->impedance : along.velocity;
         c.stress = opened > 0.0 ? 0.0 : along.stress;
     }
-    const struct pair_carried l = left->carried, r = right->carried;
-    const double open = 1.0 - l.sliding - r.sliding;
-    if (!law->shear) {
-        c.sliding = vec3_scale(law->carried ? l.sliding + 0.5 * open : 0.5, difference->sliding);
+    if (!law.shear) {
+        const double fraction =
+            law.carried ? left->carried.sliding + 0.5 * pair_open(left, right) : 0.5;
+        c.sliding = vec3_scale(fraction, difference->sliding);
         return c;
     }
-    if (law->carried) {
+    if (law.carried) {
         /* of the difference of tractions, what reaches the contact: the right side's by the left's weight, and back */
-        const double fraction = across->left * (1.0 - r.shear) + across->right * l.shear;
+        const double l = left->carried.shear, r = right->carried.shear;
+        const double fraction = across->left * (1.0 - r) + across->right * l;
+        const double open = pair_open(left, right);
         c.shear = vec3_add(vec3_add(left->shear, vec3_scale(fraction, difference->shear)),
                            vec3_scale(across->impedance * open, difference->sliding));
         c.sliding =
-            vec3_add(vec3_scale(l.sliding + across->right * open, difference->sliding),
-                     vec3_scale(across->compliance * (1.0 - l.shear - r.shear), difference->shear));
+            vec3_add(vec3_scale(left->carried.sliding + across->right * open, difference->sliding),
+                     vec3_scale(across->compliance * (1.0 - l - r), difference->shear));
     } else {
         c.shear = vec3_add(vec3_add(vec3_scale(across->left, right->shear),
                                     vec3_scale(across->right, left->shear)),
@@ -152,8 +170,8 @@ BOLIDE_INLINE struct pair_contact pair_across(const struct pair_side *left,
         c.sliding = vec3_add(vec3_scale(across->right, difference->sliding),
                              vec3_scale(across->compliance, difference->shear));
     }
-    if (law->cuts) {
-        const bool free = opened > 0.0 || law->slip > 0.0;
+    if (law.cuts) {
+        const bool free = opened > 0.0 || limits.slip > 0.0;
         const double still = left->shear_impedance > 0.0 ? -1.0 / left->shear_impedance : 0.0;
         c.shear = vec3_scale(free ? 0.0 : 1.0, c.shear);
         c.sliding.x = free ? still * left->shear.x : c.sliding.x;
@@ -167,11 +185,13 @@ BOLIDE_INLINE struct pair_contact pair_across(const struct pair_side *left,
 BOLIDE_INLINE struct pair_contact contact_pair(const struct pair_side *left,
                                                const struct pair_side *right,
                                                const struct pair_difference *difference,
-                                               const struct pair_law *law)
+                                               struct pair_limits limits, struct pair_law law)
 {
-    const struct pair_weights weights = pair_weights_of(left, right, law->star);
-    const struct contact along = pair_along(left, right, difference->velocity, law, &weights.along);
-    return pair_across(left, right, difference, law, along, &weights.across);
+    const struct pair_weights weights = pair_weights_of(left, right, law.star);
+    struct pair_solved solved;
+    solved.along = pair_along(left, right, difference->velocity, limits.brake, law, &weights.along);
+    solved.across = weights.across;
+    return pair_across(left, right, difference, limits, law, &solved);
 }
 
 #endif

@@ -69,58 +69,52 @@ BOLIDE_INLINE void find_places(struct pair_kind kind, double smoothing, const do
     }
 }
 
-/* The two sides of a pair along e, and the difference between them. What the spins of a pair add at its contact (turn) is
- * taken from the difference, and the part of i given apart. */
-struct sides {
-    struct pair_side left, right;
-    struct pair_difference difference;
-    struct vec3 own_turn;
-};
-
-BOLIDE_INLINE struct sides sides_of(struct pair_kind kind, const double *own,
-                                    const struct lanes *lanes, int k, double r, struct vec3 e)
+BOLIDE_INLINE struct vec3 velocity_between(int dimension, const double *own,
+                                           const struct lanes *lanes, int k)
 {
-    const int dimension = kind.dimension, u = record_velocity(dimension);
+    const int u = record_velocity(dimension);
+    return vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
+                    vector_from(dimension, own + u, 1));
+}
+
+/* Sets what KIND needs of the side of a pair along E whose RECORD has its numbers STEP doubles apart. */
+BOLIDE_INLINE void set_side(struct pair_kind kind, const double *record, int step, struct vec3 e,
+                            struct pair_side *side)
+{
+    const int dimension = kind.dimension, s = record_stress(dimension);
     const bool shear = kind.shear && dimension > 1;
-    const int s = record_stress(dimension), z = record_impedance(dimension, shear);
-    const int across_z = shear ? z + 1 : z, q = record_bend(dimension, shear);
-    struct sides pair = {
-        .left = {.impedance = own[z], .shear_impedance = own[across_z]},
-        .right = {.impedance = lanes->field[z][k], .shear_impedance = lanes->field[across_z][k]}};
-    pair.left.stress = own[s];
-    pair.right.stress = lanes->field[s][k];
+    const int z = record_impedance(dimension, shear), q = record_bend(dimension, shear);
+    side->impedance = record[z * step];
+    side->shear_impedance = record[(shear ? z + 1 : z) * step];
+    side->stress = record[s * step];
     if (record_has_bend(kind)) {
-        pair.left.density = own[q];
-        pair.left.bend = own[q + 1];
-        pair.right.density = lanes->field[q][k];
-        pair.right.bend = lanes->field[q + 1][k];
-    }
-    const struct vec3 du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
-                                    vector_from(dimension, own + u, 1));
-    pair.difference.velocity = vec3_dot(du, e);
-    if (dimension > 1)
-        pair.difference.sliding = vec3_sub(du, vec3_scale(pair.difference.velocity, e));
-    if (kind.turn) {
-        const int d = record_diameter(dimension), spin = record_spin(kind);
-        double share = own[d] / (own[d] + lanes->field[d][k]);
-        struct vec3 spin_i = spin_from(dimension, own + spin, 1);
-        struct vec3 spin_j = spin_from(dimension, &lanes->field[spin][k], LANES);
-        pair.own_turn = vec3_scale(share * r, vec3_cross(spin_i, e));
-        pair.difference.sliding =
-            vec3_sub(pair.difference.sliding,
-                     vec3_add(pair.own_turn, vec3_scale((1.0 - share) * r, vec3_cross(spin_j, e))));
+        side->density = record[q * step];
+        side->bend = record[(q + 1) * step];
     }
     if (shear) {
-        const struct vec3 ti = traction_of(dimension, stress_from(dimension, own + s, 1), e);
-        const struct vec3 tj =
-            traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), e);
-        pair.left.stress = vec3_dot(ti, e);
-        pair.right.stress = vec3_dot(tj, e);
-        pair.left.shear = vec3_sub(ti, vec3_scale(pair.left.stress, e));
-        pair.right.shear = vec3_sub(tj, vec3_scale(pair.right.stress, e));
-        pair.difference.shear = vec3_sub(pair.right.shear, pair.left.shear);
+        const struct vec3 t =
+            traction_of(dimension, stress_from(dimension, record + s * step, step), e);
+        side->stress = vec3_dot(t, e);
+        side->shear = vec3_sub(t, vec3_scale(side->stress, e));
     }
-    return pair;
+}
+
+/* What the spins of a pair R apart add to the velocities at its contact: that of i, and what they take from the difference. */
+struct turns {
+    struct vec3 own, both;
+};
+
+BOLIDE_INLINE struct turns turns_of(struct pair_kind kind, const double *own,
+                                    const struct lanes *lanes, int k, double r, struct vec3 e)
+{
+    const int d = record_diameter(kind.dimension), spin = record_spin(kind);
+    double share = own[d] / (own[d] + lanes->field[d][k]);
+    struct vec3 spin_i = spin_from(kind.dimension, own + spin, 1);
+    struct vec3 spin_j = spin_from(kind.dimension, &lanes->field[spin][k], LANES);
+    struct turns turns;
+    turns.own = vec3_scale(share * r, vec3_cross(spin_i, e));
+    turns.both = vec3_add(turns.own, vec3_scale((1.0 - share) * r, vec3_cross(spin_j, e)));
+    return turns;
 }
 
 /* Contact problems that are not the usual ones, along the pairs of eight lanes, and how parts across them meet. */
@@ -139,10 +133,13 @@ BOLIDE_INLINE void solve_by(enum pair_star star, struct pair_kind kind, const do
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const struct vec3 e = vector_from(kind.dimension, &pairs->e[0][k], LANES);
-        const struct sides pair = sides_of(kind, own, lanes, k, pairs->r[k], e);
-        const struct pair_weights weights = pair_weights_of(&pair.left, &pair.right, star);
+        struct pair_side left, right;
+        set_side(kind, own, 1, e, &left);
+        set_side(kind, &lanes->field[0][k], LANES, e, &right);
+        const struct vec3 du = velocity_between(kind.dimension, own, lanes, k);
+        const struct pair_weights weights = pair_weights_of(&left, &right, star);
         const struct contact contact =
-            pair_along(&pair.left, &pair.right, pair.difference.velocity, &law, &weights.along);
+            pair_along(&left, &right, vec3_dot(du, e), 1.0, law, &weights.along);
         c->left[k] = weights.across.left;
         c->right[k] = weights.across.right;
         c->compliance[k] = weights.across.compliance;
@@ -181,22 +178,35 @@ BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const 
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
     const int depth = record_depth(kind);
+    const struct pair_law law = {STAR_ACOUSTIC, shear, false, !usual};
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const double r = pairs->r[k], weight = pairs->weight[k];
         const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
-        const struct sides pair = sides_of(kind, own, lanes, k, r, e);
-        struct pair_law law = {.star = STAR_ACOUSTIC, .shear = shear, .cuts = !usual};
+        struct pair_side left, right;
+        set_side(kind, own, 1, e, &left);
+        set_side(kind, &lanes->field[0][k], LANES, e, &right);
+        const struct vec3 du = velocity_between(dimension, own, lanes, k);
+        struct pair_difference difference = {.velocity = vec3_dot(du, e)};
+        struct turns turns = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+        if (dimension > 1)
+            difference.sliding = vec3_sub(du, vec3_scale(difference.velocity, e));
+        if (kind.turn) {
+            turns = turns_of(kind, own, lanes, k, r, e);
+            difference.sliding = vec3_sub(difference.sliding, turns.both);
+        }
+        if (shear)
+            difference.shear = vec3_sub(right.shear, left.shear);
         struct pair_contact star;
         if (usual) {
-            star = contact_pair(&pair.left, &pair.right, &pair.difference, &law);
+            const struct pair_limits none = {0.0, 0.0, 1.0};
+            star = contact_pair(&left, &right, &difference, none, law);
         } else {
-            const struct contact along = {contacts->jump[k], contacts->stress[k]};
-            const struct contact_weights across = {contacts->left[k], contacts->right[k],
-                                                   contacts->compliance[k], contacts->impedance[k]};
-            law.slip = lanes->slip[k];
-            law.open = lanes->open[k];
-            star = pair_across(&pair.left, &pair.right, &pair.difference, &law, along, &across);
+            const struct pair_limits limits = {lanes->slip[k], lanes->open[k], 1.0};
+            const struct pair_solved solved = {{contacts->jump[k], contacts->stress[k]},
+                                               {contacts->left[k], contacts->right[k],
+                                                contacts->compliance[k], contacts->impedance[k]}};
+            star = pair_across(&left, &right, &difference, limits, law, &solved);
         }
         struct vec3 t = vec3_scale(star.stress, e), w = vec3_scale(star.velocity, e);
         if (shear)
@@ -204,7 +214,7 @@ BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const 
         if (dimension > 1)
             w = vec3_add(w, star.sliding);
         if (kind.turn)
-            w = vec3_add(w, pair.own_turn);
+            w = vec3_add(w, turns.own);
         double force_weight = weight;
         if (kind.depth) {
             double pair_depth = 0.5 * fabs(own[depth] + lanes->field[depth][k]);

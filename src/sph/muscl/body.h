@@ -250,6 +250,7 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
     const bool shear = kind.shear && dimension > 1;
     const int z = muscl_impedance(kind), q = muscl_bend(kind);
     const struct layout at = layout_of(kind);
+    const struct pair_law law = {STAR_SHOCK, shear, true, with_law};
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
@@ -262,17 +263,12 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
                                   .stress = pairs->along_j[k],
                                   .carried = {pairs->share[1][k], pairs->share[3][k], 0.0, 0.0}};
         struct pair_difference difference = {.velocity = pairs->along_u[k]};
-        struct pair_law law = {.star = STAR_SHOCK,
-                               .shear = shear,
-                               .carried = true,
-                               .cuts = with_law,
-                               .slip = with_law ? lanes->slip[k] : 0.0,
-                               .open = with_law ? lanes->open[k] : 0.0,
-                               .brake = 1.0};
+        struct pair_limits limits = {with_law ? lanes->slip[k] : 0.0,
+                                     with_law ? lanes->open[k] : 0.0, 1.0};
         if (dimension > 1) {
             /* fluids that shear past each other are not braked as if they met */
             const double own_share = -own[z + 1], other_share = -lanes->field[z + 1][k];
-            law.brake =
+            limits.brake =
                 minimum(own_share, other_share) > 0.0 ? maximum(own_share, other_share) : 1.0;
             difference.sliding = vector_from(dimension, &pairs->across_u[0][k], LANES);
             left.carried.sliding = pairs->share[4][k];
@@ -287,7 +283,7 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
             left.carried.shear = pairs->share[6][k];
             right.carried.shear = pairs->share[7][k];
         }
-        const struct pair_contact star = contact_pair(&left, &right, &difference, &law);
+        const struct pair_contact star = contact_pair(&left, &right, &difference, limits, law);
         struct vec3 t = vec3_scale(star.stress, n), w = vec3_scale(star.velocity, n);
         if (shear)
             t = vec3_add(t, star.shear);
