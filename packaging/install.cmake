@@ -23,7 +23,7 @@ install(DIRECTORY materials examples templates DESTINATION ${share} COMPONENT pr
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
-# The headers keep their rooms: a program that uses the library writes `#include "case/case.h"`.
+# The headers keep their modules: a program that uses the library writes `#include "case/case.h"`.
 install(TARGETS libbolide ARCHIVE COMPONENT library)
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bolide COMPONENT library
     FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE PATTERN cli EXCLUDE)

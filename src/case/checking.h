@@ -1,4 +1,4 @@
-/* What the checks of a case's meaning share. Private to case_check*.c. */
+/* What the checks of a case's meaning share. Private to check*.c. */
 #ifndef BOLIDE_CASE_CHECKING_H
 #define BOLIDE_CASE_CHECKING_H
 

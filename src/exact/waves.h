@@ -1,5 +1,5 @@
 /* A self-similar solution of two half-spaces: a contact, and up to two waves on either side of it, each
- * a jump or a fan. What all exact solutions of this room share: a solved problem begins with a struct
+ * a jump or a fan. What all exact solutions of this module share: a solved problem begins with a struct
  * waves, and waves_sample, waves_star and waves_contact serve as members of its exact_class. */
 #ifndef BOLIDE_EXACT_WAVES_H
 #define BOLIDE_EXACT_WAVES_H

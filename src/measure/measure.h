@@ -1,6 +1,6 @@
 /* Measures: what a check finds out about the particles of a moment. A measure is a choice of the
  * catalogue's kind "measure"; its thing is a struct measure_class. To add one: its file
- * measure_<name>.c, its class below, its line in measure.c. */
+ * <name>.c, its class below, its line in measure.c. */
 #ifndef BOLIDE_MEASURE_H
 #define BOLIDE_MEASURE_H
 
@@ -54,7 +54,7 @@ struct measure_width {
 };
 struct measure_recorded {
     char *probe, *column;
-    int take;             /* enum take of measure_recorded.c */
+    int take;             /* enum take of recorded.c */
     double after, before; /* s; NAN: the whole run */
     bool absolute;
     struct quantity noise; /* NAN: a hundredth of the range */

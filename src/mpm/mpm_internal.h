@@ -1,4 +1,4 @@
-/* The state of the material point method and the parts of its step. Private to this room. */
+/* The state of the material point method and the parts of its step. Private to this module. */
 #ifndef BOLIDE_MPM_INTERNAL_H
 #define BOLIDE_MPM_INTERNAL_H
 
