@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "material/material.h"
 #include "model/generate.h"
 #include "model/held.h"
 #include "mpm/mpm_internal.h"

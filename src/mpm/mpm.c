@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "material/material.h"
 #include "mpm/mpm_internal.h"
 
 /* Conditions of the fields. */

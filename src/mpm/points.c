@@ -2,6 +2,7 @@
  * to (2-21); the energy of a step as the public codes of the same group have it. */
 #include <string.h>
 
+#include "material/material.h"
 #include "mpm/mpm_internal.h"
 #include "mpm/point_body.h"
 

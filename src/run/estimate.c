@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "material/material.h"
 #include "model/solver.h"
 #include "run/run.h"
 
@@ -17,7 +18,7 @@ static void add_body(const struct simulation_case *input, int index, struct esti
     const struct body_input *body = case_body(input, index);
     struct body_estimate *of = &estimate->body[index];
     struct point point = of->summary.fastest;
-    const struct material *material = &case_material(input, body->material_index)->material;
+    const struct material *material = case_material(input, body->material_index)->material;
     struct response response = material_evaluate(material, &point);
     of->sound_long = response.sound_long;
     of->sound_shear = response.sound_shear;
@@ -38,7 +39,7 @@ static double history_bytes(const struct simulation_case *input)
     unsigned needed = 0;
     double bytes = 0.0;
     for (int m = 0; m < input->materials.count; m++)
-        needed |= material_history(&case_material(input, m)->material);
+        needed |= material_history(case_material(input, m)->material);
     for (int slot = 0; slot < POINT_HISTORY; slot++)
         bytes += needed & 1u << slot ? sizeof(double) : 0.0;
     return bytes;

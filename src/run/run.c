@@ -12,6 +12,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "material/material.h"
 #include "model/generate.h"
 #include "output/picture.h"
 #include "run/run_internal.h"

@@ -1,6 +1,7 @@
 /* Particles of the plane that have a depth: a ring of radius r in axisymmetry (x = r, y = z, mass per radian), or a
  * plate that thins under plane stress. The pair sums know of it by the depth in the records alone; what it adds to a
  * particle by itself is here. */
+#include "material/material.h"
 #include "sph/scheme.h"
 
 /* Of the equation of motion per radian, m dU/dt = ... - A sigma_tt g e_r with the g of the pair sums: a uniform

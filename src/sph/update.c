@@ -1,6 +1,7 @@
 /* What happens to a particle on its own: the step from level n to n + 1 once its pair sums are known.
  * Source: Parshikov (2013), section 1.5, block 2. */
 #include "sph/deform.h"
+#include "sph/evaluate.h"
 #include "sph/scheme.h"
 
 void sph_evaluate(const struct sph *sph, struct simulation *simulation)

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "material/material.h"
 #include "sph/hllc/hllc.h"
 
 static struct hllc_derivative derivative_of(const struct hllc_fields *f, int32_t i)
