@@ -176,6 +176,8 @@ void case_free(struct simulation_case *input)
 {
     if (!input)
         return;
+    for (int i = 0; i < input->materials.count; i++)
+        free(case_material(input, i)->material);
     parameters_release(case_table, input);
     sweep_values_free(input->sweep, input->sweep_values);
     document_free(input->document);

@@ -5,7 +5,10 @@
 
 #include "base/parameter.h"
 #include "case/document.h"
-#include "material/material.h"
+#include "material/eos/common.h"
+
+/* material/material.h, which few of those who read a case need: it has every model */
+struct material;
 
 /* materials: NAME: {library: aluminium-wilkins} or {eos: ..., strength: ...}; keys beside `library`
  * replace those of the library's file. */
@@ -15,7 +18,8 @@ struct material_input {
     struct one_of eos;          /* "eos" */
     struct one_of strength;     /* "strength"; not given: a fluid */
     struct one_of burn;         /* "burn"; not given: instant */
-    struct material material;   /* filled by case_read from the above */
+    struct heat heat;           /* "heat" */
+    struct material *material;  /* filled by case_read from the above; owned */
 };
 
 /* bodies: NAME: {material, a shape, velocity, ...} */

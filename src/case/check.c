@@ -3,8 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "case/checking.h"
 #include "case/document_internal.h"
+#include "material/material.h"
 #include "shape/lattice.h"
 
 static const char *path_of(const struct checking *checking, const char *key, char *path)
@@ -74,14 +76,17 @@ void case_check_axis(struct checking *checking, const char *key, int axis)
 }
 
 /* The material as plain data: the index of a choice is the enum of its model. */
-void case_fill_material(struct material_input *material)
+struct error *case_fill_material(struct material_input *material)
 {
-    struct material *plain = &material->material;
-    memset(&plain->eos, 0, sizeof plain->eos);
-    memset(&plain->strength, 0, sizeof plain->strength);
-    plain->eos.kind = (enum eos_kind)material->eos.index;
-    memcpy(&plain->eos.of, material->eos.value, material->eos.choice->size);
-    memset(&plain->burn, 0, sizeof plain->burn);
+    struct material *plain = memory_allocate(sizeof *plain);
+    if (!plain)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    material->material = plain;
+    plain->heat = material->heat;
+    if (material->eos.value) {
+        plain->eos.kind = (enum eos_kind)material->eos.index;
+        memcpy(&plain->eos.of, material->eos.value, material->eos.choice->size);
+    }
     plain->strength.kind = STRENGTH_NONE;
     if (material->strength.value) {
         plain->strength.kind = (enum strength_kind)material->strength.index;
@@ -91,21 +96,21 @@ void case_fill_material(struct material_input *material)
         plain->burn.kind = (enum burn_kind)material->burn.index;
         memcpy(&plain->burn.of, material->burn.value, material->burn.choice->size);
     }
+    return NULL;
 }
 
 static void check_material(struct checking *checking, int index)
 {
-    struct material_input *material = case_material(checking->input, index);
+    const struct material_input *material = case_material(checking->input, index);
     char path[PATH_TEXT];
     const char *key, *text;
     if (!material->eos.value)
         return;
-    case_fill_material(material);
-    if ((text = eos_wrong(&material->material.eos, &key))) {
+    if ((text = eos_wrong(&material->material->eos, &key))) {
         snprintf(path, sizeof path, "eos.%s.%s", material->eos.choice->name, key);
         case_wrong(checking, path, "%s", text);
     }
-    if ((text = strength_wrong(&material->material.strength, &key))) {
+    if ((text = strength_wrong(&material->material->strength, &key))) {
         snprintf(path, sizeof path, "strength.%s.%s", material->strength.choice->name, key);
         case_wrong(checking, path, "%s", text);
     }
@@ -204,7 +209,7 @@ static void check_start(struct checking *checking, struct body_input *body)
     snprintf(path, sizeof path, "materials.%s", input->materials.names[body->material_index]);
     if (case_is_wrong(checking, "") || document_is_wrong(input->document, path))
         return;
-    const struct material *plain = &material->material;
+    const struct material *plain = material->material;
     const char *text = heat_wrong(&plain->heat, &plain->eos);
     if (text && field_is_given(&body->temperature)) {
         case_wrong(checking, "temperature", "the material \"%s\" has no temperature: %s",
@@ -298,7 +303,7 @@ static void check_lit(struct checking *checking, int body)
 {
     const struct simulation_case *input = checking->input;
     const int material = case_body(input, body)->material_index;
-    if (material < 0 || !material_burns(&case_material(input, material)->material) ||
+    if (material < 0 || !material_burns(case_material(input, material)->material) ||
         document_is_wrong(input->document, "detonations"))
         return;
     for (int i = 0; i < input->detonations.count; i++)
@@ -399,6 +404,8 @@ static void check_geometry(struct checking *checking)
 struct error *case_check_meaning(struct simulation_case *input)
 {
     struct checking checking = {.input = input};
+    for (int i = 0; i < input->materials.count; i++)
+        TRY(case_fill_material(case_material(input, i)));
     case_check_texts(&checking);
     check_geometry(&checking);
     check_map(&checking, "materials", &input->materials, check_material);

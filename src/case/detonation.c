@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "case/internal.h"
+#include "material/material.h"
 
 const struct parameter case_detonation_table[] = {
     {.key = "at",
@@ -37,7 +38,7 @@ bool detonation_lights(const struct simulation_case *input, int index, int body)
     const struct material_input *material =
         case_material(input, case_body(input, body)->material_index);
     const int of = case_detonation(input, index)->body;
-    return material_burns(&material->material) && (of < 0 || of == body);
+    return material_burns(material->material) && (of < 0 || of == body);
 }
 
 static struct vec3 vector(const struct vector_value *value)
@@ -63,7 +64,7 @@ static double distance(const struct detonation_input *detonation, struct vec3 pl
 double detonation_arrival(const struct simulation_case *input, int body, struct vec3 place)
 {
     const struct burn *burn =
-        &case_material(input, case_body(input, body)->material_index)->material.burn;
+        &case_material(input, case_body(input, body)->material_index)->material->burn;
     double arrival = INFINITY;
     for (int i = 0; i < input->detonations.count; i++) {
         const struct detonation_input *detonation = case_detonation(input, i);

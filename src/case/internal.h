@@ -17,8 +17,8 @@ extern const struct parameter case_probe_table[];       /* struct probe_input */
 extern const struct parameter case_profile_table[];     /* struct profile_input */
 extern const struct parameter case_convergence_table[]; /* struct convergence_input */
 
-/* Fills material->material, plain data, from what was read. */
-void case_fill_material(struct material_input *material);
+/* Makes material->material, plain data, from what was read. */
+struct error *case_fill_material(struct material_input *material);
 
 /* Takes the sweep out of the document and tells its mistakes; puts the values of its run RUN, 1 to
  * sweep_runs, where they belong. 0: none of them. */

@@ -10,6 +10,8 @@
 #include "base/memory.h"
 #include "case/document_internal.h"
 #include "case/internal.h"
+#include "material/any.h"
+#include "material/material.h"
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
@@ -124,14 +126,14 @@ struct error *library_read(const char *path, const struct catalogue *catalogue,
     TRY(document_open(path, NULL, 0, NULL, &document));
     struct error *error = document_read(document, case_material_table, catalogue, material);
     document_free(document);
-    if (!error)
-        case_fill_material(material);
-    return error;
+    return error ? error : case_fill_material(material);
 }
 
 void library_release(struct material_input *material)
 {
     parameters_release(case_material_table, material);
+    free(material->material);
+    material->material = NULL;
 }
 
 bool library_rest(const struct material *material, struct point *point, struct response *response)
@@ -146,6 +148,6 @@ bool library_rest(const struct material *material, struct point *point, struct r
         if (start_state(&given, material, point, &key))
             return false;
     }
-    *response = material_evaluate(material, point);
+    *response = any_material_evaluate(material, point);
     return true;
 }

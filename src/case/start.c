@@ -2,6 +2,7 @@
  * equation of state gives the third. A temperature stands for the energy, the mean of a stress for the
  * pressure. */
 #include "case/internal.h"
+#include "material/material.h"
 
 static const double speed_of_light = 299792458.0; /* m/s */
 

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "cli/cli.h"
+#include "material/material.h"
 #include "model/solver.h"
 
 static void print_commands(void)
@@ -175,8 +176,6 @@ static void print_solver_fields(const struct choice_list *solvers, int index, bo
 /* What all particles show: the core's fields, and views of them. */
 static struct error *print_common_fields(struct simulation *empty, struct views *views)
 {
-    empty->materials = 1;
-    empty->material[0].heat.capacity = 1.0; /* of an ideal gas: there is a temperature */
     TRY(particles_create(3, 1.0, NULL, 0, &empty->particles));
     views_of_particles(views, empty);
     printf("fields of the particles, for checks and output.pictures:\n");
@@ -196,11 +195,14 @@ static struct error *print_fields(void)
 {
     const struct choice_list *solvers = catalogue_list(&bolide_catalogue, "solver");
     const struct simulation_case no_case = {0};
+    struct material gas = {.heat.capacity = 1.0}; /* an ideal gas, so that there is a temperature */
     struct simulation *empty = memory_allocate(sizeof *empty);
     struct views views = {0};
     if (!empty)
         return error_new(ERROR_SYSTEM, "out of memory");
     empty->input = &no_case;
+    empty->materials = 1;
+    empty->material = &gas;
     struct error *error = print_common_fields(empty, &views);
     if (!error) {
         printf("where a material has it:\n");

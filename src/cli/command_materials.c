@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "case/library.h"
 #include "cli/cli.h"
+#include "material/material.h"
 
 static const char row_format[] = "%-26s %-21s %-15s %9s %8s %8s  %s\n";
 
@@ -23,7 +24,7 @@ static struct error *print_row(const char *name, const struct material_input *in
     struct point point;
     struct response rest;
     char density[32], sound_long[32], sound_shear[32] = "-";
-    if (!library_rest(&input->material, &point, &rest))
+    if (!library_rest(input->material, &point, &rest))
         return error_new(ERROR_INPUT, "%s: sound does not travel at rest", name);
     snprintf(density, sizeof density, "%.6g", point.density);
     snprintf(sound_long, sizeof sound_long, "%.5g", rest.sound_long);

@@ -9,6 +9,8 @@
 
 #include "base/memory.h"
 #include "case/internal.h"
+#include "material/any.h"
+#include "material/material.h"
 #include "model/overlap.h"
 
 /* An id keeps the index of a site in 48 bits. */
@@ -202,7 +204,7 @@ static const char *start_at(const struct simulation_case *input, int body, struc
                             struct point *point, double velocity[3], const char **key)
 {
     const struct body_input *of = case_body(input, body);
-    const struct material *material = &case_material(input, of->material_index)->material;
+    const struct material *material = case_material(input, of->material_index)->material;
     return body_start_at(of, material, place, point, velocity, key);
 }
 
@@ -220,7 +222,7 @@ static void note_state(const struct material *material, struct point point, stru
     if (!heat_wrong(&material->heat, &material->eos))
         extend(&summary->temperature,
                heat_temperature(&material->heat, &material->eos, point.density, point.energy));
-    struct response response = material_evaluate(material, &point);
+    struct response response = any_material_evaluate(material, &point);
     if (summary->particles == 1 || response.sound_long > finding->sound) {
         summary->fastest = point;
         finding->sound = response.sound_long;
@@ -248,7 +250,7 @@ static void explore_start(const struct simulation_case *input, int body, struct 
     finding->energy += point.density * volume * (point.energy + 0.5 * square(speed));
     extend(&summary->speed, speed);
     if (of->varies || summary->particles == 1)
-        note_state(&case_material(input, of->material_index)->material, point, finding);
+        note_state(case_material(input, of->material_index)->material, point, finding);
 }
 
 static struct error *explore_body(const struct overlaps *overlaps, int body,

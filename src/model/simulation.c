@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "material/material.h"
 
 struct error *input_error(const struct simulation_case *input, const char *section,
                           const char *name, const char *format, ...)
@@ -221,9 +222,13 @@ struct error *simulation_create(const struct simulation_case *input, const struc
                                       .geometry = (enum case_geometry)input->geometry};
     TRY(check_counts(input));
     simulation->materials = input->materials.count;
+    simulation->material =
+        memory_allocate((size_t)simulation->materials * sizeof *simulation->material);
+    if (!simulation->material)
+        return error_new(ERROR_SYSTEM, "out of memory");
     memcpy(simulation->gravity, input->gravity.at, sizeof simulation->gravity);
     for (int i = 0; i < input->materials.count; i++)
-        simulation->material[i] = case_material(input, i)->material;
+        simulation->material[i] = *case_material(input, i)->material;
     struct error *error = set_mirrors(input, &simulation->mirrors);
     error = error_join(error, set_contacts(simulation));
     if (error)
@@ -253,6 +258,8 @@ void simulation_destroy(struct simulation *simulation)
     particles_destroy(&simulation->particles);
     free(simulation->group_of_body);
     simulation->group_of_body = NULL;
+    free(simulation->material);
+    simulation->material = NULL;
 }
 
 void simulation_spend(struct simulation *simulation, const char *name, double seconds)

@@ -31,7 +31,7 @@ struct simulation {
     int dimension;
     enum case_geometry geometry;
     int materials;
-    struct material material[MATERIALS_MAX];
+    struct material *material;
     struct mirrors mirrors;                      /* rigid slip walls */
     double gravity[3];                           /* m/s^2, of what nothing holds */
     uint8_t *group_of_body;                      /* contact group of each body */

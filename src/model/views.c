@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "material/material.h"
 #include "model/start_place.h"
 
 /* Particles that are computed at once when one component of them is wanted. */

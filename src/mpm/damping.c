@@ -6,6 +6,7 @@
  * Source: Cui, dissertation (2014), section 2.4. */
 #include <string.h>
 
+#include "material/material.h"
 #include "mpm/mpm_internal.h"
 
 enum { CORNERS_MAX = 8 };

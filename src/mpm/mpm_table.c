@@ -1,4 +1,5 @@
 /* The parameters of the material point method, as a case names them. */
+#include "material/material.h"
 #include "mpm/mpm_internal.h"
 
 static const char *const shape_names[] = {"linear", "gimp", "quadratic", "cubic", NULL};

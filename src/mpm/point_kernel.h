@@ -3,7 +3,9 @@
 #ifndef BOLIDE_MPM_POINT_KERNEL_H
 #define BOLIDE_MPM_POINT_KERNEL_H
 
-#include "material/material.h"
+#include "material/point.h"
+
+struct material;
 
 /* The fields of the particles, and their rates: component c of the k-th of the bin is rate[c * rate_stride + k]. */
 struct point_loop {

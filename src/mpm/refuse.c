@@ -1,4 +1,5 @@
 /* What of a case the material point method cannot do, told where it stands in the case. */
+#include "material/material.h"
 #include "mpm/mpm_internal.h"
 #include "shape/shape.h"
 

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "material/any.h"
+#include "material/material.h"
 #include "model/solver.h"
 #include "run/run.h"
 
@@ -17,8 +19,8 @@ static void add_body(const struct simulation_case *input, int index, struct esti
     const struct body_input *body = case_body(input, index);
     struct body_estimate *of = &estimate->body[index];
     struct point point = of->summary.fastest;
-    const struct material *material = &case_material(input, body->material_index)->material;
-    struct response response = material_evaluate(material, &point);
+    const struct material *material = case_material(input, body->material_index)->material;
+    struct response response = any_material_evaluate(material, &point);
     of->sound_long = response.sound_long;
     of->sound_shear = response.sound_shear;
     double step = class->step(input->solver.value, (int)input->dimension, material, &point,
@@ -38,7 +40,7 @@ static double history_bytes(const struct simulation_case *input)
     unsigned needed = 0;
     double bytes = 0.0;
     for (int m = 0; m < input->materials.count; m++)
-        needed |= material_history(&case_material(input, m)->material);
+        needed |= material_history(case_material(input, m)->material);
     for (int slot = 0; slot < POINT_HISTORY; slot++)
         bytes += needed & 1u << slot ? sizeof(double) : 0.0;
     return bytes;

@@ -260,20 +260,6 @@ BOLIDE_INLINE struct ranked sph_courant_limit(const struct sph *sph, const struc
         fabs(stretch) > f->sound_long[i] ? SPH_LIMIT_VOLUME_RATE : SPH_LIMIT_SOUND};
 }
 
-/* Pressure and sound speeds of particle I as it stands; returns what its material says of them. */
-BOLIDE_INLINE struct response sph_evaluate_point(struct simulation *simulation,
-                                                 const struct sph_fields *f, int32_t i)
-{
-    struct particles *p = &simulation->particles;
-    struct point point = {.density = p->density[i], .energy = p->energy[i]};
-    particle_load_history(p, i, point.history);
-    struct response r = material_evaluate(&simulation->material[p->material[i]], &point);
-    p->pressure[i] = point.pressure;
-    f->sound_long[i] = r.sound_long;
-    f->sound_shear[i] = r.sound_shear;
-    return r;
-}
-
 /* update.c. Thickness, diameter, support, pressure and sound speeds of all particles as they stand. */
 void sph_evaluate(const struct sph *sph, struct simulation *simulation);
 

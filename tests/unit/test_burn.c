@@ -117,7 +117,8 @@ static void the_power_of_stress_gives_the_same_state_as_its_energy_given(void **
 static void the_nearest_place_lights_first(void **state)
 {
     (void)state;
-    struct material_input materials[2] = {{.material = programmed}, {.material = {.burn = {0}}}};
+    struct material burning = programmed, inert = {.burn = {0}};
+    struct material_input materials[2] = {{.material = &burning}, {.material = &inert}};
     struct body_input bodies[3] = {
         {.material_index = 0}, {.material_index = 0}, {.material_index = 1}};
     struct detonation_input detonations[2] = {

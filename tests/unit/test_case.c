@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "material/material.h"
 #include "messages.h"
 #include "small_catalogue.h"
 
@@ -126,15 +127,15 @@ static void keys_beside_the_library_replace_its_values(void **state)
 {
     (void)state;
     struct simulation_case *input = good_case(impact, NULL, 0, false);
-    const struct material *whole = &case_material(input, 0)->material;
+    const struct material *whole = case_material(input, 0)->material;
     assert_int_equal(whole->eos.kind, EOS_mie_grueneisen);
     assert_true(whole->eos.of.mie_grueneisen.sound == 5350.0);
     assert_true(whole->strength.of.perfect_plastic.yield == 0.4e9);
-    const struct material *soft = &case_material(input, 1)->material;
+    const struct material *soft = case_material(input, 1)->material;
     assert_true(soft->strength.of.perfect_plastic.yield == 0.1e9);
     assert_true(soft->strength.of.perfect_plastic.shear_modulus == 23e9);
-    assert_int_equal(case_material(input, 2)->material.strength.kind, STRENGTH_NONE);
-    const struct material *other = &case_material(input, 3)->material;
+    assert_int_equal(case_material(input, 2)->material->strength.kind, STRENGTH_NONE);
+    const struct material *other = case_material(input, 3)->material;
     assert_int_equal(other->eos.kind, EOS_barotropic);
     assert_true(other->eos.of.barotropic.density == 2000.0);
     case_free(input);
@@ -183,7 +184,7 @@ static void settings_and_the_short_form_lie_over_the_file(void **state)
     struct simulation_case *input = good_case(impact, settings, COUNT_OF(settings) - 1, true);
     assert_true(case_body(input, 0)->velocity.at[0].constant == 900.0 / 3 + 0.3);
     assert_int_equal(((const struct sph *)input->solver.value)->contact, 1);
-    assert_true(case_material(input, 0)->material.strength.of.perfect_plastic.yield == 500e6);
+    assert_true(case_material(input, 0)->material->strength.of.perfect_plastic.yield == 500e6);
     assert_true(input->output.history == 1e-9 && input->output.every == 0.5e-6);
     assert_true(case_check(input, 1)->within.value == 1e-9);
     const struct unite *unite = case_body(input, 2)->shape.value;
@@ -336,9 +337,9 @@ static void a_key_that_the_library_leaves_out_joins_those_of_its_file(void **sta
         "{shear_modulus: 80 GPa, yield: 1 GPa}}}\n"
         "bodies: {b: {material: a, ball: 1 m}}\n",
         NULL, 0, false);
-    const struct strength *joined = &case_material(input, 0)->material.strength;
+    const struct strength *joined = &case_material(input, 0)->material->strength;
     assert_true(joined->of.johnson_cook.a == 350e6 && joined->of.johnson_cook.rate == 2.0);
-    assert_int_equal(case_material(input, 1)->material.strength.kind, STRENGTH_perfect_plastic);
+    assert_int_equal(case_material(input, 1)->material->strength.kind, STRENGTH_perfect_plastic);
     case_free(input);
 }
 

@@ -1,6 +1,7 @@
 /* Conduction as a part of the solver: the step that it allows, particles that stand still, one hash for all orders and
  * after a resume, energy that is kept, a cylinder that cools about its axis, and what a case without the constants
  * is told. */
+#include "material/material.h"
 #include "running.h"
 
 #include "run/estimate.h"

@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "case/library.h"
+#include "material/material.h"
 #include "small_catalogue.h"
 
 enum { MATERIALS = 256 };
@@ -65,7 +66,7 @@ static void sound_travels_in_every_material_at_rest(void **state)
     for (int i = 0; i < library->names.count; i++) {
         struct point point;
         struct response response;
-        const struct material *material = &library->input[i].material;
+        const struct material *material = library->input[i].material;
         if (!library_rest(material, &point, &response))
             fail_msg("%s: no state of rest", library->names.names[i]);
         assert_true(response.sound_long > 10.0 && response.sound_long < 20000.0);
@@ -80,13 +81,13 @@ static void rest_is_without_energy_but_for_gases(void **state)
     const struct library *library = *state;
     struct point point;
     struct response response;
-    assert_true(library_rest(&library->input[find(library, "water")].material, &point, &response));
+    assert_true(library_rest(library->input[find(library, "water")].material, &point, &response));
     assert_true(point.pressure == 0.0 && point.energy == 0.0);
-    assert_true(library_rest(&library->input[find(library, "air")].material, &point, &response));
+    assert_true(library_rest(library->input[find(library, "air")].material, &point, &response));
     assert_true(fabs(point.pressure - 101325.0) < 1e-6);
     assert_true(fabs(response.sound_long - sqrt(1.4 * 101325.0 / 1.225)) < 1e-9);
     assert_true(
-        library_rest(&library->input[find(library, "petn-jwl")].material, &point, &response));
+        library_rest(library->input[find(library, "petn-jwl")].material, &point, &response));
     assert_true(fabs(point.pressure) < 10.0);
 }
 
@@ -111,7 +112,7 @@ static void names_are_plain_and_no_two_materials_are_the_same(void **state)
         assert_int_equal(strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-."), strlen(name));
         assert_true(i == 0 || strcmp(library->names.names[i - 1], name) < 0);
         for (int k = 0; k < i; k++) {
-            if (!memcmp(&library->input[k].material, &input->material, sizeof input->material))
+            if (!memcmp(library->input[k].material, input->material, sizeof *input->material))
                 fail_msg("%s is %s", name, library->names.names[k]);
             assert_string_not_equal(library->input[k].description, input->description);
         }

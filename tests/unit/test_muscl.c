@@ -1,4 +1,5 @@
 /* The second-order contact method: what its gradients must give exactly, and what its sums must keep. */
+#include "material/material.h"
 #include "second_order.h"
 
 #define LINE "{from: [-8 mm], to: [8 mm]}"

@@ -91,7 +91,7 @@ static struct field_value field(const char *text)
 static struct body_input *add_varied(struct workshop *w, struct shape_box *box)
 {
     open_workshop(w, 2, 0.125);
-    w->material.material = aluminium();
+    w->iron = aluminium();
     struct body_input *body = add_body(w, "box", box);
     body->varies = true;
     body->density = field("2700 kg/m^3 + 80 kg/m^3*(x > 0.5 m)");
@@ -117,7 +117,7 @@ static void every_particle_has_the_state_of_its_place(void **state)
     struct simulation simulation;
     struct shape_box box = {VECTOR(0.0, 0.0), VECTOR(1.0, 1.0)};
     struct body_input *body = add_varied(&w, &box);
-    const struct material *material = &w.material.material;
+    const struct material *material = &w.iron;
     assert_made(&w, &alone, &simulation);
     const struct particles *p = &simulation.particles;
     assert_int_equal(p->count, 64);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "build_case.h"
+#include "material/material.h"
 #include "model/generate.h"
 
 enum { BODIES = 3, WALLS = 2 };
@@ -16,6 +17,7 @@ struct workshop {
     struct body_input bodies[BODIES];
     struct wall_input walls[WALLS];
     struct material_input material;
+    struct material iron;
 };
 
 static inline void open_workshop(struct workshop *w, int dimension, double resolution)
@@ -23,6 +25,7 @@ static inline void open_workshop(struct workshop *w, int dimension, double resol
     *w = (struct workshop){.material_names = {"iron"},
                            .body_names = {"matrix", "grain", "flyer"},
                            .wall_names = {"floor", "lid"}};
+    w->material.material = &w->iron;
     w->input.dimension = dimension;
     w->input.resolution = resolution;
     w->input.materials = (struct named_map){1, w->material_names, &w->material, {0}};

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "material/material.h"
 #include "sph/conduction/kernel.h"
 #include "sph/scheme.h"
 

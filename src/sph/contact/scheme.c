@@ -1,4 +1,5 @@
 /* The order of a step of first-order contact SPH, and what a case may ask of it. */
+#include "material/material.h"
 #include "sph/contact/contact.h"
 
 #include "base/clock.h"

@@ -1,6 +1,7 @@
 /* Records of SPH with corrected gradients from the states of particles, for both passes; see kernel.h for their order. */
 #include <string.h>
 
+#include "material/material.h"
 #include "sph/hllc/hllc.h"
 
 /* What both records begin with; returns what comes behind. */

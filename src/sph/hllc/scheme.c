@@ -3,6 +3,7 @@
 #include "sph/hllc/hllc.h"
 
 #include "base/clock.h"
+#include "sph/evaluate.h"
 
 #define AT(member) .offset = offsetof(struct hllc_own_fields, member)
 

@@ -1,6 +1,7 @@
 /* Records of second-order contact SPH: states half a step ahead, and their images; see kernel.h for the order. */
 #include <string.h>
 
+#include "material/material.h"
 #include "sph/lanes.h"
 #include "sph/muscl/muscl.h"
 
