@@ -69,83 +69,92 @@ BOLIDE_INLINE void find_places(struct pair_kind kind, double smoothing, const do
     }
 }
 
-BOLIDE_INLINE struct vec3 velocity_between(int dimension, const double *own,
-                                           const struct lanes *lanes, int k)
-{
-    const int u = record_velocity(dimension);
-    return vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
-                    vector_from(dimension, own + u, 1));
-}
-
-/* Sets what KIND needs of the side of a pair along E whose RECORD has its numbers STEP doubles apart. */
-BOLIDE_INLINE void set_side(struct pair_kind kind, const double *record, int step, struct vec3 e,
-                            struct pair_side *side)
-{
-    const int dimension = kind.dimension, s = record_stress(dimension);
-    const bool shear = kind.shear && dimension > 1;
-    const int z = record_impedance(dimension, shear), q = record_bend(dimension, shear);
-    side->impedance = record[z * step];
-    side->shear_impedance = record[(shear ? z + 1 : z) * step];
-    side->stress = record[s * step];
-    if (record_has_bend(kind)) {
-        side->density = record[q * step];
-        side->bend = record[(q + 1) * step];
-    }
-    if (shear) {
-        const struct vec3 t =
-            traction_of(dimension, stress_from(dimension, record + s * step, step), e);
-        side->stress = vec3_dot(t, e);
-        side->shear = vec3_sub(t, vec3_scale(side->stress, e));
-    }
-}
-
-/* What the spins of a pair R apart add to the velocities at its contact: that of i, and what they take from the difference. */
-struct turns {
-    struct vec3 own, both;
+/* What lies between the two of a pair: velocity and tractions, and their parts along it. */
+struct between {
+    struct vec3 du, ti, tj;
+    double u, i, j;
 };
 
-BOLIDE_INLINE struct turns turns_of(struct pair_kind kind, const double *own,
-                                    const struct lanes *lanes, int k, double r, struct vec3 e)
+BOLIDE_INLINE struct between between_of(struct pair_kind kind, const double *own,
+                                        const struct lanes *lanes, int k, struct vec3 e)
 {
-    const int d = record_diameter(kind.dimension), spin = record_spin(kind);
-    double share = own[d] / (own[d] + lanes->field[d][k]);
-    struct vec3 spin_i = spin_from(kind.dimension, own + spin, 1);
-    struct vec3 spin_j = spin_from(kind.dimension, &lanes->field[spin][k], LANES);
-    struct turns turns;
-    turns.own = vec3_scale(share * r, vec3_cross(spin_i, e));
-    turns.both = vec3_add(turns.own, vec3_scale((1.0 - share) * r, vec3_cross(spin_j, e)));
-    return turns;
+    const int dimension = kind.dimension;
+    const int u = record_velocity(dimension), s = record_stress(dimension);
+    struct between b = {.i = own[s], .j = lanes->field[s][k]};
+    b.du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
+                    vector_from(dimension, own + u, 1));
+    b.u = vec3_dot(b.du, e);
+    if (kind.shear && dimension > 1) {
+        b.ti = traction_of(dimension, stress_from(dimension, own + s, 1), e);
+        b.tj = traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), e);
+        b.i = vec3_dot(b.ti, e);
+        b.j = vec3_dot(b.tj, e);
+    }
+    return b;
 }
 
 /* Contact problems that are not the usual ones, along the pairs of eight lanes, and how parts across them meet. */
 struct contacts {
+    double u[LANES] ALIGNED, i[LANES] ALIGNED, j[LANES] ALIGNED;
     double stress[LANES] ALIGNED, jump[LANES] ALIGNED;
     double left[LANES] ALIGNED, right[LANES] ALIGNED;
     double compliance[LANES] ALIGNED, impedance[LANES] ALIGNED;
 };
 
-/* STAR is a constant where this is inlined. */
-BOLIDE_INLINE void solve_by(enum pair_star star, struct pair_kind kind, const double *own,
-                            const struct lanes *lanes, const struct pairs *pairs,
-                            struct contacts *c)
+/* Impedances stand at Z and, across, at ACROSS_Z, density and bend from Q on. STAR is a constant where this is inlined. */
+BOLIDE_INLINE void solve_by(enum pair_star star, const double *own, const struct lanes *lanes,
+                            int z, int across_z, int q, struct contacts *c)
 {
-    const struct pair_law law = {.star = star};
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
-        const struct vec3 e = vector_from(kind.dimension, &pairs->e[0][k], LANES);
-        struct pair_side left, right;
-        set_side(kind, own, 1, e, &left);
-        set_side(kind, &lanes->field[0][k], LANES, e, &right);
-        const struct vec3 du = velocity_between(kind.dimension, own, lanes, k);
-        const struct pair_weights weights = pair_weights_of(&left, &right, star);
-        const struct contact contact =
-            pair_along(&left, &right, vec3_dot(du, e), 1.0, law, &weights.along);
-        c->left[k] = weights.across.left;
-        c->right[k] = weights.across.right;
-        c->compliance[k] = weights.across.compliance;
-        c->impedance[k] = weights.across.impedance;
-        c->stress[k] = contact.stress;
-        c->jump[k] = contact.velocity;
+        const struct two_inverses inverse =
+            inverses_of_sums(own[z], lanes->field[z][k], own[across_z], lanes->field[across_z][k]);
+        struct contact_weights along = riemann_mean_weights(), across = along;
+        if (star != STAR_MEAN) {
+            along = contact_weights_of(own[z], lanes->field[z][k], inverse.first);
+            across = contact_weights_of(own[across_z], lanes->field[across_z][k], inverse.second);
+        }
+        c->left[k] = across.left;
+        c->right[k] = across.right;
+        c->compliance[k] = across.compliance;
+        c->impedance[k] = across.impedance;
+        if (star == STAR_DUKOWICZ || star == STAR_EXACT_GAS) {
+            struct side left = {own[z], 0.0, c->i[k], own[q], own[q + 1]};
+            struct side right = {lanes->field[z][k], c->u[k], c->j[k], lanes->field[q][k],
+                                 lanes->field[q + 1][k]};
+            struct contact contact = star == STAR_DUKOWICZ ? riemann_dukowicz(left, right)
+                                                           : riemann_exact_gas(left, right);
+            c->stress[k] = contact.stress;
+            c->jump[k] = contact.velocity;
+        } else {
+            c->stress[k] = contact_stress(along, c->i[k], c->j[k], c->u[k]);
+            c->jump[k] = contact_velocity_jump(along, c->u[k], c->j[k] - c->i[k]);
+        }
+    }
+}
+
+/* One for all kinds. */
+APART void solve_contacts(struct pair_kind kind, const double *own, const struct lanes *lanes,
+                          struct contacts *contacts)
+{
+    const bool shear = kind.shear && kind.dimension > 1;
+    const int z = record_impedance(kind.dimension, shear), across_z = shear ? z + 1 : z;
+    const int q = record_bend(kind.dimension, shear);
+    switch (kind.star) {
+    case STAR_ACOUSTIC:
+        solve_by(STAR_ACOUSTIC, own, lanes, z, across_z, q, contacts);
+        break;
+    case STAR_MEAN:
+        solve_by(STAR_MEAN, own, lanes, z, across_z, q, contacts);
+        break;
+    case STAR_DUKOWICZ:
+        solve_by(STAR_DUKOWICZ, own, lanes, z, across_z, q, contacts);
+        break;
+    case STAR_EXACT_GAS:
+        solve_by(STAR_EXACT_GAS, own, lanes, z, across_z, q, contacts);
+        break;
+    default: /* of second order alone */
+        break;
     }
 }
 
@@ -153,23 +162,20 @@ BOLIDE_INLINE void find_contacts(struct pair_kind kind, const double *own,
                                  const struct lanes *lanes, const struct pairs *pairs,
                                  struct contacts *contacts)
 {
-    switch (kind.star) {
-    case STAR_MEAN:
-        solve_by(STAR_MEAN, kind, own, lanes, pairs, contacts);
-        break;
-    case STAR_DUKOWICZ:
-        solve_by(STAR_DUKOWICZ, kind, own, lanes, pairs, contacts);
-        break;
-    case STAR_EXACT_GAS:
-        solve_by(STAR_EXACT_GAS, kind, own, lanes, pairs, contacts);
-        break;
-    default:
-        solve_by(STAR_ACOUSTIC, kind, own, lanes, pairs, contacts);
+#pragma omp simd simdlen(8)
+    for (int k = 0; k < LANES; k++) {
+        const struct vec3 e = vector_from(kind.dimension, &pairs->e[0][k], LANES);
+        const struct between b = between_of(kind, own, lanes, k, e);
+        contacts->u[k] = b.u;
+        contacts->i[k] = b.i;
+        contacts->j[k] = b.j;
     }
+    solve_contacts(kind, own, lanes, contacts);
 }
 
 /* Adds up what contacts give: those of CONTACTS, or where that is NULL the usual ones, acoustic and under no law, which are
- * solved on the way. */
+ * solved on the way. The formulas are those of contact_pair (riemann/contact_pair.h): gcc leaves the loop over lanes scalar
+ * where it calls that, at half the speed. */
 BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const struct lanes *lanes,
                                 const struct pairs *pairs, const struct contacts *contacts,
                                 struct sums *sums)
@@ -177,44 +183,70 @@ BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const 
     const bool usual = contacts == NULL;
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
-    const int depth = record_depth(kind);
-    const struct pair_law law = {STAR_ACOUSTIC, shear, false, !usual};
+    const int d = record_diameter(dimension), z = record_impedance(dimension, shear);
+    const int depth = record_depth(kind), spin = record_spin(kind);
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const double r = pairs->r[k], weight = pairs->weight[k];
         const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
-        struct pair_side left, right;
-        set_side(kind, own, 1, e, &left);
-        set_side(kind, &lanes->field[0][k], LANES, e, &right);
-        const struct vec3 du = velocity_between(dimension, own, lanes, k);
-        struct pair_difference difference = {.velocity = vec3_dot(du, e)};
-        struct turns turns = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-        if (dimension > 1)
-            difference.sliding = vec3_sub(du, vec3_scale(difference.velocity, e));
-        if (kind.turn) {
-            turns = turns_of(kind, own, lanes, k, r, e);
-            difference.sliding = vec3_sub(difference.sliding, turns.both);
-        }
-        if (shear)
-            difference.shear = vec3_sub(right.shear, left.shear);
-        struct pair_contact star;
+        const struct between b = between_of(kind, own, lanes, k, e);
+        double stress, jump, opened = 0.0;
+        struct contact_weights across;
         if (usual) {
-            const struct pair_limits none = {0.0, 0.0, 1.0};
-            star = contact_pair(&left, &right, &difference, none, law);
+            const int across_z = shear ? z + 1 : z;
+            const struct two_inverses inverse = inverses_of_sums(
+                own[z], lanes->field[z][k], own[across_z], lanes->field[across_z][k]);
+            const struct contact_weights along =
+                contact_weights_of(own[z], lanes->field[z][k], inverse.first);
+            across = contact_weights_of(own[across_z], lanes->field[across_z][k], inverse.second);
+            stress = contact_stress(along, b.i, b.j, b.u);
+            jump = contact_velocity_jump(along, b.u, b.j - b.i);
         } else {
-            const struct pair_limits limits = {lanes->slip[k], lanes->open[k], 1.0};
-            const struct pair_solved solved = {{contacts->jump[k], contacts->stress[k]},
-                                               {contacts->left[k], contacts->right[k],
-                                                contacts->compliance[k], contacts->impedance[k]}};
-            star = pair_across(&left, &right, &difference, limits, law, &solved);
+            across = (struct contact_weights){contacts->left[k], contacts->right[k],
+                                              contacts->compliance[k], contacts->impedance[k]};
+            stress = contacts->stress[k];
+            opened = stress > 0.0 ? lanes->open[k] : 0.0;
+            jump = opened > 0.0 ? -b.i / own[z] : contacts->jump[k];
+            stress = opened > 0.0 ? 0.0 : stress;
         }
-        struct vec3 t = vec3_scale(star.stress, e), w = vec3_scale(star.velocity, e);
-        if (shear)
-            t = vec3_add(t, star.shear);
-        if (dimension > 1)
-            w = vec3_add(w, star.sliding);
-        if (kind.turn)
-            w = vec3_add(w, turns.own);
+        struct vec3 t = vec3_scale(stress, e), w = vec3_scale(jump, e);
+        if (dimension > 1) {
+            struct vec3 across_u = vec3_sub(b.du, vec3_scale(b.u, e));
+            struct vec3 own_turn = {0.0, 0.0, 0.0}; /* what the spin of i adds at the contact */
+            if (kind.turn) {
+                double share = own[d] / (own[d] + lanes->field[d][k]);
+                struct vec3 spin_i = spin_from(dimension, own + spin, 1);
+                struct vec3 spin_j = spin_from(dimension, &lanes->field[spin][k], LANES);
+                own_turn = vec3_scale(share * r, vec3_cross(spin_i, e));
+                across_u = vec3_sub(
+                    across_u,
+                    vec3_add(own_turn, vec3_scale((1.0 - share) * r, vec3_cross(spin_j, e))));
+            }
+            if (shear) {
+                struct vec3 ai = vec3_sub(b.ti, vec3_scale(b.i, e));
+                struct vec3 aj = vec3_sub(b.tj, vec3_scale(b.j, e));
+                struct vec3 da = vec3_sub(aj, ai);
+                struct vec3 ta =
+                    vec3_add(vec3_add(vec3_scale(across.left, aj), vec3_scale(across.right, ai)),
+                             vec3_scale(across.impedance, across_u));
+                struct vec3 wa =
+                    vec3_add(vec3_scale(across.right, across_u), vec3_scale(across.compliance, da));
+                if (!usual) {
+                    bool free = opened > 0.0 || lanes->slip[k] > 0.0;
+                    double still = own[z + 1] > 0.0 ? -1.0 / own[z + 1] : 0.0;
+                    ta = vec3_scale(free ? 0.0 : 1.0, ta);
+                    wa.x = free ? still * ai.x : wa.x;
+                    wa.y = free ? still * ai.y : wa.y;
+                    wa.z = free ? still * ai.z : wa.z;
+                }
+                t = vec3_add(t, ta);
+                w = vec3_add(w, wa);
+                if (kind.turn)
+                    w = vec3_add(w, own_turn);
+            } else {
+                w = vec3_add(w, vec3_scale(0.5, across_u));
+            }
+        }
         double force_weight = weight;
         if (kind.depth) {
             double pair_depth = 0.5 * fabs(own[depth] + lanes->field[depth][k]);
