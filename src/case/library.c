@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "case/document_internal.h"
 #include "case/internal.h"
+#include "material/any.h"
 #include "material/material.h"
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
@@ -147,6 +148,6 @@ bool library_rest(const struct material *material, struct point *point, struct r
         if (start_state(&given, material, point, &key))
             return false;
     }
-    *response = material_evaluate(material, point);
+    *response = any_material_evaluate(material, point);
     return true;
 }

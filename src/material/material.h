@@ -13,13 +13,6 @@
 #include "material/heat.h"
 #include "material/strength.h"
 
-/* What the contact problem and the time step need of a point: longitudinal and shear sound speed (m/s),
- * (dp/drho)_e, (dp/de)_rho, shear modulus and yield stress. */
-struct response {
-    double dp_drho, dp_de, shear_modulus, yield, sound_long, sound_shear;
-    unsigned status;
-};
-
 /* A material as plain data, copied by value. */
 struct material {
     struct eos eos;

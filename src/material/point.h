@@ -35,6 +35,13 @@ struct motion {
     double compaction;   /* rho/rho_0 lost to pores that closed in the step; the material sets it */
 };
 
+/* What the contact problem and the time step need of a point: longitudinal and shear sound speed
+ * (m/s), (dp/drho)_e, (dp/de)_rho, shear modulus and yield stress. */
+struct response {
+    double dp_drho, dp_de, shear_modulus, yield, sound_long, sound_shear;
+    unsigned status;
+};
+
 /* What the burning of a point depends on: the time since its lighting (s), its length (m),
  * rho_0/rho, and rho_0, kg/m^3. */
 struct burning {

@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "case/internal.h"
+#include "material/any.h"
 #include "material/material.h"
 #include "model/overlap.h"
 
@@ -221,7 +222,7 @@ static void note_state(const struct material *material, struct point point, stru
     if (!heat_wrong(&material->heat, &material->eos))
         extend(&summary->temperature,
                heat_temperature(&material->heat, &material->eos, point.density, point.energy));
-    struct response response = material_evaluate(material, &point);
+    struct response response = any_material_evaluate(material, &point);
     if (summary->particles == 1 || response.sound_long > finding->sound) {
         summary->fastest = point;
         finding->sound = response.sound_long;

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "material/any.h"
 #include "material/material.h"
 #include "model/generate.h"
 #include "model/held.h"
@@ -30,7 +31,7 @@ static void note_sound(struct layer *layer, const struct simulation *simulation,
     struct point point = input->start;
     if (input->varies)
         point = (struct point){.density = material_density(material)};
-    const struct response response = material_evaluate(material, &point);
+    const struct response response = any_material_evaluate(material, &point);
     layer->sound_long = response.sound_long;
     layer->sound_shear = response.sound_shear;
 }

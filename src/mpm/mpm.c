@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "material/any.h"
 #include "material/material.h"
 #include "mpm/mpm_internal.h"
 
@@ -152,7 +153,7 @@ static double mpm_step(const void *parameters, int dimension, const struct mater
     const double courant = !isnan(of->courant)               ? of->courant
                            : material_has_strength(material) ? 0.5
                                                              : 0.2;
-    return courant * edge / material_evaluate(material, &at).sound_long;
+    return courant * edge / any_material_evaluate(material, &at).sound_long;
 }
 
 static const struct field_row *const field_tables[] = {field_rows, NULL};

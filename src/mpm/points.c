@@ -2,6 +2,7 @@
  * to (2-21); the energy of a step as the public codes of the same group have it. */
 #include <string.h>
 
+#include "material/any.h"
 #include "material/material.h"
 #include "mpm/mpm_internal.h"
 #include "mpm/point_body.h"
@@ -14,7 +15,7 @@ void mpm_evaluate(const struct mpm *mpm, struct simulation *simulation)
     for (int32_t i = 0; i < p->count; i++) {
         struct point point = {.density = p->density[i], .energy = p->energy[i]};
         particle_load_history(p, i, point.history);
-        struct response r = material_evaluate(&simulation->material[p->material[i]], &point);
+        struct response r = any_material_evaluate(&simulation->material[p->material[i]], &point);
         p->pressure[i] = point.pressure;
         sound[i] = r.sound_long;
     }

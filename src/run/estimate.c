@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "material/any.h"
 #include "material/material.h"
 #include "model/solver.h"
 #include "run/run.h"
@@ -19,7 +20,7 @@ static void add_body(const struct simulation_case *input, int index, struct esti
     struct body_estimate *of = &estimate->body[index];
     struct point point = of->summary.fastest;
     const struct material *material = case_material(input, body->material_index)->material;
-    struct response response = material_evaluate(material, &point);
+    struct response response = any_material_evaluate(material, &point);
     of->sound_long = response.sound_long;
     of->sound_shear = response.sound_shear;
     double step = class->step(input->solver.value, (int)input->dimension, material, &point,

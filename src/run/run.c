@@ -12,6 +12,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "material/any.h"
 #include "material/material.h"
 #include "model/generate.h"
 #include "output/picture.h"
@@ -106,7 +107,7 @@ static double released_energy(const struct run *run)
         memcpy(&point.deviator, p->deviator[i], sizeof point.deviator);
         point.history[HISTORY_burnt] = 1.0; /* what explosives set free when they burn */
         struct response response =
-            material_evaluate(&run->simulation.material[p->material[i]], &point);
+            any_material_evaluate(&run->simulation.material[p->material[i]], &point);
         exact_sum_add(&sum, 0.5 * p->mass[i] *
                                 square(point.pressure / (point.density * response.sound_long)));
         if (response.shear_modulus > 0.0)

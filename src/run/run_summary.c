@@ -9,6 +9,7 @@
 #include "base/csv.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "material/any.h"
 #include "material/material.h"
 #include "output/page.h"
 #include "run/run_internal.h"
@@ -99,7 +100,7 @@ static void put_body(FILE *file, const struct run *run, int index)
         return;
     struct point point = body->start;
     struct response response =
-        material_evaluate(case_material(input, body->material_index)->material, &point);
+        any_material_evaluate(case_material(input, body->material_index)->material, &point);
     put_number(file, "body", name, "density", point.density, "kg/m^3");
     put_number(file, "body", name, "sound_long", response.sound_long, "m/s");
     put_number(file, "body", name, "sound_shear", response.sound_shear, "m/s");

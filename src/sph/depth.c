@@ -1,7 +1,7 @@
 /* Particles of the plane that have a depth: a ring of radius r in axisymmetry (x = r, y = z, mass per radian), or a
  * plate that thins under plane stress. The pair sums know of it by the depth in the records alone; what it adds to a
  * particle by itself is here. */
-#include "material/material.h"
+#include "material/any.h"
 #include "sph/scheme.h"
 
 /* Of the equation of motion per radian, m dU/dt = ... - A sigma_tt g e_r with the g of the pair sums: a uniform
@@ -47,7 +47,7 @@ struct response sph_thin_step(const struct material *material, double divergence
                               struct point *point, struct motion *motion, double *thickness)
 {
     const struct point start = *point;
-    struct response r = material_evaluate(material, point);
+    struct response r = any_material_evaluate(material, point);
     const double modulus = start.density * square(r.sound_long), filled = motion->density;
     double rate = -divergence * (1.0 - 2.0 * r.shear_modulus / modulus);
     double slope = motion->dt * modulus, last_rate = 0.0, last_stress = 0.0;
@@ -56,7 +56,7 @@ struct response sph_thin_step(const struct material *material, double divergence
         *point = start;
         motion->density = start.density * (2.0 - change) / (2.0 + change);
         motion->strain_rate.zz = rate;
-        r = material_step(material, point, motion);
+        r = any_material_step(material, point, motion);
         double stress = point->deviator.zz - point->pressure;
         if (fabs(stress) <= 1e-14 * modulus) {
             *thickness *= filled / point->density;

@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "material/any.h"
 #include "model/generate.h"
 #include "riemann/bend.h"
 #include "sph/conduction/kernel.h"
@@ -273,7 +274,7 @@ static double sph_step(const void *parameters, int dimension, const struct mater
         return heat;
     if (scheme->wide_step)
         diameter *= all.smoothing;
-    return minimum(heat, all.courant * diameter / material_evaluate(material, &at).sound_long);
+    return minimum(heat, all.courant * diameter / any_material_evaluate(material, &at).sound_long);
 }
 
 const struct solver_class sph_class = {.size = sizeof(struct sph),

@@ -1,5 +1,8 @@
 /* What happens to a particle on its own: the step from level n to n + 1 once its pair sums are known.
  * Source: Parshikov (2013), section 1.5, block 2. */
+#include <string.h>
+
+#include "material/any.h"
 #include "sph/deform.h"
 #include "sph/evaluate.h"
 #include "sph/scheme.h"
@@ -48,13 +51,13 @@ BOLIDE_INLINE double packing_rate(const struct material *material, const struct 
  * particles apart along one axis and together along another, until on the one they no longer see each other: the velocity
  * gradient knows nothing of that axis then, and density goes astray. So a support grows, some per cent a step, where
  * neighbours stand more thinly than at the start (see write_packing), and shrinks where they do not; not beyond what plastic
- * strain can have drawn out, nor three times. */
-BOLIDE_INLINE double support_share(const struct particles *p, const struct sph_fields *f, double dt,
-                                   int32_t i)
+ * strain can have drawn out, nor three times. SOUND is that of level n. */
+BOLIDE_INLINE double support_share(const struct particles *p, const struct sph_fields *f,
+                                   double sound, double dt, int32_t i)
 {
     const double lack = minimum(f->packing[i][3] / f->packing[i][2] - 1.0, 1.0);
-    const double share = f->support[i] / f->diameter[i] *
-                         (1.0 + 0.1 * lack * dt * f->sound_long[i] / f->diameter[i]);
+    const double share =
+        f->support[i] / f->diameter[i] * (1.0 + 0.1 * lack * dt * sound / f->diameter[i]);
     return share > 1.0 ? minimum(share, minimum(3.0, exp(p->plastic_strain[i]))) : 1.0;
 }
 
@@ -68,71 +71,122 @@ struct advance {
     const double *gravity;
 };
 
-/* Particles begin .. end - 1, all of one material. */
-struct run {
-    int32_t begin, end;
+/* Particles FIRST .. FIRST + COUNT - 1, all of one material, on their way through a step: they move,
+ * their material takes them to their new density and energy, and their sizes follow. Only the second
+ * of these loops is compiled for each model. */
+enum { PASSAGE = 64 };
+struct passage {
+    const struct material *material;
+    int32_t first;
+    int count;
+    double density[PASSAGE], energy[PASSAGE]; /* new */
+    double a2[PASSAGE];                       /* square of the acceleration by contacts */
+    double sound[PASSAGE];                    /* at level n, where supports need it */
+    unsigned status[PASSAGE];
+    const double (*strain_rate)[6], (*spin)[3]; /* from FIRST on: of the fields, or */
+    double deformed_rate[PASSAGE][6], deformed_spin[PASSAGE][3];
 };
 
-/* Takes a run through the step. MATERIAL's kinds are constants where this is inlined; PLAIN: it remembers no more
- * than its plastic strain. */
-BOLIDE_INLINE void update_run(const struct material *material, bool plain, struct particles *p,
-                              struct advance step, struct run run, struct failure *failure)
+/* Moves particle I; returns the square of its acceleration by contacts. */
+BOLIDE_INLINE double move(struct particles *p, const struct advance *step, int32_t i)
 {
-    const struct sph_fields *const f = step.fields;
-    const int dimension = step.dimension;
-    const double dt = step.dt;
-    for (int32_t i = run.begin; i < run.end; i++) {
-        const double *a = f->rates.acceleration[i], *rate = f->rates.strain_rate[i];
-        double *u = p->velocity[i], *x = p->position[i], *s = p->deviator[i];
-        double divergence = rate[0] + rate[1] + rate[2], a2 = 0.0;
-        for (int axis = 0; axis < dimension; axis++) {
-            double next = u[axis] + dt * a[axis];
-            /* (1.86), or the kernel mean of contact velocities */
-            x[axis] += f->rates.drift && !step.finite ? dt * (u[axis] + f->rates.drift[i][axis])
-                                                      : 0.5 * dt * (u[axis] + next);
-            if (f->rates.drift && step.finite)
-                x[axis] += dt * f->rates.drift[i][axis];
-            u[axis] = next;
-            a2 += a[axis] * (a[axis] - step.gravity[axis]);
-        }
-        struct motion motion;
-        motion.dt = dt;
-        motion.time = step.time;
-        motion.length = f->diameter[i];
-        motion.density =
-            p->density[i] * (2.0 - divergence * dt) / (2.0 + divergence * dt); /* (1.82) */
-        motion.strain_rate = (struct sym3){rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]};
-        motion.spin = vec3_make(f->rates.spin[i][0], f->rates.spin[i][1], f->rates.spin[i][2]);
-        if (step.finite)
-            motion.density = p->density[i] / sph_deform(dt, &motion.strain_rate, &motion.spin);
-        if (f->packing)
-            motion.density *= 1.0 + dt * packing_rate(material, p, f, i);
-        /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2 and the work of gravity, without taking
-         * differences. */
-        motion.energy =
-            p->energy[i] + dt * f->rates.power[i] - (step.total ? 0.5 * square(dt) * a2 : 0.0);
-        if (f->heat_rate)
-            motion.energy += dt * f->heat_rate[i];
+    const struct sph_fields *const f = step->fields;
+    const double dt = step->dt, *a = f->rates.acceleration[i];
+    double *u = p->velocity[i], *x = p->position[i], a2 = 0.0;
+    for (int axis = 0; axis < step->dimension; axis++) {
+        double next = u[axis] + dt * a[axis];
+        /* (1.86), or the kernel mean of contact velocities */
+        x[axis] += f->rates.drift && !step->finite ? dt * (u[axis] + f->rates.drift[i][axis])
+                                                   : 0.5 * dt * (u[axis] + next);
+        if (f->rates.drift && step->finite)
+            x[axis] += dt * f->rates.drift[i][axis];
+        u[axis] = next;
+        a2 += a[axis] * (a[axis] - step->gravity[axis]);
+    }
+    return a2;
+}
+
+/* The volume ratio of a step with a finite velocity gradient, with the rates that the material is to
+ * see. */
+static double deform(const struct advance *step, struct passage *passage, int k)
+{
+    const double *rate = step->fields->rates.strain_rate[passage->first + k],
+                 *turn = step->fields->rates.spin[passage->first + k];
+    struct sym3 strain_rate = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]};
+    struct vec3 spin = vec3_make(turn[0], turn[1], turn[2]);
+    const double ratio = sph_deform(step->dt, &strain_rate, &spin);
+    memcpy(passage->deformed_rate[k], &strain_rate, sizeof strain_rate);
+    memcpy(passage->deformed_spin[k], &spin, sizeof spin);
+    return ratio;
+}
+
+/* Moves number K of a passage, and finds its new density and energy. */
+BOLIDE_INLINE void start_point(struct particles *p, const struct advance *step,
+                               struct passage *passage, int k)
+{
+    const struct sph_fields *const f = step->fields;
+    const int32_t i = passage->first + k;
+    const double dt = step->dt, *rate = f->rates.strain_rate[i];
+    const double divergence = rate[0] + rate[1] + rate[2], a2 = move(p, step, i);
+    double density = p->density[i] * (2.0 - divergence * dt) / (2.0 + divergence * dt); /* (1.82) */
+    if (step->finite)
+        density = p->density[i] / deform(step, passage, k);
+    if (f->packing)
+        density *= 1.0 + dt * packing_rate(passage->material, p, f, i);
+    /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2 and the work of gravity, without
+     * taking differences. */
+    double energy =
+        p->energy[i] + dt * f->rates.power[i] - (step->total ? 0.5 * square(dt) * a2 : 0.0);
+    if (f->heat_rate)
+        energy += dt * f->heat_rate[i];
+    passage->density[k] = density;
+    passage->energy[k] = energy;
+    passage->a2[k] = a2;
+    if (f->support)
+        passage->sound[k] = f->sound_long[i];
+}
+
+/* What a loop is compiled for: points that remember no more than their plastic strain; all; those of
+ * a plate that thins. */
+enum kind_of_points { PLAIN_POINTS, ANY_POINTS, THIN_POINTS };
+
+/* Takes a passage through MATERIAL, whose kinds are constants where plain points are stepped. */
+BOLIDE_INLINE void step_points(const struct material *material, enum kind_of_points kind,
+                               struct particles *p, const struct advance *step,
+                               struct passage *passage)
+{
+    const struct sph_fields *const f = step->fields;
+    for (int k = 0; k < passage->count; k++) {
+        const int32_t i = passage->first + k;
+        const double *rate = passage->strain_rate[k], *spin = passage->spin[k];
+        double *s = p->deviator[i];
+        struct motion motion = {
+            .dt = step->dt,
+            .density = passage->density[k],
+            .energy = passage->energy[k],
+            .strain_rate = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]},
+            .spin = {spin[0], spin[1], spin[2]},
+            .time = step->time,
+            .length = f->diameter[i]};
         struct point point = {.density = p->density[i],
                               .deviator = {s[0], s[1], s[2], s[3], s[4], s[5]},
                               .history = {p->plastic_strain[i]}};
-        if (!plain)
-            particle_load_history(p, i, point.history);
         struct response r;
-        if (f->thickness) { /* by copies: the other branch keeps its values in registers */
-            struct material own = *material;
-            struct point thin = point;
-            motion.viscous_pressure = 0.0; /* of those who find the energy from work */
-            struct motion within = motion;
-            r = sph_thin_step(&own, divergence, &thin, &within, &f->thickness[i]);
-            point = thin;
-        } else {
+        if (kind != PLAIN_POINTS)
+            particle_load_history(p, i, point.history);
+        if (kind == PLAIN_POINTS) {
             r = material_step(material, &point, &motion);
+        } else if (kind == THIN_POINTS) {
+            const double *plane = f->rates.strain_rate[i];
+            r = sph_thin_step(material, plane[0] + plane[1] + plane[2], &point, &motion,
+                              &f->thickness[i]);
+        } else {
+            r = any_material_step(material, &point, &motion);
         }
         p->density[i] = point.density;
         p->energy[i] = point.energy;
         p->pressure[i] = point.pressure;
-        if (plain)
+        if (kind == PLAIN_POINTS)
             p->plastic_strain[i] = point.history[HISTORY_plastic_strain];
         else
             particle_keep_history(p, i, point.history);
@@ -142,63 +196,91 @@ BOLIDE_INLINE void update_run(const struct material *material, bool plain, struc
         s[3] = point.deviator.xy;
         s[4] = point.deviator.yz;
         s[5] = point.deviator.zx;
-        const double share = f->support ? support_share(p, f, dt, i) : 1.0;
         f->sound_long[i] = r.sound_long;
         f->sound_shear[i] = r.sound_shear;
-        double depth = f->thickness ? f->thickness[i] : f->rates.hoop_pull ? fabs(x[0]) : 1.0;
-        f->diameter[i] = diameter_of_volume(p->mass[i] / (point.density * depth), dimension);
-        if (f->support)
-            f->support[i] = share * f->diameter[i];
-        bool possible = point.density > 0.0 && isfinite(point.density) &&
-                        isfinite(point.pressure) && isfinite(point.energy) && isfinite(a2) &&
-                        !(r.status & POINT_NO_SOUND);
-        if (!possible)
-            note_failure(failure, p->id[i], i);
+        passage->status[k] = r.status;
     }
 }
 
-/* Materials of the rarer kinds, one switch a particle; apart, so that their physics is not in the way of the others'. */
-static __attribute__((noinline)) void update_rare(const struct material *material,
-                                                  struct particles *p, struct advance step,
-                                                  struct run run, struct failure *failure)
+/* One switch for all points. */
+static void step_plain_points(struct particles *p, const struct advance *step,
+                              struct passage *passage)
 {
-    update_run(material, false, p, step, run, failure);
-}
-
-/* One switch a run: in each branch the kinds of the material are constants. */
-static void update_batch(const struct material *material, struct particles *p, struct advance step,
-                         struct run run, struct failure *failure)
-{
-    struct material m = *material;
-    if (!material_is_plain(material)) {
-        update_rare(material, p, step, run, failure);
-        return;
-    }
-    switch (material->eos.kind) {
-#define UPDATE_SOLID(name)                           \
-    case STRENGTH_##name:                            \
-        m.strength.kind = STRENGTH_##name;           \
-        update_run(&m, true, p, step, run, failure); \
+    struct material m = *passage->material;
+    const enum strength_kind strength = m.strength.kind;
+    switch (m.eos.kind) {
+#define STEP_SOLID(name)                                 \
+    case STRENGTH_##name:                                \
+        m.strength.kind = STRENGTH_##name;               \
+        step_points(&m, PLAIN_POINTS, p, step, passage); \
         break;
-#define UPDATE_CASE(name)                                \
-    case EOS_##name:                                     \
-        m.eos.kind = EOS_##name;                         \
-        switch (material->strength.kind) {               \
-            STRENGTH_PLAIN(UPDATE_SOLID)                 \
-        default:                                         \
-            m.strength.kind = STRENGTH_NONE;             \
-            update_run(&m, true, p, step, run, failure); \
-        }                                                \
+#define STEP_CASE(name)                                      \
+    case EOS_##name:                                         \
+        m.eos.kind = EOS_##name;                             \
+        switch (strength) {                                  \
+            STRENGTH_PLAIN(STEP_SOLID)                       \
+        default:                                             \
+            m.strength.kind = STRENGTH_NONE;                 \
+            step_points(&m, PLAIN_POINTS, p, step, passage); \
+        }                                                    \
         break;
-        EOS_LIST(UPDATE_CASE)
-#undef UPDATE_CASE
-#undef UPDATE_SOLID
+        EOS_LIST(STEP_CASE)
+#undef STEP_CASE
+#undef STEP_SOLID
     default:
         break;
     }
 }
 
-static void update_block(struct simulation *simulation, struct advance step,
+/* Sizes of number K of a passage in its new state, and whether that is possible. */
+BOLIDE_INLINE void finish_point(struct particles *p, const struct advance *step,
+                                const struct passage *passage, int k, struct failure *failure)
+{
+    const struct sph_fields *const f = step->fields;
+    const int32_t i = passage->first + k;
+    const double share = f->support ? support_share(p, f, passage->sound[k], step->dt, i) : 1.0;
+    const double depth = f->thickness         ? f->thickness[i]
+                         : f->rates.hoop_pull ? fabs(p->position[i][0])
+                                              : 1.0;
+    f->diameter[i] = diameter_of_volume(p->mass[i] / (p->density[i] * depth), step->dimension);
+    if (f->support)
+        f->support[i] = share * f->diameter[i];
+    const bool possible = p->density[i] > 0.0 && isfinite(p->density[i]) &&
+                          isfinite(p->pressure[i]) && isfinite(p->energy[i]) &&
+                          isfinite(passage->a2[k]) && !(passage->status[k] & POINT_NO_SOUND);
+    if (!possible)
+        note_failure(failure, p->id[i], i);
+}
+
+/* Particles BEGIN .. END - 1, all of one material. */
+static void update_run(const struct material *material, struct particles *p,
+                       const struct advance *step, int32_t begin, int32_t end,
+                       struct failure *failure)
+{
+    const struct sph_fields *const f = step->fields;
+    struct passage passage;
+    passage.material = material;
+    for (int32_t first = begin; first < end; first += PASSAGE) {
+        passage.first = first;
+        passage.count = end - first < PASSAGE ? end - first : PASSAGE;
+        for (int k = 0; k < passage.count; k++)
+            start_point(p, step, &passage, k);
+        passage.strain_rate = (const double(*)[6])(step->finite ? passage.deformed_rate
+                                                                : f->rates.strain_rate + first);
+        passage.spin =
+            (const double(*)[3])(step->finite ? passage.deformed_spin : f->rates.spin + first);
+        if (f->thickness)
+            step_points(material, THIN_POINTS, p, step, &passage);
+        else if (material_is_plain(material))
+            step_plain_points(p, step, &passage);
+        else
+            step_points(material, ANY_POINTS, p, step, &passage);
+        for (int k = 0; k < passage.count; k++)
+            finish_point(p, step, &passage, k, failure);
+    }
+}
+
+static void update_block(struct simulation *simulation, const struct advance *step,
                          const struct block *block, struct failure *failure)
 {
     struct particles *p = &simulation->particles;
@@ -207,7 +289,7 @@ static void update_block(struct simulation *simulation, struct advance step,
         uint16_t material = p->material[begin];
         for (next = begin + 1; next < end && p->material[next] == material;)
             next++;
-        update_batch(&simulation->material[material], p, step, (struct run){begin, next}, failure);
+        update_run(&simulation->material[material], p, step, begin, next, failure);
     }
 }
 
@@ -252,7 +334,7 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation,
         struct failure own = {false, 0, 0};
 #pragma omp for schedule(dynamic)
         for (int32_t b = 0; b < simulation->particles.blocks; b++)
-            update_block(simulation, step, &simulation->particles.block[b], &own);
+            update_block(simulation, &step, &simulation->particles.block[b], &own);
 #pragma omp critical(bolide_sph_failure)
         if (own.any)
             note_failure(&failure, own.id, own.index);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "material/any.h"
 #include "material/material.h"
 #include "sph/hllc/hllc.h"
 
@@ -71,7 +72,8 @@ BOLIDE_INLINE bool step_from_level(const struct simulation *simulation,
     if (!plain && f->own.level_history)
         memcpy(point.history, f->own.level_history[i], sizeof point.history);
     memcpy(&point.deviator, n->deviator, sizeof point.deviator);
-    struct response r = material_step(material, &point, &motion);
+    struct response r = plain ? material_step(material, &point, &motion)
+                              : any_material_step(material, &point, &motion);
     p->density[i] = point.density;
     p->energy[i] = point.energy;
     p->pressure[i] = point.pressure;
