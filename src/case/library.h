@@ -5,8 +5,6 @@
 
 #include "case/case.h"
 
-struct response;
-
 /* The names of the materials in FOLDER, sorted; ERROR_INPUT when it cannot be read. Free them with
  * library_names_free. */
 struct error *library_names(const char *folder, struct name_list *names);

@@ -3,9 +3,7 @@
 
 #include "material/material.h"
 
-/* Two of the three need it too. */
-__attribute__((noinline)) struct response any_material_evaluate(const struct material *material,
-                                                                struct point *point)
+struct response any_material_evaluate(const struct material *material, struct point *point)
 {
     return material_evaluate(material, point);
 }
@@ -13,13 +11,5 @@ __attribute__((noinline)) struct response any_material_evaluate(const struct mat
 struct response any_material_step(const struct material *material, struct point *point,
                                   const struct motion *motion)
 {
-    point->energy = motion->energy;
-    material_flow(material, point, motion);
-    return material_evaluate(material, point);
-}
-
-struct response any_material_step_by_work(const struct material *material, struct point *point,
-                                          const struct motion *motion)
-{
-    return material_step_by_work(material, point, motion);
+    return material_step(material, point, motion);
 }

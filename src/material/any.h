@@ -1,5 +1,5 @@
-/* A point of any material: the functions of material.h compiled once, for callers where a call costs
- * little. What is inlined has the physics of every model in it, and takes seconds to compile. */
+/* A point of any material: functions of material.h compiled once, for callers where a call costs
+ * little. Inlined, they bring the physics of every model, which takes seconds to compile. */
 #ifndef BOLIDE_MATERIAL_ANY_H
 #define BOLIDE_MATERIAL_ANY_H
 
@@ -10,7 +10,5 @@ struct material;
 struct response any_material_evaluate(const struct material *material, struct point *point);
 struct response any_material_step(const struct material *material, struct point *point,
                                   const struct motion *motion);
-struct response any_material_step_by_work(const struct material *material, struct point *point,
-                                          const struct motion *motion);
 
 #endif

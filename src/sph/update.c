@@ -71,8 +71,9 @@ struct advance {
     const double *gravity;
 };
 
-/* Particles FIRST .. FIRST + COUNT - 1, all of one material, on their way through a step. They move, their material takes
- * them to their new density and energy, and sizes follow: what the material does alone is compiled for each model. */
+/* Particles FIRST .. FIRST + COUNT - 1, all of one material, on their way through a step: they move,
+ * their material takes them to their new density and energy, and their sizes follow. Only the second
+ * of these loops is compiled for each model. */
 enum { PASSAGE = 64 };
 struct passage {
     const struct material *material;
@@ -82,7 +83,7 @@ struct passage {
     double a2[PASSAGE];                       /* square of the acceleration by contacts */
     double sound[PASSAGE];                    /* at level n, where supports need it */
     unsigned status[PASSAGE];
-    const double (*strain_rate)[6], (*spin)[3]; /* from FIRST on: those of the fields, or */
+    const double (*strain_rate)[6], (*spin)[3]; /* from FIRST on: of the fields, or */
     double deformed_rate[PASSAGE][6], deformed_spin[PASSAGE][3];
 };
 
@@ -105,7 +106,8 @@ BOLIDE_INLINE double move(struct particles *p, const struct advance *step, int32
     return a2;
 }
 
-/* The volume ratio of a step with a finite velocity gradient, whose rates become those that the material is to see. */
+/* The volume ratio of a step with a finite velocity gradient, with the rates that the material is to
+ * see. */
 static double deform(const struct advance *step, struct passage *passage, int k)
 {
     const double *rate = step->fields->rates.strain_rate[passage->first + k],
@@ -131,8 +133,8 @@ BOLIDE_INLINE void start_point(struct particles *p, const struct advance *step,
         density = p->density[i] / deform(step, passage, k);
     if (f->packing)
         density *= 1.0 + dt * packing_rate(passage->material, p, f, i);
-    /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2 and the work of gravity, without taking
-     * differences. */
+    /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2 and the work of gravity, without
+     * taking differences. */
     double energy =
         p->energy[i] + dt * f->rates.power[i] - (step->total ? 0.5 * square(dt) * a2 : 0.0);
     if (f->heat_rate)
@@ -144,11 +146,11 @@ BOLIDE_INLINE void start_point(struct particles *p, const struct advance *step,
         passage->sound[k] = f->sound_long[i];
 }
 
-/* What kinds of points a loop is compiled for: those that remember no more than their plastic strain; all; those of a
- * plate that thins. */
+/* What a loop is compiled for: points that remember no more than their plastic strain; all; those of
+ * a plate that thins. */
 enum kind_of_points { PLAIN_POINTS, ANY_POINTS, THIN_POINTS };
 
-/* Takes a passage through its material, whose kinds are constants where this is inlined. */
+/* Takes a passage through MATERIAL, whose kinds are constants where plain points are stepped. */
 BOLIDE_INLINE void step_points(const struct material *material, enum kind_of_points kind,
                                struct particles *p, const struct advance *step,
                                struct passage *passage)
