@@ -1,11 +1,13 @@
-/* The contact of two particles: what a pair of them exchanges, for every scheme that solves a Riemann problem along a pair
- * and splits velocity and traction into the part along its axis and the part across it. Both parts are linear in the
- * differences between the two sides (acoustic.h); the part along may be one of strong shocks instead; and a contact law
- * may open the contact or let it slip.
+/* The contact of two particles: what a pair of them exchanges, for every scheme that solves a
+ * Riemann problem along a pair and splits velocity and traction into the part along its axis and
+ * the part across it. Both parts are linear in the differences between the two sides (acoustic.h);
+ * the part along may be one of strong shocks instead; and a contact law may open the contact or let
+ * it slip.
  *
- * Values may be carried to the contact first by limited slopes: the left side's by a fraction l of the difference between
- * the two, the right side's by a fraction r, so that 1 - l - r of it is left to the Riemann problem. Source: Parshikov
- * (2013), (1.20)-(1.37), and docs/sph.md for the laws and the slopes. */
+ * Values may be carried to the contact first by limited slopes: the left side's by a fraction l of
+ * the difference between the two, the right side's by a fraction r, so that 1 - l - r of it is left
+ * to the Riemann problem. Source: Parshikov (2013), (1.20)-(1.37), and docs/sph.md for the laws and
+ * the slopes. */
 #ifndef BOLIDE_RIEMANN_CONTACT_PAIR_H
 #define BOLIDE_RIEMANN_CONTACT_PAIR_H
 
@@ -29,8 +31,9 @@ struct pair_carried {
     double sliding, shear;   /* across it */
 };
 
-/* A side: impedances rho C_l and rho C_t (0 for a fluid), density and bend as the solver of strong shocks takes them
- * (STAR_SHOCK: rho times the slope, side.h otherwise), stress along the axis and traction across it, at the particle. */
+/* A side: impedances rho C_l and rho C_t (0 for a fluid), density and bend as the solver of strong
+ * shocks takes them (STAR_SHOCK: rho times the slope, side.h otherwise), stress along the axis and
+ * traction across it, at the particle. */
 struct pair_side {
     double impedance, shear_impedance, density, bend;
     double stress;
@@ -38,7 +41,8 @@ struct pair_side {
     struct pair_carried carried;
 };
 
-/* What the right side has more than the left: velocity along the axis, and across it velocity and traction. */
+/* What the right side has more than the left: velocity along the axis, and across it velocity and
+ * traction. */
 struct pair_difference {
     double velocity;
     struct vec3 sliding, shear;
@@ -52,8 +56,9 @@ struct pair_law {
     bool cuts;    /* contact laws may act */
 };
 
-/* What a pair of its own adds to that: not zero where it carries no traction across the axis, and where it carries no
- * tension; and of the difference of velocities, what counts in the stress: 1 but for fluids that slide past each other. */
+/* What a pair of its own adds to that: not zero where it carries no traction across the axis, and
+ * where it carries no tension; and of the difference of velocities, what counts in the stress: 1
+ * but for fluids that slide past each other. */
 struct pair_limits {
     double slip, open, brake;
 };
@@ -154,7 +159,8 @@ BOLIDE_INLINE struct pair_contact pair_across(const struct pair_side *left,
         return c;
     }
     if (law.carried) {
-        /* of the difference of tractions, what reaches the contact: the right side's by the left's weight, and back */
+        /* of the difference of tractions, what reaches the contact: the right side's by the left's
+         * weight, and back */
         const double l = left->carried.shear, r = right->carried.shear;
         const double fraction = across->left * (1.0 - r) + across->right * l;
         const double open = pair_open(left, right);

@@ -4,8 +4,9 @@
 
 #include "base/vector.h"
 
-/* The sums measure the gradient A of velocity in places at level n, so that these deform by F = 1 + dt A in a step.
- * Returns det F, and turns the parts of A into those of ln F / dt, to second order. */
+/* The sums measure the gradient A of velocity in places at level n, so that these deform by F = 1 +
+ * dt A in a step. Returns det F, and turns the parts of A into those of ln F / dt, to second order.
+ */
 BOLIDE_INLINE double sph_deform(double dt, struct sym3 *strain_rate, struct vec3 *spin)
 {
     struct sym3 e = sym3_scale(dt, *strain_rate);

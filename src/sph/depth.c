@@ -1,11 +1,12 @@
-/* Particles of the plane that have a depth: a ring of radius r in axisymmetry (x = r, y = z, mass per radian), or a
- * plate that thins under plane stress. The pair sums know of it by the depth in the records alone; what it adds to a
- * particle by itself is here. */
+/* Particles of the plane that have a depth: a ring of radius r in axisymmetry (x = r, y = z, mass
+ * per radian), or a plate that thins under plane stress. The pair sums know of it by the depth in
+ * the records alone; what it adds to a particle by itself is here. */
 #include "material/any.h"
 #include "sph/scheme.h"
 
-/* Of the equation of motion per radian, m dU/dt = ... - A sigma_tt g e_r with the g of the pair sums: a uniform
- * pressure is then balanced as well as in the plane. The hoop stress does no work on E + U^2/2. */
+/* Of the equation of motion per radian, m dU/dt = ... - A sigma_tt g e_r with the g of the pair
+ * sums: a uniform pressure is then balanced as well as in the plane. The hoop stress does no work
+ * on E + U^2/2. */
 void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
                   const struct sph_fields *f)
 {

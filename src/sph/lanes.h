@@ -1,8 +1,9 @@
 /* Sums over the neighbours of a particle in eight lanes: what the kernels of this room share.
  *
- * A row is compressed to the neighbours within support, their records are turned into eight lanes a field, and
- * lane k sums the neighbours k, k + 8, ...; lanes are added in a fixed order. So a sum depends on the row's
- * neighbours in support and their order alone. For the files that are compiled once an instruction set. */
+ * A row is compressed to the neighbours within support, their records are turned into eight lanes a
+ * field, and lane k sums the neighbours k, k + 8, ...; lanes are added in a fixed order. So a sum
+ * depends on the row's neighbours in support and their order alone. For the files that are compiled
+ * once an instruction set. */
 #ifndef BOLIDE_SPH_LANES_H
 #define BOLIDE_SPH_LANES_H
 
@@ -19,8 +20,8 @@
 enum { LANES_CHUNK = 512, PLACE_STRIDE = 4 };
 
 #if defined(__AVX512F__)
-/* Turns eight rows of four into four columns. Halves of registers are put together while they are loaded, which leaves
- * less to the one port that shuffles. */
+/* Turns eight rows of four into four columns. Halves of registers are put together while they are
+ * loaded, which leaves less to the one port that shuffles. */
 BOLIDE_INLINE void transpose_four(const double *const row[LANES], int offset, vector8 column[4])
 {
     vector8 pair[4], half[4];
@@ -61,7 +62,8 @@ BOLIDE_INLINE double across_lanes(const double lane[LANES])
            ((lane[1] + lane[5]) + (lane[3] + lane[7]));
 }
 
-/* The sums over lanes of COUNT accumulators, a multiple of eight, each in the order of across_lanes. */
+/* The sums over lanes of COUNT accumulators, a multiple of eight, each in the order of
+ * across_lanes. */
 #if defined(__AVX512F__)
 BOLIDE_INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
 {
@@ -89,9 +91,10 @@ BOLIDE_INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
 }
 #endif
 
-/* Records as a kernel walks them: STRIDE doubles each, a multiple of eight, position first, the diameter right
- * behind it. The record at `empty` adds nothing to a sum; it fills up the last lanes. Where records are long, `place` has
- * position and diameter once more, closer together: most of a row is looked at and left. */
+/* Records as a kernel walks them: STRIDE doubles each, a multiple of eight, position first, the
+ * diameter right behind it. The record at `empty` adds nothing to a sum; it fills up the last
+ * lanes. Where records are long, `place` has position and diameter once more, closer together: most
+ * of a row is looked at and left. */
 struct lane_records {
     const double *record;
     int stride, dimension;
@@ -118,7 +121,8 @@ BOLIDE_INLINE void lanes_stage(struct lane_records records, const uint32_t *list
         transpose(row, offset, field + offset);
 }
 
-/* Writes to LIST what bits BITS hold of the entries within support of the particle, and returns how many. */
+/* Writes to LIST what bits BITS hold of the entries within support of the particle, and returns how
+ * many. */
 BOLIDE_INLINE int lanes_compress(struct lane_records records, const double *own,
                                  const uint32_t *entry, int count, uint32_t bits, uint32_t *list)
 {
@@ -201,15 +205,16 @@ BOLIDE_INLINE int lanes_part(const uint32_t *entry, int begin, int count, unsign
     return begin;
 }
 
-/* The neighbours in support of one part of a row, chunk by chunk, in groups of eight that begin in lane zero:
- * the first neighbour of a part in support always stands in lane zero. */
+/* The neighbours in support of one part of a row, chunk by chunk, in groups of eight that begin in
+ * lane zero: the first neighbour of a part in support always stands in lane zero. */
 struct lane_walk {
     uint32_t list[LANES_CHUNK + 2 * LANES];
     int looked_at, ready, waiting;
 };
 
-/* Makes `ready` neighbours of ENTRY ready, a multiple of eight, for the particle of record OWN; false when
- * nothing is left. WALK begins with its three numbers zero; the caller takes all that is ready. */
+/* Makes `ready` neighbours of ENTRY ready, a multiple of eight, for the particle of record OWN;
+ * false when nothing is left. WALK begins with its three numbers zero; the caller takes all that is
+ * ready. */
 BOLIDE_INLINE bool lanes_walk(struct lane_walk *walk, struct lane_records records,
                               const double *own, const uint32_t *entry, int count)
 {

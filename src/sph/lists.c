@@ -1,5 +1,5 @@
-/* When neighbour lists are rebuilt: particles go to the ranks that own them, neighbours are searched anew, and records
- * get room. */
+/* When neighbour lists are rebuilt: particles go to the ranks that own them, neighbours are
+ * searched anew, and records get room. */
 #include <string.h>
 
 #include "base/clock.h"

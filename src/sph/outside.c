@@ -1,5 +1,6 @@
-/* What acts on particles from outside, as the ledger books it: walls, the axis of symmetry, what holds bodies,
- * pistons that keep their velocity whatever pushes back, strikers that stop, and ends that keep all their state; gravity. */
+/* What acts on particles from outside, as the ledger books it: walls, the axis of symmetry, what
+ * holds bodies, pistons that keep their velocity whatever pushes back, strikers that stop, and ends
+ * that keep all their state; gravity. */
 #include <stdio.h>
 #include <string.h>
 
@@ -35,13 +36,15 @@ struct error *sph_refuse(const struct simulation *simulation)
     return error;
 }
 
-/* The fields of a step of DT, or of a part of it; gravity acts where particles are AHEAD of time n. */
+/* The fields of a step of DT, or of a part of it; gravity acts where particles are AHEAD of time n.
+ */
 struct act {
     const struct sph_fields *fields;
     double dt, ahead;
 };
 
-/* The images behind the axis push as walls do; a particle sees those of the nearer of axis and wall. */
+/* The images behind the axis push as walls do; a particle sees those of the nearer of axis and
+ * wall. */
 static void book_of_axis(const struct simulation *simulation, const struct act *act,
                          struct ledger *ledger, int32_t i, struct vec3 *push)
 {
@@ -56,7 +59,8 @@ static void book_of_axis(const struct simulation *simulation, const struct act *
                 vector_at(p->position[i]), 0.0);
 }
 
-/* The work of a slip wall at rest is zero, and so is that of the hoop stress on the total energy. */
+/* The work of a slip wall at rest is zero, and so is that of the hoop stress on the total energy.
+ */
 static void book_images(struct simulation *simulation, const void *of, int32_t i,
                         struct ledger *ledger)
 {
@@ -127,7 +131,8 @@ void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, 
     act_on_particles(simulation, body_is_held, hold_particle, &act);
 }
 
-/* Its work goes with the mean velocity of the step, so that free fall keeps its energy to rounding. */
+/* Its work goes with the mean velocity of the step, so that free fall keeps its energy to rounding.
+ */
 static void pull_particle(struct simulation *simulation, const void *of, int32_t i,
                           struct ledger *ledger)
 {

@@ -1,6 +1,6 @@
-/* How kernels read stress from their records, and sums over a row's lanes that they share: a stress is sigma_xx alone
- * for fluids and in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz, zx) in 3-D. For the files that are compiled once an
- * instruction set. */
+/* How kernels read stress from their records, and sums over a row's lanes that they share: a stress
+ * is sigma_xx alone for fluids and in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz, zx) in 3-D.
+ * For the files that are compiled once an instruction set. */
 #ifndef BOLIDE_SPH_RECORD_H
 #define BOLIDE_SPH_RECORD_H
 
@@ -47,7 +47,8 @@ struct laws {
     const uint16_t *body; /* of owned particles */
 };
 
-/* The laws between the body of particle I and the eight neighbours of LIST: which cut shear, which tension. */
+/* The laws between the body of particle I and the eight neighbours of LIST: which cut shear, which
+ * tension. */
 BOLIDE_INLINE void stage_laws(const struct laws *laws, int32_t i, const uint32_t *list,
                               double *slip, double *open)
 {

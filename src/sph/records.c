@@ -1,5 +1,6 @@
-/* Records of the particles that a rank does not own: mirror images and other ranks' particles. They follow those of the
- * owned particles; images of owned particles are made while those of other ranks are on their way. */
+/* Records of the particles that a rank does not own: mirror images and other ranks' particles. They
+ * follow those of the owned particles; images of owned particles are made while those of other
+ * ranks are on their way. */
 #include <string.h>
 
 #include "sph/lanes.h"

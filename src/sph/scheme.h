@@ -1,10 +1,10 @@
-/* The state of the SPH solver, what a scheme is, and the parts of a step that schemes share. Private
- * to this module.
+/* The state of the SPH solver, what a scheme is, and the parts of a step that schemes share.
+ * Private to this module.
  *
- * A scheme is a folder: NAME.h (its options, its state, its fields), options.c (their table), kernel.h
- * and kernel.c (the record of a neighbour and the pair sums), record.c (records from states) and
- * scheme.c (the order of its step). The parts below call no scheme; schemes call them, and sph.c calls
- * the scheme that a case names. */
+ * A scheme is a folder: NAME.h (its options, its state, its fields), options.c (their table),
+ * kernel.h and kernel.c (the record of a neighbour and the pair sums), record.c (records from
+ * states) and scheme.c (the order of its step). The parts below call no scheme; schemes call them,
+ * and sph.c calls the scheme that a case names. */
 #ifndef BOLIDE_SPH_SCHEME_H
 #define BOLIDE_SPH_SCHEME_H
 
@@ -36,8 +36,8 @@ enum sph_trait {
     SPH_ALL_RECONSTRUCTED = 1 << 16,
 };
 
-/* Components that depend on the run: of a symmetric tensor and of a gradient of velocity in its dimensions, and of the
- * gradient of the stresses that a record has. */
+/* Components that depend on the run: of a symmetric tensor and of a gradient of velocity in its
+ * dimensions, and of the gradient of the stresses that a record has. */
 enum sph_size { SPH_SIZE_TENSOR = 1, SPH_SIZE_GRADIENT, SPH_SIZE_STRESS_GRADIENT, SPH_SIZES };
 
 /* The store's fields that this solver adds, looked up once a step. */
@@ -96,8 +96,8 @@ struct sph_scheme {
     size_t state_size;                        /* bytes of its own state, zeroed before create */
     const struct field_row *rows; /* its own fields; sph_rows has those of all schemes */
 
-    /* Reads the options and the case into the state of the scheme, and chooses the stride of its records. ERROR_INPUT, located, for what
-     * the scheme cannot do. */
+    /* Reads the options and the case into the state of the scheme, and chooses the stride of its
+     * records. ERROR_INPUT, located, for what the scheme cannot do. */
     struct error *(*create)(struct sph *sph, const struct simulation *simulation);
     /* Completes particles that are fresh or were loaded. */
     void (*start)(const struct sph *sph, struct simulation *simulation);
@@ -125,8 +125,8 @@ struct sph {
     struct contact_groups groups;
     int64_t steps_since_build;
     double work; /* seconds that the particles had taken when they were last distributed */
-    /* Records of owned particles, of ghosts, and one that fills up lanes, `stride` doubles each; where `places`, position
-     * and diameter once more, closer together (lanes.h). */
+    /* Records of owned particles, of ghosts, and one that fills up lanes, `stride` doubles each;
+     * where `places`, position and diameter once more, closer together (lanes.h). */
     double *record, *place;
     size_t stride;
     bool places;
@@ -162,7 +162,8 @@ struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *
 void sph_bind_fields(const struct sph *sph, const struct simulation *simulation,
                      const struct field_row *rows, void *fields);
 
-/* The declarations of all fields of a run with TRAITS, FIELDS_MAX at most, in the order of the store. */
+/* The declarations of all fields of a run with TRAITS, FIELDS_MAX at most, in the order of the
+ * store. */
 enum { SPH_FIELDS_MAX = 32 };
 int sph_declare_fields(const struct sph_scheme *scheme, unsigned traits, int dimension,
                        struct field_declaration *fields);
@@ -193,12 +194,13 @@ BOLIDE_INLINE double sph_volume(const struct simulation *simulation, const struc
 /* The slope of the shock adiabat of each material; ERROR_INPUT at a material that has none. */
 struct error *sph_find_slopes(const struct simulation *simulation, double *slope);
 
-/* lists.c. Collective: neighbour lists and room for records of the particles as they stand; distributes and sorts the
- * particles when the lists have expired. *REBUILT tells whether they had. */
+/* lists.c. Collective: neighbour lists and room for records of the particles as they stand;
+ * distributes and sorts the particles when the lists have expired. *REBUILT tells whether they had.
+ */
 struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, bool *rebuilt);
 
-/* The skin of compressed lists. There are none in 1-D, where lists are short, nor where HEUN's step moves particles
- * between two walks or nothing moves. */
+/* The skin of compressed lists. There are none in 1-D, where lists are short, nor where HEUN's step
+ * moves particles between two walks or nothing moves. */
 double sph_near_skin(const struct sph_parameters *parameters, unsigned traits);
 
 /* records.c. One kind of record: REFLECT turns that of a particle into that of its image. */
@@ -210,18 +212,20 @@ struct sph_records {
     double *place; /* copies of position and diameter, as lanes.h has them; may be NULL */
 };
 
-/* Collective. The records of owned particles are packed: sends what other ranks need, makes those of images of owned
- * particles, and zeroes the record that fills up lanes, which it returns. The second waits for records of other ranks'
- * particles and makes those of their images. */
+/* Collective. The records of owned particles are packed: sends what other ranks need, makes those
+ * of images of owned particles, and zeroes the record that fills up lanes, which it returns. The
+ * second waits for records of other ranks' particles and makes those of their images. */
 double *sph_records_start(struct sph *sph, const struct simulation *simulation,
                           const struct sph_records *records);
 void sph_records_finish(struct sph *sph, const struct simulation *simulation,
                         const struct sph_records *records);
 
-/* Reflects position and velocity of a record, which are in the same place in those of all schemes. */
+/* Reflects position and velocity of a record, which are in the same place in those of all schemes.
+ */
 void sph_reflect_motion(const struct simulation *simulation, image_code image, double *record);
 
-/* Reflects a symmetric tensor in the order of a record: components with one normal index change sign. */
+/* Reflects a symmetric tensor in the order of a record: components with one normal index change
+ * sign. */
 BOLIDE_INLINE void sph_reflect_tensor(int dimension, struct vec3 sign, double *tensor)
 {
     if (dimension == 2)
@@ -233,8 +237,8 @@ BOLIDE_INLINE void sph_reflect_tensor(int dimension, struct vec3 sign, double *t
     }
 }
 
-/* sweep.c. Calls BODY for every block: first for those whose particles have no neighbours on other ranks, then, after
- * sph_records_finish, for the rest. Blocks go to threads CHUNK at a time. */
+/* sweep.c. Calls BODY for every block: first for those whose particles have no neighbours on other
+ * ranks, then, after sph_records_finish, for the rest. Blocks go to threads CHUNK at a time. */
 struct sph_sweep {
     void (*body)(const void *loop, const struct block *blocks, int32_t b);
     const void *loop;
@@ -243,7 +247,8 @@ struct sph_sweep {
 void sph_sweep(struct sph *sph, const struct simulation *simulation,
                const struct sph_records *records, const struct sph_sweep *sweep);
 
-/* Collective: the smallest of the steps that LIMIT_OF allows the particles; of equal ones that of the smallest id. */
+/* Collective: the smallest of the steps that LIMIT_OF allows the particles; of equal ones that of
+ * the smallest id. */
 enum sph_limit { SPH_LIMIT_SOUND, SPH_LIMIT_VOLUME_RATE, SPH_LIMIT_CONDUCTION };
 typedef struct ranked sph_limit_of(const struct sph *sph, const struct simulation *simulation,
                                    const void *context, int32_t i);
@@ -260,24 +265,28 @@ BOLIDE_INLINE struct ranked sph_courant_limit(const struct sph *sph, const struc
         fabs(stretch) > f->sound_long[i] ? SPH_LIMIT_VOLUME_RATE : SPH_LIMIT_SOUND};
 }
 
-/* update.c. Thickness, diameter, support, pressure and sound speeds of all particles as they stand. */
+/* update.c. Thickness, diameter, support, pressure and sound speeds of all particles as they stand.
+ */
 void sph_evaluate(const struct sph *sph, struct simulation *simulation);
 
-/* Takes every particle from level n to n + 1 by the rates in FIELDS, and books what acts from outside. ERROR_STATE names
- * the particle (that of the smallest id) whose new state is impossible. */
+/* Takes every particle from level n to n + 1 by the rates in FIELDS, and books what acts from
+ * outside. ERROR_STATE names the particle (that of the smallest id) whose new state is impossible.
+ */
 struct error *sph_update(const struct sph *sph, struct simulation *simulation,
                          const struct sph_fields *fields, double dt);
 
-/* depth.c. Axisymmetry: adds to the pair sums what the hoop stress does, and leaves its acceleration in hoop_pull. */
+/* depth.c. Axisymmetry: adds to the pair sums what the hoop stress does, and leaves its
+ * acceleration in hoop_pull. */
 void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
                   const struct sph_fields *f);
 
-/* A particle that a step has taken through the axis comes out on the other side as its own image. */
+/* A particle that a step has taken through the axis comes out on the other side as its own image.
+ */
 void sph_cross_axis(struct simulation *simulation);
 
-/* material_step in plane stress: solves for the rate of thickness at which no stress is left across the plate.
- * DIVERGENCE is that in the plane, MOTION->density follows from it alone; *THICKNESS is advanced. The status has
- * POINT_NO_SOUND when there is no such rate. */
+/* material_step in plane stress: solves for the rate of thickness at which no stress is left across
+ * the plate. DIVERGENCE is that in the plane, MOTION->density follows from it alone; *THICKNESS is
+ * advanced. The status has POINT_NO_SOUND when there is no such rate. */
 struct response sph_thin_step(const struct material *material, double divergence,
                               struct point *point, struct motion *motion, double *thickness);
 
@@ -290,8 +299,8 @@ void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, d
 /* Removes the rates of bodies with prescribed motion in a step of DT, and books them. */
 void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, double dt);
 
-/* Adds gravity to the acceleration of free bodies, and books its work in a step of DT at the position and velocity
- * that a particle has AHEAD of time n. */
+/* Adds gravity to the acceleration of free bodies, and books its work in a step of DT at the
+ * position and velocity that a particle has AHEAD of time n. */
 void sph_add_gravity(struct simulation *simulation, const struct sph_fields *f, double dt,
                      double ahead);
 

@@ -1,5 +1,6 @@
-/* The SPH solver as the run loop sees it. What a step does is the scheme's; around it are neighbour lists, conduction and
- * bodies with prescribed motion. Source: Parshikov (2013), sections 1.2 to 1.5. */
+/* The SPH solver as the run loop sees it. What a step does is the scheme's; around it are neighbour
+ * lists, conduction and bodies with prescribed motion. Source: Parshikov (2013), sections 1.2 to
+ * 1.5. */
 #include "sph/sph.h"
 
 #include <stdarg.h>
@@ -14,8 +15,8 @@
 #include "sph/conduction/kernel.h"
 #include "sph/scheme.h"
 
-/* Cells are this much wider than the support at the start, so that a little growth of the particles does not
- * put them on the next level of cells, twice as wide. */
+/* Cells are this much wider than the support at the start, so that a little growth of the particles
+ * does not put them on the next level of cells, twice as wide. */
 static const double growth_room = 1.08;
 
 static bool has_walls(const struct simulation *simulation)
@@ -118,8 +119,8 @@ static struct error *refuse(const struct sph *sph, const struct simulation *simu
     return error;
 }
 
-/* An image of an image along one axis does not exist, so it must lie beyond reach: it is as far from a particle as
- * the gap of the two walls and, on a lattice, a diameter. */
+/* An image of an image along one axis does not exist, so it must lie beyond reach: it is as far
+ * from a particle as the gap of the two walls and, on a lattice, a diameter. */
 static struct error *check_walls(const struct simulation *simulation, double reach)
 {
     for (int axis = 0; axis < simulation->dimension; axis++) {

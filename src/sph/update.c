@@ -1,5 +1,5 @@
-/* What happens to a particle on its own: the step from level n to n + 1 once its pair sums are known.
- * Source: Parshikov (2013), section 1.5, block 2. */
+/* What happens to a particle on its own: the step from level n to n + 1 once its pair sums are
+ * known. Source: Parshikov (2013), section 1.5, block 2. */
 #include <string.h>
 
 #include "material/any.h"
@@ -34,9 +34,10 @@ static void note_failure(struct failure *failure, uint64_t id, int32_t index)
         *failure = (struct failure){true, id, index};
 }
 
-/* How fast a particle is compressed, 1/s, where the volumes about it fill more than the space there is: by the excess,
- * 0.1 at most, with the speed of sound over the diameter. Its heat must pay for that, since no work goes with it: less than the energy of cold
- * compression leaves none, twice as much is enough. */
+/* How fast a particle is compressed, 1/s, where the volumes about it fill more than the space there
+ * is: by the excess, 0.1 at most, with the speed of sound over the diameter. Its heat must pay for
+ * that, since no work goes with it: less than the energy of cold compression leaves none, twice as
+ * much is enough. */
 BOLIDE_INLINE double packing_rate(const struct material *material, const struct particles *p,
                                   const struct sph_fields *f, int32_t i)
 {
@@ -47,10 +48,11 @@ BOLIDE_INLINE double packing_rate(const struct material *material, const struct 
     return room * minimum(f->packing[i][1], 0.1) * f->sound_long[i] / f->diameter[i];
 }
 
-/* The share of the diameter by which the support of particle I is wider after a step of DT. Matter that flows far draws its
- * particles apart along one axis and together along another, until on the one they no longer see each other: the velocity
- * gradient knows nothing of that axis then, and density goes astray. So a support grows, some per cent a step, where
- * neighbours stand more thinly than at the start (see write_packing), and shrinks where they do not; not beyond what plastic
+/* The share of the diameter by which the support of particle I is wider after a step of DT. Matter
+ * that flows far draws its particles apart along one axis and together along another, until on the
+ * one they no longer see each other: the velocity gradient knows nothing of that axis then, and
+ * density goes astray. So a support grows, some per cent a step, where neighbours stand more thinly
+ * than at the start (see write_packing), and shrinks where they do not; not beyond what plastic
  * strain can have drawn out, nor three times. SOUND is that of level n. */
 BOLIDE_INLINE double support_share(const struct particles *p, const struct sph_fields *f,
                                    double sound, double dt, int32_t i)
@@ -61,8 +63,8 @@ BOLIDE_INLINE double support_share(const struct particles *p, const struct sph_f
     return share > 1.0 ? minimum(share, minimum(3.0, exp(p->plastic_strain[i]))) : 1.0;
 }
 
-/* A step of DT that ends at TIME; TOTAL: the power is that of E + U^2/2; FINITE: the velocity gradient is that of
- * positions at level n (deform.h). */
+/* A step of DT that ends at TIME; TOTAL: the power is that of E + U^2/2; FINITE: the velocity
+ * gradient is that of positions at level n (deform.h). */
 struct advance {
     const struct sph_fields *fields;
     int dimension;
@@ -71,9 +73,9 @@ struct advance {
     const double *gravity;
 };
 
-/* Particles FIRST .. FIRST + COUNT - 1, all of one material, on their way through a step: they move,
- * their material takes them to their new density and energy, and their sizes follow. Only the second
- * of these loops is compiled for each model. */
+/* Particles FIRST .. FIRST + COUNT - 1, all of one material, on their way through a step: they
+ * move, their material takes them to their new density and energy, and their sizes follow. Only the
+ * second of these loops is compiled for each model. */
 enum { PASSAGE = 64 };
 struct passage {
     const struct material *material;
@@ -106,8 +108,8 @@ BOLIDE_INLINE double move(struct particles *p, const struct advance *step, int32
     return a2;
 }
 
-/* The volume ratio of a step with a finite velocity gradient, with the rates that the material is to
- * see. */
+/* The volume ratio of a step with a finite velocity gradient, with the rates that the material is
+ * to see. */
 static double deform(const struct advance *step, struct passage *passage, int k)
 {
     const double *rate = step->fields->rates.strain_rate[passage->first + k],
@@ -146,8 +148,8 @@ BOLIDE_INLINE void start_point(struct particles *p, const struct advance *step,
         passage->sound[k] = f->sound_long[i];
 }
 
-/* What a loop is compiled for: points that remember no more than their plastic strain; all; those of
- * a plate that thins. */
+/* What a loop is compiled for: points that remember no more than their plastic strain; all; those
+ * of a plate that thins. */
 enum kind_of_points { PLAIN_POINTS, ANY_POINTS, THIN_POINTS };
 
 /* Takes a passage through MATERIAL, whose kinds are constants where plain points are stepped. */

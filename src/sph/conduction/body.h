@@ -1,5 +1,5 @@
-/* What the heat loop does with one particle and eight of its neighbours: for the files that are compiled once an
- * instruction set, and for a device. */
+/* What the heat loop does with one particle and eight of its neighbours: for the files that are
+ * compiled once an instruction set, and for a device. */
 #ifndef BOLIDE_SPH_CONDUCTION_BODY_H
 #define BOLIDE_SPH_CONDUCTION_BODY_H
 

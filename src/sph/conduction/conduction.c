@@ -1,4 +1,5 @@
-/* Heat conduction: records from states, the heat loop, and the largest stable step; see conduction.h. */
+/* Heat conduction: records from states, the heat loop, and the largest stable step; see
+ * conduction.h. */
 #include "sph/conduction/conduction.h"
 
 #include <stdlib.h>
@@ -14,8 +15,9 @@ bool conduction_on(const struct sph_parameters *parameters)
     return parameters->conduction != SPH_CONDUCTION_NONE;
 }
 
-/* The source's 0.35 is for a line. An explicit step on a square or cubic lattice turns unstable at 0.37 and 0.33
- * for smoothing 1, and keeps a temperature between those about it up to 0.29 and 0.23. */
+/* The source's 0.35 is for a line. An explicit step on a square or cubic lattice turns unstable at
+ * 0.37 and 0.33 for smoothing 1, and keeps a temperature between those about it up to 0.29 and
+ * 0.23. */
 static double standard_limit(int conduction, int dimension)
 {
     if (conduction == SPH_CONDUCTION_HARMONIC)

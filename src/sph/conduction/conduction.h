@@ -1,5 +1,5 @@
-/* Heat conduction: a pass of its own over the neighbours of a step, beside that of a scheme. Private to SPH.
- * Source: Parshikov (2013), section 1.3. */
+/* Heat conduction: a pass of its own over the neighbours of a step, beside that of a scheme.
+ * Private to SPH. Source: Parshikov (2013), section 1.3. */
 #ifndef BOLIDE_SPH_CONDUCTION_H
 #define BOLIDE_SPH_CONDUCTION_H
 

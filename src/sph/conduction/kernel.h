@@ -5,13 +5,13 @@
  *   contact   k = 2 lambda_i lambda_j (1 + s)/(lambda_i + lambda_j s), s = sqrt(a_i/a_j)     (1.53)
  *   harmonic  k = 4 lambda_i lambda_j/(lambda_i + lambda_j)                                  (1.48)
  *
- * with the diffusivity a = lambda/(rho C_V) (1.52). k is symmetric, so that what one particle of a pair gains the
- * other loses. A neighbour is seen through its record alone:
+ * with the diffusivity a = lambda/(rho C_V) (1.52). k is symmetric, so that what one particle of a
+ * pair gains the other loses. A neighbour is seen through its record alone:
  *   x [y [z]]  diameter  volume  temperature  conductivity  sqrt(a)  [depth]
- * Where particles of the plane have a depth d, the radius of axisymmetry or the thickness of a plate, the volume is the
- * area A = m/(rho d) of a section, and the sum -1/(rho_i d_i) sum A_j w W'_ij k_ij (T_j - T_i)/r_ij with the depth
- * w = |d_i + d_j|/2 of the pair.
- * Source: Parshikov (2013), section 1.3; (1.48) after Cleary and Monaghan, J. Comput. Phys. 148 (1999) 227. */
+ * Where particles of the plane have a depth d, the radius of axisymmetry or the thickness of a
+ * plate, the volume is the area A = m/(rho d) of a section, and the sum -1/(rho_i d_i) sum A_j w
+ * W'_ij k_ij (T_j - T_i)/r_ij with the depth w = |d_i + d_j|/2 of the pair. Source: Parshikov
+ * (2013), section 1.3; (1.48) after Cleary and Monaghan, J. Comput. Phys. 148 (1999) 227. */
 #ifndef BOLIDE_SPH_HEAT_KERNEL_H
 #define BOLIDE_SPH_HEAT_KERNEL_H
 
@@ -32,8 +32,8 @@ BOLIDE_INLINE int heat_record_conductivity(int dimension) { return dimension + 3
 BOLIDE_INLINE int heat_record_diffusivity(int dimension) { return dimension + 4; }
 BOLIDE_INLINE int heat_record_depth(int dimension) { return dimension + 5; }
 
-/* k of a pair, W/(m K), from conductivities and roots of diffusivities; zero where one of the two conducts no
- * heat. The bits do not depend on which is which. */
+/* k of a pair, W/(m K), from conductivities and roots of diffusivities; zero where one of the two
+ * conducts no heat. The bits do not depend on which is which. */
 BOLIDE_INLINE double heat_pair_conductivity(enum heat_form form, double conductivity_i,
                                             double root_i, double conductivity_j, double root_j)
 {

@@ -1,6 +1,7 @@
-/* What the pair loop of the contact schemes does with one particle and eight of its neighbours: for the files that are
- * compiled once an instruction set, and for a device. Contact terms are (1.20)-(1.37) of Parshikov (2013), with velocity
- * and traction split into the part along the pair and the part across it; how lists become lanes is lanes.h. */
+/* What the pair loop of the contact schemes does with one particle and eight of its neighbours: for
+ * the files that are compiled once an instruction set, and for a device. Contact terms are
+ * (1.20)-(1.37) of Parshikov (2013), with velocity and traction split into the part along the pair
+ * and the part across it; how lists become lanes is lanes.h. */
 #ifndef BOLIDE_SPH_CONTACT_BODY_H
 #define BOLIDE_SPH_CONTACT_BODY_H
 
@@ -19,8 +20,8 @@ struct lanes {
     double slip[LANES] ALIGNED, open[LANES] ALIGNED;
 };
 
-/* Eight pairs between the two parts of the kernel. Each part runs over all groups before the next begins: what one group
- * waits for, another fills. */
+/* Eight pairs between the two parts of the kernel. Each part runs over all groups before the next
+ * begins: what one group waits for, another fills. */
 struct pairs {
     double x[LANES] ALIGNED, r[LANES] ALIGNED, e[3][LANES] ALIGNED;
     double weight[LANES] ALIGNED; /* V W' */
@@ -93,7 +94,8 @@ BOLIDE_INLINE struct between between_of(struct pair_kind kind, const double *own
     return b;
 }
 
-/* Contact problems that are not the usual ones, along the pairs of eight lanes, and how parts across them meet. */
+/* Contact problems that are not the usual ones, along the pairs of eight lanes, and how parts
+ * across them meet. */
 struct contacts {
     double u[LANES] ALIGNED, i[LANES] ALIGNED, j[LANES] ALIGNED;
     double stress[LANES] ALIGNED, jump[LANES] ALIGNED;
@@ -101,7 +103,8 @@ struct contacts {
     double compliance[LANES] ALIGNED, impedance[LANES] ALIGNED;
 };
 
-/* Impedances stand at Z and, across, at ACROSS_Z, density and bend from Q on. STAR is a constant where this is inlined. */
+/* Impedances stand at Z and, across, at ACROSS_Z, density and bend from Q on. STAR is a constant
+ * where this is inlined. */
 BOLIDE_INLINE void solve_by(enum pair_star star, const double *own, const struct lanes *lanes,
                             int z, int across_z, int q, struct contacts *c)
 {
@@ -173,9 +176,10 @@ BOLIDE_INLINE void find_contacts(struct pair_kind kind, const double *own,
     solve_contacts(kind, own, lanes, contacts);
 }
 
-/* Adds up what contacts give: those of CONTACTS, or where that is NULL the usual ones, acoustic and under no law, which are
- * solved on the way. The formulas are those of contact_pair (riemann/contact_pair.h): gcc leaves the loop over lanes scalar
- * where it calls that, at half the speed. */
+/* Adds up what contacts give: those of CONTACTS, or where that is NULL the usual ones, acoustic and
+ * under no law, which are solved on the way. The formulas are those of contact_pair
+ * (riemann/contact_pair.h): gcc leaves the loop over lanes scalar where it calls that, at half the
+ * speed. */
 BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const struct lanes *lanes,
                                 const struct pairs *pairs, const struct contacts *contacts,
                                 struct sums *sums)

@@ -1,6 +1,6 @@
 /* First-order contact SPH: every pair of particles solves a contact problem between their states.
- * Source: Parshikov (2013), sections 1.2 to 1.5. The classical scheme (../standard) is the same with means in place of
- * contacts, and uses the parts below. Private to SPH. */
+ * Source: Parshikov (2013), sections 1.2 to 1.5. The classical scheme (../standard) is the same
+ * with means in place of contacts, and uses the parts below. Private to SPH. */
 #ifndef BOLIDE_SPH_CONTACT_H
 #define BOLIDE_SPH_CONTACT_H
 
@@ -31,7 +31,8 @@ void contact_choose_kind(struct sph *sph, const struct simulation *simulation, e
 /* The records of all particles. */
 struct sph_records contact_records(const struct sph *sph);
 
-/* Collective: records of all particles, with the viscosity as it stands; the pair sums from them. */
+/* Collective: records of all particles, with the viscosity as it stands; the pair sums from them.
+ */
 void contact_pack(struct sph *sph, const struct simulation *simulation,
                   const struct sph_fields *fields);
 void contact_sum_pairs(struct sph *sph, const struct simulation *simulation,

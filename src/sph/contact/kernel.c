@@ -1,7 +1,7 @@
 /* The pair loop for one instruction set, named by BOLIDE_ISA; see kernel.h.
  *
- * Contact terms are (1.20)-(1.37) of Parshikov (2013), with velocity and traction split into the part along the
- * pair and the part across it; how rows become lanes is lanes.h. */
+ * Contact terms are (1.20)-(1.37) of Parshikov (2013), with velocity and traction split into the
+ * part along the pair and the part across it; how rows become lanes is lanes.h. */
 #include "sph/contact/kernel.h"
 
 #include "base/isa.h"
@@ -26,7 +26,8 @@ BOLIDE_INLINE struct totals_of_row totals_of_sums(struct pair_kind kind, bool dr
     return totals;
 }
 
-/* Neighbours of one part of a row: whether their contacts are the usual ones, and whether contact laws act. */
+/* Neighbours of one part of a row: whether their contacts are the usual ones, and whether contact
+ * laws act. */
 struct part {
     const uint32_t *entry;
     int count;
@@ -168,8 +169,9 @@ BOLIDE_INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind
     write_rates(&loop->rates, i, factor, &all, of_images);
 }
 
-/* Each body of the rows' loop is an instance; its name says of which kind. How the two of a pair meet along it and whether
- * the drift is wanted is asked in the other instance of the part, out of line. */
+/* Each body of the rows' loop is an instance; its name says of which kind. How the two of a pair
+ * meet along it and whether the drift is wanted is asked in the other instance of the part, out of
+ * line. */
 #define INSTANCE(name, dimension, shear, depth, turn)                                        \
     APART void name##_part(const struct pair_loop *loop, struct part part, int32_t i,        \
                            struct sums *sums)                                                \

@@ -2,9 +2,10 @@
  *
  * A neighbour is seen through its record alone, a few doubles packed once a stage:
  *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear] [density bend] [depth] [spin]
- * where stress is sigma_xx alone for fluids and in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz, zx) in 3-D, and spin
- * one component in 2-D, three in 3-D. With a depth d, the volume is the area A = m/(rho d) of a section of the plane.
- * The loop is compiled for several instruction sets with the same result to the last bit. */
+ * where stress is sigma_xx alone for fluids and in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz,
+ * zx) in 3-D, and spin one component in 2-D, three in 3-D. With a depth d, the volume is the area A
+ * = m/(rho d) of a section of the plane. The loop is compiled for several instruction sets with the
+ * same result to the last bit. */
 #ifndef BOLIDE_SPH_PAIR_KERNEL_H
 #define BOLIDE_SPH_PAIR_KERNEL_H
 
@@ -12,10 +13,11 @@
 #include "riemann/contact_pair.h"
 #include "sph/layout.h"
 
-/* What instantiates a kernel. `star`: means, or one of the Riemann problems but STAR_SHOCK. `shear`: stress is a tensor and shear impedances count. `drift`: the mean of
- * contact velocities is wanted too. `depth`: particles of the plane have a depth, the radius r of axisymmetry (-r
- * behind the axis) or the thickness of a plate. `turn`: velocities are those at the contact point (acoustic, with
- * shear). */
+/* What instantiates a kernel. `star`: means, or one of the Riemann problems but STAR_SHOCK.
+ * `shear`: stress is a tensor and shear impedances count. `drift`: the mean of contact velocities
+ * is wanted too. `depth`: particles of the plane have a depth, the radius r of axisymmetry (-r
+ * behind the axis) or the thickness of a plate. `turn`: velocities are those at the contact point
+ * (acoustic, with shear). */
 struct pair_kind {
     int dimension;
     bool shear;

@@ -47,8 +47,9 @@ BOLIDE_INLINE void pack_owned(const struct contact_state *state,
     }
 }
 
-/* Turns the record of a particle into that of its image: place mirrored, normal velocity and the shear
- * stresses with one normal index negated, spin as a pseudovector; behind the axis a radius is negative. */
+/* Turns the record of a particle into that of its image: place mirrored, normal velocity and the
+ * shear stresses with one normal index negated, spin as a pseudovector; behind the axis a radius is
+ * negative. */
 static void reflect(const struct sph *sph, const struct simulation *simulation, image_code image,
                     double *record)
 {

@@ -1,5 +1,6 @@
-/* What the pair loops with corrected gradients do with one particle and eight of its neighbours: for the files that are
- * compiled once an instruction set, and for a device. The contact problem along a pair is riemann/hllc.h. */
+/* What the pair loops with corrected gradients do with one particle and eight of its neighbours:
+ * for the files that are compiled once an instruction set, and for a device. The contact problem
+ * along a pair is riemann/hllc.h. */
 #ifndef BOLIDE_SPH_HLLC_BODY_H
 #define BOLIDE_SPH_HLLC_BODY_H
 
@@ -10,13 +11,15 @@
 
 enum { FIELDS = 40 };
 
-/* A particle against eight neighbours: x_ij, u_j - u_i, the unit vector from i to j, and -V_j W' of each. */
+/* A particle against eight neighbours: x_ij, u_j - u_i, the unit vector from i to j, and -V_j W' of
+ * each. */
 struct pair {
     struct vec3 x, u, e;
     double distance, weight, width; /* width: h */
 };
 
-/* Sums over pairs of the first pass, by lane: V x (x) grad W, V u (x) grad W, V f grad W of three scalars f. */
+/* Sums over pairs of the first pass, by lane: V x (x) grad W, V u (x) grad W, V f grad W of three
+ * scalars f. */
 struct gradient_sums {
     double moment[6][LANES] ALIGNED, velocity[9][LANES] ALIGNED, scalar[3][LANES] ALIGNED;
 };
@@ -125,7 +128,8 @@ BOLIDE_INLINE struct vec3 gradient_row(struct sym3 correction, const struct grad
     return sym3_dot(correction, row);
 }
 
-/* What to add to f_i at the middle of the pair: RISE = f_j - f_i, CHANGE = G_i.x_ij; nothing where they disagree. */
+/* What to add to f_i at the middle of the pair: RISE = f_j - f_i, CHANGE = G_i.x_ij; nothing where
+ * they disagree. */
 BOLIDE_INLINE double half_of_slope(double rise, double change)
 {
     double other = 2.0 * change - rise, product = rise * other;
@@ -178,13 +182,14 @@ BOLIDE_INLINE void reconstruct(const struct eight *eight, int k, struct pair pai
     right->stress -= moved[1][2] - moved[1][1];
 }
 
-/* How the pair's stress and velocity differ from means: sigma* = left sigma_i + right sigma_j + along e (x) e + all I,
- * u* - u_i = (u_j - u_i)/2 + jump e. */
+/* How the pair's stress and velocity differ from means: sigma* = left sigma_i + right sigma_j +
+ * along e (x) e + all I, u* - u_i = (u_j - u_i)/2 + jump e. */
 struct star {
     double left, right, along, all, jump;
 };
 
-/* The contact problem of the components along a pair (20), by elastic waves alone unless WITH_YIELD. */
+/* The contact problem of the components along a pair (20), by elastic waves alone unless
+ * WITH_YIELD. */
 BOLIDE_INLINE struct elastic_contact contact_of(const struct eight *eight, int k, struct pair pair,
                                                 bool with_yield)
 {

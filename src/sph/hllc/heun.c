@@ -1,5 +1,6 @@
-/* Heun's second-order step of SPH with corrected gradients: to n + 1 with the rates of level n, then from level n with
- * the mean of these and the rates found there; each stage is a step of the material, return to yield included. */
+/* Heun's second-order step of SPH with corrected gradients: to n + 1 with the rates of level n,
+ * then from level n with the mean of these and the rates found there; each stage is a step of the
+ * material, return to yield included. */
 #include <string.h>
 
 #include "base/clock.h"
@@ -47,7 +48,8 @@ struct stage {
     double velocity[3], dt;
 };
 
-/* False when the new state of particle I is impossible. PLAIN: its MATERIAL remembers no more than its plastic strain. */
+/* False when the new state of particle I is impossible. PLAIN: its MATERIAL remembers no more than
+ * its plastic strain. */
 BOLIDE_INLINE bool step_from_level(const struct simulation *simulation,
                                    const struct material *material, bool plain,
                                    const struct stage *stage, int32_t i)
@@ -106,7 +108,8 @@ static bool step_particle(const struct simulation *simulation, const struct stag
     return step_from_level(simulation, material, true, stage, i);
 }
 
-/* One stage of a step of DT: what pushes from outside acts for half of it with the rates of each. */
+/* One stage of a step of DT: what pushes from outside acts for half of it with the rates of each.
+ */
 static struct error *take_stage(struct simulation *simulation, const struct hllc_fields *f,
                                 bool second, double dt)
 {

@@ -1,5 +1,5 @@
-/* SPH with corrected kernel gradients and Heun's step: pairs solve elastic-plastic contact problems (`hllc`), or have
- * artificial viscosity (`monaghan`, ../monaghan), which uses the parts below.
+/* SPH with corrected kernel gradients and Heun's step: pairs solve elastic-plastic contact problems
+ * (`hllc`), or have artificial viscosity (`monaghan`, ../monaghan), which uses the parts below.
  * Source: Wang et al., Explosion and Shock Waves 44 (2024) 081431, section 2. Private to SPH. */
 #ifndef BOLIDE_SPH_HLLC_H
 #define BOLIDE_SPH_HLLC_H
@@ -84,7 +84,8 @@ struct sph_records hllc_records(const struct sph *sph, bool forces);
 void hllc_pack(struct sph *sph, const struct simulation *simulation, const struct hllc_fields *f,
                bool forces);
 
-/* rates.c. Collective: all rates of the state as it stands, hoop stress included; lists must hold. */
+/* rates.c. Collective: all rates of the state as it stands, hoop stress included; lists must hold.
+ */
 void hllc_find_rates(struct sph *sph, struct simulation *simulation, const struct hllc_fields *f);
 
 /* The section of particle I, which a stage may have taken through the axis. */

@@ -1,15 +1,16 @@
-/* The pair loops of SPH with corrected kernel gradients, by elastic-plastic contact problems (`hllc`) or with artificial
- * viscosity (`monaghan`). Two passes over the rows a stage: gradients with L_i = [sum V_j x_ij (x) grad W]^-1, then
- * forces, each with records of its own:
+/* The pair loops of SPH with corrected kernel gradients, by elastic-plastic contact problems
+ * (`hllc`) or with artificial viscosity (`monaghan`). Two passes over the rows a stage: gradients
+ * with L_i = [sum V_j x_ij (x) grad W]^-1, then forces, each with records of its own:
  *
  *   x [y [z]]  diameter  volume  u [v [w]]  [density pressure deviator: 1-D]                    gradients
  *   x [y [z]]  diameter  volume  u [v [w]]  density  stress  L  pressure p_rho p_e mu Y         forces, hllc
  *                                           density  stress  L  sound                           forces, monaghan
  *     [depth]  [material  rates of strain  [gradients of density, pressure, deviator: 1-D]]
  *
- * where stress, L and rates of strain are xx in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz, zx) in 3-D. With a depth
- * r, the volume is the section A = m/(rho r). Compiled for several instruction sets with the same bits.
- * Source: Wang et al., Explosion and Shock Waves 44 (2024) 081431, (2), (16), (17), (20), (21). */
+ * where stress, L and rates of strain are xx in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz, zx)
+ * in 3-D. With a depth r, the volume is the section A = m/(rho r). Compiled for several instruction
+ * sets with the same bits. Source: Wang et al., Explosion and Shock Waves 44 (2024) 081431, (2),
+ * (16), (17), (20), (21). */
 #ifndef BOLIDE_SPH_HLLC_KERNEL_H
 #define BOLIDE_SPH_HLLC_KERNEL_H
 

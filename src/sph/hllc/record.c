@@ -1,4 +1,5 @@
-/* Records of SPH with corrected gradients from the states of particles, for both passes; see kernel.h for their order. */
+/* Records of SPH with corrected gradients from the states of particles, for both passes; see
+ * kernel.h for their order. */
 #include <string.h>
 
 #include "material/material.h"

@@ -1,5 +1,5 @@
-/* SPH with corrected gradients as the solver sees it: its fields, what a case may ask of it, and the rates of a level; the
- * step is heun.c. */
+/* SPH with corrected gradients as the solver sees it: its fields, what a case may ask of it, and
+ * the rates of a level; the step is heun.c. */
 #include "sph/hllc/hllc.h"
 
 #include "base/clock.h"
@@ -51,7 +51,8 @@ void hllc_start(const struct sph *sph, struct simulation *simulation)
     }
 }
 
-/* The hoop stress, and the hoop strain u/r, which gradients of this method need no correction for. */
+/* The hoop stress, and the hoop strain u/r, which gradients of this method need no correction for.
+ */
 static void add_hoop(const struct sph *sph, const struct simulation *simulation,
                      const struct hllc_fields *f)
 {

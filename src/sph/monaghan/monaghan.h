@@ -1,5 +1,6 @@
-/* SPH with corrected kernel gradients, Heun's step and Monaghan's artificial viscosity: what hllc is measured against.
- * Source: Wang et al., Explosion and Shock Waves 44 (2024) 081431, (16), (17). Private to SPH. */
+/* SPH with corrected kernel gradients, Heun's step and Monaghan's artificial viscosity: what hllc
+ * is measured against. Source: Wang et al., Explosion and Shock Waves 44 (2024) 081431, (16), (17).
+ * Private to SPH. */
 #ifndef BOLIDE_SPH_MONAGHAN_H
 #define BOLIDE_SPH_MONAGHAN_H
 

@@ -1,6 +1,6 @@
-/* What the pair loop of second order does with one particle and eight of its neighbours: for the files that are compiled
- * once an instruction set, and for a device. The area vector is that of the renormalised meshless methods (Lanson and Vila,
- * SIAM J. Numer. Anal. 46 (2008) 1912). */
+/* What the pair loop of second order does with one particle and eight of its neighbours: for the
+ * files that are compiled once an instruction set, and for a device. The area vector is that of the
+ * renormalised meshless methods (Lanson and Vila, SIAM J. Numer. Anal. 46 (2008) 1912). */
 #ifndef BOLIDE_SPH_MUSCL_BODY_H
 #define BOLIDE_SPH_MUSCL_BODY_H
 
@@ -21,8 +21,8 @@ struct lanes {
     double slip[LANES] ALIGNED, open[LANES] ALIGNED;
 };
 
-/* Eight pairs between the parts of the kernel. Each part runs over all groups before the next begins: what one group
- * waits for, another fills. */
+/* Eight pairs between the parts of the kernel. Each part runs over all groups before the next
+ * begins: what one group waits for, another fills. */
 struct pairs {
     double x[3][LANES] ALIGNED, e[3][LANES] ALIGNED, n[3][LANES] ALIGNED;
     double c[3][LANES] ALIGNED; /* -V W' 2 D_i/(D_i + D_j) e */
@@ -30,7 +30,8 @@ struct pairs {
     double wide[ROW][LANES] ALIGNED;
     double weight[LANES] ALIGNED, area[LANES] ALIGNED; /* V W', |a| */
     double near[LANES] ALIGNED;                        /* 2 D_i/(D_i + D_j) */
-    /* along n and across: changes over the pair, own stress, and shares of the slopes, times near */
+    /* along n and across: changes over the pair, own stress, and shares of the slopes, times near
+     */
     double along_u[LANES] ALIGNED, along_i[LANES] ALIGNED, along_j[LANES] ALIGNED;
     double across_u[3][LANES] ALIGNED, across_s[3][LANES] ALIGNED, traction[3][LANES] ALIGNED;
     double share[8][LANES] ALIGNED;
@@ -102,7 +103,8 @@ BOLIDE_INLINE void find_places(struct muscl_kind kind, double smoothing, const d
     }
 }
 
-/* What stands in rows, one neighbour after the other: what these change by over x, and their sums of slopes. */
+/* What stands in rows, one neighbour after the other: what these change by over x, and their sums
+ * of slopes. */
 BOLIDE_INLINE void walk_rows(struct muscl_kind kind, const double *own, const struct lanes *lanes,
                              struct pairs *pairs, double (*sums)[ROW])
 {
@@ -167,8 +169,8 @@ BOLIDE_INLINE void add_slopes(struct muscl_kind kind, const double *own, const s
     }
 }
 
-/* What lies between the two of a pair, along n and across, and which shares of it their slopes carry: none but between two
- * particles of the material MATTER. */
+/* What lies between the two of a pair, along n and across, and which shares of it their slopes
+ * carry: none but between two particles of the material MATTER. */
 BOLIDE_INLINE void find_changes(struct muscl_kind kind, double matter, const double *own,
                                 const struct lanes *lanes, struct pairs *pairs)
 {

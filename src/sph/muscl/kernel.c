@@ -1,6 +1,6 @@
-/* The pair loop of the second-order contact method for one instruction set, named by BOLIDE_ISA; see
- * kernel.h. The area vector is that of the renormalised meshless methods (Lanson and Vila, SIAM J. Numer. Anal. 46
- * (2008) 1912). */
+/* The pair loop of the second-order contact method for one instruction set, named by BOLIDE_ISA;
+ * see kernel.h. The area vector is that of the renormalised meshless methods (Lanson and Vila, SIAM
+ * J. Numer. Anal. 46 (2008) 1912). */
 #include "sph/muscl/kernel.h"
 
 #include "base/isa.h"

@@ -1,18 +1,19 @@
 /* The pair loop of the second-order contact method.
  *
- * It differs from contact/kernel.h in three things. Velocity and stress are carried to the middle of a pair with limited
- * slopes before they meet. A pair has an area vector a = (L_i + L_j)/2 e, with the inverse L of the kernel's second
- * moment, which makes sums exact for linear fields; contacts are solved along n = a/|a|. And impedances are those of
- * shocks. A neighbour is seen through its record:
+ * It differs from contact/kernel.h in three things. Velocity and stress are carried to the middle
+ * of a pair with limited slopes before they meet. A pair has an area vector a = (L_i + L_j)/2 e,
+ * with the inverse L of the kernel's second moment, which makes sums exact for linear fields;
+ * contacts are solved along n = a/|a|. And impedances are those of shocks. A neighbour is seen
+ * through its record:
  *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] bend material [depth]
  *   L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
- * with stress as in record.h, velocity and stress half a step ahead, q' both of them a whole step, and `bend` rho times
- * the slope of the shock curve (riemann/bend.h). Z_across is the shear impedance; of matter that has none, minus the
- * share of compression in its velocity gradient.
+ * with stress as in record.h, velocity and stress half a step ahead, q' both of them a whole step,
+ * and `bend` rho times the slope of the shock curve (riemann/bend.h). Z_across is the shear
+ * impedance; of matter that has none, minus the share of compression in its velocity gradient.
  *
- * Of q, the first four or eight values (the most that there are) stand at the end of the record, a row for dq/dx, one
- * for dq/dy, ..., one for q': the kernel takes these a neighbour at a time, a row in a register. All else stands in
- * front of them and is taken eight neighbours at a time. */
+ * Of q, the first four or eight values (the most that there are) stand at the end of the record, a
+ * row for dq/dx, one for dq/dy, ..., one for q': the kernel takes these a neighbour at a time, a
+ * row in a register. All else stands in front of them and is taken eight neighbours at a time. */
 #ifndef BOLIDE_SPH_MUSCL_KERNEL_H
 #define BOLIDE_SPH_MUSCL_KERNEL_H
 
@@ -68,7 +69,8 @@ BOLIDE_INLINE int muscl_wide_rows(struct muscl_kind kind)
 {
     return muscl_wide(kind) == 8 ? (muscl_fields(kind) + 7) / 8 * 8 : muscl_fields(kind);
 }
-/* Where dq/dx of value F stands; the same along the next axis, at last q', are a step further each. */
+/* Where dq/dx of value F stands; the same along the next axis, at last q', are a step further each.
+ */
 BOLIDE_INLINE int muscl_slope(struct muscl_kind kind, int f)
 {
     return f < muscl_wide(kind) ? muscl_wide_rows(kind) + f
@@ -88,15 +90,17 @@ BOLIDE_INLINE int muscl_stride(struct muscl_kind kind)
     return (used + 7) / 8 * 8;
 }
 
-/* Sums for particle i, as contact/kernel.h has them, with a for W' e and L_i W' e in gradients. Beyond them: */
+/* Sums for particle i, as contact/kernel.h has them, with a for W' e and L_i W' e in gradients.
+ * Beyond them: */
 struct muscl_rates {
     struct pair_rates sums;
     double *correction; /* L, 1, 3, 6 components */
-    /* For the next step, of what its values will be: dU^a/dx^b by rows, 1/s; of the record's stresses by direction, Pa/m */
+    /* For the next step, of what its values will be: dU^a/dx^b by rows, 1/s; of the record's
+     * stresses by direction, Pa/m */
     double *velocity_gradient, *stress_gradient;
     double (*force)[3]; /* likewise, on a unit of volume, N/m^3 */
-    /* Not on a line: what volumes fill of the space there is at the start, one at least, and what they do beyond; how
-     * thinly neighbours stand on some axis, at the start and now. */
+    /* Not on a line: what volumes fill of the space there is at the start, one at least, and what
+     * they do beyond; how thinly neighbours stand on some axis, at the start and now. */
     double (*packing)[4];
 };
 

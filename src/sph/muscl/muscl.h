@@ -1,5 +1,6 @@
-/* Second-order contact SPH: velocity and stress are carried to the contact of a pair by limited slopes, which the pair sums
- * of the step before gave, and half a step ahead in time; gradients are corrected. Private to SPH. */
+/* Second-order contact SPH: velocity and stress are carried to the contact of a pair by limited
+ * slopes, which the pair sums of the step before gave, and half a step ahead in time; gradients are
+ * corrected. Private to SPH. */
 #ifndef BOLIDE_SPH_MUSCL_H
 #define BOLIDE_SPH_MUSCL_H
 
@@ -11,7 +12,8 @@ struct muscl_options {
     int energy; /* enum sph_energy */
 };
 
-/* A particle next to a transmitting body, and what the body adds to it: force and power, N and W. */
+/* A particle next to a transmitting body, and what the body adds to it: force and power, N and W.
+ */
 struct end {
     int32_t index;
     double force[3], power;
@@ -65,8 +67,8 @@ BOLIDE_INLINE double muscl_divergence(const struct simulation *simulation,
 struct sph_records muscl_records(const struct sph *sph);
 void muscl_pack(struct sph *sph, const struct simulation *simulation);
 
-/* frozen.c. Finds the particles next to transmitting bodies after lists were rebuilt; adds to their sums what these bodies
- * push, and removes the rates of the bodies; books that for a step of DT. */
+/* frozen.c. Finds the particles next to transmitting bodies after lists were rebuilt; adds to their
+ * sums what these bodies push, and removes the rates of the bodies; books that for a step of DT. */
 struct error *frozen_find(struct sph *sph, const struct simulation *simulation);
 void frozen_push(struct sph *sph, const struct simulation *simulation,
                  const struct muscl_fields *fields);

@@ -1,11 +1,13 @@
-/* Records of second-order contact SPH: states half a step ahead, and their images; see kernel.h for the order. */
+/* Records of second-order contact SPH: states half a step ahead, and their images; see kernel.h for
+ * the order. */
 #include <string.h>
 
 #include "material/material.h"
 #include "sph/lanes.h"
 #include "sph/muscl/muscl.h"
 
-/* Rates of a particle at level n that follow from its slopes alone, which were found a step before. */
+/* Rates of a particle at level n that follow from its slopes alone, which were found a step before.
+ */
 struct expected {
     double acceleration[3], gradient[3][3];
 };
@@ -46,8 +48,8 @@ static __attribute__((noinline)) void flow_rarely(const struct strength *strengt
     strength_step(strength, motion, bulk, point);
 }
 
-/* By how much velocity and stress of particle I change in half a step. The pressure follows the adiabat's slope, the
- * deviator its law, plasticity included. */
+/* By how much velocity and stress of particle I change in half a step. The pressure follows the
+ * adiabat's slope, the deviator its law, plasticity included. */
 BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
                                        const struct muscl_fields *f, struct muscl_kind kind,
                                        double ahead, int32_t i, double velocity[3])
@@ -92,8 +94,8 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
     return stress;
 }
 
-/* Z_across. The share of compression is |div v|/(|div v| + |curl v|): near one in a shock, near zero where streams slide
- * (Balsara, J. Comput. Phys. 121 (1995) 357). */
+/* Z_across. The share of compression is |div v|/(|div v| + |curl v|): near one in a shock, near
+ * zero where streams slide (Balsara, J. Comput. Phys. 121 (1995) 357). */
 BOLIDE_INLINE double across_impedance(const struct muscl_fields *f, struct muscl_kind kind,
                                       double density, int32_t i)
 {

@@ -88,8 +88,8 @@ static struct ranked limit_of_particle(const struct sph *sph, const struct simul
     return sph_courant_limit(sph, &f->sph, muscl_divergence(simulation, f, i), i);
 }
 
-/* The step is chosen from the rates of the step before, as the records are. The first step has none: its first sums only
- * provide them. */
+/* The step is chosen from the rates of the step before, as the records are. The first step has
+ * none: its first sums only provide them. */
 static void prepare(struct sph *sph, struct simulation *simulation, struct limit *limit)
 {
     const struct muscl_fields fields = muscl_fields_of(sph, simulation);
@@ -160,7 +160,8 @@ static void destroy(struct sph *sph)
     free(state->end);
 }
 
-/* In 1-D density and spacing must not drift apart; in 2-D and 3-D a mean of contact velocities would smear jets. */
+/* In 1-D density and spacing must not drift apart; in 2-D and 3-D a mean of contact velocities
+ * would smear jets. */
 static unsigned traits_of(const void *of, int dimension)
 {
     const struct muscl_options *options = of;

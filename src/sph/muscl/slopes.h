@@ -1,5 +1,5 @@
-/* What slopes change values by over a pair, and which share of that a limiter leaves: van Leer's (J. Comput. Phys. 14
- * (1974) 361). For the files that are compiled once an instruction set. */
+/* What slopes change values by over a pair, and which share of that a limiter leaves: van Leer's
+ * (J. Comput. Phys. 14 (1974) 361). For the files that are compiled once an instruction set. */
 #ifndef BOLIDE_SPH_MUSCL_SLOPES_H
 #define BOLIDE_SPH_MUSCL_SLOPES_H
 
@@ -7,9 +7,9 @@
 #include "sph/lanes.h"
 #include "sph/muscl/kernel.h"
 
-/* The shares of the change D between two particles that limited slopes carry from each to the middle: b/(D + b) with b
- * = 2 C - D, the change that lies on the other side when the slope changes by C over the pair; nothing where b turns
- * against D. A change is D^2 and twice the two D C. */
+/* The shares of the change D between two particles that limited slopes carry from each to the
+ * middle: b/(D + b) with b = 2 C - D, the change that lies on the other side when the slope changes
+ * by C over the pair; nothing where b turns against D. A change is D^2 and twice the two D C. */
 struct shares {
     double own, other;
 };
@@ -52,7 +52,8 @@ BOLIDE_INLINE double change_of(struct muscl_kind kind, const double *record, int
     return g[0] * x.x + g[step] * x.y + g[2 * step] * x.z;
 }
 
-/* Slopes of one particle as a kernel sees them: fields STEP doubles apart, and what values in rows change by. */
+/* Slopes of one particle as a kernel sees them: fields STEP doubles apart, and what values in rows
+ * change by. */
 struct slopes {
     const double *record, *wide;
     int step;

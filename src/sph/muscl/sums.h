@@ -1,5 +1,5 @@
-/* The sums over a row of the second-order pair loop, and what a particle makes of them: corrections, gradients, rates.
- * For the files that are compiled once an instruction set. */
+/* The sums over a row of the second-order pair loop, and what a particle makes of them:
+ * corrections, gradients, rates. For the files that are compiled once an instruction set. */
 #ifndef BOLIDE_SPH_MUSCL_SUMS_H
 #define BOLIDE_SPH_MUSCL_SUMS_H
 
@@ -8,7 +8,8 @@
 
 enum { SUMS = 32, ROW = 8, TOTALS = SUMS + 3 * (ROW + 1) };
 
-/* Where the sums over a row stand, with w = V W' and f = 2 D_i/(D_i + D_j) twice the share of the pair that i has. */
+/* Where the sums over a row stand, with w = V W' and f = 2 D_i/(D_i + D_j) twice the share of the
+ * pair that i has. */
 struct layout {
     int traction, power; /* w |a| t*, w |a| t*.(U* - U) */
     int gradient;        /* w (U* - U)^a e^b */
@@ -73,9 +74,9 @@ BOLIDE_INLINE struct sym3 adjoint_of(int dimension, struct sym3 m, double *det)
     return l;
 }
 
-/* The inverse of the second moment M, 1 on a complete lattice. Where neighbours lie to one side or in a plane M is
- * nearly singular, and its inverse gives way to the unit tensor as its norm grows from 16 to 32; the corner of a cubic
- * lattice has 5, of a distorted one up to 16. */
+/* The inverse of the second moment M, 1 on a complete lattice. Where neighbours lie to one side or
+ * in a plane M is nearly singular, and its inverse gives way to the unit tensor as its norm grows
+ * from 16 to 32; the corner of a cubic lattice has 5, of a distorted one up to 16. */
 BOLIDE_INLINE struct sym3 correction_of(int dimension, struct sym3 m)
 {
     const struct sym3 one = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
@@ -110,8 +111,9 @@ BOLIDE_INLINE void write_tensor(int dimension, struct sym3 m, double *to)
     }
 }
 
-/* The moment for forces. Where neighbours lie to one side it is completed by what is missing on the other side, a free
- * surface that no stress acts on: with the first moment o, M + o o |o|^2/(o.M.o), which doubles it at the end of a line. */
+/* The moment for forces. Where neighbours lie to one side it is completed by what is missing on the
+ * other side, a free surface that no stress acts on: with the first moment o, M + o o
+ * |o|^2/(o.M.o), which doubles it at the end of a line. */
 BOLIDE_INLINE struct sym3 moment_of_forces(struct sym3 m, struct vec3 o)
 {
     double across = vec3_dot(o, sym3_dot(m, o));
@@ -120,11 +122,13 @@ BOLIDE_INLINE struct sym3 moment_of_forces(struct sym3 m, struct vec3 o)
     return sym3_add(m, sym3_scale(scale, missing));
 }
 
-/* What the volumes about a particle fill beyond the space there is: the excess of tr M/dimension over the start's. Where matter
- * has met across a gap the velocity gradient counts too little of the closing, and bodies would run into each other. The trace is
- * 1 on the average of any arrangement that fills space; elastic waves change it by less than the slack.
- * And how thinly neighbours stand on some axis: the norm of the inverse of the MOMENT of forces, 100 at most. At the start it
- * counts as that of a moment with 1/sqrt(3) on one axis and 1 on the others, at least. */
+/* What the volumes about a particle fill beyond the space there is: the excess of tr M/dimension
+ * over the start's. Where matter has met across a gap the velocity gradient counts too little of
+ * the closing, and bodies would run into each other. The trace is 1 on the average of any
+ * arrangement that fills space; elastic waves change it by less than the slack. And how thinly
+ * neighbours stand on some axis: the norm of the inverse of the MOMENT of forces, 100 at most. At
+ * the start it counts as that of a moment with 1/sqrt(3) on one axis and 1 on the others, at least.
+ */
 BOLIDE_INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
                                  struct sym3 m, struct sym3 moment)
 {
@@ -163,7 +167,8 @@ BOLIDE_INLINE void write_strain(const struct muscl_loop *loop, struct muscl_kind
     rates->spin[i][2] = 0.5 * (y.x - x.y);
     if (dimension > 1 || !rates->drift)
         return;
-    /* The mean of contact velocities, less what a linear field gives where neighbours lie to one side. */
+    /* The mean of contact velocities, less what a linear field gives where neighbours lie to one
+     * side. */
     const double weight = all[at.weight];
     const double drift[3] = {weight < 0.0 ? (all[at.drift] + 0.5 * x.x * o.x) / weight : 0.0, 0.0,
                              0.0};
@@ -191,11 +196,12 @@ struct moments {
     struct sym3 second, of_forces, inverse;
 };
 
-/* The force on a unit of volume that the values after the step will make: from their slopes, and from the stress that
- * ends at a free surface. There, with the first moment O and the mean distance r of neighbours, sigma.O 2/r is what
- * neighbours on one side only add up to. Inside O is small and says nothing of a surface: it counts by |O|^3/(O.M.O),
- * one at a flat surface and beyond. Without this a free surface would feel what pulls it half a step late, and thin
- * plates would ring louder and louder. */
+/* The force on a unit of volume that the values after the step will make: from their slopes, and
+ * from the stress that ends at a free surface. There, with the first moment O and the mean distance
+ * r of neighbours, sigma.O 2/r is what neighbours on one side only add up to. Inside O is small and
+ * says nothing of a surface: it counts by |O|^3/(O.M.O), one at a flat surface and beyond. Without
+ * this a free surface would feel what pulls it half a step late, and thin plates would ring louder
+ * and louder. */
 BOLIDE_INLINE struct vec3 expected_force(struct muscl_kind kind, const double *own,
                                          const double *all, const struct moments *moments,
                                          struct sym3 l, double share)

@@ -1,4 +1,5 @@
-/* The order of a step of classical SPH: the divergence of velocity, the viscosity that follows from it, then the sums. */
+/* The order of a step of classical SPH: the divergence of velocity, the viscosity that follows from
+ * it, then the sums. */
 #include "sph/standard/standard.h"
 
 #include "base/clock.h"

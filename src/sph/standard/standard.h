@@ -1,5 +1,6 @@
-/* Classical SPH with artificial viscosity: the sums of contact SPH with the means of a pair in place of its contact, and a
- * viscous pressure. Source: Parshikov (2013), (1.15)-(1.17), (2.5). Private to SPH. */
+/* Classical SPH with artificial viscosity: the sums of contact SPH with the means of a pair in
+ * place of its contact, and a viscous pressure. Source: Parshikov (2013), (1.15)-(1.17), (2.5).
+ * Private to SPH. */
 #ifndef BOLIDE_SPH_STANDARD_H
 #define BOLIDE_SPH_STANDARD_H
 
