@@ -1,5 +1,5 @@
-/* Reading and writing a case. Its tables stand in case_table.c; what a case means is checked in
- * case_check.c. */
+/* Reading and writing a case. Its tables are in table.c; what a case means is checked in
+ * check.c. */
 #include "case/case.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* Sums over the neighbours of a particle in eight lanes: what the kernels of this room share.
+/* Sums over the neighbours of a particle in eight lanes: what the kernels of SPH share.
  *
  * A row is compressed to the neighbours within support, their records are turned into eight lanes a
  * field, and lane k sums the neighbours k, k + 8, ...; lanes are added in a fixed order. So a sum

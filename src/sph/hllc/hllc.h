@@ -84,7 +84,7 @@ struct sph_records hllc_records(const struct sph *sph, bool forces);
 void hllc_pack(struct sph *sph, const struct simulation *simulation, const struct hllc_fields *f,
                bool forces);
 
-/* rates.c. Collective: all rates of the state as it stands, hoop stress included; lists must hold.
+/* scheme.c. Collective: all rates of the state as it stands, hoop stress included; lists must hold.
  */
 void hllc_find_rates(struct sph *sph, struct simulation *simulation, const struct hllc_fields *f);
 
