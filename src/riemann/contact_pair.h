@@ -1,6 +1,7 @@
-/* The contact of two particles: what a pair of them exchanges, for every scheme that solves a
- * Riemann problem along a pair and splits velocity and traction into the part along its axis and
- * the part across it. Both parts are linear in the differences between the two sides (acoustic.h);
+/* The contact of two particles: what a pair of them exchanges where a Riemann problem is solved
+ * along the pair, with velocity and traction split into the part along its axis and the part across
+ * it. The kernel of second-order SPH calls contact_pair, that of first order its parts
+ * (sph/contact/body.h). Both parts are linear in the differences between the two sides (acoustic.h);
  * the part along may be one of strong shocks instead; and a contact law may open the contact or let
  * it slip.
  *
@@ -129,6 +130,37 @@ BOLIDE_INLINE double pair_open(const struct pair_side *left, const struct pair_s
     return 1.0 - left->carried.sliding - right->carried.sliding;
 }
 
+/* Traction across the axis, of the two sides' own and of what they slide past each other. */
+BOLIDE_INLINE struct vec3 pair_shear(struct contact_weights across, struct vec3 left,
+                                     struct vec3 right, struct vec3 sliding)
+{
+    return vec3_add(vec3_add(vec3_scale(across.left, right), vec3_scale(across.right, left)),
+                    vec3_scale(across.impedance, sliding));
+}
+
+/* Velocity across the axis less that of the left side; SHEAR is the difference of the tractions. */
+BOLIDE_INLINE struct vec3 pair_sliding(struct contact_weights across, struct vec3 sliding,
+                                       struct vec3 shear)
+{
+    return vec3_add(vec3_scale(across.right, sliding), vec3_scale(across.compliance, shear));
+}
+
+/* Velocity along the axis less that of the left side, STRESS its own: where the contact is OPEN the
+ * left side unloads to a free surface, elsewhere that of the bound contact. */
+BOLIDE_INLINE double pair_free_velocity(bool open, double impedance, double stress, double bound)
+{
+    return open ? -stress / impedance : bound;
+}
+
+/* The same across it, where the contact carries no traction there. */
+BOLIDE_INLINE struct vec3 pair_free_sliding(bool free, double shear_impedance, struct vec3 shear,
+                                            struct vec3 bound)
+{
+    const double still = shear_impedance > 0.0 ? -1.0 / shear_impedance : 0.0;
+    return vec3_make(free ? still * shear.x : bound.x, free ? still * shear.y : bound.y,
+                     free ? still * shear.z : bound.z);
+}
+
 /* The part along the axis, and the weights of that across it. */
 struct pair_solved {
     struct contact along;
@@ -149,7 +181,8 @@ BOLIDE_INLINE struct pair_contact pair_across(const struct pair_side *left,
     double opened = 0.0;
     if (law.cuts) {
         opened = along.stress > 0.0 ? limits.open : 0.0;
-        c.velocity = opened > 0.0 ? -left->stress / left->impedance : along.velocity;
+        c.velocity =
+            pair_free_velocity(opened > 0.0, left->impedance, left->stress, along.velocity);
         c.stress = opened > 0.0 ? 0.0 : along.stress;
     }
     if (!law.shear) {
@@ -170,19 +203,13 @@ BOLIDE_INLINE struct pair_contact pair_across(const struct pair_side *left,
             vec3_add(vec3_scale(left->carried.sliding + across->right * open, difference->sliding),
                      vec3_scale(across->compliance * (1.0 - l - r), difference->shear));
     } else {
-        c.shear = vec3_add(vec3_add(vec3_scale(across->left, right->shear),
-                                    vec3_scale(across->right, left->shear)),
-                           vec3_scale(across->impedance, difference->sliding));
-        c.sliding = vec3_add(vec3_scale(across->right, difference->sliding),
-                             vec3_scale(across->compliance, difference->shear));
+        c.shear = pair_shear(*across, left->shear, right->shear, difference->sliding);
+        c.sliding = pair_sliding(*across, difference->sliding, difference->shear);
     }
     if (law.cuts) {
         const bool free = opened > 0.0 || limits.slip > 0.0;
-        const double still = left->shear_impedance > 0.0 ? -1.0 / left->shear_impedance : 0.0;
         c.shear = vec3_scale(free ? 0.0 : 1.0, c.shear);
-        c.sliding.x = free ? still * left->shear.x : c.sliding.x;
-        c.sliding.y = free ? still * left->shear.y : c.sliding.y;
-        c.sliding.z = free ? still * left->shear.z : c.sliding.z;
+        c.sliding = pair_free_sliding(free, left->shear_impedance, left->shear, c.sliding);
     }
     return c;
 }

@@ -5,13 +5,14 @@
 #ifndef BOLIDE_SPH_CONTACT_BODY_H
 #define BOLIDE_SPH_CONTACT_BODY_H
 
+#include "riemann/contact_pair.h"
 #include "sph/contact/kernel.h"
 #include "sph/kernel.h"
 #include "sph/record.h"
 
 enum {
     FIELDS = 24,
-    GROUPS = 4 /* of eight neighbours: most rows in space fit */
+    GROUPS = 4 /* of eight neighbours: most lists in 3-D fit */
 };
 
 /* Eight neighbours, field by field, and for each whether a contact law cuts shear or tension. */
@@ -177,9 +178,8 @@ BOLIDE_INLINE void find_contacts(struct pair_kind kind, const double *own,
 }
 
 /* Adds up what contacts give: those of CONTACTS, or where that is NULL the usual ones, acoustic and
- * under no law, which are solved on the way. The formulas are those of contact_pair
- * (riemann/contact_pair.h): gcc leaves the loop over lanes scalar where it calls that, at half the
- * speed. */
+ * under no law, which are solved on the way. Made of the same parts as contact_pair, which gcc does
+ * not turn into vectors here: its structs go through memory, at half the speed. */
 BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const struct lanes *lanes,
                                 const struct pairs *pairs, const struct contacts *contacts,
                                 struct sums *sums)
@@ -210,7 +210,7 @@ BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const 
                                               contacts->compliance[k], contacts->impedance[k]};
             stress = contacts->stress[k];
             opened = stress > 0.0 ? lanes->open[k] : 0.0;
-            jump = opened > 0.0 ? -b.i / own[z] : contacts->jump[k];
+            jump = pair_free_velocity(opened > 0.0, own[z], b.i, contacts->jump[k]);
             stress = opened > 0.0 ? 0.0 : stress;
         }
         struct vec3 t = vec3_scale(stress, e), w = vec3_scale(jump, e);
@@ -229,19 +229,12 @@ BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const 
             if (shear) {
                 struct vec3 ai = vec3_sub(b.ti, vec3_scale(b.i, e));
                 struct vec3 aj = vec3_sub(b.tj, vec3_scale(b.j, e));
-                struct vec3 da = vec3_sub(aj, ai);
-                struct vec3 ta =
-                    vec3_add(vec3_add(vec3_scale(across.left, aj), vec3_scale(across.right, ai)),
-                             vec3_scale(across.impedance, across_u));
-                struct vec3 wa =
-                    vec3_add(vec3_scale(across.right, across_u), vec3_scale(across.compliance, da));
+                struct vec3 ta = pair_shear(across, ai, aj, across_u);
+                struct vec3 wa = pair_sliding(across, across_u, vec3_sub(aj, ai));
                 if (!usual) {
                     bool free = opened > 0.0 || lanes->slip[k] > 0.0;
-                    double still = own[z + 1] > 0.0 ? -1.0 / own[z + 1] : 0.0;
                     ta = vec3_scale(free ? 0.0 : 1.0, ta);
-                    wa.x = free ? still * ai.x : wa.x;
-                    wa.y = free ? still * ai.y : wa.y;
-                    wa.z = free ? still * ai.z : wa.z;
+                    wa = pair_free_sliding(free, own[z + 1], ai, wa);
                 }
                 t = vec3_add(t, ta);
                 w = vec3_add(w, wa);

@@ -11,7 +11,7 @@
 
 enum {
     FIELDS = 32,
-    GROUPS = 4 /* of eight neighbours: most rows in space fit */
+    GROUPS = 4 /* of eight neighbours: most lists in 3-D fit */
 };
 
 /* Eight neighbours: their records, and what stands in front of the rows there. */

@@ -99,7 +99,7 @@ struct muscl_rates {
      * stresses by direction, Pa/m */
     double *velocity_gradient, *stress_gradient;
     double (*force)[3]; /* likewise, on a unit of volume, N/m^3 */
-    /* Not on a line: what volumes fill of the space there is at the start, one at least, and what
+    /* In 2-D and 3-D: what volumes fill of the space there is at the start, one at least, and what
      * they do beyond; how thinly neighbours stand on some axis, at the start and now. */
     double (*packing)[4];
 };
