@@ -25,11 +25,26 @@ BOLIDE_INLINE void batch_work(struct batch *b)
     }
 }
 
-/* Takes the points of a batch through the step. */
+/* Point K, whose energy is ENERGY but for the work of the new pressure. */
+BOLIDE_INLINE void batch_finish(const struct eos *eos, struct batch *b, int k, double energy,
+                                double shear_modulus)
+{
+    const double density = b->new_density[k], none[POINT_HISTORY] = {0.0};
+    struct eos_value value = eos_evaluate(eos, density, energy, none);
+    b->energy[k] = energy + material_work_of_pressure(b->density[k], density, &value);
+    value = eos_evaluate(eos, density, b->energy[k], none);
+    b->pressure[k] = value.pressure;
+    b->sound_long[k] = material_response(&value, density, shear_modulus, 0.0).sound_long;
+}
+
+/* Takes the points of a batch through the step. The loop evaluates the form of the source, which
+ * has no branches; the few points beyond it are done once more. */
 BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b)
 {
     const double shear_modulus = strength_shear_modulus(&material->strength);
     const double none[POINT_HISTORY] = {0.0};
+    double energy[BATCH];
+    uint64_t beyond[BATCH], any = 0;
     strength_batch(&material->strength, b);
     batch_work(b);
     switch (material->eos.kind) {
@@ -38,11 +53,14 @@ BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b)
         for (int k = 0; k < b->count; k++) {                                                      \
             const struct eos_##name *eos = &material->eos.of.name;                                \
             const double density = b->new_density[k];                                             \
-            struct eos_value value = eos_##name(eos, density, b->energy[k], none);                \
+            energy[k] = b->energy[k];                                                             \
+            struct eos_value value = eos_##name(eos, density, energy[k], none);                   \
             b->energy[k] += material_work_of_pressure(b->density[k], density, &value);            \
             value = eos_##name(eos, density, b->energy[k], none);                                 \
             b->pressure[k] = value.pressure;                                                      \
             b->sound_long[k] = material_response(&value, density, shear_modulus, 0.0).sound_long; \
+            beyond[k] = value.status & POINT_BEYOND; /* which depends on the density alone */     \
+            any |= beyond[k];                                                                     \
         }                                                                                         \
         break;
         EOS_LIST(BATCH_CASE)
@@ -50,6 +68,9 @@ BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b)
     default:
         break;
     }
+    for (int k = 0; any && k < b->count; k++)
+        if (beyond[k])
+            batch_finish(&material->eos, b, k, energy[k], shear_modulus);
 }
 
 #endif

@@ -41,6 +41,14 @@
 /* Those whose pores close for good: eos_<identifier>_compact() notes it in the history. */
 #define EOS_COMPACTING(X) X(hjc)
 
+/* Those whose source's form ends somewhere: eos_<identifier>() says so by POINT_BEYOND, and
+ * eos_<identifier>_beyond() continues it. */
+#define EOS_CONTINUED(X)     \
+    X(mie_grueneisen)        \
+    X(grueneisen_eta)        \
+    X(grueneisen_polynomial) \
+    X(jwl)
+
 #define EOS_ENUM(name) EOS_##name,
 enum eos_kind { EOS_LIST(EOS_ENUM) EOS_KINDS };
 #undef EOS_ENUM
@@ -72,20 +80,37 @@ BOLIDE_INLINE double eos_reference_density(const struct eos *eos)
     return eos->of.reference_density;
 }
 
-/* Pressure (Pa), (dp/drho)_e (Pa m^3/kg), (dp/de)_rho (Pa kg/J) at DENSITY and ENERGY (J/kg). */
-BOLIDE_INLINE struct eos_value eos_evaluate(const struct eos *eos, double density, double energy,
-                                            const double *history)
+/* Where the form of its source ends. */
+BOLIDE_INLINE struct eos_value eos_beyond(const struct eos *eos, double density, double energy)
 {
     struct eos_value none = {0.0, 0.0, 0.0, POINT_NO_SOUND};
     switch (eos->kind) {
 #define EOS_CASE(name) \
     case EOS_##name:   \
-        return eos_##name(&eos->of.name, density, energy, history);
-        EOS_LIST(EOS_CASE)
+        return eos_##name##_beyond(&eos->of.name, density, energy);
+        EOS_CONTINUED(EOS_CASE)
 #undef EOS_CASE
     default:
         return none;
     }
+}
+
+/* Pressure (Pa), (dp/drho)_e (Pa m^3/kg), (dp/de)_rho (Pa kg/J) at DENSITY and ENERGY (J/kg). */
+BOLIDE_INLINE struct eos_value eos_evaluate(const struct eos *eos, double density, double energy,
+                                            const double *history)
+{
+    struct eos_value value = {0.0, 0.0, 0.0, POINT_NO_SOUND};
+    switch (eos->kind) {
+#define EOS_CASE(name)                                               \
+    case EOS_##name:                                                 \
+        value = eos_##name(&eos->of.name, density, energy, history); \
+        break;
+        EOS_LIST(EOS_CASE)
+#undef EOS_CASE
+    default:
+        break;
+    }
+    return value.status & POINT_BEYOND ? eos_beyond(eos, density, energy) : value;
 }
 
 BOLIDE_INLINE struct eos_traits eos_traits(const struct eos *eos)

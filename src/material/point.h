@@ -9,6 +9,9 @@
 enum {
     POINT_OUT_OF_RANGE = 1, /* outside the range where the equation of state is defined */
     POINT_NO_SOUND = 2,     /* the square of the sound speed is not positive */
+    POINT_BEYOND = 4,       /* outside the range of the source's form: eos_<identifier>_beyond() is
+                               asked instead */
+    POINT_SOUND_HELD = 8,   /* (dp/drho)_e is one of a least sound speed, not of the pressure */
 };
 
 struct eos_value {

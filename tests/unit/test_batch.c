@@ -76,9 +76,9 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
     static const struct eos forms[] = {
         {EOS_ideal_gas, {.ideal_gas = {1500.0, 3.0}}},
         {EOS_jwl, {.jwl = {1630.0, 371.2e9, 3.21e9, 4.15, 0.95, 0.3, 6.993e9}}},
-        {EOS_mie_grueneisen, {.mie_grueneisen = {2700.0, 5350.0, 1.35, 2.17, 73e9}}},
+        {EOS_mie_grueneisen, {.mie_grueneisen = {2700.0, 5350.0, 1.35, 2.17, 73e9, EOS_EXTENDED}}},
         {EOS_grueneisen_polynomial, {.grueneisen_polynomial = {7890.0, 4569.0, 1.49, 2.17}}},
-        {EOS_grueneisen_eta, {.grueneisen_eta = {8930.0, 3940.0, 1.49, 2.0}}}};
+        {EOS_grueneisen_eta, {.grueneisen_eta = {8930.0, 3940.0, 1.49, 2.0, EOS_EXTENDED}}}};
     const struct strength strengths[] = {
         {.kind = STRENGTH_NONE},
         {STRENGTH_perfect_plastic, {.perfect_plastic = {23e9, 0.3e9}}},

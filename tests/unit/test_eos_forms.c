@@ -56,9 +56,10 @@ static void check_derivatives(const struct eos *eos, double density, double ener
         (pressure(eos, density + dr, energy) - pressure(eos, density - dr, energy)) / (2.0 * dr);
     double by_energy =
         (pressure(eos, density, energy + de) - pressure(eos, density, energy - de)) / (2.0 * de);
-    assert_near(value.dp_drho, by_density, 1e-6 * (fabs(value.dp_drho) + 1e5));
+    if (!(value.status & POINT_SOUND_HELD))
+        assert_near(value.dp_drho, by_density, 1e-6 * (fabs(value.dp_drho) + 1e5));
     assert_near(value.dp_de, by_energy, 1e-6 * (fabs(value.dp_de) + 1e2));
-    assert_int_equal(value.status, 0);
+    assert_int_equal(value.status & ~(unsigned)POINT_SOUND_HELD, 0);
 }
 
 static void derivatives_are_those_of_the_pressure(void **state)
@@ -131,9 +132,11 @@ static void wilkins_plateau_is_reached(void **state)
 static void grueneisen_eta_tells_where_its_adiabat_ends(void **state)
 {
     (void)state;
+    struct eos source = wilkins;
+    source.of.grueneisen_eta.form = EOS_SOURCE;
     /* eta = s/(s - 1) = 3.9586 */
-    assert_int_equal(eos_evaluate(&wilkins, 3.9 * 2785.0, 0.0, no_history).status, 0);
-    struct eos_value beyond = eos_evaluate(&wilkins, 4.0 * 2785.0, 0.0, no_history);
+    assert_int_equal(eos_evaluate(&source, 3.9 * 2785.0, 0.0, no_history).status, 0);
+    struct eos_value beyond = eos_evaluate(&source, 4.0 * 2785.0, 0.0, no_history);
     assert_int_equal(beyond.status, POINT_OUT_OF_RANGE);
     assert_true(isfinite(beyond.pressure) && isfinite(beyond.dp_drho));
 }

@@ -5,7 +5,7 @@
 #include "exact/slab_detonation.h"
 
 static const struct exact_slab_detonation tnt = {
-    {1630.0, 371.2e9, 3.21e9, 4.15, 0.95, 0.3, 6.993e9}};
+    {1630.0, 371.2e9, 3.21e9, 4.15, 0.95, 0.3, 6.993e9, EOS_EXTENDED}};
 static const double time = 10e-6;
 
 static struct exact_state at(const struct solution *solution, double share)

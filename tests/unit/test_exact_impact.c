@@ -7,8 +7,8 @@
 #include "material/eos.h"
 
 static const struct choice metal_choice = {.size = sizeof(struct eos_grueneisen_eta)};
-static struct eos_grueneisen_eta grey = {2785.0, 5328.0, 1.338, 2.0};
-static struct eos_grueneisen_eta red = {8930.0, 3940.0, 1.490, 2.0};
+static struct eos_grueneisen_eta grey = {2785.0, 5328.0, 1.338, 2.0, EOS_EXTENDED};
+static struct eos_grueneisen_eta red = {8930.0, 3940.0, 1.490, 2.0, EOS_EXTENDED};
 
 static struct exact_solid metal(struct eos_grueneisen_eta *eos, double shear_modulus, double yield,
                                 double velocity)

@@ -10,8 +10,8 @@ static const struct choice gas_choice = {.size = sizeof(struct eos_stiffened_gas
 static const struct choice metal_choice = {.size = sizeof(struct eos_grueneisen_eta)};
 
 static struct eos_stiffened_gas soft = {2700.0, 5380.0, 2.67};
-static struct eos_grueneisen_eta wilkins = {2785.0, 5328.0, 1.338, 2.0};
-static struct eos_grueneisen_eta red = {8930.0, 3940.0, 1.490, 2.0};
+static struct eos_grueneisen_eta wilkins = {2785.0, 5328.0, 1.338, 2.0, EOS_EXTENDED};
+static struct eos_grueneisen_eta red = {8930.0, 3940.0, 1.490, 2.0, EOS_EXTENDED};
 
 static struct exact_solid solid_of(double shear_modulus, double yield, double velocity)
 {

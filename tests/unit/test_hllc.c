@@ -23,7 +23,8 @@ static struct solid aluminium(void)
 {
     struct solid solid = {.shear_modulus = 27.6e9, .yield = 300e6};
     solid.eos.kind = EOS_grueneisen_eta;
-    solid.eos.of.grueneisen_eta = (struct eos_grueneisen_eta){2785.0, 5328.0, 1.338, 2.0};
+    solid.eos.of.grueneisen_eta =
+        (struct eos_grueneisen_eta){2785.0, 5328.0, 1.338, 2.0, EOS_EXTENDED};
     return solid;
 }
 
@@ -31,7 +32,8 @@ static struct solid copper(void)
 {
     struct solid solid = {.shear_modulus = 45.0e9, .yield = 90e6};
     solid.eos.kind = EOS_grueneisen_eta;
-    solid.eos.of.grueneisen_eta = (struct eos_grueneisen_eta){8930.0, 3940.0, 1.49, 2.0};
+    solid.eos.of.grueneisen_eta =
+        (struct eos_grueneisen_eta){8930.0, 3940.0, 1.49, 2.0, EOS_EXTENDED};
     return solid;
 }
 

@@ -6,16 +6,18 @@
 
 static const struct material gas = {.eos = {EOS_ideal_gas, {.ideal_gas = {1500.0, 3.0}}}};
 static const struct material liquid = {.eos = {EOS_barotropic, {.barotropic = {2700.0, 73e9}}}};
-static const struct eos_mie_grueneisen aluminium_eos = {2700.0, 5350.0, 1.35, 2.17, 73e9};
+static const struct eos_mie_grueneisen aluminium_eos = {2700.0, 5350.0, 1.35,
+                                                        2.17,   73e9,   EOS_EXTENDED};
 static const struct material aluminium = {
-    .eos = {EOS_mie_grueneisen, {.mie_grueneisen = {2700.0, 5350.0, 1.35, 2.17, 73e9}}},
+    .eos = {EOS_mie_grueneisen,
+            {.mie_grueneisen = {2700.0, 5350.0, 1.35, 2.17, 73e9, EOS_EXTENDED}}},
     .strength = {STRENGTH_perfect_plastic, {.perfect_plastic = {23e9, 0.4e9}}}};
 static const struct strength_perfect_plastic aluminium_strength = {23e9, 0.4e9};
 
 static double pressure(const struct material *material, double density, double energy)
 {
     struct eos_value value = eos_evaluate(&material->eos, density, energy, NULL);
-    assert_int_equal(value.status, 0);
+    assert_int_equal(value.status & ~(unsigned)POINT_SOUND_HELD, 0);
     return value.pressure;
 }
 
@@ -32,7 +34,8 @@ static void check_derivatives(const struct material *material, double density, d
         (pressure(material, density, energy + e) - pressure(material, density, energy - e)) /
         (2.0 * e);
     double scale = fabs(value.dp_drho) + fabs(value.pressure) / density;
-    assert_near(value.dp_drho, by_density, 1e-8 * scale);
+    if (!(value.status & POINT_SOUND_HELD))
+        assert_near(value.dp_drho, by_density, 1e-8 * scale);
     assert_near(value.dp_de, by_energy,
                 1e-8 * (fabs(value.dp_de) + scale * density / energy_scale));
 }
@@ -122,10 +125,12 @@ static void mie_grueneisen_says_when_it_is_compressed_beyond_its_adiabat(void **
 {
     (void)state;
     /* v_0 - S (v_0 - v) = 0 at rho = rho_0 S/(S - 1) = 10414. */
-    struct eos_value value = eos_evaluate(&aluminium.eos, 10500.0, 0.0, NULL);
+    struct eos source = aluminium.eos;
+    source.of.mie_grueneisen.form = EOS_SOURCE;
+    struct eos_value value = eos_evaluate(&source, 10500.0, 0.0, NULL);
     assert_int_equal(value.status, POINT_OUT_OF_RANGE);
     assert_true(isfinite(value.pressure) && isfinite(value.dp_drho));
-    value = eos_evaluate(&aluminium.eos, 10300.0, 0.0, NULL);
+    value = eos_evaluate(&source, 10300.0, 0.0, NULL);
     assert_int_equal(value.status, 0);
 }
 

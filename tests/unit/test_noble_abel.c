@@ -41,8 +41,9 @@ static void derivatives_are_those_of_the_pressure(void **state)
                                       eos_evaluate(&water, density, energy - de, none).pressure) /
                                      (2.0 * de);
             const double scale = fabs(value.pressure) + 1e9;
-            assert_near(by_density, value.dp_drho,
-                        1e-6 * fabs(value.dp_drho) + 1e-9 * scale / density);
+            if (!(value.status & POINT_SOUND_HELD))
+                assert_near(by_density, value.dp_drho,
+                            1e-6 * fabs(value.dp_drho) + 1e-9 * scale / density);
             assert_near(by_energy, value.dp_de, 1e-6 * value.dp_de + 1e-15 * scale);
         }
 }

@@ -73,7 +73,8 @@ static void derivatives_are_those_of_the_pressure(void **state)
                 (pressure(density + dr, energy) - pressure(density - dr, energy)) / (2.0 * dr);
             double by_energy =
                 (pressure(density, energy + de) - pressure(density, energy - de)) / (2.0 * de);
-            assert_true(fabs(by_density - value.dp_drho) < 1e-6 * (fabs(value.dp_drho) + 1e6));
+            if (!(value.status & POINT_SOUND_HELD))
+                assert_true(fabs(by_density - value.dp_drho) < 1e-6 * (fabs(value.dp_drho) + 1e6));
             assert_true(fabs(by_energy - value.dp_de) < 1e-6 * (fabs(value.dp_de) + 1e2));
         }
 }

@@ -27,6 +27,14 @@ BOLIDE_INLINE struct eos_traits eos_default_traits(void)
     return traits;
 }
 
+/* Raises (dp/drho)_e where c^2 = (dp/drho)_e + (dp/de)_rho p/rho^2 falls below LEAST, m^2/s^2. */
+BOLIDE_INLINE void eos_hold_sound(struct eos_value *value, double density, double least)
+{
+    const double held = least - value->dp_de * value->pressure / square(density);
+    value->status |= value->dp_drho < held ? POINT_SOUND_HELD : 0;
+    value->dp_drho = maximum(value->dp_drho, held);
+}
+
 /* The thermal constants of a material; NAN where a case says nothing. */
 struct heat {
     double capacity;     /* C_V, J/(kg K) */

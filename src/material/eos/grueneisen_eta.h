@@ -8,21 +8,22 @@
 #ifndef BOLIDE_EOS_GRUENEISEN_ETA_H
 #define BOLIDE_EOS_GRUENEISEN_ETA_H
 
-#include "material/eos/common.h"
+#include "material/eos/grueneisen.h"
 
 struct eos_grueneisen_eta {
     double density; /* rho_0, kg/m^3 */
     double sound;   /* C_0 (a_0 of the source), m/s */
     double slope;   /* s of U_s = C_0 + s U_p */
     double gamma;   /* Grüneisen coefficient at rho_0 */
+    int form;       /* enum eos_form */
 };
 
 #define EOS_grueneisen_eta_NAME "grueneisen-eta"
 #define EOS_grueneisen_eta_HELP \
     "Mie-Grueneisen with gamma density constant, one formula in compression and tension"
-#define EOS_grueneisen_eta_SAMPLE  \
-    {                              \
-        2785.0, 5328.0, 1.338, 2.0 \
+#define EOS_grueneisen_eta_SAMPLE                \
+    {                                            \
+        2785.0, 5328.0, 1.338, 2.0, EOS_EXTENDED \
     } /* aluminium */
 #define EOS_grueneisen_eta_PARAMETERS(T)                                                    \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
@@ -30,7 +31,8 @@ struct eos_grueneisen_eta {
            "shock speed of a vanishing shock, C_0 of U_s = C_0 + s U_p")                    \
     NUMBER(T, slope, "", REQUIRED, NOT_NEGATIVE,                                            \
            "slope of the shock adiabat, s of U_s = C_0 + s U_p")                            \
-    NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient at zero pressure")
+    NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient at zero pressure") \
+    EOS_FORM_PARAMETER(T)
 
 BOLIDE_INLINE struct eos_value eos_grueneisen_eta(const struct eos_grueneisen_eta *solid,
                                                   double density, double energy,
@@ -43,10 +45,13 @@ BOLIDE_INLINE struct eos_value eos_grueneisen_eta(const struct eos_grueneisen_et
     double over = eta - solid->slope * k;
     /* Beyond the largest compression of the adiabat the denominator is held at its guard value. */
     double guard = 1e-3;
-    value.status = 0;
+    const bool within = (eta >= grueneisen_tension()) &
+                        (solid->gamma * k <= 2.0 * (1.0 - grueneisen_product_weight()) * eta) &
+                        (solid->slope * k <= grueneisen_adiabat() * eta) & (k <= 0.9 * eta);
+    value.status = within | (solid->form == EOS_SOURCE) ? 0 : POINT_BEYOND;
     if (over < guard) {
         over = guard;
-        value.status = POINT_OUT_OF_RANGE;
+        value.status |= POINT_OUT_OF_RANGE;
     }
     double under = k * (eta - 0.5 * solid->gamma * k);
     double f = under / square(over);
@@ -57,6 +62,45 @@ BOLIDE_INLINE struct eos_value eos_grueneisen_eta(const struct eos_grueneisen_et
     value.dp_drho = c2 * f_slope;
     value.dp_de = thermal;
     return value;
+}
+
+BOLIDE_INLINE struct eos_edge grueneisen_eta_edge(const struct eos_grueneisen_eta *solid)
+{
+    const double none[POINT_HISTORY] = {0.0}, density = grueneisen_tension() * solid->density;
+    return eos_edge_of(solid->density, density, eos_grueneisen_eta(solid, density, 0.0, none), 0.0);
+}
+
+/* The largest density of the source's form, p_H and h, see grueneisen.h. */
+BOLIDE_INLINE double grueneisen_eta_end(const struct eos_grueneisen_eta *solid)
+{
+    const double weight = 2.0 * (1.0 - grueneisen_product_weight()) / solid->gamma;
+    return solid->density / (1.0 - minimum(weight, grueneisen_largest_strain(solid->slope)));
+}
+
+BOLIDE_INLINE struct eos_curve_point grueneisen_eta_adiabat(const struct eos_grueneisen_eta *solid,
+                                                            double density)
+{
+    return grueneisen_linear_adiabat(solid->density, solid->sound, solid->slope, density);
+}
+
+BOLIDE_INLINE struct eos_curve_point grueneisen_eta_weight(const struct eos_grueneisen_eta *solid,
+                                                           double density)
+{
+    const struct eos_curve_point h = {1.0 - 0.5 * solid->gamma * (1.0 - solid->density / density),
+                                      -0.5 * solid->gamma * solid->density / square(density)};
+    return grueneisen_weight(h, grueneisen_product_weight());
+}
+
+BOLIDE_INLINE struct eos_value eos_grueneisen_eta_beyond(const struct eos_grueneisen_eta *solid,
+                                                         double density, double energy)
+{
+    if (density < solid->density) {
+        const struct eos_edge edge = grueneisen_eta_edge(solid);
+        return eos_expanded(&edge, density, energy);
+    }
+    return grueneisen_compressed(solid->density, density, energy,
+                                 grueneisen_eta_adiabat(solid, density),
+                                 grueneisen_eta_weight(solid, density));
 }
 
 BOLIDE_INLINE struct eos_traits eos_grueneisen_eta_traits(const struct eos_grueneisen_eta *solid)
@@ -74,8 +118,8 @@ BOLIDE_INLINE struct eos_traits eos_grueneisen_eta_traits(const struct eos_gruen
  * from Walsh and Christian's C_V (dT/dv + gamma_0 T/v_0) = [(v_0 - v) dp/dv + p]/2, Phys. Rev. 97
  * (1955) 1544. With e^u = 1/(1 - s y) the integral is that of exp(-gamma_0 y) (e^u - 1)^2/s^3 over
  * u. */
-BOLIDE_INLINE struct heat_curve eos_grueneisen_eta_curve(const struct eos_grueneisen_eta *solid,
-                                                         const struct heat *heat, double density)
+BOLIDE_INLINE struct heat_curve grueneisen_eta_curve(const struct eos_grueneisen_eta *solid,
+                                                     const struct heat *heat, double density)
 {
     double x = 1.0 - solid->density / density, s = solid->slope, work = 0.0;
     /* held beyond the largest compression, as the pressure is */
@@ -91,6 +135,23 @@ BOLIDE_INLINE struct heat_curve eos_grueneisen_eta_curve(const struct eos_gruene
     struct heat_curve curve = {exponential(solid->gamma * x) * (heat->temperature + work),
                                0.5 * square(solid->sound * x / reach)};
     return curve;
+}
+
+EOS_ADIABAT_CURVE(grueneisen_eta_curve_on, grueneisen_eta, grueneisen_eta_adiabat,
+                  grueneisen_eta_weight)
+
+BOLIDE_INLINE struct heat_curve eos_grueneisen_eta_curve(const struct eos_grueneisen_eta *solid,
+                                                         const struct heat *heat, double density)
+{
+    const struct eos_edge edge = grueneisen_eta_edge(solid);
+    const double end = grueneisen_eta_end(solid);
+    if (solid->form == EOS_SOURCE || (density >= edge.density && density <= end))
+        return grueneisen_eta_curve(solid, heat, density);
+    if (density > end)
+        return grueneisen_eta_curve_on(solid, heat->capacity,
+                                       grueneisen_eta_curve(solid, heat, end), end, density);
+    return eos_expanded_curve(&edge, grueneisen_eta_curve(solid, heat, edge.density), density,
+                              heat->capacity);
 }
 
 #endif

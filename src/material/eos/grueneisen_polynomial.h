@@ -8,21 +8,22 @@
 #ifndef BOLIDE_EOS_GRUENEISEN_POLYNOMIAL_H
 #define BOLIDE_EOS_GRUENEISEN_POLYNOMIAL_H
 
-#include "material/eos/common.h"
+#include "material/eos/grueneisen.h"
 
 struct eos_grueneisen_polynomial {
     double density; /* rho_0, kg/m^3 */
     double sound;   /* C_0, m/s */
     double slope;   /* s of U_s = C_0 + s U_p */
     double gamma;   /* Grüneisen coefficient, constant */
+    int form;       /* enum eos_form */
 };
 
 #define EOS_grueneisen_polynomial_NAME "grueneisen-polynomial"
 #define EOS_grueneisen_polynomial_HELP \
     "Mie-Grueneisen about the shock adiabat as a cubic of the compression"
-#define EOS_grueneisen_polynomial_SAMPLE \
-    {                                    \
-        7890.0, 4569.0, 1.49, 2.17       \
+#define EOS_grueneisen_polynomial_SAMPLE         \
+    {                                            \
+        7890.0, 4569.0, 1.49, 2.17, EOS_EXTENDED \
     } /* steel */
 #define EOS_grueneisen_polynomial_PARAMETERS(T)                                             \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
@@ -30,7 +31,8 @@ struct eos_grueneisen_polynomial {
            "shock speed of a vanishing shock, C_0 of U_s = C_0 + s U_p")                    \
     NUMBER(T, slope, "", REQUIRED, NOT_NEGATIVE,                                            \
            "slope of the shock adiabat, s of U_s = C_0 + s U_p")                            \
-    NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient")
+    NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient")                  \
+    EOS_FORM_PARAMETER(T)
 
 BOLIDE_INLINE struct eos_value eos_grueneisen_polynomial(
     const struct eos_grueneisen_polynomial *solid, double density, double energy,
@@ -49,8 +51,49 @@ BOLIDE_INLINE struct eos_value eos_grueneisen_polynomial(
     value.dp_drho =
         (slope * share - 0.5 * solid->gamma * curve) / solid->density + solid->gamma * energy;
     value.dp_de = solid->gamma * density;
-    value.status = 0;
+    const bool within = (mu >= grueneisen_tension() - 1.0) &
+                        (solid->gamma * mu <= 2.0 * (1.0 - grueneisen_gamma_weight()));
+    value.status = within | (solid->form == EOS_SOURCE) ? 0 : POINT_BEYOND;
     return value;
+}
+
+BOLIDE_INLINE struct eos_edge grueneisen_polynomial_edge(
+    const struct eos_grueneisen_polynomial *solid)
+{
+    const double none[POINT_HISTORY] = {0.0}, density = grueneisen_tension() * solid->density;
+    return eos_edge_of(solid->density, density,
+                       eos_grueneisen_polynomial(solid, density, 0.0, none), solid->gamma);
+}
+
+/* p_H in compression, and h, see grueneisen.h. */
+BOLIDE_INLINE struct eos_curve_point grueneisen_polynomial_adiabat(
+    const struct eos_grueneisen_polynomial *solid, double density)
+{
+    const double mu = density / solid->density - 1.0, s = solid->slope, c2 = square(solid->sound);
+    const double second = 2.0 * s - 1.0, third = (s - 1.0) * (3.0 * s - 1.0);
+    const struct eos_curve_point p = {solid->density * c2 * mu * (1.0 + mu * (second + mu * third)),
+                                      c2 * (1.0 + mu * (2.0 * second + 3.0 * mu * third))};
+    return p;
+}
+
+BOLIDE_INLINE struct eos_curve_point grueneisen_polynomial_weight(
+    const struct eos_grueneisen_polynomial *solid, double density)
+{
+    const struct eos_curve_point h = {1.0 - 0.5 * solid->gamma * (density / solid->density - 1.0),
+                                      -0.5 * solid->gamma / solid->density};
+    return grueneisen_weight(h, grueneisen_gamma_weight());
+}
+
+BOLIDE_INLINE struct eos_value eos_grueneisen_polynomial_beyond(
+    const struct eos_grueneisen_polynomial *solid, double density, double energy)
+{
+    if (density < solid->density) {
+        const struct eos_edge edge = grueneisen_polynomial_edge(solid);
+        return eos_expanded(&edge, density, energy);
+    }
+    return grueneisen_compressed(solid->density, density, energy,
+                                 grueneisen_polynomial_adiabat(solid, density),
+                                 grueneisen_polynomial_weight(solid, density));
 }
 
 BOLIDE_INLINE struct eos_traits eos_grueneisen_polynomial_traits(
@@ -69,7 +112,7 @@ BOLIDE_INLINE struct eos_traits eos_grueneisen_polynomial_traits(
  *
  * with m = k - 1, from Walsh and Christian's C_V (dT/dv + gamma T/v) = [(v_0 - v) dp/dv + p]/2,
  * Phys. Rev. 97 (1955) 1544. */
-BOLIDE_INLINE struct heat_curve eos_grueneisen_polynomial_curve(
+BOLIDE_INLINE struct heat_curve grueneisen_polynomial_curve(
     const struct eos_grueneisen_polynomial *solid, const struct heat *heat, double density)
 {
     double mu = density / solid->density - 1.0, s = solid->slope, c2 = square(solid->sound);
@@ -85,6 +128,24 @@ BOLIDE_INLINE struct heat_curve eos_grueneisen_polynomial_curve(
                                    (heat->temperature + 0.5 * c2 / heat->capacity * work),
                                0.5 * c2 * mu * (1.0 + mu * (a + mu * b)) * mu / (1.0 + mu)};
     return curve;
+}
+
+EOS_ADIABAT_CURVE(grueneisen_polynomial_curve_on, grueneisen_polynomial,
+                  grueneisen_polynomial_adiabat, grueneisen_polynomial_weight)
+
+BOLIDE_INLINE struct heat_curve eos_grueneisen_polynomial_curve(
+    const struct eos_grueneisen_polynomial *solid, const struct heat *heat, double density)
+{
+    const struct eos_edge edge = grueneisen_polynomial_edge(solid);
+    const double end =
+        solid->density * (1.0 + 2.0 * (1.0 - grueneisen_gamma_weight()) / solid->gamma);
+    if (solid->form == EOS_SOURCE || (density >= edge.density && density <= end))
+        return grueneisen_polynomial_curve(solid, heat, density);
+    if (density > end)
+        return grueneisen_polynomial_curve_on(
+            solid, heat->capacity, grueneisen_polynomial_curve(solid, heat, end), end, density);
+    return eos_expanded_curve(&edge, grueneisen_polynomial_curve(solid, heat, edge.density),
+                              density, heat->capacity);
 }
 
 #endif

@@ -10,7 +10,7 @@
 #ifndef BOLIDE_EOS_JWL_H
 #define BOLIDE_EOS_JWL_H
 
-#include "material/eos/common.h"
+#include "material/eos/grueneisen.h"
 
 struct eos_jwl {
     double density; /* rho_0 of the explosive, kg/m^3 */
@@ -18,23 +18,25 @@ struct eos_jwl {
     double r1, r2;
     double omega;
     double energy; /* E_0, J/m^3 of initial volume */
+    int form;      /* enum eos_form */
 };
 
 #define EOS_jwl_NAME "jwl"
 #define EOS_jwl_HELP "Jones-Wilkins-Lee: explosives and their products, without burning"
-#define EOS_jwl_SAMPLE                                    \
-    {                                                     \
-        1630.0, 371.2e9, 3.21e9, 4.15, 0.95, 0.3, 6.993e9 \
+#define EOS_jwl_SAMPLE                                                  \
+    {                                                                   \
+        1630.0, 371.2e9, 3.21e9, 4.15, 0.95, 0.3, 6.993e9, EOS_EXTENDED \
     } /* products of TNT */
-#define EOS_jwl_PARAMETERS(T)                                                    \
-    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density of the explosive") \
-    NUMBER(T, a, "Pa", REQUIRED, ANY, "A: factor of exp(-R_1 V)")                \
-    NUMBER(T, b, "Pa", REQUIRED, ANY, "B: factor of exp(-R_2 V)")                \
-    NUMBER(T, r1, "", REQUIRED, POSITIVE, "R_1: exponent of A")                  \
-    NUMBER(T, r2, "", REQUIRED, POSITIVE, "R_2: exponent of B")                  \
-    NUMBER(T, omega, "", REQUIRED, POSITIVE, "Grueneisen coefficient")           \
-    NUMBER(T, energy, "J/m^3", REQUIRED, ANY,                                    \
-           "E_0: energy of an initial volume at zero particle energy: the heat of the reaction")
+#define EOS_jwl_PARAMETERS(T)                                                                    \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density of the explosive")                 \
+    NUMBER(T, a, "Pa", REQUIRED, ANY, "A: factor of exp(-R_1 V)")                                \
+    NUMBER(T, b, "Pa", REQUIRED, ANY, "B: factor of exp(-R_2 V)")                                \
+    NUMBER(T, r1, "", REQUIRED, POSITIVE, "R_1: exponent of A")                                  \
+    NUMBER(T, r2, "", REQUIRED, POSITIVE, "R_2: exponent of B")                                  \
+    NUMBER(T, omega, "", REQUIRED, POSITIVE, "Grueneisen coefficient")                           \
+    NUMBER(T, energy, "J/m^3", REQUIRED, ANY,                                                    \
+           "E_0: energy of an initial volume at zero particle energy: the heat of the reaction") \
+    EOS_FORM_PARAMETER(T)
 
 BOLIDE_INLINE struct eos_value eos_jwl(const struct eos_jwl *jwl, double density, double energy,
                                        const double *history)
@@ -53,8 +55,23 @@ BOLIDE_INLINE struct eos_value eos_jwl(const struct eos_jwl *jwl, double density
     double slope2 = second * (jwl->r2 * square(volume) * share2 - jwl->omega / jwl->r2);
     value.dp_drho = (slope1 + slope2) / jwl->density + jwl->omega * heat;
     value.dp_de = jwl->omega * density;
-    value.status = 0;
+    const bool within = (jwl->b >= 0.0) | (compression >= grueneisen_tension());
+    value.status = within | (jwl->form == EOS_SOURCE) ? 0 : POINT_BEYOND;
     return value;
+}
+
+BOLIDE_INLINE struct eos_edge jwl_edge(const struct eos_jwl *jwl)
+{
+    const double none[POINT_HISTORY] = {0.0}, density = grueneisen_tension() * jwl->density;
+    return eos_edge_of(jwl->density, density, eos_jwl(jwl, density, 0.0, none), jwl->omega);
+}
+
+/* An explosive that has not burnt, which has a negative B, below rho_1 (grueneisen.h). */
+BOLIDE_INLINE struct eos_value eos_jwl_beyond(const struct eos_jwl *jwl, double density,
+                                              double energy)
+{
+    const struct eos_edge edge = jwl_edge(jwl);
+    return eos_expanded(&edge, density, energy);
 }
 
 BOLIDE_INLINE struct eos_traits eos_jwl_traits(const struct eos_jwl *jwl)
@@ -77,8 +94,8 @@ BOLIDE_INLINE struct eos_traits eos_jwl_traits(const struct eos_jwl *jwl)
  * which in Lee and Tarver's p = A exp(-R_1 V) + B exp(-R_2 V) + w C_V rho T is the state of T = 0.
  * Only where E_0 makes the pressure vanish at rest, to a hundredth of its terms, it is T_r = T_s
  * V^-w with T = T_0 at rest. */
-BOLIDE_INLINE struct heat_curve eos_jwl_curve(const struct eos_jwl *jwl, const struct heat *heat,
-                                              double density)
+BOLIDE_INLINE struct heat_curve jwl_curve(const struct eos_jwl *jwl, const struct heat *heat,
+                                          double density)
 {
     const double none[POINT_HISTORY] = {0.0};
     double volume = jwl->density / density, energy[2];
@@ -94,6 +111,15 @@ BOLIDE_INLINE struct heat_curve eos_jwl_curve(const struct eos_jwl *jwl, const s
         curve.temperature =
             (heat->temperature + energy[0] / heat->capacity) * power(volume, -jwl->omega);
     return curve;
+}
+
+BOLIDE_INLINE struct heat_curve eos_jwl_curve(const struct eos_jwl *jwl, const struct heat *heat,
+                                              double density)
+{
+    const struct eos_edge edge = jwl_edge(jwl);
+    if (jwl->form == EOS_SOURCE || jwl->b >= 0.0 || density >= edge.density)
+        return jwl_curve(jwl, heat, density);
+    return eos_expanded_curve(&edge, jwl_curve(jwl, heat, edge.density), density, heat->capacity);
 }
 
 #endif

@@ -10,7 +10,7 @@
 #ifndef BOLIDE_EOS_MIE_GRUENEISEN_H
 #define BOLIDE_EOS_MIE_GRUENEISEN_H
 
-#include "material/eos/common.h"
+#include "material/eos/grueneisen.h"
 
 struct eos_mie_grueneisen {
     double density;      /* rho_0, kg/m^3 */
@@ -18,14 +18,15 @@ struct eos_mie_grueneisen {
     double slope;        /* S_a of U_s = C_a + S_a U_p */
     double gamma;        /* Grüneisen coefficient, constant */
     double bulk_modulus; /* K, Pa, in tension */
+    int form;            /* enum eos_form */
 };
 
 #define EOS_mie_grueneisen_NAME "mie-grueneisen"
 #define EOS_mie_grueneisen_HELP \
     "Mie-Grueneisen about the shock adiabat U_s = sound + slope U_p, linear elastic in tension"
-#define EOS_mie_grueneisen_SAMPLE        \
-    {                                    \
-        2700.0, 5350.0, 1.35, 2.17, 73e9 \
+#define EOS_mie_grueneisen_SAMPLE                      \
+    {                                                  \
+        2700.0, 5350.0, 1.35, 2.17, 73e9, EOS_EXTENDED \
     } /* aluminium */
 #define EOS_mie_grueneisen_PARAMETERS(T)                                                    \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
@@ -34,7 +35,8 @@ struct eos_mie_grueneisen {
     NUMBER(T, slope, "", REQUIRED, NOT_NEGATIVE,                                            \
            "slope of the shock adiabat, S_a of U_s = C_a + S_a U_p")                        \
     NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient")                  \
-    NUMBER(T, bulk_modulus, "Pa", REQUIRED, POSITIVE, "bulk modulus in tension")
+    NUMBER(T, bulk_modulus, "Pa", REQUIRED, POSITIVE, "bulk modulus in tension")            \
+    EOS_FORM_PARAMETER(T)
 
 BOLIDE_INLINE struct eos_value eos_mie_grueneisen(const struct eos_mie_grueneisen *solid,
                                                   double density, double energy,
@@ -47,14 +49,18 @@ BOLIDE_INLINE struct eos_value eos_mie_grueneisen(const struct eos_mie_grueneise
     /* Beyond the largest compression of the adiabat the curve is held at its guard value. */
     double reach = v0 - solid->slope * dv;
     double guard = 1e-3 * v0;
-    value.status = 0;
+    const bool within = (density >= grueneisen_tension() * solid->density) &
+                        (solid->gamma * (density - solid->density) <=
+                         2.0 * (1.0 - grueneisen_gamma_weight()) * solid->density) &
+                        (solid->slope * dv <= grueneisen_adiabat() * v0) & (dv <= 0.9 * v0);
+    value.status = within | (solid->form == EOS_SOURCE) ? 0 : POINT_BEYOND;
     if (dv <= 0.0) {
         slope = solid->bulk_modulus * solid->density;
         curve = slope * dv;
     } else {
         if (reach < guard) {
             reach = guard;
-            value.status = POINT_OUT_OF_RANGE;
+            value.status |= POINT_OUT_OF_RANGE;
         }
         double c2 = square(solid->sound);
         curve = c2 * dv / square(reach);
@@ -69,6 +75,47 @@ BOLIDE_INLINE struct eos_value eos_mie_grueneisen(const struct eos_mie_grueneise
         square(v) * (slope - solid->gamma * density * reference_slope) + solid->gamma * excess;
     value.dp_de = solid->gamma * density;
     return value;
+}
+
+BOLIDE_INLINE struct eos_edge mie_grueneisen_edge(const struct eos_mie_grueneisen *solid)
+{
+    const double none[POINT_HISTORY] = {0.0}, density = grueneisen_tension() * solid->density;
+    return eos_edge_of(solid->density, density, eos_mie_grueneisen(solid, density, 0.0, none),
+                       solid->gamma);
+}
+
+/* The largest density of the source's form, p_H and h, see grueneisen.h. */
+BOLIDE_INLINE double mie_grueneisen_end(const struct eos_mie_grueneisen *solid)
+{
+    const double weight = 2.0 * (1.0 - grueneisen_gamma_weight()) / solid->gamma;
+    return solid->density *
+           minimum(1.0 + weight, 1.0 / (1.0 - grueneisen_largest_strain(solid->slope)));
+}
+
+BOLIDE_INLINE struct eos_curve_point mie_grueneisen_adiabat_pressure(
+    const struct eos_mie_grueneisen *solid, double density)
+{
+    return grueneisen_linear_adiabat(solid->density, solid->sound, solid->slope, density);
+}
+
+BOLIDE_INLINE struct eos_curve_point mie_grueneisen_weight(const struct eos_mie_grueneisen *solid,
+                                                           double density)
+{
+    const struct eos_curve_point h = {1.0 - 0.5 * solid->gamma * (density / solid->density - 1.0),
+                                      -0.5 * solid->gamma / solid->density};
+    return grueneisen_weight(h, grueneisen_gamma_weight());
+}
+
+BOLIDE_INLINE struct eos_value eos_mie_grueneisen_beyond(const struct eos_mie_grueneisen *solid,
+                                                         double density, double energy)
+{
+    if (density < solid->density) {
+        const struct eos_edge edge = mie_grueneisen_edge(solid);
+        return eos_expanded(&edge, density, energy);
+    }
+    return grueneisen_compressed(solid->density, density, energy,
+                                 mie_grueneisen_adiabat_pressure(solid, density),
+                                 mie_grueneisen_weight(solid, density));
 }
 
 BOLIDE_INLINE struct eos_traits eos_mie_grueneisen_traits(const struct eos_mie_grueneisen *solid)
@@ -104,8 +151,8 @@ BOLIDE_INLINE double mie_grueneisen_adiabat(const struct heat *heat,
 }
 
 /* The cold curve in tension, (1.68) and (3.3), and the shock adiabat in compression, (1.66). */
-BOLIDE_INLINE struct heat_curve eos_mie_grueneisen_curve(const struct eos_mie_grueneisen *solid,
-                                                         const struct heat *heat, double density)
+BOLIDE_INLINE struct heat_curve mie_grueneisen_curve(const struct eos_mie_grueneisen *solid,
+                                                     const struct heat *heat, double density)
 {
     struct heat_curve curve;
     double eta = 1.0 - solid->density / density;
@@ -118,6 +165,23 @@ BOLIDE_INLINE struct heat_curve eos_mie_grueneisen_curve(const struct eos_mie_gr
     curve.temperature = mie_grueneisen_adiabat(heat, solid, eta);
     curve.energy = 0.5 * square(solid->sound * eta / reach);
     return curve;
+}
+
+EOS_ADIABAT_CURVE(mie_grueneisen_curve_on, mie_grueneisen, mie_grueneisen_adiabat_pressure,
+                  mie_grueneisen_weight)
+
+BOLIDE_INLINE struct heat_curve eos_mie_grueneisen_curve(const struct eos_mie_grueneisen *solid,
+                                                         const struct heat *heat, double density)
+{
+    const struct eos_edge edge = mie_grueneisen_edge(solid);
+    const double end = mie_grueneisen_end(solid);
+    if (solid->form == EOS_SOURCE || (density >= edge.density && density <= end))
+        return mie_grueneisen_curve(solid, heat, density);
+    if (density > end)
+        return mie_grueneisen_curve_on(solid, heat->capacity,
+                                       mie_grueneisen_curve(solid, heat, end), end, density);
+    return eos_expanded_curve(&edge, mie_grueneisen_curve(solid, heat, edge.density), density,
+                              heat->capacity);
 }
 
 #endif

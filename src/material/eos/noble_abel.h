@@ -40,12 +40,15 @@ BOLIDE_INLINE struct eos_value eos_noble_abel(const struct eos_noble_abel *gas, 
     (void)history;
     struct eos_value value;
     double heat = (gas->gamma - 1.0) * (energy - gas->energy);
-    double free = 1.0 - gas->covolume * density; /* (v - b)/v, held where it vanishes */
-    value.status = free < 1e-3 ? POINT_OUT_OF_RANGE : 0;
-    free = maximum(free, 1e-3);
+    /* where the molecules fill 0.95 of the volume 1/(v - b) continues linearly in rho */
+    const double within = minimum(density, 0.95 / gas->covolume);
+    const double free = 1.0 - gas->covolume * within, over = density - within; /* (v - b)/v */
+    value.status = over > 0.0 ? POINT_OUT_OF_RANGE : 0;
     value.dp_drho = heat / square(free);
-    value.dp_de = (gas->gamma - 1.0) * density / free;
-    value.pressure = heat * density / free - gas->gamma * gas->pressure;
+    value.dp_de = (gas->gamma - 1.0) * (within / free + over / square(free));
+    value.pressure = heat * within / free + over * value.dp_drho - gas->gamma * gas->pressure;
+    eos_hold_sound(&value, density,
+                   0.01 * gas->gamma * gas->pressure * density / square(gas->density));
     return value;
 }
 
@@ -59,8 +62,8 @@ BOLIDE_INLINE struct eos_traits eos_noble_abel_traits(const struct eos_noble_abe
     traits.shock_slope = limit * (gas->gamma + 1.0) / free;
     if (gas->covolume == 0.0 && gas->pressure == 0.0)
         traits.ratio_of_heats = gas->gamma;
-    if (!(free > 1e-3)) {
-        traits.wrong = "the molecules take all the volume at `density`";
+    if (!(free > 0.05)) {
+        traits.wrong = "the molecules take 95 % of the volume or more at `density`";
         traits.wrong_key = "covolume";
     }
     return traits;

@@ -3,7 +3,8 @@
  *   p = C_0^2 (rho - rho_0) + (gamma - 1) rho e
  *
  * which is p = (gamma - 1) rho e' - gamma p_inf with gamma p_inf = rho_0 C_0^2 and the energy counted
- * from the state at rest, e = e' - C_0^2/(gamma - 1). Source: Wang, Chen and Huang (2024), (18). */
+ * from the state at rest, e = e' - C_0^2/(gamma - 1). The sound speed ends at p = -p_inf, which no
+ * state reaches that is warmer than the cold curve; from there on c^2 is held at C_0^2/100. Source: Wang, Chen and Huang (2024), (18). */
 #ifndef BOLIDE_EOS_STIFFENED_GAS_H
 #define BOLIDE_EOS_STIFFENED_GAS_H
 
@@ -38,6 +39,7 @@ BOLIDE_INLINE struct eos_value eos_stiffened_gas(const struct eos_stiffened_gas 
     value.dp_drho = c2 + heat * energy;
     value.dp_de = heat * density;
     value.status = 0;
+    eos_hold_sound(&value, density, 0.01 * c2 * minimum(density / gas->density, 1.0));
     return value;
 }
 

@@ -9,11 +9,14 @@
  * and no pressure below that at which matter parts, where it is given: what is drawn out farther keeps that tension, and
  * bears pressure again once it is pressed together as far as it was drawn out.
  *
+ * By default w does not fall below 1, where energies below zero would let it vanish, and c^2 is held at a hundredth of A/rho_0
+ * times eta in tension beyond its maximum, A^2/(4 B) at no energy. Where p > 0 the form has a sound speed everywhere.
+ *
  * Source: Tillotson, General Atomic report GA-3216 (1962); in this form Melosh, Impact Cratering (1989), II.4. */
 #ifndef BOLIDE_EOS_TILLOTSON_H
 #define BOLIDE_EOS_TILLOTSON_H
 
-#include "material/eos/common.h"
+#include "material/eos/grueneisen.h"
 
 struct eos_tillotson {
     double density;          /* rho_0, kg/m^3 */
@@ -25,13 +28,14 @@ struct eos_tillotson {
     double incipient_energy; /* e_iv, J/kg: vaporisation begins */
     double complete_energy;  /* e_cv, J/kg: vaporisation is complete */
     double tension;          /* the largest that it bears, Pa; NAN: any */
+    int form;                /* enum eos_form */
 };
 
 #define EOS_tillotson_NAME "tillotson"
 #define EOS_tillotson_HELP "Tillotson's: metals and rocks from rest to vaporisation"
-#define EOS_tillotson_SAMPLE                                             \
-    {                                                                    \
-        2700.0, 0.5, 1.63, 75.2e9, 65e9, 5e6, 5.0, 5.0, 3e6, 13.9e6, NAN \
+#define EOS_tillotson_SAMPLE                                                           \
+    {                                                                                  \
+        2700.0, 0.5, 1.63, 75.2e9, 65e9, 5e6, 5.0, 5.0, 3e6, 13.9e6, NAN, EOS_EXTENDED \
     } /* aluminium */
 #define EOS_tillotson_PARAMETERS(T)                                                                \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density of the cold solid at zero pressure") \
@@ -49,14 +53,16 @@ struct eos_tillotson {
     NUMBER(T, complete_energy, "J/kg", REQUIRED, POSITIVE,                                         \
            "e_cv: energy at which vaporisation is complete")                                       \
     NUMBER(T, tension, "Pa", OPTIONAL, NOT_NEGATIVE,                                               \
-           "largest tension that it bears, at which it parts; not given: any")
+           "largest tension that it bears, at which it parts; not given: any")                     \
+    EOS_FORM_PARAMETER(T)
 
 BOLIDE_INLINE struct eos_value eos_tillotson_condensed(const struct eos_tillotson *t,
                                                        double density, double energy)
 {
     struct eos_value value;
     double eta = density / t->density, mu = eta - 1.0;
-    double ratio = energy / (t->energy * square(eta)), w = 1.0 + ratio;
+    const double warm = t->form == EOS_SOURCE ? energy : maximum(energy, 0.0);
+    double ratio = warm / (t->energy * square(eta)), w = 1.0 + ratio;
     value.pressure =
         (t->a + t->b / w) * density * energy + (t->bulk_modulus + t->second_modulus * mu) * mu;
     /* dw/drho = -2 ratio/rho, dw/de = ratio/e */
@@ -117,6 +123,8 @@ BOLIDE_INLINE struct eos_value eos_tillotson(const struct eos_tillotson *t, doub
         value.dp_drho = t->bulk_modulus / t->density; /* the sound of matter at rest */
         value.dp_de = 0.0;
     }
+    if (t->form == EOS_EXTENDED)
+        eos_hold_sound(&value, density, 0.01 * t->bulk_modulus * density / square(t->density));
     return value;
 }
 
