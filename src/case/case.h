@@ -127,7 +127,7 @@ struct run_input {
     double until;        /* s */
     int64_t max_steps;   /* 0: no limit */
     int64_t rebalance;   /* steps; 0: when needed */
-    double energy_drift; /* relative, stops the run when exceeded; 0: never */
+    double energy_drift; /* relative, stops the run when exceeded; 0: never; NAN: a warning */
 };
 
 /* checks: NAME: {a measure, of: body, between: [a, b], axis: x, is: ..., within: ...} */

@@ -153,10 +153,11 @@ static const struct parameter run_table[] = {
     {.key = "energy_drift",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct run_input, energy_drift),
-     .standard = "5 %",
+     .standard = PARAMETER_OPTIONAL,
      .below = INFINITY,
      .closed = true,
-     .help = "relative change of total energy that stops the run as an error; 0: never"},
+     .help = "relative change of total energy that stops the run as an error, 0: none; when not "
+             "given a change of 5 % is a warning"},
     PARAMETER_END,
 };
 

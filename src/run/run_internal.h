@@ -27,6 +27,7 @@ struct run {
     int64_t collapsed_steps;              /* the last so many were far too short */
     bool sound;                           /* the state is that of the end of a step */
     int64_t particles;                    /* of all ranks */
+    bool drift_is_known;                  /* a warning of the energy was given */
     bool told_to_stop, checkpoint_is_due; /* a rank of them was, to a rank it is */
     bool checkpoint_is_wanted;            /* by the user, and not yet written */
     sig_atomic_t checkpoints_heard;       /* requests for one that have been seen */

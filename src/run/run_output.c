@@ -244,6 +244,22 @@ static double history_interval(const struct run *run)
     return isnan(given) ? 0.01 * run->input->run.until : given;
 }
 
+static const double DRIFT_TO_WARN_OF = 0.05;
+
+/* Says once that energy is not conserved, where the case has no limit of its own. */
+static void warn_of_drift(struct run *run, double drift)
+{
+    if (run->drift_is_known || !(drift > DRIFT_TO_WARN_OF))
+        return;
+    run->drift_is_known = true;
+    run_say(run,
+            "warning: step %lld, t = %.6g s: the total energy has drifted by %.2g of the largest "
+            "energy of the case. Where bodies strike or shocks pass, nodes of a grid equalise the "
+            "velocities of particles and that energy is lost: finer particles lose less. "
+            "`run: {energy_drift: 5 %%}` makes this an error, `energy_drift: 0` silences it",
+            (long long)run->simulation.step, run->simulation.time, drift);
+}
+
 /* Energy that appears from nowhere is an impossible state. */
 static struct error *watch_energy(struct run *run)
 {
@@ -252,7 +268,9 @@ static struct error *watch_energy(struct run *run)
     double drift = fabs(energy_drift(&now, &booked, &run->start));
     double allowed = run->input->run.energy_drift;
     run->result->energy_drift = drift;
-    if (drift <= allowed || (allowed == 0.0 && !isnan(drift)))
+    if (isnan(allowed))
+        warn_of_drift(run, drift);
+    if (drift <= allowed || ((allowed == 0.0 || isnan(allowed)) && !isnan(drift)))
         return NULL;
     if (isnan(drift)) {
         run->sound = false;

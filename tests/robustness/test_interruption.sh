@@ -115,7 +115,7 @@ cmp drifted/history.csv undrifted/history.csv && diff -r drifted/probes undrifte
 # A step that collapses ends the run, which says where.
 "$BOLIDE" run long.yaml --set "run.until=200 ns" --output collapsed --overwrite \
     --set "materials.aluminium={eos: {mie-grueneisen: {density: 2700 kg/m^3, sound: 5300 m/s,
-        slope: 1e9, gamma: 2, bulk_modulus: 76 GPa}}}" >collapsed.log 2>&1
+        slope: 1e9, gamma: 2, bulk_modulus: 76 GPa, form: source}}}" >collapsed.log 2>&1
 [ $? = 3 ] || fail "a collapsed step must end with 3: $(cat collapsed.log)"
 grep -q "step has collapsed to .* limited by sound speed, particle .* of body \"" collapsed.log ||
     fail "a collapsed step must be explained: $(cat collapsed.log)"

@@ -564,13 +564,30 @@ static void energy_from_nowhere_stops_a_run(void **state)
 {
     (void)state;
     struct run_options options = {.threads = 1};
-    const char *const settings[] = {"solver={flight: {heating: 10 J/kg}}", NULL};
-    expect_failure(flight_text, settings, &options, ERROR_STATE, "energy has drifted");
+    const char *const limited[] = {"solver={flight: {heating: 10 J/kg}}", "run.energy_drift=5 %",
+                                   NULL};
+    expect_failure(flight_text, limited, &options, ERROR_STATE, "energy has drifted");
     const char *const allowed[] = {"solver={flight: {heating: 10 J/kg}}", "run.energy_drift=0",
                                    NULL};
     struct run_result result = run_text(flight_text, allowed, &options);
     assert_true(result.finished);
     run_result_free(&result);
+}
+
+static void energy_that_drifts_is_a_warning_where_no_limit_is_given(void **state)
+{
+    (void)state;
+    struct run_options options = {.threads = 1, .output = fresh_folder("test_run_drift")};
+    const char *const settings[] = {"solver={flight: {heating: 10 J/kg}}", NULL};
+    struct run_result result = run_text(flight_text, settings, &options);
+    assert_true(result.finished && result.energy_drift > 0.05);
+    run_result_free(&result);
+    char *log = file_text("test_run_drift", "run.log");
+    const char *first = strstr(log, "warning: step ");
+    assert_non_null(first);
+    assert_non_null(strstr(first, "the total energy has drifted by"));
+    assert_null(strstr(first + 1, "warning: step ")); /* once */
+    free(log);
 }
 
 /* A solid that springs from rest has next to no energy in its first steps. */
@@ -689,6 +706,7 @@ int main(void)
         cmocka_unit_test(the_case_as_run_is_a_case_that_runs_the_same),
         cmocka_unit_test(an_impossible_state_leaves_a_snapshot_of_its_moment),
         cmocka_unit_test(energy_from_nowhere_stops_a_run),
+        cmocka_unit_test(energy_that_drifts_is_a_warning_where_no_limit_is_given),
         cmocka_unit_test(a_start_from_rest_does_not_stop_a_run),
         cmocka_unit_test(a_mistake_in_a_check_is_told_before_the_first_step),
         cmocka_unit_test(a_picture_that_cannot_be_is_told_before_anything_is_written),
