@@ -28,6 +28,7 @@ struct run {
     bool sound;                           /* the state is that of the end of a step */
     int64_t particles;                    /* of all ranks */
     bool drift_is_known;                  /* a warning of the energy was given */
+    uint64_t range_is_known;              /* of the range of a material, by bit */
     bool told_to_stop, checkpoint_is_due; /* a rank of them was, to a rank it is */
     bool checkpoint_is_wanted;            /* by the user, and not yet written */
     sig_atomic_t checkpoints_heard;       /* requests for one that have been seen */
@@ -80,6 +81,9 @@ void run_observe(struct run *run);
  * moment with LAST. Also looks at what is conserved. */
 struct error *run_watch(struct run *run, bool last);
 void run_progress(struct run *run);
+
+/* Collective, at a row of the history: warnings, and the error of an energy that drifts too far. */
+struct error *run_watch_physics(struct run *run);
 
 /* checkpoint.h5 now, and whether its wall-clock time has come. */
 struct error *run_checkpoint(struct run *run);

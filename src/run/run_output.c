@@ -244,46 +244,6 @@ static double history_interval(const struct run *run)
     return isnan(given) ? 0.01 * run->input->run.until : given;
 }
 
-static const double DRIFT_TO_WARN_OF = 0.05;
-
-/* Says once that energy is not conserved, where the case has no limit of its own. */
-static void warn_of_drift(struct run *run, double drift)
-{
-    if (run->drift_is_known || !(drift > DRIFT_TO_WARN_OF))
-        return;
-    run->drift_is_known = true;
-    run_say(run,
-            "warning: step %lld, t = %.6g s: the total energy has drifted by %.2g of the largest "
-            "energy of the case. Where bodies strike or shocks pass, nodes of a grid equalise the "
-            "velocities of particles and that energy is lost: finer particles lose less. "
-            "`run: {energy_drift: 5 %%}` makes this an error, `energy_drift: 0` silences it",
-            (long long)run->simulation.step, run->simulation.time, drift);
-}
-
-/* Energy that appears from nowhere is an impossible state. */
-static struct error *watch_energy(struct run *run)
-{
-    struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
-    struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
-    double drift = fabs(energy_drift(&now, &booked, &run->start));
-    double allowed = run->input->run.energy_drift;
-    run->result->energy_drift = drift;
-    if (isnan(allowed))
-        warn_of_drift(run, drift);
-    if (drift <= allowed || ((allowed == 0.0 || isnan(allowed)) && !isnan(drift)))
-        return NULL;
-    if (isnan(drift)) {
-        run->sound = false;
-        return error_new(ERROR_STATE, "step %lld, t = %.6g s: the total energy is not finite",
-                         (long long)run->simulation.step, run->simulation.time);
-    }
-    return error_new(ERROR_STATE,
-                     "step %lld, t = %.6g s: the total energy has drifted by %.3g of the largest "
-                     "energy of the case; "
-                     "`run.energy_drift` allows %.3g (0: any)",
-                     (long long)run->simulation.step, run->simulation.time, drift, allowed);
-}
-
 /* Draws the fields that the case wants, as FIELD-NNNNNN.png. */
 static struct error *draw_pictures(struct run *run, int64_t number)
 {
@@ -356,7 +316,7 @@ struct error *run_watch(struct run *run, bool last)
     bool row = interval_is_due(time, history_interval(run), &run->history_due) || last;
     bool snapshot =
         interval_is_due(time, run->input->output.every, &run->snapshots_due) || last || n == 0;
-    struct error *drift = row ? watch_energy(run) : NULL, *error = NULL;
+    struct error *drift = row ? run_watch_physics(run) : NULL, *error = NULL;
     if (!run->sound)
         return ranks_agree(&run->ranks, drift);
     row = row && run->history_step < step;

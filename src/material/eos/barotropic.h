@@ -39,6 +39,7 @@ BOLIDE_INLINE struct eos_traits eos_barotropic_traits(const struct eos_barotropi
 {
     struct eos_traits traits = eos_default_traits();
     (void)liquid;
+    traits.largest_compression = 1.1; /* a straight line stands for the adiabat */
     return traits;
 }
 

@@ -150,6 +150,7 @@ BOLIDE_INLINE struct eos_traits eos_hjc_traits(const struct eos_hjc *concrete)
 {
     struct eos_traits traits = eos_default_traits();
     traits.history = HISTORY_BIT(largest_compression);
+    traits.largest_compression = 4.0 / 3.0 * (1.0 + concrete->lock_compression);
     traits.wrong = hjc_wrong(concrete);
     traits.wrong_key = "lock_pressure";
     return traits;

@@ -37,6 +37,7 @@ BOLIDE_INLINE struct eos_traits eos_rubber_traits(const struct eos_rubber *rubbe
 {
     struct eos_traits traits = eos_default_traits();
     (void)rubber;
+    traits.largest_compression = 1.1; /* a straight line stands for the adiabat */
     return traits;
 }
 
