@@ -58,6 +58,7 @@ static const struct named_quantity *find_name(const struct expression_reading *r
 {
     const struct named_quantities *names = reading->names;
     if (names && names->index.slots) {
+        assert(names->at);
         const int at = name_index_find_part(&names->index, word, length);
         return at < 0 ? NULL : &names->at[at];
     }

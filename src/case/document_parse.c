@@ -232,6 +232,7 @@ static struct error *add_entry(struct parse *parse, struct node *map, struct nam
     value->key = key;
     const int twin = name_index_find(index, key);
     if (twin >= 0) {
+        assert(map->child);
         parse->twins =
             error_join(parse->twins, place_error(value->key_place, "",
                                                  "this key is given twice, first in line %d",

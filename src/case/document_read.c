@@ -35,6 +35,7 @@ static void read_thing(struct reading *reading, const struct node *node, const s
 {
     static const struct parameter no_parameters[] = {PARAMETER_END};
     const struct parameter *table = choice->table ? choice->table : no_parameters;
+    assert(choice->size || PARAMETER_IS_END(table));
     value->index = (int)(choice - list->choices);
     value->choice = choice;
     value->value = choice->size ? memory_allocate(choice->size) : NULL;

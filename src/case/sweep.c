@@ -71,7 +71,9 @@ static int choice_of(const struct node *sweep, int index, int run)
     int runs_below = 1;
     for (int i = index + 1; i < sweep->count; i++)
         runs_below *= values_of(sweep->child[i]);
-    return (run - 1) / runs_below % values_of(sweep->child[index]);
+    const int values = values_of(sweep->child[index]);
+    assert(values > 0); /* check_values */
+    return (run - 1) / runs_below % values;
 }
 
 /* Puts a copy of VALUE, which keeps its place in the file, at PATH. */

@@ -102,8 +102,8 @@ static void leave_in_pieces(struct leaving *leaving, double direction,
                             const struct solid_base *base, const struct exact_state *outer,
                             const struct exact_state *inner, double strain)
 {
-    int pieces = 1 + (int)minimum(strain / (leaving->coarse * piece_strain),
-                                  LEAVING_MOST / WAVES_A_SIDE - 1);
+    const int most = LEAVING_MOST / WAVES_A_SIDE;
+    int pieces = 1 + (int)minimum(strain / (leaving->coarse * piece_strain), most - 1);
     struct exact_state before = *outer;
     for (int i = 1; i <= pieces; i++) {
         struct solid_place place = solid_fan(base, strain * i / pieces);
@@ -467,6 +467,7 @@ static int impact_numbers(const void *solved, double time, struct exact_number *
     const struct impact *impact = solved;
     struct number_list list = {numbers, 0};
     const struct front *contact = find_between(impact, 0.0, time).interface;
+    assert(contact);
     number_add(&list, "contact velocity", "m/s", contact->speed);
     number_add(&list, "contact normal pressure", "Pa", 0.0 - contact->left.stress);
     number_add(&list, "contact place", "m", place_of(contact, time));

@@ -179,6 +179,8 @@ static struct error *crossing(const struct search *search, const struct sample *
     if (!crossed)
         return NULL;
     TRY(find(search, BEFORE, level, &beyond, &before, &found));
+    if (!found)
+        return NULL;
     const double distance = before.value - level, other = beyond.value - level;
     *place = before.at + (beyond.at - before.at) * (distance / (distance - other));
     return NULL;

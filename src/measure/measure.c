@@ -205,7 +205,8 @@ struct error *samples_take(const struct measurement *measurement, struct samples
 void samples_free(struct samples *samples)
 {
     free(samples->at);
-    *samples = (struct samples){0, NULL};
+    samples->at = NULL;
+    samples->count = 0;
 }
 
 int sample_order(const struct sample *a, const struct sample *b)

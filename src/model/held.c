@@ -79,7 +79,7 @@ static void drive_particle(struct simulation *simulation, const void *of, int32_
     const struct vec3 before = vector_at(p->velocity[i]), place = vector_at(p->position[i]);
     if (p->body[i] != drive->body)
         return;
-    for (int axis = 0; axis < simulation->dimension; axis++)
+    for (int axis = 0; axis < 3; axis++)
         if (!isnan(drive->velocity[axis])) {
             const double change = drive->velocity[axis] - p->velocity[i][axis];
             p->position[i][axis] += 0.5 * drive->dt * change;
@@ -110,6 +110,7 @@ struct error *drive_bodies(struct simulation *simulation, double dt)
         const struct field_list *velocity = &case_body(input, b)->velocity;
         if (!follows_time(simulation, b))
             continue;
+        assert(velocity->count <= 3);
         for (int k = 0; k < velocity->count; k++)
             if (field_is_of_time(&velocity->at[k]))
                 TRY(simulation_value_at(simulation, simulation->time + dt, &velocity->at[k],

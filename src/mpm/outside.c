@@ -273,6 +273,7 @@ static struct error *find_load(const struct simulation *simulation, const char *
 {
     static const char *const keys[] = {"traction.1", "traction.2", "traction.3"};
     const struct load_input *load = surface->load;
+    assert(load->traction.count <= 3);
     for (int k = 0; k < load->traction.count; k++)
         TRY(simulation_value_at(simulation, time, &load->traction.at[k], name, keys[k],
                                 &surface->traction[k]));

@@ -92,6 +92,7 @@ static struct error *refuse_wide_cell(double edge, const struct simulation *simu
     const struct simulation_case *input = simulation->input;
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     double extent = 0.0;
+    assert(simulation->dimension <= 3);
     for (int b = 0; b < input->bodies.count; b++) {
         const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
         const double from[] = {bounds.low.x, bounds.low.y, bounds.low.z};

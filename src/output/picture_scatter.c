@@ -95,7 +95,9 @@ struct error *scatter_gather(const struct ranks *ranks, struct scatter *scatter)
 bool scatter_allocate(struct scatter *scatter, int64_t count)
 {
     const size_t bytes = ((size_t)count + 1) * sizeof(double);
-    *scatter = (struct scatter){count, memory_allocate(bytes), memory_allocate(bytes)};
+    scatter->count = count;
+    scatter->x = memory_allocate(bytes);
+    scatter->y = memory_allocate(bytes);
     return scatter->x && scatter->y;
 }
 

@@ -139,8 +139,9 @@ static void fill_slopes(const struct study *study, double lowest, double *x, dou
 {
     const double coarse = study->run[0].resolution, fine = study->run[study->runs - 1].resolution;
     for (int i = 0; i < 4; i++) {
+        const int order = 1 + i / 2;
         x[i] = i % 2 ? coarse : fine;
-        y[i] = 0.5 * lowest * pow(x[i] / fine, 1 + i / 2);
+        y[i] = 0.5 * lowest * pow(x[i] / fine, order);
     }
     series[0] = (struct series){"orders 1 and 2", 2, x, y, LINE_FAINT};
     series[1] = (struct series){NULL, 2, x + 2, y + 2, LINE_FAINT};

@@ -94,8 +94,7 @@ static bool begins_run(const struct keyed *entry, int64_t i)
 int32_t radix_runs(const struct keyed *entry, int32_t count, int threads, struct key_run *run)
 {
     int32_t begins[PARTS + 1] = {0}, runs = 0;
-    threads = parts_of(count, threads);
-#pragma omp parallel num_threads(threads)
+#pragma omp parallel num_threads(parts_of(count, threads))
     {
         const int parts = omp_get_num_threads(), part = omp_get_thread_num();
         const int64_t begin = (int64_t)count * part / parts;

@@ -270,7 +270,8 @@ static struct error *run_study(const struct simulation_case *input, const char *
     char *inside = folder ? path_join(folder, "convergence") : NULL;
     struct error *error =
         inside || !folder ? verify_case(path, name, inside, options, &result) : out_of_memory();
-    const bool whole = result.count == runs && !(options->running.stop && *options->running.stop);
+    const bool whole =
+        runs > 0 && result.count == runs && !(options->running.stop && *options->running.stop);
     if (whole) {
         qsort(result.item, (size_t)result.count, sizeof *result.item, compare_resolutions);
         struct error *wrong = take_runs(result.item, result.count, study);

@@ -190,11 +190,12 @@ static struct error *write_summary(const struct run *run, const char *status,
         put_summary(memory, run, status, error);
     if (memory && fclose(memory) && !failure)
         failure = error_new(ERROR_SYSTEM, "out of memory");
-    if (!failure && run_writes(run))
-        failure = file_begin(path, &file);
     if (!failure && run_writes(run)) {
-        fputs(text, file);
-        failure = file_end(path, file);
+        failure = file_begin(path, &file);
+        if (!failure) {
+            fputs(text, file);
+            failure = file_end(path, file);
+        }
     }
     free(text);
     free(path);

@@ -207,8 +207,10 @@ BOLIDE_INLINE void johnson_cook_batch_flow(const struct strength_johnson_cook *s
         flowing[count] = k;
         count += trial[k] > slow[k];
     }
+    if (count == 0)
+        return;
     for (int lane = 0; lane < LANES; lane++)
-        flowing[count + lane] = flowing[count > 0 ? count - 1 : 0];
+        flowing[count + lane] = flowing[count - 1];
     for (int first = 0; first < count; first += LANES) {
         const int *at = flowing + first;
         struct johnson_cook_points p;

@@ -112,6 +112,7 @@ static void add_matter(struct muscl_kind kind, const struct look *look, struct s
     const struct vec3 a = traction_of(dimension, sym3_scale(0.5, both), look->e);
     const double as[3] = {a.x, a.y, a.z}, xs[3] = {look->x.x, look->x.y, look->x.z};
     double weight = look->weight;
+    assert(dimension <= 3);
     for (int b = 0; b < dimension; b++)
         for (int c = 0; c < dimension; c++)
             s->missing[b][c] += weight * look->near * as[b] * xs[c];
@@ -262,6 +263,7 @@ static void push(struct sph *sph, const struct simulation *simulation,
     const int dimension = kind.dimension;
     const int32_t i = end->index;
     const double *own = sph->record + (size_t)i * (size_t)muscl_stride(kind);
+    assert(dimension >= 1 && dimension <= 3);
     struct surface s = surface_of(sph, simulation, kind, i);
     const struct vec3 n = s.outwards;
     memset(end->force, 0, sizeof end->force);

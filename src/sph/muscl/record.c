@@ -148,7 +148,6 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
         record[k++] = sph_depth(simulation, &f->sph, i);
     size_t tensors = (size_t)tensor_components(dimension);
     memcpy(record + k, f->own.correction + (size_t)i * tensors, tensors * sizeof *record);
-    k += (int)tensors;
     const double *g = f->own.velocity_gradient + (size_t)i * (size_t)(dimension * dimension);
     const double *h = f->own.stress_gradient + (size_t)i * (size_t)(dimension * stresses);
     for (int b = 0; b < dimension + stresses; b++) {
@@ -171,6 +170,7 @@ static void reflect(const struct sph *sph, const struct simulation *simulation, 
     const struct vec3 sign = image_sign(image);
     const double signs[3] = {sign.x, sign.y, sign.z};
     const bool tensor = stresses > 1; /* a fluid's stress is one number */
+    assert(dimension >= 1 && dimension <= 3);
     sph_reflect_motion(simulation, image, record);
     sph_reflect_tensor(dimension, sign, record + muscl_correction(kind));
     if (tensor)
