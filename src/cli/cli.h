@@ -19,7 +19,7 @@ struct text_list {
 struct cli_options {
     const char *output;
     int64_t threads, points;
-    bool overwrite, resume, quick, thorough, all, convergence;
+    bool overwrite, resume, quick, thorough, all, convergence, curves;
     const char *time, *template_name;
     struct text_list settings, names;
     char **located;            /* the paths of cases that names gives by their folders */
@@ -57,6 +57,10 @@ int command_new(const struct cli_options *options);
 int command_schema(const struct cli_options *options);
 int command_materials(const struct cli_options *options);
 int command_help(const struct cli_options *options);
+
+/* material_curves.c: false where MATERIAL has no state of rest. */
+struct material;
+bool print_curves(const struct material *material);
 
 /* convergence.c */
 

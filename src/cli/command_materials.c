@@ -1,4 +1,4 @@
-/* bolide materials: the library as a table, and a material's file with its sources. */
+/* bolide materials: the library as a table, and a material's file with its sources or its curves. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -79,11 +79,20 @@ static struct error *print_file(const char *path)
     return error;
 }
 
-static struct error *print_material(const char *folder, const char *name)
+static struct error *print_curves_of(const char *path, const char *name)
+{
+    struct material_input input;
+    TRY(library_read(path, &bolide_catalogue, &input));
+    const bool printed = print_curves(input.material);
+    library_release(&input);
+    return printed ? NULL : error_new(ERROR_INPUT, "%s: sound does not travel at rest", name);
+}
+
+static struct error *print_material(const char *folder, const char *name, bool curves)
 {
     char *path = library_file(&folder, 1, name);
     if (path) {
-        struct error *error = print_file(path);
+        struct error *error = curves ? print_curves_of(path, name) : print_file(path);
         free(path);
         return error;
     }
@@ -98,11 +107,13 @@ int command_materials(const struct cli_options *options)
 {
     char *folder = share_folder("materials");
     struct error *error;
-    if (!folder)
+    if (options->curves && !options->names.count)
+        error = error_new(ERROR_INPUT, "materials: --curves wants the name of a material");
+    else if (!folder)
         error = error_new(ERROR_INPUT, "no materials found; set BOLIDE_SHARE to the folder that "
                                        "holds examples/ and materials/");
     else if (options->names.count)
-        error = print_material(folder, options->names.text[0]);
+        error = print_material(folder, options->names.text[0], options->curves);
     else
         error = list_materials(folder);
     free(folder);

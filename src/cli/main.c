@@ -21,7 +21,7 @@ const struct command commands[] = {
      command_new},
     {COMMAND_SCHEMA, "schema", "", "print the JSON Schema of a case, for editors", 0, 0,
      command_schema},
-    {COMMAND_MATERIALS, "materials", "[NAME]",
+    {COMMAND_MATERIALS, "materials", "[NAME] [options]",
      "list the material library, or print one material with its sources", 0, 1, command_materials},
     {COMMAND_HELP, "help", "[TOPIC]", "explain a command, a key of a case, or anything it can name",
      0, 1, command_help},

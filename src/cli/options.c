@@ -45,6 +45,8 @@ static const struct option option_table[] = {
      AT(time), COMMAND_EXACT},
     {"--points", "N", "print the profile at the time in N points, as CSV", OPTION_COUNT, AT(points),
      COMMAND_EXACT},
+    {"--curves", NULL, "print isentropes and shock adiabats of the material as CSV", OPTION_FLAG,
+     AT(curves), COMMAND_MATERIALS},
     {"--template", "NAME",
      "what to start from: impact (the usual), riemann, plate-2d, block-3d, bar-mpm", OPTION_TEXT,
      AT(template_name), COMMAND_NEW},
