@@ -32,11 +32,11 @@ struct pair_carried {
     double sliding, shear;   /* across it */
 };
 
-/* A side: impedances rho C_l and rho C_t (0 for a fluid), density and bend as the solver of strong
+/* A side: impedances rho C_l and rho C_t (0 for a fluid), density and shock_slope as the solver of strong
  * shocks takes them (STAR_SHOCK: rho times the slope, side.h otherwise), stress along the axis and
  * traction across it, at the particle. */
 struct pair_side {
-    double impedance, shear_impedance, density, bend;
+    double impedance, shear_impedance, density, shock_slope;
     double stress;
     struct vec3 shear;
     struct pair_carried carried;
@@ -99,9 +99,10 @@ BOLIDE_INLINE struct contact pair_along(const struct pair_side *left, const stru
 {
     struct contact contact;
     if (law.star == STAR_DUKOWICZ || law.star == STAR_EXACT_GAS) {
-        const struct side l = {left->impedance, 0.0, left->stress, left->density, left->bend};
+        const struct side l = {left->impedance, 0.0, left->stress, left->density,
+                               left->shock_slope};
         const struct side r = {right->impedance, velocity, right->stress, right->density,
-                               right->bend};
+                               right->shock_slope};
         return law.star == STAR_DUKOWICZ ? riemann_dukowicz(l, r) : riemann_exact_gas(l, r);
     }
     if (law.carried) {
@@ -112,9 +113,10 @@ BOLIDE_INLINE struct contact pair_along(const struct pair_side *left, const stru
         const double right_stress = right->stress - right->carried.stress * stress;
         const double step = right_stress - left_stress;
         const struct contact_weights w =
-            law.star == STAR_SHOCK ? riemann_shock_weights(left->impedance, right->impedance,
-                                                           left->bend, right->bend, jump, step)
-                                   : *along;
+            law.star == STAR_SHOCK
+                ? riemann_shock_weights(left->impedance, right->impedance, left->shock_slope,
+                                        right->shock_slope, jump, step)
+                : *along;
         contact.stress = contact_stress(w, left_stress, right_stress, brake * jump);
         contact.velocity = rise + contact_velocity_jump(w, jump, step);
         return contact;

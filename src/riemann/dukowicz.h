@@ -14,11 +14,11 @@
 BOLIDE_INLINE struct contact riemann_dukowicz(struct side left, struct side right)
 {
     double cl = left.impedance / left.density, cr = right.impedance / right.density;
-    double a = right.density * right.bend, b = left.density * left.bend;
-    double lowest = right.velocity - 0.5 * cr / right.bend;
-    double highest = left.velocity + 0.5 * cl / left.bend;
-    double right0 = -right.stress - 0.25 * right.impedance * cr / right.bend;
-    double left0 = -left.stress - 0.25 * left.impedance * cl / left.bend;
+    double a = right.density * right.shock_slope, b = left.density * left.shock_slope;
+    double lowest = right.velocity - 0.5 * cr / right.shock_slope;
+    double highest = left.velocity + 0.5 * cl / left.shock_slope;
+    double right0 = -right.stress - 0.25 * right.impedance * cr / right.shock_slope;
+    double left0 = -left.stress - 0.25 * left.impedance * cl / left.shock_slope;
     /* With x = u - lowest: a |x| x + b |x - d| (x - d) = rise, increasing in x. Which side of each parabola the
      * root is on follows from the signs at x = 0 and x = d. */
     double d = highest - lowest, rise = left0 - right0;

@@ -1,4 +1,4 @@
-/* The contact problem of two ideal gases, exactly: waves of gas_wave.h on both sides, p* by Newton's method. `bend`
+/* The contact problem of two ideal gases, exactly: waves of gas_wave.h on both sides, p* by Newton's method. `shock_slope`
  * of a side is its ratio of specific heats. Where the gases part faster than both can expand, a vacuum opens:
  * no stress, and each side moves at its own speed of escape. */
 #ifndef BOLIDE_RIEMANN_EXACT_GAS_H
@@ -13,8 +13,8 @@ BOLIDE_INLINE struct contact riemann_exact_gas(struct side left, struct side rig
     struct contact contact = riemann_acoustic(left, right);
     double cl = left.impedance / left.density, cr = right.impedance / right.density;
     double pl = -left.stress, pr = -right.stress, apart = right.velocity - left.velocity;
-    double escape = 2.0 * cl / (left.bend - 1.0);
-    if (apart >= escape + 2.0 * cr / (right.bend - 1.0)) {
+    double escape = 2.0 * cl / (left.shock_slope - 1.0);
+    if (apart >= escape + 2.0 * cr / (right.shock_slope - 1.0)) {
         contact.velocity = left.velocity + escape;
         contact.stress = 0.0;
         return contact;
@@ -24,8 +24,8 @@ BOLIDE_INLINE struct contact riemann_exact_gas(struct side left, struct side rig
     double least = pl < pr ? pl : pr;
     double p = maximum(-contact.stress, 1e-6 * least);
     for (int k = 0; k < 60; k++) {
-        struct gas_push l = gas_wave_push(left.density, pl, cl, left.bend, p);
-        struct gas_push r = gas_wave_push(right.density, pr, cr, right.bend, p);
+        struct gas_push l = gas_wave_push(left.density, pl, cl, left.shock_slope, p);
+        struct gas_push r = gas_wave_push(right.density, pr, cr, right.shock_slope, p);
         double next = p - (apart + (l.value + r.value)) / (l.slope + r.slope);
         next = maximum(next, 1e-3 * p);
         double moved = fabs(next - p);
@@ -33,8 +33,8 @@ BOLIDE_INLINE struct contact riemann_exact_gas(struct side left, struct side rig
         if (moved <= 4e-16 * p)
             break;
     }
-    struct gas_push l = gas_wave_push(left.density, pl, cl, left.bend, p);
-    struct gas_push r = gas_wave_push(right.density, pr, cr, right.bend, p);
+    struct gas_push l = gas_wave_push(left.density, pl, cl, left.shock_slope, p);
+    struct gas_push r = gas_wave_push(right.density, pr, cr, right.shock_slope, p);
     contact.velocity = 0.5 * ((left.velocity - l.value) + (right.velocity + r.value));
     contact.stress = -p;
     return contact;

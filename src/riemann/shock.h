@@ -8,14 +8,14 @@
 
 #include "riemann/acoustic.h"
 
-/* VELOCITY = U_r - U_l, STRESS = sigma_r - sigma_l; bends are rho A. */
+/* VELOCITY = U_r - U_l, STRESS = sigma_r - sigma_l; slopes are rho A. */
 BOLIDE_INLINE struct contact_weights riemann_shock_weights(double left, double right,
-                                                           double left_bend, double right_bend,
+                                                           double left_slope, double right_slope,
                                                            double velocity, double stress)
 {
     double rise = contact_velocity_jump(riemann_acoustic_weights(left, right), velocity, stress);
-    return riemann_acoustic_weights(left + left_bend * maximum(-rise, 0.0),
-                                    right + right_bend * maximum(rise - velocity, 0.0));
+    return riemann_acoustic_weights(left + left_slope * maximum(-rise, 0.0),
+                                    right + right_slope * maximum(rise - velocity, 0.0));
 }
 
 #endif

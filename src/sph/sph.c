@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "material/any.h"
 #include "model/generate.h"
-#include "riemann/bend.h"
+#include "riemann/shock_slope.h"
 #include "sph/conduction/kernel.h"
 #include "sph/scheme.h"
 

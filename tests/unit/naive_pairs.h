@@ -14,7 +14,7 @@
 
 /* One side of a pair, images already reflected. */
 struct naive_particle {
-    double mass, density, diameter, x[3], u[3], stress[3][3], z_long, z_shear, bend;
+    double mass, density, diameter, x[3], u[3], stress[3][3], z_long, z_shear, shock_slope;
     double depth,
         spin[3]; /* one and zero where the kind has none; behind an axis the depth is negative */
 };
@@ -73,9 +73,9 @@ static inline void naive_contact(struct pair_kind kind, unsigned law,
 {
     for (int k = 0; k < 3; k++) {
         double zi = k == 0 ? i->z_long : i->z_shear, zj = k == 0 ? j->z_long : j->z_shear;
-        if (k == 0 && record_has_bend(kind)) {
-            struct side left = {zi, u[0][0], sigma[0][0], i->density, i->bend};
-            struct side right = {zj, u[1][0], sigma[1][0], j->density, j->bend};
+        if (k == 0 && record_has_shock_slope(kind)) {
+            struct side left = {zi, u[0][0], sigma[0][0], i->density, i->shock_slope};
+            struct side right = {zj, u[1][0], sigma[1][0], j->density, j->shock_slope};
             struct contact contact = kind.star == STAR_DUKOWICZ ? riemann_dukowicz(left, right)
                                                                 : riemann_exact_gas(left, right);
             u_star[0] = contact.velocity;

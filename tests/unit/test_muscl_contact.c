@@ -11,14 +11,15 @@ static struct side random_side(struct dice *dice)
                         .velocity = dice_between(dice, -1e3, 1e3),
                         .stress = dice_between(dice, -1e10, 1e10),
                         .density = dice_between(dice, 1.0, 1e4),
-                        .bend = dice_between(dice, 0.05, 2.0)};
+                        .shock_slope = dice_between(dice, 0.05, 2.0)};
     return side;
 }
 
 static struct contact_weights shock_weights(struct side l, struct side r)
 {
-    return riemann_shock_weights(l.impedance, r.impedance, l.density * l.bend, r.density * r.bend,
-                                 r.velocity - l.velocity, r.stress - l.stress);
+    return riemann_shock_weights(l.impedance, r.impedance, l.density * l.shock_slope,
+                                 r.density * r.shock_slope, r.velocity - l.velocity,
+                                 r.stress - l.stress);
 }
 
 static struct contact contact_of(struct contact_weights w, struct side l, struct side r)
@@ -77,8 +78,8 @@ static void weak_waves_and_waves_of_expansion_are_acoustic(void **state)
     struct dice dice = {7};
     for (int k = 0; k < 1000; k++) {
         struct side l = random_side(&dice), r = random_side(&dice);
-        const double sound =
-            minimum(l.impedance / (l.density * l.bend), r.impedance / (r.density * r.bend));
+        const double sound = minimum(l.impedance / (l.density * l.shock_slope),
+                                     r.impedance / (r.density * r.shock_slope));
         const double impedance = minimum(l.impedance, r.impedance);
         r.velocity = l.velocity + weak * sound * dice_between(&dice, -1.0, 1.0);
         r.stress = l.stress + weak * impedance * sound * dice_between(&dice, -1.0, 1.0);

@@ -3,7 +3,7 @@
 #include "running.h"
 
 #include "material/heat.h"
-#include "riemann/bend.h"
+#include "riemann/shock_slope.h"
 
 static const struct eos water = {EOS_noble_abel, {.noble_abel = EOS_noble_abel_SAMPLE}};
 static const double none[POINT_HISTORY];

@@ -128,7 +128,7 @@ static struct side gas_side(double density, double pressure, double velocity, do
 static struct side shock_side(double density, double pressure, double velocity, double gamma)
 {
     struct side side = gas_side(density, pressure, velocity, gamma);
-    side.bend = 0.5 * (gamma + 1.0);
+    side.shock_slope = 0.5 * (gamma + 1.0);
     return side;
 }
 
@@ -161,12 +161,12 @@ static void dukowicz_contact_lies_on_both_shock_curves(void **state)
                                    dice_between(&dice, -1e4, 1e4), dice_between(&dice, 1.1, 3));
         struct contact c = riemann_dukowicz(l, r);
         double cl = l.impedance / l.density, cr = r.impedance / r.density;
-        double left0 = -l.stress - 0.25 * l.impedance * cl / l.bend;
-        double x = c.velocity - l.velocity - 0.5 * cl / l.bend;
-        double left = left0 - l.density * l.bend * fabs(x) * x;
-        double y = c.velocity - r.velocity + 0.5 * cr / r.bend;
-        double scale =
-            fabs(left0) + l.density * l.bend * x * x + r.density * r.bend * y * y + fabs(c.stress);
+        double left0 = -l.stress - 0.25 * l.impedance * cl / l.shock_slope;
+        double x = c.velocity - l.velocity - 0.5 * cl / l.shock_slope;
+        double left = left0 - l.density * l.shock_slope * fabs(x) * x;
+        double y = c.velocity - r.velocity + 0.5 * cr / r.shock_slope;
+        double scale = fabs(left0) + l.density * l.shock_slope * x * x +
+                       r.density * r.shock_slope * y * y + fabs(c.stress);
         assert_near(-c.stress, left, 1e-11 * scale);
     }
 }

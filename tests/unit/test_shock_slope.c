@@ -4,7 +4,7 @@
 
 #include "every_eos.h"
 #include "messages.h"
-#include "riemann/bend.h"
+#include "riemann/shock_slope.h"
 
 static double slope_of(const struct eos *eos)
 {
@@ -94,7 +94,7 @@ static void a_material_without_sound_at_rest_is_an_error_of_the_case(void **stat
             error_free(error);
         } else {
             assert_success(error);
-            assert_close(((const struct muscl_state *)run->sph.state)->bend[0], 0.6,
+            assert_close(((const struct muscl_state *)run->sph.state)->shock_slope[0], 0.6,
                          1e-14); /* (gamma + 1)/4 of gamma = 1.4 */
         }
         end(run);

@@ -16,7 +16,7 @@ struct trial {
     int32_t records;
 };
 
-static inline double bend_of(uint64_t id) { return 1.25 + 0.25 * (double)(id % 3); }
+static inline double shock_slope_of(uint64_t id) { return 1.25 + 0.25 * (double)(id % 3); }
 
 /* Depth and spin of a particle, where the kind has them. */
 static inline double depth_of(struct pair_kind kind, uint64_t id)
@@ -46,7 +46,7 @@ static inline void random_state(struct scene *scene, struct pair_kind kind, stru
                 (k < 3 ? -pressure : 0.0) + (fluid ? 0.0 : dice_between(dice, -1e9, 1e9));
         p->energy[i] = p->density[i] * dice_between(dice, 1e3, 6e3);
         if (gas)
-            p->energy[i] = sqrt(bend_of(p->id[i]) * pressure * p->density[i]);
+            p->energy[i] = sqrt(shock_slope_of(p->id[i]) * pressure * p->density[i]);
         p->plastic_strain[i] = fluid ? 0.0 : p->density[i] * dice_between(dice, 5e2, 3e3);
     }
 }
@@ -69,9 +69,9 @@ static inline void pack(const struct trial *t, int32_t i, double *record)
     record[record_impedance(dimension, shear)] = p->energy[i];
     if (shear)
         record[record_impedance(dimension, shear) + 1] = p->plastic_strain[i];
-    if (record_has_bend(t->loop.kind)) {
-        record[record_bend(dimension, shear)] = p->density[i];
-        record[record_bend(dimension, shear) + 1] = bend_of(p->id[i]);
+    if (record_has_shock_slope(t->loop.kind)) {
+        record[record_shock_slope(dimension, shear)] = p->density[i];
+        record[record_shock_slope(dimension, shear) + 1] = shock_slope_of(p->id[i]);
     }
     if (kind.depth)
         record[record_depth(kind)] = depth_of(kind, p->id[i]);
@@ -161,12 +161,12 @@ static inline void trial_prepare(struct trial *t, struct pair_kind kind)
                stride * sizeof *record);
         reflect(t, scene->neighbours.ghosts.image[g], record);
     }
-    if (record_has_bend(kind)) { /* the empty record: a gas without volume */
+    if (record_has_shock_slope(kind)) { /* the empty record: a gas without volume */
         double *empty = t->record + (size_t)(count + ghosts) * stride;
         empty[record_stress(kind.dimension)] = -1.0;
         empty[record_impedance(kind.dimension, kind.shear)] = 1.0;
-        empty[record_bend(kind.dimension, kind.shear)] = 1.0;
-        empty[record_bend(kind.dimension, kind.shear) + 1] = 2.0;
+        empty[record_shock_slope(kind.dimension, kind.shear)] = 1.0;
+        empty[record_shock_slope(kind.dimension, kind.shear) + 1] = 2.0;
     }
 }
 
@@ -213,7 +213,7 @@ static inline struct naive_particle naive_of(const struct trial *t, int32_t i, i
                                .diameter = t->scene.reach.diameter[i],
                                .z_long = p->energy[i],
                                .z_shear = dimension > 1 ? p->plastic_strain[i] : 0.0,
-                               .bend = bend_of(p->id[i])};
+                               .shock_slope = shock_slope_of(p->id[i])};
     struct vec3 s = image_sign(image),
                 x = image_position(
                     &t->scene.mirrors, image,

@@ -9,7 +9,7 @@
 
 struct eos_traits {
     /* A of the shock adiabat U_s = c + A u from rest; NAN: that of a weak shock (see
-     * riemann/bend.h). */
+     * riemann/shock_slope.h). */
     double shock_slope;
     /* gamma where waves are those of an ideal gas, for exact solutions of them; NAN: they are not.
      * */

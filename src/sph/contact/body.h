@@ -104,7 +104,7 @@ struct contacts {
     double compliance[LANES] ALIGNED, impedance[LANES] ALIGNED;
 };
 
-/* Impedances stand at Z and, across, at ACROSS_Z, density and bend from Q on. STAR is a constant
+/* Impedances stand at Z and, across, at ACROSS_Z, density and shock_slope from Q on. STAR is a constant
  * where this is inlined. */
 BOLIDE_INLINE void solve_by(enum pair_star star, const double *own, const struct lanes *lanes,
                             int z, int across_z, int q, struct contacts *c)
@@ -143,7 +143,7 @@ APART void solve_contacts(struct pair_kind kind, const double *own, const struct
 {
     const bool shear = kind.shear && kind.dimension > 1;
     const int z = record_impedance(kind.dimension, shear), across_z = shear ? z + 1 : z;
-    const int q = record_bend(kind.dimension, shear);
+    const int q = record_shock_slope(kind.dimension, shear);
     switch (kind.star) {
     case STAR_ACOUSTIC:
         solve_by(STAR_ACOUSTIC, own, lanes, z, across_z, q, contacts);

@@ -18,7 +18,7 @@ struct contact_options {
 /* The state of both schemes. */
 struct contact_state {
     struct pair_kind kind;
-    double bend
+    double shock_slope
         [MATERIALS_MAX]; /* slope of the shock adiabat, or ratio of specific heats, by material */
 };
 

@@ -1,7 +1,7 @@
 /* The pair loop: sums over neighbours of what the contact problems between particles give.
  *
  * A neighbour is seen through its record alone, a few doubles packed once a stage:
- *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear] [density bend] [depth] [spin]
+ *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear] [density shock_slope] [depth] [spin]
  * where stress is sigma_xx alone for fluids and in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz,
  * zx) in 3-D, and spin one component in 2-D, three in 3-D. With a depth d, the volume is the area A
  * = m/(rho d) of a section of the plane. The loop is compiled for several instruction sets with the
@@ -30,18 +30,18 @@ BOLIDE_INLINE int record_impedance(int dimension, bool shear)
 {
     return record_stress(dimension) + record_stresses(dimension, shear);
 }
-/* Solvers of strong shocks also see density and bend (riemann/side.h). */
-BOLIDE_INLINE bool record_has_bend(struct pair_kind kind)
+/* Solvers of strong shocks also see density and shock_slope (riemann/side.h). */
+BOLIDE_INLINE bool record_has_shock_slope(struct pair_kind kind)
 {
     return kind.star == STAR_DUKOWICZ || kind.star == STAR_EXACT_GAS;
 }
-BOLIDE_INLINE int record_bend(int dimension, bool shear)
+BOLIDE_INLINE int record_shock_slope(int dimension, bool shear)
 {
     return record_impedance(dimension, shear) + 1 + (shear && dimension > 1);
 }
 BOLIDE_INLINE int record_depth(struct pair_kind kind)
 {
-    return record_bend(kind.dimension, kind.shear) + (record_has_bend(kind) ? 2 : 0);
+    return record_shock_slope(kind.dimension, kind.shear) + (record_has_shock_slope(kind) ? 2 : 0);
 }
 BOLIDE_INLINE int record_spin(struct pair_kind kind) { return record_depth(kind) + kind.depth; }
 /* Doubles from one record to the next: whole cache lines. */

@@ -34,9 +34,9 @@ BOLIDE_INLINE void pack_owned(const struct contact_state *state,
     record[k++] = p->density[i] * f->sound_long[i];
     if (shear)
         record[k++] = p->density[i] * f->sound_shear[i];
-    if (record_has_bend(kind)) {
+    if (record_has_shock_slope(kind)) {
         record[k++] = p->density[i];
-        record[k++] = state->bend[p->material[i]];
+        record[k++] = state->shock_slope[p->material[i]];
     }
     if (kind.depth)
         record[k++] = sph_depth(simulation, f, i);
@@ -97,11 +97,12 @@ void contact_pack(struct sph *sph, const struct simulation *simulation,
     }
     double *empty = sph_records_start(sph, simulation, &records);
     /* The contact problem of the record that fills up lanes must have an answer. */
-    if (record_has_bend(kind)) {
-        const int dimension = kind.dimension, bend = record_bend(dimension, kind.shear);
+    if (record_has_shock_slope(kind)) {
+        const int dimension = kind.dimension,
+                  shock_slope = record_shock_slope(dimension, kind.shear);
         empty[record_stress(dimension)] = -1.0;
         empty[record_impedance(dimension, kind.shear)] = 1.0;
-        empty[bend] = 1.0;
-        empty[bend + 1] = 2.0;
+        empty[shock_slope] = 1.0;
+        empty[shock_slope + 1] = 2.0;
     }
 }

@@ -91,11 +91,11 @@ static struct error *find_slopes(struct sph *sph, const struct simulation *simul
     struct contact_state *state = sph->state;
     const struct simulation_case *input = simulation->input;
     if (state->kind.star == STAR_DUKOWICZ)
-        return sph_find_slopes(simulation, state->bend);
+        return sph_find_slopes(simulation, state->shock_slope);
     for (int m = 0; state->kind.star == STAR_EXACT_GAS && m < simulation->materials; m++) {
         const struct material *material = &simulation->material[m];
-        state->bend[m] = eos_ratio_of_heats(&material->eos);
-        if (isnan(state->bend[m]) || material_has_strength(material))
+        state->shock_slope[m] = eos_ratio_of_heats(&material->eos);
+        if (isnan(state->shock_slope[m]) || material_has_strength(material))
             return sph_option_error(sph, input, "riemann",
                                     "exact-gas solves contacts of ideal gases, and material "
                                     "\"%s\" is not one: use acoustic or dukowicz",

@@ -177,7 +177,7 @@ BOLIDE_INLINE void find_changes(struct muscl_kind kind, double matter, const dou
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
     const int u = record_velocity(dimension), s = record_stress(dimension);
-    const int z = muscl_impedance(kind), q = muscl_bend(kind), other = muscl_material(kind);
+    const int z = muscl_impedance(kind), q = muscl_shock_slope(kind), other = muscl_material(kind);
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
@@ -250,18 +250,18 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
 {
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
-    const int z = muscl_impedance(kind), q = muscl_bend(kind);
+    const int z = muscl_impedance(kind), q = muscl_shock_slope(kind);
     const struct layout at = layout_of(kind);
     const struct pair_law law = {STAR_SHOCK, shear, true, with_law};
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
         struct pair_side left = {.impedance = own[z],
-                                 .bend = own[q],
+                                 .shock_slope = own[q],
                                  .stress = pairs->along_i[k],
                                  .carried = {pairs->share[0][k], pairs->share[2][k], 0.0, 0.0}};
         struct pair_side right = {.impedance = lanes->field[z][k],
-                                  .bend = lanes->field[q][k],
+                                  .shock_slope = lanes->field[q][k],
                                   .stress = pairs->along_j[k],
                                   .carried = {pairs->share[1][k], pairs->share[3][k], 0.0, 0.0}};
         struct pair_difference difference = {.velocity = pairs->along_u[k]};

@@ -5,10 +5,10 @@
  * with the inverse L of the kernel's second moment, which makes sums exact for linear fields;
  * contacts are solved along n = a/|a|. And impedances are those of shocks. A neighbour is seen
  * through its record:
- *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] bend material [depth]
+ *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] shock_slope material [depth]
  *   L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
  * with stress as in record.h, velocity and stress half a step ahead, q' both of them a whole step,
- * and `bend` rho times the slope of the shock curve (riemann/bend.h). Z_across is the shear
+ * and `shock_slope` rho times the slope of the shock curve (riemann/shock_slope.h). Z_across is the shear
  * impedance; of matter that has none, minus the share of compression in its velocity gradient.
  *
  * Of q, the first four or eight values (the most that there are) stand at the end of the record, a
@@ -36,12 +36,12 @@ BOLIDE_INLINE int muscl_impedance(struct muscl_kind kind)
 {
     return record_stress(kind.dimension) + muscl_stresses(kind);
 }
-BOLIDE_INLINE int muscl_bend(struct muscl_kind kind)
+BOLIDE_INLINE int muscl_shock_slope(struct muscl_kind kind)
 {
     return muscl_impedance(kind) + 1 + (kind.dimension > 1);
 }
-BOLIDE_INLINE int muscl_material(struct muscl_kind kind) { return muscl_bend(kind) + 1; }
-BOLIDE_INLINE int muscl_depth(struct muscl_kind kind) { return muscl_bend(kind) + 2; }
+BOLIDE_INLINE int muscl_material(struct muscl_kind kind) { return muscl_shock_slope(kind) + 1; }
+BOLIDE_INLINE int muscl_depth(struct muscl_kind kind) { return muscl_shock_slope(kind) + 2; }
 BOLIDE_INLINE int muscl_correction(struct muscl_kind kind)
 {
     return muscl_depth(kind) + kind.depth;

@@ -21,7 +21,7 @@ struct end {
 
 struct muscl_state {
     struct muscl_kind kind;
-    double bend[MATERIALS_MAX]; /* slope of the shock adiabat, by material */
+    double shock_slope[MATERIALS_MAX]; /* slope of the shock adiabat, by material */
     int32_t ends;
     int64_t end_capacity;
     struct end *end;

@@ -142,7 +142,7 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     record[k++] = p->density[i] * f->sph.sound_long[i];
     if (dimension > 1)
         record[k++] = across_impedance(f, kind, p->density[i], i);
-    record[k++] = p->density[i] * state->bend[p->material[i]];
+    record[k++] = p->density[i] * state->shock_slope[p->material[i]];
     record[k++] = p->material[i];
     if (kind.depth)
         record[k++] = sph_depth(simulation, &f->sph, i);

@@ -1,4 +1,4 @@
-/* The slope of a material's shock adiabat: what the solvers of strong shocks take for `bend` of a
+/* The slope of a material's shock adiabat: what the solvers of strong shocks take for `shock_slope` of a
  * side. */
 #ifndef BOLIDE_RIEMANN_BEND_H
 #define BOLIDE_RIEMANN_BEND_H
@@ -24,7 +24,7 @@ BOLIDE_INLINE double riemann_weak_shock_slope(const struct eos *eos)
 }
 
 /* Slope A of U_s = c + A |u* - u|, as the equation of state has it, else that of a weak shock. At
- * least 0.05, since the curve must bend upwards; NAN where it cannot be computed. */
+ * least 0.05, since the curve must turn upwards; NAN where it cannot be computed. */
 BOLIDE_INLINE double riemann_shock_slope(const struct material *material)
 {
     const double own = eos_traits(&material->eos).shock_slope;
