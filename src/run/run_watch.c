@@ -65,8 +65,9 @@ static void watch_range(struct run *run)
         run->range_is_known |= UINT64_C(1) << (m & 63);
         run_say(
             run,
-            "warning: step %lld, t = %.6g s: material %s is compressed to %.3g of its density; its "
-            "equation of state knows no heat and is meant for %.3g at most",
+            "warning: step %lld, t = %.6g s: material %s is compressed to %.3g times its density; "
+            "its equation of state ignores heat and is valid up to %.3g; one that depends on "
+            "energy, such as mie-grueneisen, goes further",
             (long long)simulation->step, simulation->time, run->input->materials.names[m],
             most / material_density(material), limit / material_density(material));
     }

@@ -23,7 +23,9 @@ static double some(struct dice *dice, double scale) { return dice_between(dice, 
 static void throw_point(struct dice *dice, double rest, struct point *point, struct motion *motion)
 {
     const double size = dice_below(dice, 4) ? 1.0 : 0.05, spin = 1e6;
-    *point = (struct point){.density = rest * dice_between(dice, 0.9, 1.4),
+    const bool common = dice_below(dice, 4); /* the others are beyond the forms of the sources */
+    const double ratio = common ? dice_between(dice, 0.9, 1.4) : dice_between(dice, 0.3, 3.2);
+    *point = (struct point){.density = rest * ratio,
                             .energy = some(dice, 1e5),
                             .pressure = some(dice, 1e9),
                             .deviator = {some(dice, 3e8 * size), some(dice, 3e8 * size), 0.0,
@@ -76,6 +78,7 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
     static const struct eos forms[] = {
         {EOS_ideal_gas, {.ideal_gas = {1500.0, 3.0}}},
         {EOS_jwl, {.jwl = {1630.0, 371.2e9, 3.21e9, 4.15, 0.95, 0.3, 6.993e9}}},
+        {EOS_jwl, {.jwl = {1750.0, 3756e9, -131.3e9, 7.2, 3.6, 1.173, 60.7965e6, EOS_EXTENDED}}},
         {EOS_mie_grueneisen, {.mie_grueneisen = {2700.0, 5350.0, 1.35, 2.17, 73e9, EOS_EXTENDED}}},
         {EOS_grueneisen_polynomial, {.grueneisen_polynomial = {7890.0, 4569.0, 1.49, 2.17}}},
         {EOS_grueneisen_eta, {.grueneisen_eta = {8930.0, 3940.0, 1.49, 2.0, EOS_EXTENDED}}}};
