@@ -36,9 +36,11 @@ enum eos_form { EOS_EXTENDED, EOS_SOURCE };
            "sound speed and limits tension; source takes the form as it is",                   \
            "extended", "source")
 
-/* rho_1/rho_0, and the fraction of the adiabat's largest x that is used. */
+/* rho_1/rho_0; the fraction of the adiabat's largest x that is used, and the largest (v_0 - v)/v_0
+ * where s is too small for it to end. */
 BOLIDE_INLINE double grueneisen_tension(void) { return 0.9; }
 BOLIDE_INLINE double grueneisen_adiabat(void) { return 0.95; }
+BOLIDE_INLINE double grueneisen_deepest(void) { return 0.9; }
 /* h_b where gamma, or gamma rho, is constant. */
 BOLIDE_INLINE double grueneisen_gamma_weight(void) { return 0.5; }
 BOLIDE_INLINE double grueneisen_product_weight(void) { return 0.25; }
@@ -48,10 +50,16 @@ struct eos_curve_point {
     double value, slope;
 };
 
-/* The largest (v_0 - v)/v_0 at which p_H is that of U_s = c + SLOPE U_p. */
+/* The largest (v_0 - v)/v_0 at which p_H is that of U_s = c + SLOPE U_p, and whether PART/WHOLE is
+ * within it, without a division. */
 BOLIDE_INLINE double grueneisen_largest_strain(double slope)
 {
-    return minimum(grueneisen_adiabat() / slope, 0.9);
+    return minimum(grueneisen_adiabat() / slope, grueneisen_deepest());
+}
+
+BOLIDE_INLINE bool grueneisen_on_adiabat(double slope, double part, double whole)
+{
+    return (slope * part <= grueneisen_adiabat() * whole) & (part <= grueneisen_deepest() * whole);
 }
 
 /* p_H of U_s = SOUND + SLOPE U_p. */

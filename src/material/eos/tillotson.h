@@ -9,8 +9,9 @@
  * and no pressure below that at which matter parts, where it is given: what is drawn out farther keeps that tension, and
  * bears pressure again once it is pressed together as far as it was drawn out.
  *
- * By default w does not fall below 1, where energies below zero would let it vanish, and c^2 is held at a hundredth of A/rho_0
- * times eta in tension beyond its maximum, A^2/(4 B) at no energy. Where p > 0 the form has a sound speed everywhere.
+ * By default w does not fall below 1, where energies below zero would let it vanish, and c^2 is held
+ * at a hundredth of A/rho_0 times eta in tension beyond its maximum, A^2/(4 B) at no energy. Where
+ * p > 0 the form has a sound speed everywhere.
  *
  * Source: Tillotson, General Atomic report GA-3216 (1962); in this form Melosh, Impact Cratering (1989), II.4. */
 #ifndef BOLIDE_EOS_TILLOTSON_H

@@ -8,8 +8,9 @@
  *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] shock_slope material [depth]
  *   L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
  * with stress as in record.h, velocity and stress half a step ahead, q' both of them a whole step,
- * and `shock_slope` rho times the slope of the shock curve (riemann/shock_slope.h). Z_across is the shear
- * impedance; of matter that has none, minus the share of compression in its velocity gradient.
+ * and `shock_slope` rho times the slope of the shock adiabat (riemann/shock_slope.h). Z_across is
+ * the shear impedance; of a material that has none, minus the fraction of compression in its
+ * velocity gradient.
  *
  * Of q, the first four or eight values (the most that there are) stand at the end of the record, a
  * row for dq/dx, one for dq/dy, ..., one for q': the kernel takes these a neighbour at a time, a
