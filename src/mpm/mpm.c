@@ -86,9 +86,8 @@ static struct error *mpm_start(void *solver, struct simulation *simulation)
 
 static struct error *mpm_state(void *solver, struct visitor *visitor)
 {
-    (void)solver;
-    (void)visitor;
-    return NULL;
+    struct mpm *mpm = solver;
+    return visitor->visit(visitor, "mpm/limit", NUMBER_DOUBLE, &mpm->limit_before, 1, 1);
 }
 
 static void mpm_observe(const void *solver, const struct simulation *simulation,
@@ -115,6 +114,7 @@ static void mpm_destroy(void *solver)
         struct layer *layer = &mpm->layer[g];
         free(layer->wall);
         free(layer->meets);
+        free(layer->shocked);
         mpm_free_order(layer);
         grid_free(&layer->grid);
         grid_field_free(&layer->main);

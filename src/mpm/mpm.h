@@ -19,6 +19,7 @@ struct mpm_parameters {
     double courant; /* NAN: by the materials */
     int rotation;
     double viscosity_quadratic, viscosity_linear;
+    double shock_mixing;
     double shear_damping;
     int damping;
     double gauge_pressure;

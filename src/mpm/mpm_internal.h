@@ -36,8 +36,9 @@ struct layer {
     struct wall_node *wall;
     int32_t walls;
     int64_t wall_capacity;
-    bool *meets; /* of each block of nodes: another layer has it too */
-    int64_t meets_capacity;
+    bool *meets;   /* of each block of nodes: another layer has it too */
+    bool *shocked; /* and whether a shock is there, see mixing.c */
+    int64_t meets_capacity, shocked_capacity;
 };
 
 /* Bins of other ranks whose patches this rank needs, and own ones that others need. */
@@ -70,7 +71,8 @@ struct mpm {
     double **rate; /* of the particles of a bin, one a thread */
     int threads;
     int64_t rate_capacity;
-    struct halo halo; /* of several ranks only */
+    double limit, limit_before; /* of this step, and of the one before; 0 for none yet */
+    struct halo halo;           /* of several ranks only */
     double work; /* seconds that this rank's particles have taken since they were distributed */
 };
 
@@ -149,6 +151,15 @@ bool mpm_behind_wall(const struct mpm *mpm, const struct layer *layer, const int
 void mpm_node_index(int dimension, const int64_t corner[3], int k, int64_t at[3]);
 /* What walls do to the vectors of the second or third field. */
 void mpm_fold_vectors(const struct mpm *mpm, struct layer *layer, const struct grid_field *field);
+/* The same for what nodes have while shocks are mixed. */
+void mpm_fold_heat(const struct mpm *mpm, struct layer *layer);
+/* Books that a wall pushes particles by PUSH through a node; on the axis it is not the wall that
+ * pushes along x. */
+void mpm_book_wall(const struct mpm *mpm, struct simulation *simulation,
+                   const struct wall_node *wall, double push[3]);
+/* Collective: mixing in shocks in a step of DT, see mixing.c. Nodes have their sums; those of
+ * the second field are lost. */
+void mpm_mix_shocks(struct mpm *mpm, struct simulation *simulation, double dt);
 /* The step of the nodes (2-13), and what walls push in it. */
 void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
                        double dt);

@@ -94,6 +94,17 @@ const struct parameter mpm_table[] = {
      .below = 1e3,
      .closed = true,
      .help = "b1 of the artificial viscosity"},
+    {.key = "shock_mixing",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct mpm_parameters, shock_mixing),
+     .standard = PARAMETER_OPTIONAL,
+     .above = 0.0,
+     .below = 100.0,
+     .closed = true,
+     .help =
+         "rate, in c/h, at which particles that share a node in a shock come to one energy, ten "
+         "times that at which they come to one velocity; 0: none. 3 when not given, by `transfer: "
+         "flip` of order 1, else none"},
     {.key = "shear_damping",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, shear_damping),
@@ -134,5 +145,7 @@ struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
         settled.courant = fluid ? 0.2 : 0.5;
     if (settled.transfer != MPM_FLIP)
         settled.flip = 0.0;
+    if (isnan(settled.shock_mixing))
+        settled.shock_mixing = settled.transfer == MPM_FLIP && settled.order == 1 ? 3.0 : 0.0;
     return settled;
 }

@@ -142,16 +142,29 @@ static struct error *collect_walls(const struct mpm *mpm, struct layer *layer)
     return NULL;
 }
 
-/* Adds what a node behind a wall has to the one that it is the image of, and makes it that one's image. VECTORS, COUNT of
- * them, are where the vectors begin; a scalar may come first. */
-static void fold_onto(double *node, double *onto, int axis, int count, const int *vectors,
-                      int scalars)
+/* Which numbers of a node walls fold: scalars, and where vectors begin. */
+struct folded {
+    int scalars, scalar[HEAT_NUMBERS], vectors, vector[2];
+};
+
+static const struct folded folded_main = {2,
+                                          {NODE_MASS, NODE_MIXING},
+                                          2,
+                                          {NODE_MOMENTUM, NODE_FORCE}},
+                           folded_vector = {.vectors = 1},
+                           folded_heat = {.scalars = HEAT_NUMBERS,
+                                          .scalar = {HEAT_ENERGY, HEAT_NUMBER, HEAT_SQUARE}};
+
+/* Adds what a node behind a wall has to the one that it is the image of, and makes it that one's image. */
+static void fold_onto(double *node, double *onto, int axis, const struct folded *folded)
 {
-    for (int k = 0; k < scalars; k++)
+    for (int s = 0; s < folded->scalars; s++) {
+        const int k = folded->scalar[s];
         node[k] = onto[k] += node[k];
-    for (int v = 0; v < count; v++)
+    }
+    for (int v = 0; v < folded->vectors; v++)
         for (int c = 0; c < 3; c++) {
-            const int k = vectors[v] + c;
+            const int k = folded->vector[v] + c;
             const double sign = c == axis ? -1.0 : 1.0;
             onto[k] += sign * node[k];
             node[k] = sign * onto[k];
@@ -159,12 +172,9 @@ static void fold_onto(double *node, double *onto, int axis, int count, const int
 }
 
 /* Walls in one of the fields. */
-static void fold(const struct mpm *mpm, struct layer *layer, const struct grid_field *field)
+static void fold(const struct mpm *mpm, struct layer *layer, const struct grid_field *field,
+                 const struct folded *folded)
 {
-    static const int main_vectors[] = {NODE_MOMENTUM, NODE_FORCE}, back_vectors[] = {0};
-    const bool is_main = field == &layer->main || field == &layer->mapped;
-    const int count = is_main ? 2 : 1;
-    const int *vectors = is_main ? main_vectors : back_vectors;
     for (int axis = 0; axis < layer->grid.dimension; axis++)
         for (int side = 0; side < 2 && layer->walls; side++)
             for (int32_t w = 0; w < layer->walls && mpm->has_plane[axis][side]; w++) {
@@ -175,15 +185,15 @@ static void fold(const struct mpm *mpm, struct layer *layer, const struct grid_f
                                                          : wall->normal;
                 const int64_t far = behind(mpm, axis, side, wall->at[axis]);
                 if (far == 0)
-                    for (int v = 0; v < count; v++)
-                        node[vectors[v] + axis] = 0.0;
+                    for (int v = 0; v < folded->vectors; v++)
+                        node[folded->vector[v] + axis] = 0.0;
                 if (far <= 0)
                     continue;
                 int64_t at[3] = {wall->at[0], wall->at[1], wall->at[2]};
                 at[axis] = mirrored(mpm, axis, side, at[axis]);
                 double *onto = grid_node_at(&layer->grid, field, at);
                 assert(onto);
-                fold_onto(node, onto, axis, count, vectors, is_main);
+                fold_onto(node, onto, axis, folded);
             }
 }
 
@@ -208,13 +218,19 @@ struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simu
             add_gravity(simulation, layer, n);
     }
     TRY(collect_walls(mpm, layer));
-    fold(mpm, layer, &layer->main);
+    fold(mpm, layer, &layer->main, &folded_main);
     return NULL;
 }
 
 void mpm_fold_vectors(const struct mpm *mpm, struct layer *layer, const struct grid_field *field)
 {
-    fold(mpm, layer, field);
+    const bool is_main = field == &layer->main || field == &layer->mapped;
+    fold(mpm, layer, field, is_main ? &folded_main : &folded_vector);
+}
+
+void mpm_fold_heat(const struct mpm *mpm, struct layer *layer)
+{
+    fold(mpm, layer, &layer->back, &folded_heat);
 }
 
 void mpm_add_forces(const struct mpm *mpm, const struct simulation *simulation, struct layer *layer)
@@ -237,6 +253,20 @@ static bool is_at_axis(const struct mpm *mpm, const struct simulation *simulatio
            !(mpm->has_plane[0][1] && mpm->plane[0][1] - x < x - mpm->plane[0][0]);
 }
 
+void mpm_book_wall(const struct mpm *mpm, struct simulation *simulation,
+                   const struct wall_node *wall, double push[3])
+{
+    const struct vec3 place = vec3_scale(
+        mpm->edge, vec3_make((double)wall->at[0], (double)wall->at[1], (double)wall->at[2]));
+    if (is_at_axis(mpm, simulation, wall->at[0])) {
+        ledger_book(&simulation->ledger, LEDGER_AXIS, 0.0, vec3_make(push[0], 0.0, 0.0), place,
+                    0.0);
+        push[0] = 0.0;
+    }
+    ledger_book(&simulation->ledger, LEDGER_WALLS, 0.0, vec3_make(push[0], push[1], push[2]), place,
+                0.0);
+}
+
 /* A wall changes the momentum of particles by what they get from a node in excess of what they have put into it. */
 static void book_walls(const struct mpm *mpm, struct simulation *simulation,
                        const struct layer *layer, double dt)
@@ -254,15 +284,7 @@ static void book_walls(const struct mpm *mpm, struct simulation *simulation,
                 (1.0 - flip) * (mass * node[NODE_VELOCITY + k] - sum[NODE_MOMENTUM + k]);
             push[k] = gain - dt * sum[NODE_FORCE + k];
         }
-        const struct vec3 place = vec3_scale(
-            mpm->edge, vec3_make((double)wall->at[0], (double)wall->at[1], (double)wall->at[2]));
-        if (is_at_axis(mpm, simulation, wall->at[0])) {
-            ledger_book(&simulation->ledger, LEDGER_AXIS, 0.0, vec3_make(push[0], 0.0, 0.0), place,
-                        0.0);
-            push[0] = 0.0;
-        }
-        ledger_book(&simulation->ledger, LEDGER_WALLS, 0.0, vec3_make(push[0], push[1], push[2]),
-                    place, 0.0);
+        mpm_book_wall(mpm, simulation, wall, push);
     }
 }
 
@@ -317,7 +339,7 @@ void mpm_find_velocities(const struct mpm *mpm, const struct simulation *simulat
         }
     }
     if (!plain)
-        fold(mpm, layer, &layer->back);
+        fold(mpm, layer, &layer->back, &folded_vector);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++)
         for (int k = 0; k < BLOCK_CELLS; k++) {

@@ -9,9 +9,17 @@
 /* What a node has. The sums over particles are its mass, momentum and force; from the step on velocity (momentum at the
  * end of the step over mass) and acceleration stand in the place of the last two. */
 enum { NODE_MASS = 0, NODE_MOMENTUM = 1, NODE_VELOCITY = 1, NODE_FORCE = 4, NODE_ACCELERATION = 4 };
+enum { NODE_MIXING = 7 }; /* mass times the rate of mixing in shocks, 1/s */
 enum { NODE_STRIDE = 8 };
 /* What a node has of particles whose velocities are new: their momentum, then their velocity. */
 enum { BACK_STRIDE = 4 };
+/* What stands there while shocks are mixed: energy and the first two moments of the number of
+ * the material, each times mass. */
+enum { HEAT_ENERGY = 0, HEAT_NUMBER = 1, HEAT_SQUARE = 2, HEAT_NUMBERS = 3 };
+
+/* The part of the way to the velocity of a node that its particles go while they go PART of that
+ * to its energy: velocities are mixed at a tenth of the rate. */
+BOLIDE_INLINE double mixing_of_velocity(double part) { return minimum(1.0, part / 10.0); }
 
 /* Of a particle over the step: its velocity gradient's parts xx, yy, zz, xy, yz, zx, and half the curl. */
 enum { RATE_STRAIN = 0, RATE_SPIN = 6, RATES = 9 };
@@ -29,9 +37,11 @@ struct transfer {
     double
         flip; /* of a particle's new velocity, how much is its old one and the nodes' acceleration */
 
+    double mixing; /* in shocks, the rate over c/h; 0: none */
+
     /* of the particles */
-    double (*position)[3], (*velocity)[3];
-    const double *mass, *density, *pressure, *viscosity;
+    double (*position)[3], (*velocity)[3], *energy;
+    const double *mass, *density, *pressure, *viscosity, *sound;
     const double (*deviator)[6];
     const uint16_t *material, *body;
     double (*gradient)[9]; /* affine: d velocity_i / d x_j at 3 i + j */
@@ -62,6 +72,12 @@ void transfer_velocity(const struct transfer *transfer, int32_t bin, struct tran
  * back to the patch TO with their masses; both are laid out as that of the main field. */
 void transfer_again(const struct transfer *transfer, int32_t bin, const double *from,
                     bool accelerations, double *to);
+
+/* Fills the patch of BIN in BACK with the energies and materials of its particles; and a step of
+ * DT of mixing in shocks from the patches of BIN, where the nodes have their sums (mixing.c),
+ * which are spoilt. */
+void transfer_heat(const struct transfer *transfer, int32_t bin);
+void transfer_mix(const struct transfer *transfer, int32_t bin, double dt);
 
 /* Where the rates of a bin's particles go: number c of the k-th at to[c * stride + k]; each row has room for seven more, which
  * are written too. */

@@ -40,6 +40,15 @@ struct node_record {
     ALIGNED double plain[NODE_STRIDE], by_slope[3][NODE_STRIDE], around[NODE_STRIDE];
 };
 
+/* The rate at which a particle mixes with those that share its nodes, 1/s: none where the artificial
+ * viscosity q is less than SOFT rho c^2, as in sound, all of it from SHOCK rho c^2 more on. */
+BOLIDE_INLINE double mixing_rate(const struct transfer *t, int32_t i)
+{
+    const double soft = 2e-3, shock = 2e-3, c = t->sound[i];
+    const double strength = t->viscosity[i] / (t->density[i] * square(c)) - soft;
+    return strength > 0.0 ? t->mixing * c / t->edge * minimum(1.0, strength / shock) : 0.0;
+}
+
 BOLIDE_INLINE void node_record_of(const struct transfer *t, struct kind kind, int32_t i,
                                   struct node_record *record)
 {
@@ -48,6 +57,8 @@ BOLIDE_INLINE void node_record_of(const struct transfer *t, struct kind kind, in
     const double *s = t->deviator[i], *u = t->velocity[i];
     double(*by_slope)[NODE_STRIDE] = record->by_slope;
     record->plain[NODE_MASS] = mass;
+    if (t->mixing > 0.0)
+        record->plain[NODE_MIXING] = mass * mixing_rate(t, i);
     for (int k = 0; k < 3; k++)
         record->plain[NODE_MOMENTUM + k] = mass * u[k];
     if (t->axisymmetric)

@@ -2,6 +2,7 @@
  * particles of a cell at once. */
 #include "base/isa.h"
 #include "mpm/transfer_body.h"
+#include "mpm/transfer_mixing.h"
 
 /* One switch a block: in each branch dimension and window are constants. */
 #define BY_KIND(t, CALL)                                         \
@@ -49,6 +50,18 @@ ISA_KERNEL(void, transfer_again, const struct transfer *t, int32_t bin, const do
            bool accelerations, double *to){
 #define CALL(dimension, window) \
     bin_again(t, kind_make(dimension, window, 1 << dimension), bin, from, accelerations, to)
+    BY_KIND(t, CALL)
+#undef CALL
+}
+
+ISA_KERNEL(void, transfer_heat, const struct transfer *t, int32_t bin){
+#define CALL(dimension, window) bin_heat(t, kind_make(dimension, window, 1 << dimension), bin)
+    BY_KIND(t, CALL)
+#undef CALL
+}
+
+ISA_KERNEL(void, transfer_mix, const struct transfer *t, int32_t bin, double dt){
+#define CALL(dimension, window) bin_mix(t, kind_make(dimension, window, 1 << dimension), bin, dt)
     BY_KIND(t, CALL)
 #undef CALL
 }

@@ -146,6 +146,67 @@ static void mass_and_momentum_stay_but_for_what_walls_push(void **state)
     }
 }
 
+/* Mixing alone, from a state with shocks. */
+static void mixing_in_shocks_turns_motion_into_heat(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {line_case, plane_case, space_case, contact_case};
+    for (size_t k = 0; k < COUNT_OF(texts); k++) {
+        const struct variant variant = {"", 2, 1.0, NULL, false};
+        struct running *run = begin_fresh(texts[k], &variant);
+        step(run, STEPS);
+        assert_success(run->solver->prepare(&run->mpm, &run->simulation, &run->limit));
+        const struct ledger *ledger = &run->simulation.ledger;
+        const struct totals before = particles_totals(&run->simulation.particles, &run->ranks, -1),
+                            booked = ledger_totals(ledger, &run->ranks, LEDGER_CAUSES);
+        mpm_mix_shocks(&run->mpm, &run->simulation, run->limit.dt);
+        const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1),
+                            more = ledger_totals(ledger, &run->ranks, LEDGER_CAUSES);
+        assert_true(now.kinetic < before.kinetic);
+        assert_near(now.entry[LEDGER_ENERGY], before.entry[LEDGER_ENERGY],
+                    1e-14 * before.entry[LEDGER_ENERGY]);
+        for (int e = LEDGER_MOMENTUM_X; e <= LEDGER_MOMENTUM_Z; e++)
+            assert_near(now.entry[e] - more.entry[e], before.entry[e] - booked.entry[e],
+                        1e-14 * before.momentum_scale);
+        end(run);
+    }
+}
+
+/* A cold and a hot gas, at the same pressure and speed, behind a wall's shock: nodes of both leave each its energy. */
+static void mixing_in_shocks_does_not_heat_across_materials(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "format: 1\ndimension: 1\nresolution: 1 mm\nsolver: {mpm: {cell: 2 mm}}\nmaterials:\n"
+        "  cold: {eos: {ideal-gas: {density: 1500 kg/m^3, gamma: 3}}}\n"
+        "  hot: {eos: {ideal-gas: {density: 1500 kg/m^3, gamma: 3}}}\n"
+        "bodies:\n"
+        "  low: {material: cold, box: {from: [-20 mm], to: [0 mm]}, density: 1500 kg/m^3, "
+        "pressure: 1 GPa}\n"
+        "  high: {material: MATERIAL, box: {from: [0 mm], to: [20 mm]}, density: 150 kg/m^3, "
+        "pressure: 1 GPa}\n"
+        "run: {until: 1 s}\n";
+    for (int same = 0; same < 2; same++) {
+        char with[sizeof text + 16];
+        const char *at = strstr(text, "MATERIAL");
+        snprintf(with, sizeof with, "%.*s%s%s", (int)(at - text), text, same ? "cold" : "hot",
+                 at + strlen("MATERIAL"));
+        const struct variant variant = {"", 1, 1.0, NULL, false};
+        struct running *run = begin_fresh(with, &variant);
+        struct particles *p = &run->simulation.particles;
+        double *viscosity = mpm_fields_of(&run->mpm, &run->simulation).viscosity;
+        for (int32_t i = 0; i < p->count; i++)
+            viscosity[i] = p->pressure[i]; /* as in a shock */
+        const struct totals before = particles_totals(p, &run->ranks, 0);
+        assert_success(run->solver->prepare(&run->mpm, &run->simulation, &run->limit));
+        mpm_mix_shocks(&run->mpm, &run->simulation, run->limit.dt);
+        const struct totals now = particles_totals(p, &run->ranks, 0);
+        const double warmer = now.internal / before.internal - 1.0;
+        assert_true(same ? warmer > 1e-3 : fabs(warmer) < 1e-14);
+        end(run);
+    }
+}
+
 /* Energy at the end over that at the start. */
 static double energy_after(const char *setting, int steps)
 {
@@ -361,6 +422,8 @@ int main(void)
         cmocka_unit_test(a_coarse_plate_pushes_along_its_normal),
         cmocka_unit_test(mass_and_momentum_stay_in_contacts),
         cmocka_unit_test(mass_and_momentum_stay_but_for_what_walls_push),
+        cmocka_unit_test(mixing_in_shocks_turns_motion_into_heat),
+        cmocka_unit_test(mixing_in_shocks_does_not_heat_across_materials),
         cmocka_unit_test(usf_gains_energy_and_usl_loses_more_than_musl),
         cmocka_unit_test(a_gas_at_rest_between_walls_stays_at_rest),
         cmocka_unit_test(a_gas_at_rest_about_the_axis_stays_at_rest),
