@@ -17,10 +17,12 @@
 #include "base/memory.h"
 #include "mpm/mpm_internal.h"
 
-/* Notes which blocks of nodes contain shocks; true when any does. */
-static bool find_shocks(const struct simulation *simulation, struct layer *layer)
+bool mpm_find_shocks(const struct mpm *mpm, const struct simulation *simulation,
+                     struct layer *layer)
 {
     bool any = false;
+    if (!(mpm->parameters.shock_mixing > 0.0) || layer->held)
+        return false;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads) reduction(| : any)
     for (int32_t n = 0; n < layer->grid.blocks; n++) {
         bool found = false;
@@ -73,14 +75,7 @@ static void sum_heat(struct mpm *mpm, const struct simulation *simulation, struc
 
 void mpm_mix_shocks(struct mpm *mpm, struct simulation *simulation, double dt)
 {
-    double any = 0.0;
-    if (!(mpm->parameters.shock_mixing > 0.0))
-        return;
-    for (int g = 0; g < mpm->layers; g++)
-        if (!mpm->layer[g].held && find_shocks(simulation, &mpm->layer[g]))
-            any = 1.0;
-    ranks_maximum_of(simulation->ranks, &any, 1);
-    if (any == 0.0)
+    if (!mpm->shocks)
         return;
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];

@@ -37,7 +37,7 @@ struct layer {
     int32_t walls;
     int64_t wall_capacity;
     bool *meets;   /* of each block of nodes: another layer has it too */
-    bool *shocked; /* and whether a shock is there, see mixing.c */
+    bool *shocked; /* and whether it contains a shock, see mixing.c */
     int64_t meets_capacity, shocked_capacity;
 };
 
@@ -72,6 +72,7 @@ struct mpm {
     int threads;
     int64_t rate_capacity;
     double limit, limit_before; /* of this step, and of the one before; 0 for none yet */
+    bool shocks;                /* anywhere, on any rank */
     struct halo halo;           /* of several ranks only */
     double work; /* seconds that this rank's particles have taken since they were distributed */
 };
@@ -157,6 +158,9 @@ void mpm_fold_heat(const struct mpm *mpm, struct layer *layer);
  * pushes along x. */
 void mpm_book_wall(const struct mpm *mpm, struct simulation *simulation,
                    const struct wall_node *wall, double push[3]);
+/* Notes which blocks of nodes of a layer contain shocks; true when any does. */
+bool mpm_find_shocks(const struct mpm *mpm, const struct simulation *simulation,
+                     struct layer *layer);
 /* Collective: mixing in shocks in a step of DT, see mixing.c. Nodes have their sums; those of
  * the second field are lost. */
 void mpm_mix_shocks(struct mpm *mpm, struct simulation *simulation, double dt);

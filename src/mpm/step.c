@@ -184,7 +184,7 @@ static struct error *refresh_grid(struct mpm *mpm, struct simulation *simulation
     return ranks_agree(simulation->ranks, error ? error : reserve_fields(mpm));
 }
 
-/* Collective: mass, momentum and force of all nodes. */
+/* Collective: mass, momentum and force of all nodes, and where shocks are. */
 static struct error *sum_particles(struct mpm *mpm, struct simulation *simulation)
 {
     const double begin = clock_seconds();
@@ -199,9 +199,15 @@ static struct error *sum_particles(struct mpm *mpm, struct simulation *simulatio
     }
     mpm->work += clock_seconds() - begin;
     mpm_exchange(mpm, simulation, offsetof(struct layer, main));
-    for (int g = 0; g < mpm->layers && !error; g++)
+    double shocks = 0.0;
+    for (int g = 0; g < mpm->layers && !error; g++) {
         error = mpm_sum_nodes(mpm, simulation, &mpm->layer[g]);
-    return ranks_agree(simulation->ranks, error);
+        if (!error && mpm_find_shocks(mpm, simulation, &mpm->layer[g]))
+            shocks = 1.0;
+    }
+    TRY(ranks_agree_on(simulation->ranks, error, &shocks, 1));
+    mpm->shocks = shocks > 0.0;
+    return NULL;
 }
 
 /* What may limit the step. */
