@@ -102,9 +102,9 @@ const struct parameter mpm_table[] = {
      .below = 100.0,
      .closed = true,
      .help =
-         "rate, in c/h, at which particles that share a node in a shock come to one energy, ten "
-         "times that at which they come to one velocity; 0: none. 3 when not given, by `transfer: "
-         "flip` of order 1, else none"},
+         "rate, in c/h, at which the energies of particles that share a node in a shock are mixed, "
+         "ten times that of their velocities; 0: none; default 3 with `transfer: flip` and "
+         "`order: 1`, else 0"},
     {.key = "shear_damping",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, shear_damping),

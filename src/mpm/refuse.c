@@ -23,6 +23,12 @@ static struct error *refuse_transfer(const struct mpm_parameters *given,
     if (given->flip != 1.0)
         error = error_join(error, input_error(input, "solver", "mpm.flip",
                                               "this belongs to `transfer: flip`: leave it out"));
+    if (given->shock_mixing > 0.0)
+        error = error_join(
+            error,
+            input_error(input, "solver", "mpm.shock_mixing",
+                        "this belongs to `transfer: flip`: particles with a gradient take all "
+                        "of their velocity from nodes; leave it out"));
     return error;
 }
 

@@ -214,9 +214,9 @@ static struct error *sum_particles(struct mpm *mpm, struct simulation *simulatio
 enum { LIMIT_SOUND, LIMIT_VELOCITY };
 static const char *const limit_reasons[] = {"sound speed", "velocity"};
 
-/* An impact at full speed that begins with a whole step is felt one step too late: what strikes
- * first is compressed too far. So nothing moves further than a part of a cell in the first step,
- * and steps grow by a factor. */
+/* A fast impact that starts with a whole step is felt one step too late, and what strikes first is
+ * compressed too far. So no particle moves further than this fraction of a cell in the first step,
+ * and a step is at most this factor longer than the one before. */
 static const double first_way = 0.3, step_growth = 1.2;
 
 /* Collective: dt = K min h/(c + max |u_i|), of equal ones that of the smallest id. */

@@ -13,12 +13,11 @@ enum { NODE_MIXING = 7 }; /* mass times the rate of mixing in shocks, 1/s */
 enum { NODE_STRIDE = 8 };
 /* What a node has of particles whose velocities are new: their momentum, then their velocity. */
 enum { BACK_STRIDE = 4 };
-/* What stands there while shocks are mixed: energy and the first two moments of the number of
- * the material, each times mass. */
+/* What a node has there during mixing in shocks: sums of m e, m k and m k^2, k the number of the
+ * material. */
 enum { HEAT_ENERGY = 0, HEAT_NUMBER = 1, HEAT_SQUARE = 2, HEAT_NUMBERS = 3 };
 
-/* The part of the way to the velocity of a node that its particles go while they go PART of that
- * to its energy: velocities are mixed at a tenth of the rate. */
+/* The fraction a for velocities where that for energies is b = PART: a tenth of the rate. */
 BOLIDE_INLINE double mixing_of_velocity(double part) { return minimum(1.0, part / 10.0); }
 
 /* Of a particle over the step: its velocity gradient's parts xx, yy, zz, xy, yz, zx, and half the curl. */
@@ -73,9 +72,9 @@ void transfer_velocity(const struct transfer *transfer, int32_t bin, struct tran
 void transfer_again(const struct transfer *transfer, int32_t bin, const double *from,
                     bool accelerations, double *to);
 
-/* Fills the patch of BIN in BACK with the energies and materials of its particles; and a step of
- * DT of mixing in shocks from the patches of BIN, where the nodes have their sums (mixing.c),
- * which are spoilt. */
+/* Mixing in shocks (mixing.c). The first fills the patch of BIN in BACK with the sums HEAT_... of
+ * its particles; the second changes the particles in a step of DT from the sums of the nodes in
+ * both patches of BIN, and overwrites these. */
 void transfer_heat(const struct transfer *transfer, int32_t bin);
 void transfer_mix(const struct transfer *transfer, int32_t bin, double dt);
 

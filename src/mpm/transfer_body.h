@@ -40,8 +40,8 @@ struct node_record {
     ALIGNED double plain[NODE_STRIDE], by_slope[3][NODE_STRIDE], around[NODE_STRIDE];
 };
 
-/* The rate at which a particle mixes with those that share its nodes, 1/s: none where the artificial
- * viscosity q is less than SOFT rho c^2, as in sound, all of it from SHOCK rho c^2 more on. */
+/* The rate at which the energy of a particle is mixed, 1/s: 0 where the artificial viscosity q is
+ * less than SOFT rho c^2, as in sound; it grows to its full value over another SHOCK rho c^2. */
 BOLIDE_INLINE double mixing_rate(const struct transfer *t, int32_t i)
 {
     const double soft = 2e-3, shock = 2e-3, c = t->sound[i];

@@ -34,9 +34,9 @@ BOLIDE_INLINE void bin_heat(const struct transfer *t, struct kind kind, int32_t 
     }
 }
 
-/* The sums of a node become what particles take from it in a step of DT: NODE_MIXING the part of
- * the way to its velocity; HEAT_NUMBER the part to its energy, none where it has several
- * materials. */
+/* Turns the sums of a node into what particles take from it in a step of DT: its velocity and
+ * energy, in NODE_MIXING the fraction a and in HEAT_NUMBER the fraction b, 0 where the node has
+ * several materials (mixing.c). */
 BOLIDE_INLINE void settle_node(double *node, double *heat, double dt)
 {
     const double per_mass = 1.0 / node[NODE_MASS], part = dt * node[NODE_MIXING] * per_mass;

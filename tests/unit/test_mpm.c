@@ -329,6 +329,14 @@ static void affine_transfers_want_functions_whose_slopes_do_not_jump(void **stat
         assert_non_null(strstr(error_message(error, 0), "unstable with `shape: linear`"));
         error_free(error);
         end(run);
+        run = open_case(sounding, &variant);
+        parameters.shape = SHAPE_QUADRATIC;
+        parameters.shock_mixing = 3.0;
+        error = run->solver->create(&run->mpm, &run->simulation, &parameters);
+        assert_non_null(error);
+        assert_non_null(strstr(error_message(error, 0), "mpm.shock_mixing"));
+        error_free(error);
+        end(run);
     }
 }
 
