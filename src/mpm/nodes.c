@@ -155,7 +155,7 @@ static const struct folded folded_main = {2,
                            folded_heat = {.scalars = HEAT_NUMBERS,
                                           .scalar = {HEAT_ENERGY, HEAT_NUMBER, HEAT_SQUARE}};
 
-/* Adds what a node behind a wall has to the one that it is the image of, and makes it that one's image. */
+/* Adds what a node behind a wall has to the node whose image it is, and makes it equal to that. */
 static void fold_onto(double *node, double *onto, int axis, const struct folded *folded)
 {
     for (int s = 0; s < folded->scalars; s++) {

@@ -32,9 +32,9 @@ struct pair_carried {
     double sliding, shear;   /* across it */
 };
 
-/* A side: impedances rho C_l and rho C_t (0 for a fluid), density and shock_slope as the solver of strong
- * shocks takes them (STAR_SHOCK: rho times the slope, side.h otherwise), stress along the axis and
- * traction across it, at the particle. */
+/* A side: impedances rho C_l and rho C_t (0 for a fluid), density and shock_slope as the solver of
+ * strong shocks takes them (STAR_SHOCK: rho times the slope, side.h otherwise), stress along the
+ * axis and traction across it, at the particle. */
 struct pair_side {
     double impedance, shear_impedance, density, shock_slope;
     double stress;

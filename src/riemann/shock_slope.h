@@ -1,7 +1,7 @@
-/* The slope of a material's shock adiabat: what the solvers of strong shocks take for `shock_slope` of a
- * side. */
-#ifndef BOLIDE_RIEMANN_BEND_H
-#define BOLIDE_RIEMANN_BEND_H
+/* The slope of a material's shock adiabat: what the solvers of strong shocks take for `shock_slope`
+ * of a side. */
+#ifndef BOLIDE_RIEMANN_SHOCK_SLOPE_H
+#define BOLIDE_RIEMANN_SHOCK_SLOPE_H
 
 #include "material/material.h"
 

@@ -104,8 +104,8 @@ struct contacts {
     double compliance[LANES] ALIGNED, impedance[LANES] ALIGNED;
 };
 
-/* Impedances stand at Z and, across, at ACROSS_Z, density and shock_slope from Q on. STAR is a constant
- * where this is inlined. */
+/* Impedances stand at Z and, across, at ACROSS_Z, density and shock_slope from Q on. STAR is a
+ * constant where this is inlined. */
 BOLIDE_INLINE void solve_by(enum pair_star star, const double *own, const struct lanes *lanes,
                             int z, int across_z, int q, struct contacts *c)
 {

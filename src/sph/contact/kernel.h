@@ -1,7 +1,8 @@
 /* The pair loop: sums over neighbours of what the contact problems between particles give.
  *
  * A neighbour is seen through its record alone, a few doubles packed once a stage:
- *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear] [density shock_slope] [depth] [spin]
+ *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear]  [density shock_slope]
+ *   [depth]  [spin]
  * where stress is sigma_xx alone for fluids and in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz,
  * zx) in 3-D, and spin one component in 2-D, three in 3-D. With a depth d, the volume is the area A
  * = m/(rho d) of a section of the plane. The loop is compiled for several instruction sets with the
