@@ -3,7 +3,7 @@
 #include "measure/measure.h"
 
 /* The order of enum ledger_entry, then what is no entry of the ledger. */
-enum { TOTAL_KINETIC = LEDGER_ENTRIES, TOTAL_INTERNAL };
+enum { TOTAL_KINETIC = LEDGER_ENTRIES, TOTAL_INTERNAL, TOTAL_VOLUME };
 static const char *const quantity_names[] = {"mass",
                                              "momentum.x",
                                              "momentum.y",
@@ -14,6 +14,7 @@ static const char *const quantity_names[] = {"mass",
                                              "energy",
                                              "kinetic_energy",
                                              "internal_energy",
+                                             "volume",
                                              NULL};
 
 const struct parameter measure_total_table[] = {
@@ -22,7 +23,7 @@ const struct parameter measure_total_table[] = {
      .offset = offsetof(struct measure_total, quantity),
      .standard = PARAMETER_REQUIRED,
      .names = quantity_names,
-     .help = "what is added up; angular momentum is about the origin"},
+     .help = "what is added up; angular momentum is about the origin, volume is mass over density"},
     PARAMETER_END,
 };
 
@@ -30,9 +31,27 @@ static struct error *total_unit(const struct measurement *measurement, const cha
 {
     const struct measure_total *parameters = measurement->check->measure.value;
     const int entry = parameters->quantity;
-    *unit = ledger_unit(entry < LEDGER_ENTRIES ? (enum ledger_entry)entry : LEDGER_ENERGY,
-                        measurement->simulation->dimension, measurement->simulation->geometry);
+    static const char *const volumes[] = {"m", "m^2", "m^3"};
+    const struct simulation *simulation = measurement->simulation;
+    const int dimension = simulation->geometry == GEOMETRY_AXISYMMETRIC ? 3 : simulation->dimension;
+    *unit =
+        entry == TOTAL_VOLUME
+            ? volumes[dimension - 1]
+            : ledger_unit(entry < LEDGER_ENTRIES ? (enum ledger_entry)entry : LEDGER_ENERGY,
+                          measurement->simulation->dimension, measurement->simulation->geometry);
     return NULL;
+}
+
+/* The sum is exact, so that it is the same for any order of the particles. */
+static double volume_of(const struct simulation *simulation, int body)
+{
+    const struct particles *p = &simulation->particles;
+    struct exact_sum sum = {0};
+    for (int32_t i = 0; i < p->count; i++)
+        if (body < 0 || p->body[i] == body)
+            exact_sum_add(&sum, p->mass[i] / p->density[i]);
+    ranks_sum_exact(simulation->ranks, &sum, 1);
+    return exact_sum_value(&sum);
 }
 
 static struct error *total(const struct measurement *measurement, double *value)
@@ -43,7 +62,9 @@ static struct error *total(const struct measurement *measurement, double *value)
         particles_totals(&simulation->particles, simulation->ranks, measure_body(measurement));
     *value = parameters->quantity == TOTAL_KINETIC    ? totals.kinetic
              : parameters->quantity == TOTAL_INTERNAL ? totals.internal
-                                                      : totals.entry[parameters->quantity];
+             : parameters->quantity == TOTAL_VOLUME
+                 ? volume_of(simulation, measure_body(measurement))
+                 : totals.entry[parameters->quantity];
     return NULL;
 }
 

@@ -26,24 +26,6 @@ void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
     }
 }
 
-void sph_cross_axis(struct simulation *simulation)
-{
-    struct particles *p = &simulation->particles;
-#pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < p->count; i++) {
-        double *x = p->position[i], *u = p->velocity[i];
-        if (!(x[0] < 0.0)) /* nearly all */
-            continue;
-        x[0] = -x[0];
-        struct vec3 impulse = vec3_make(-2.0 * p->mass[i] * u[0], 0.0, 0.0);
-#pragma omp critical(bolide_sph_axis)
-        ledger_book(&simulation->ledger, LEDGER_AXIS, 0.0, impulse, vec3_make(x[0], x[1], 0.0),
-                    0.0);
-        u[0] = -u[0];
-        p->deviator[i][3] = -p->deviator[i][3];
-    }
-}
-
 struct response sph_thin_step(const struct material *material, double divergence,
                               struct point *point, struct motion *motion, double *thickness)
 {

@@ -79,6 +79,45 @@ void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, d
     act_on_particles(simulation, NULL, book_images, &(struct act){f, dt, 0.0});
 }
 
+/* Turns particle I into its image behind the mirror across AXIS at PLACE. */
+static void turn_over(struct particles *p, int32_t i, int axis, double place)
+{
+    static const int shear[3][2] = {{3, 5}, {3, 4}, {4, 5}}; /* xy, yz, zx of those with the axis */
+    p->position[i][axis] = 2.0 * place - p->position[i][axis];
+    p->velocity[i][axis] = -p->velocity[i][axis];
+    for (int k = 0; k < 2; k++)
+        p->deviator[i][shear[axis][k]] = -p->deviator[i][shear[axis][k]];
+}
+
+/* Books what it is, as gone from where it was and come to where it is, so that the angular momentum
+ * is right too. */
+static void return_stray(struct simulation *simulation, const void *of, int32_t i,
+                         struct ledger *ledger)
+{
+    struct particles *p = &simulation->particles;
+    (void)of;
+    if (body_is_frozen(simulation, p->body[i]) || body_is_held(simulation, p->body[i]))
+        return;
+    for (int axis = 0; axis < simulation->dimension; axis++) {
+        const double x = p->position[i][axis], low = simulation->mirrors.low[axis],
+                     high = simulation->mirrors.high[axis];
+        if (!(x < low || x > high)) /* nearly all, and all where there is no wall */
+            continue;
+        const bool at_axis = sph_axisymmetric(simulation) && axis == 0 && x < low;
+        const enum ledger_cause cause = at_axis ? LEDGER_AXIS : LEDGER_WALLS;
+        ledger_book(ledger, cause, 0.0, vec3_scale(-p->mass[i], vector_at(p->velocity[i])),
+                    vector_at(p->position[i]), 0.0);
+        turn_over(p, i, axis, x < low ? low : high);
+        ledger_book(ledger, cause, 0.0, vec3_scale(p->mass[i], vector_at(p->velocity[i])),
+                    vector_at(p->position[i]), 0.0);
+    }
+}
+
+void sph_return_strays(struct simulation *simulation)
+{
+    act_on_particles(simulation, NULL, return_stray, NULL);
+}
+
 /* Particles of frozen bodies get no rates: they move as they are. */
 static void freeze_particle(struct simulation *simulation, const void *of, int32_t i,
                             struct ledger *ledger)
@@ -104,7 +143,7 @@ static void freeze_particle(struct simulation *simulation, const void *of, int32
     if (f->density_rate)
         f->density_rate[i] = 0.0;
     if (f->packing)
-        f->packing[i][1] = 0.0;
+        f->packing[i][PACKING_EXCESS] = 0.0;
 }
 
 static void hold_particle(struct simulation *simulation, const void *of, int32_t i,

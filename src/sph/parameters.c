@@ -19,8 +19,9 @@ const struct parameter sph_table[] = {
      .above = 0.5,
      .below = 3.0,
      .closed = true,
-     .help = "alpha of h = alpha (D_i + D_j)/2; the support of a pair is 2h; default 1.2 for hllc "
-             "and monaghan, 1 for the others"},
+     .help =
+         "alpha of h = alpha (D_i + D_j)/2; the support of a pair is 2h; default 1.2 for muscl in "
+         "2-D and 3-D, hllc and monaghan, else 1"},
     {.key = "courant",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct sph_parameters, courant),

@@ -51,7 +51,7 @@ struct sph_fields {
     double *viscosity;    /* artificial viscous pressure (2.5), Pa */
     double *density_rate; /* kg/(m^3 s) */
     double *support;      /* the diameter that sets the support of the kernel, m */
-    double (*packing)[4]; /* see muscl/kernel.h */
+    double (*packing)[PACKING_NUMBERS];
 };
 
 /* Options that several schemes have, as rows of their tables. */
@@ -91,10 +91,11 @@ struct error *sph_option_error(const struct sph *sph, const struct simulation_ca
 
 struct sph_scheme {
     const char *name;
-    double smoothing, courant, courant_limit; /* defaults, and the largest K that is stable */
-    bool conducts;                            /* heat may be conducted beside it */
-    size_t state_size;                        /* bytes of its own state, zeroed before create */
-    const struct field_row *rows; /* its own fields; sph_rows has those of all schemes */
+    double smoothing[3];           /* defaults by dimension */
+    double courant, courant_limit; /* the default, and the largest K that is stable */
+    bool conducts;                 /* heat may be conducted beside it */
+    size_t state_size;             /* bytes of its own state, zeroed before create */
+    const struct field_row *rows;  /* its own fields; sph_rows has those of all schemes */
 
     /* Reads the options and the case into the state of the scheme, and chooses the stride of its
      * records. ERROR_INPUT, located, for what the scheme cannot do. */
@@ -280,9 +281,9 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation,
 void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
                   const struct sph_fields *f);
 
-/* A particle that a step has taken through the axis comes out on the other side as its own image.
- */
-void sph_cross_axis(struct simulation *simulation);
+/* A particle that a step has taken through a mirror wall or the axis goes on as its own image, which
+ * has come in there. */
+void sph_return_strays(struct simulation *simulation);
 
 /* material_step in plane stress: solves for the rate of thickness at which no stress is left across
  * the plate. DIVERGENCE is that in the plane, MOTION->density follows from it alone; *THICKNESS is

@@ -64,12 +64,12 @@ struct error *sph_find_slopes(const struct simulation *simulation, double *slope
 }
 
 /* PARAMETERS with the defaults of their scheme. */
-static struct sph_parameters settled(const struct sph_parameters *parameters)
+static struct sph_parameters settled(const struct sph_parameters *parameters, int dimension)
 {
     const struct sph_scheme *scheme = parameters->method.choice->thing;
     struct sph_parameters all = *parameters;
     if (isnan(all.smoothing))
-        all.smoothing = scheme->smoothing;
+        all.smoothing = scheme->smoothing[dimension - 1];
     if (isnan(all.courant))
         all.courant = scheme->courant;
     return all;
@@ -153,7 +153,7 @@ static struct error *create_store(const struct sph *sph, struct simulation *simu
 static struct error *sph_create(void *solver, struct simulation *simulation, const void *parameters)
 {
     struct sph *sph = solver;
-    sph->parameters = settled(parameters);
+    sph->parameters = settled(parameters, simulation->dimension);
     sph->scheme = sph->parameters.method.choice->thing;
     sph->traits = traits_of(sph, simulation);
     sph->neighbours.skin = sph->parameters.skin;
@@ -237,7 +237,7 @@ static void sph_destroy(void *solver)
 /* Of a solid without walls. */
 static double sph_bytes(const void *parameters, int dimension)
 {
-    const struct sph_parameters all = settled(parameters);
+    const struct sph_parameters all = settled(parameters, dimension);
     const struct sph_scheme *scheme = all.method.choice->thing;
     const unsigned traits = scheme->traits(all.method.value, dimension) |
                             (dimension > 1 ? SPH_PLANE | SPH_SHEAR : 0u) |
@@ -267,7 +267,7 @@ static double sph_bytes(const void *parameters, int dimension)
 static double sph_step(const void *parameters, int dimension, const struct material *material,
                        const struct point *point, double diameter)
 {
-    const struct sph_parameters all = settled(parameters);
+    const struct sph_parameters all = settled(parameters, dimension);
     const struct sph_scheme *scheme = all.method.choice->thing;
     struct point at = *point;
     const double heat = conduction_step(&all, dimension, &material->heat, point->density, diameter);

@@ -34,33 +34,52 @@ static void note_failure(struct failure *failure, uint64_t id, int32_t index)
         *failure = (struct failure){true, id, index};
 }
 
-/* How fast a particle is compressed, 1/s, where the volumes about it fill more than the space there
- * is: by the excess, 0.1 at most, with the speed of sound over the diameter. Its heat must pay for
- * that, since no work goes with it: less than the energy of cold compression leaves none, twice as
- * much is enough. */
-BOLIDE_INLINE double packing_rate(const struct material *material, const struct particles *p,
-                                  const struct sph_fields *f, int32_t i)
+/* The share by which a particle's density grows in a step of DT where the volumes about it fill
+ * more than the space there is: by the excess, 0.1 at most, with the speed of sound over the
+ * diameter. Its heat must pay for that, since no work goes with it: less than the energy of cold
+ * compression leaves none, twice as much is enough. Where volumes fill less it gives back what it
+ * has got so before, and no more: a body that ends there, or is drawn out, has few neighbours too.
+ */
+BOLIDE_INLINE double packing_growth(const struct material *material, const struct particles *p,
+                                    const struct sph_fields *f, double dt, int32_t i)
 {
+    double *packing = f->packing[i];
+    const double passages = dt * f->sound_long[i] / f->diameter[i];
     const double bulk = square(f->sound_long[i]) - 4.0 / 3.0 * square(f->sound_shear[i]);
     const double cold =
         0.5 * bulk * square(maximum(0.0, 1.0 - material_density(material) / p->density[i]));
     const double room = cold > 0.0 ? minimum(1.0, maximum(0.0, (p->energy[i] - cold) / cold)) : 1.0;
-    return room * minimum(f->packing[i][1], 0.1) * f->sound_long[i] / f->diameter[i];
+    const double excess = packing[PACKING_EXCESS];
+    const double growth = excess > 0.0 ? room * passages * minimum(excess, 0.1)
+                                       : maximum(passages * excess, -packing[PACKING_GROWTH]);
+    packing[PACKING_GROWTH] += growth;
+    return growth;
+}
+
+/* What strain, plastic and elastic, can have drawn matter out by at most. */
+BOLIDE_INLINE double largest_stretch(const struct particles *p, const struct sph_fields *f,
+                                     int32_t i)
+{
+    const double *s = p->deviator[i], modulus = p->density[i] * square(f->sound_shear[i]);
+    const struct sym3 deviator = {s[0], s[1], s[2], s[3], s[4], s[5]};
+    const double elastic = modulus > 0.0 ? sqrt(sym3_square(deviator) / 6.0) / modulus : 0.0;
+    return exp(p->plastic_strain[i] + elastic);
 }
 
 /* The share of the diameter by which the support of particle I is wider after a step of DT. Matter
  * that flows far draws its particles apart along one axis and together along another, until on the
  * one they no longer see each other: the velocity gradient knows nothing of that axis then, and
  * density goes astray. So a support grows, some per cent a step, where neighbours stand more thinly
- * than at the start (see write_packing), and shrinks where they do not; not beyond what plastic
- * strain can have drawn out, nor three times. SOUND is that of level n. */
+ * than at the start (see write_packing), and shrinks where they do not; not beyond what strain can
+ * have drawn out, nor three times. SOUND is that of level n. */
 BOLIDE_INLINE double support_share(const struct particles *p, const struct sph_fields *f,
                                    double sound, double dt, int32_t i)
 {
-    const double lack = minimum(f->packing[i][3] / f->packing[i][2] - 1.0, 1.0);
+    const double *packing = f->packing[i];
+    const double lack = minimum(packing[PACKING_THIN] / packing[PACKING_THIN_START] - 1.0, 1.0);
     const double share =
         f->support[i] / f->diameter[i] * (1.0 + 0.1 * lack * dt * sound / f->diameter[i]);
-    return share > 1.0 ? minimum(share, minimum(3.0, exp(p->plastic_strain[i]))) : 1.0;
+    return share > 1.0 ? minimum(share, minimum(3.0, largest_stretch(p, f, i))) : 1.0;
 }
 
 /* A step of DT that ends at TIME; TOTAL: the power is that of E + U^2/2; FINITE: the velocity
@@ -134,7 +153,7 @@ BOLIDE_INLINE void start_point(struct particles *p, const struct advance *step,
     if (step->finite)
         density = p->density[i] / deform(step, passage, k);
     if (f->packing)
-        density *= 1.0 + dt * packing_rate(passage->material, p, f, i);
+        density *= 1.0 + packing_growth(passage->material, p, f, dt, i);
     /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2 and the work of gravity, without
      * taking differences. */
     double energy =
@@ -341,7 +360,7 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation,
         if (own.any)
             note_failure(&failure, own.id, own.index);
     }
-    if (sph_axisymmetric(simulation))
-        sph_cross_axis(simulation);
+    if (fields->rates.wall)
+        sph_return_strays(simulation);
     return failure.any ? simulation_impossible(simulation, failure.index) : NULL;
 }

@@ -183,6 +183,19 @@ static void mass_is_that_of_a_radian(void **state)
     end(run);
 }
 
+static const char walled[] =
+    "format: 1\n"
+    "dimension: 2\n"
+    "resolution: 1 mm\n"
+    "solver: sph\n"
+    "materials:\n"
+    "  m:\n"
+    "    eos: {barotropic: {density: 7900 kg/m^3, bulk_modulus: 176 GPa}}\n"
+    "    strength: {perfect-plastic: {shear_modulus: 83 GPa, yield: 0.5 GPa}}\n"
+    "bodies: {b: {material: m, box: {from: [0 mm, 0 mm], to: [8 mm, 8 mm]}}}\n"
+    "walls: {floor: {mirror: y, at: 0 mm, side: low}}\n"
+    "run: {until: 1 s}\n";
+
 /* A ring without neighbours flies through the axis, as it would. */
 static void a_particle_comes_out_on_the_other_side_of_the_axis(void **state)
 {
@@ -192,11 +205,38 @@ static void a_particle_comes_out_on_the_other_side_of_the_axis(void **state)
     p->position[0][0] = -2e-3;
     p->velocity[0][0] = -50.0;
     p->deviator[0][3] = 7.0;
-    sph_cross_axis(&run->simulation);
+    sph_return_strays(&run->simulation);
     assert_true(p->position[0][0] == 2e-3 && p->velocity[0][0] == 50.0);
     assert_true(p->deviator[0][3] == -7.0);
     struct totals axis = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_AXIS);
     assert_true(axis.entry[LEDGER_MOMENTUM_X] == p->mass[0] * 100.0);
+    end(run);
+}
+
+/* The same at a wall, here across y. */
+static void a_particle_comes_out_of_a_wall_as_its_image(void **state)
+{
+    (void)state;
+    struct running *run = begin_fresh(walled, &plain);
+    struct particles *p = &run->simulation.particles;
+    struct totals before = particles_totals(p, &run->ranks, -1);
+    p->position[0][1] = -1e-4;
+    p->velocity[0][0] = 30.0;
+    p->velocity[0][1] = -50.0;
+    p->deviator[0][0] = 3.0;
+    p->deviator[0][3] = 7.0;
+    struct totals through = particles_totals(p, &run->ranks, -1);
+    sph_return_strays(&run->simulation);
+    assert_true(p->position[0][1] == 1e-4);
+    assert_true(p->velocity[0][0] == 30.0 && p->velocity[0][1] == 50.0);
+    assert_true(p->deviator[0][0] == 3.0 && p->deviator[0][3] == -7.0);
+    struct totals after = particles_totals(p, &run->ranks, -1),
+                  walls = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_WALLS);
+    const enum ledger_entry entries[] = {LEDGER_MOMENTUM_Y, LEDGER_ANGULAR_Z, LEDGER_ENERGY};
+    for (int k = 0; k < 3; k++)
+        assert_near(after.entry[entries[k]] - through.entry[entries[k]], walls.entry[entries[k]],
+                    1e-12 * (fabs(after.entry[entries[k]]) + 1e-3));
+    assert_true(before.entry[LEDGER_MASS] == after.entry[LEDGER_MASS]);
     end(run);
 }
 
@@ -270,6 +310,7 @@ int main(void)
         cmocka_unit_test(a_free_ring_breathes_at_its_frequency),
         cmocka_unit_test(mass_is_that_of_a_radian),
         cmocka_unit_test(a_particle_comes_out_on_the_other_side_of_the_axis),
+        cmocka_unit_test(a_particle_comes_out_of_a_wall_as_its_image),
         cmocka_unit_test(a_thin_plate_has_the_stiffness_of_plane_stress),
         cmocka_unit_test(a_plate_that_flows_bears_nothing_across),
     };

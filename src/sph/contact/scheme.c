@@ -151,7 +151,7 @@ size_t contact_stride(const void *options, int dimension)
 static const struct field_row no_rows[] = {FIELD_ROWS_END};
 
 const struct sph_scheme contact_scheme = {.name = "contact",
-                                          .smoothing = 1.0,
+                                          .smoothing = {1.0, 1.0, 1.0},
                                           .courant = 0.4,
                                           .courant_limit = 1.0,
                                           .conducts = true,

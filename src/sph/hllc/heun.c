@@ -153,7 +153,7 @@ struct error *hllc_advance(struct sph *sph, struct simulation *simulation, doubl
     f = hllc_fields_of(sph, simulation);
     hllc_find_rates(sph, simulation, &f);
     TRY(take_stage(simulation, &f, true, dt));
-    if (sph_axisymmetric(simulation))
-        sph_cross_axis(simulation);
+    if (f.sph.rates.wall)
+        sph_return_strays(simulation);
     return NULL;
 }

@@ -175,7 +175,7 @@ static size_t stride_of(const void *of, int dimension)
 }
 
 const struct sph_scheme hllc_scheme = {.name = "hllc",
-                                       .smoothing = 1.2,
+                                       .smoothing = {1.2, 1.2, 1.2},
                                        .courant = 0.3,
                                        .courant_limit = 1.0,
                                        .state_size = sizeof(struct hllc_state),

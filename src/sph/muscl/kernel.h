@@ -99,10 +99,8 @@ struct muscl_rates {
     /* For the next step, of what its values will be: dU^a/dx^b by rows, 1/s; of the record's
      * stresses by direction, Pa/m */
     double *velocity_gradient, *stress_gradient;
-    double (*force)[3]; /* likewise, on a unit of volume, N/m^3 */
-    /* In 2-D and 3-D: what volumes fill of the space there is at the start, one at least, and what
-     * they do beyond; how thinly neighbours stand on some axis, at the start and now. */
-    double (*packing)[4];
+    double (*force)[3];                 /* likewise, on a unit of volume, N/m^3 */
+    double (*packing)[PACKING_NUMBERS]; /* NULL on a line */
 };
 
 struct muscl_loop {

@@ -180,7 +180,7 @@ static size_t stride_of(const void *options, int dimension)
 }
 
 const struct sph_scheme muscl_scheme = {.name = "muscl",
-                                        .smoothing = 1.0,
+                                        .smoothing = {1.0, 1.2, 1.2},
                                         .courant = 0.4,
                                         .courant_limit = 0.45,
                                         .conducts = true,

@@ -48,7 +48,7 @@ static unsigned traits_of(const void *of, int dimension)
 static const struct field_row no_rows[] = {FIELD_ROWS_END};
 
 const struct sph_scheme standard_scheme = {.name = "standard",
-                                           .smoothing = 1.0,
+                                           .smoothing = {1.0, 1.0, 1.0},
                                            .courant = 0.4,
                                            .courant_limit = 1.0,
                                            .conducts = true,
