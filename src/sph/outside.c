@@ -1,6 +1,7 @@
 /* What acts on particles from outside, as the ledger books it: walls, the axis of symmetry, what
  * holds bodies, pistons that keep their velocity whatever pushes back, strikers that stop, and ends
  * that keep all their state; gravity. */
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -83,6 +84,7 @@ void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, d
 static void turn_over(struct particles *p, int32_t i, int axis, double place)
 {
     static const int shear[3][2] = {{3, 5}, {3, 4}, {4, 5}}; /* xy, yz, zx of those with the axis */
+    assert(axis >= 0 && axis < 3);
     p->position[i][axis] = 2.0 * place - p->position[i][axis];
     p->velocity[i][axis] = -p->velocity[i][axis];
     for (int k = 0; k < 2; k++)
