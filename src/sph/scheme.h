@@ -281,8 +281,8 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation,
 void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
                   const struct sph_fields *f);
 
-/* A particle that a step has taken through a mirror wall or the axis goes on as its own image, which
- * has come in there. */
+/* A particle that a step has taken through a mirror wall or the axis goes on as its own image,
+ * which has come in there. */
 void sph_return_strays(struct simulation *simulation);
 
 /* material_step in plane stress: solves for the rate of thickness at which no stress is left across
