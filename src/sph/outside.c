@@ -80,8 +80,8 @@ void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, d
     act_on_particles(simulation, NULL, book_images, &(struct act){f, dt, 0.0});
 }
 
-/* Turns particle I into its image behind the mirror across AXIS at PLACE. */
-static void turn_over(struct particles *p, int32_t i, int axis, double place)
+/* Replaces particle I by its image in the mirror across AXIS at PLACE. */
+static void reflect_particle(struct particles *p, int32_t i, int axis, double place)
 {
     static const int shear[3][2] = {{3, 5}, {3, 4}, {4, 5}}; /* xy, yz, zx of those with the axis */
     assert(axis >= 0 && axis < 3);
@@ -91,8 +91,8 @@ static void turn_over(struct particles *p, int32_t i, int axis, double place)
         p->deviator[i][shear[axis][k]] = -p->deviator[i][shear[axis][k]];
 }
 
-/* Books what it is, as gone from where it was and come to where it is, so that the angular momentum
- * is right too. */
+/* Books the momentum at the old position as outgoing and at the new one as incoming, so that the
+ * angular momentum closes too. */
 static void return_stray(struct simulation *simulation, const void *of, int32_t i,
                          struct ledger *ledger)
 {
@@ -109,7 +109,7 @@ static void return_stray(struct simulation *simulation, const void *of, int32_t 
         const enum ledger_cause cause = at_axis ? LEDGER_AXIS : LEDGER_WALLS;
         ledger_book(ledger, cause, 0.0, vec3_scale(-p->mass[i], vector_at(p->velocity[i])),
                     vector_at(p->position[i]), 0.0);
-        turn_over(p, i, axis, x < low ? low : high);
+        reflect_particle(p, i, axis, x < low ? low : high);
         ledger_book(ledger, cause, 0.0, vec3_scale(p->mass[i], vector_at(p->velocity[i])),
                     vector_at(p->position[i]), 0.0);
     }

@@ -34,12 +34,11 @@ static void note_failure(struct failure *failure, uint64_t id, int32_t index)
         *failure = (struct failure){true, id, index};
 }
 
-/* The share by which a particle's density grows in a step of DT where the volumes about it fill
- * more than the space there is: by the excess, 0.1 at most, with the speed of sound over the
- * diameter. Its heat must pay for that, since no work goes with it: less than the energy of cold
- * compression leaves none, twice as much is enough. Where volumes fill less it gives back what it
- * has got so before, and no more: a body that ends there, or is drawn out, has few neighbours too.
- */
+/* The relative growth of a particle's density in a step of DT where neighbouring volumes overlap:
+ * the excess, at most 0.1, times the sound transits of the particle in DT. No work goes with it, so
+ * internal energy must suffice: growth is zero below the energy of cold compression and full at
+ * twice as much. Where volumes leave gaps, density decreases, but by no more than it has grown here
+ * before: at a surface and in stretched material neighbours are few too. */
 BOLIDE_INLINE double packing_growth(const struct material *material, const struct particles *p,
                                     const struct sph_fields *f, double dt, int32_t i)
 {
@@ -56,7 +55,7 @@ BOLIDE_INLINE double packing_growth(const struct material *material, const struc
     return growth;
 }
 
-/* What strain, plastic and elastic, can have drawn matter out by at most. */
+/* The largest stretch that the plastic and elastic strain allow. */
 BOLIDE_INLINE double largest_stretch(const struct particles *p, const struct sph_fields *f,
                                      int32_t i)
 {
@@ -66,20 +65,20 @@ BOLIDE_INLINE double largest_stretch(const struct particles *p, const struct sph
     return exp(p->plastic_strain[i] + elastic);
 }
 
-/* The share of the diameter by which the support of particle I is wider after a step of DT. Matter
- * that flows far draws its particles apart along one axis and together along another, until on the
- * one they no longer see each other: the velocity gradient knows nothing of that axis then, and
- * density goes astray. So a support grows, some per cent a step, where neighbours stand more thinly
- * than at the start (see write_packing), and shrinks where they do not; not beyond what strain can
- * have drawn out, nor three times. SOUND is that of level n. */
-BOLIDE_INLINE double support_share(const struct particles *p, const struct sph_fields *f,
+/* The ratio of support to diameter of particle I after a step of DT. Large strain moves particles
+ * apart along one axis and together along another, until they lose their neighbours along the first
+ * axis: the velocity gradient then lacks that axis, and density drifts. So a support grows, some
+ * per cent a step, where neighbours are more sparse than at the start (see write_packing), and
+ * shrinks where they are not; at most to largest_stretch and to three times. SOUND is that of
+ * level n. */
+BOLIDE_INLINE double support_ratio(const struct particles *p, const struct sph_fields *f,
                                    double sound, double dt, int32_t i)
 {
     const double *packing = f->packing[i];
     const double lack = minimum(packing[PACKING_THIN] / packing[PACKING_THIN_START] - 1.0, 1.0);
-    const double share =
+    const double ratio =
         f->support[i] / f->diameter[i] * (1.0 + 0.1 * lack * dt * sound / f->diameter[i]);
-    return share > 1.0 ? minimum(share, minimum(3.0, largest_stretch(p, f, i))) : 1.0;
+    return ratio > 1.0 ? minimum(ratio, minimum(3.0, largest_stretch(p, f, i))) : 1.0;
 }
 
 /* A step of DT that ends at TIME; TOTAL: the power is that of E + U^2/2; FINITE: the velocity
@@ -259,13 +258,13 @@ BOLIDE_INLINE void finish_point(struct particles *p, const struct advance *step,
 {
     const struct sph_fields *const f = step->fields;
     const int32_t i = passage->first + k;
-    const double share = f->support ? support_share(p, f, passage->sound[k], step->dt, i) : 1.0;
+    const double ratio = f->support ? support_ratio(p, f, passage->sound[k], step->dt, i) : 1.0;
     const double depth = f->thickness         ? f->thickness[i]
                          : f->rates.hoop_pull ? fabs(p->position[i][0])
                                               : 1.0;
     f->diameter[i] = diameter_of_volume(p->mass[i] / (p->density[i] * depth), step->dimension);
     if (f->support)
-        f->support[i] = share * f->diameter[i];
+        f->support[i] = ratio * f->diameter[i];
     const bool possible = p->density[i] > 0.0 && isfinite(p->density[i]) &&
                           isfinite(p->pressure[i]) && isfinite(p->energy[i]) &&
                           isfinite(passage->a2[k]) && !(passage->status[k] & POINT_NO_SOUND);
