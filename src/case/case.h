@@ -144,17 +144,18 @@ struct check_input {
     double at; /* s, when it is measured; NAN: at the end */
     char *
         relative; /* what the value is divided by: "start", its own then, or a check; NULL: nothing */
-    int relative_check;    /* filled by case_read: that check; -1: none */
-    struct quantity scale; /* divides error norms; NAN: the exact solution's own range */
-    char *source;          /* where the wanted value comes from, shown in the table */
-    char *falls_short;     /* why the limit is not met; NULL: it must be */
-    double falls_short_if; /* above 0: `falls_short` holds */
+    int relative_check;        /* filled by case_read: that check; -1: none */
+    struct quantity scale;     /* divides error norms; NAN: the exact solution's own range */
+    char *source;              /* where the wanted value comes from, shown in the table */
+    char *known_deviation;     /* why the limit is not met; NULL: it must be */
+    double known_deviation_if; /* above 0: `known_deviation` holds */
+    bool regression_bound;
 };
 
 /* convergence: order: CHECK: {at_least: 0.8}: what order of accuracy is wanted. */
 struct order_input {
     double at_least, at_most; /* NAN: not given */
-    char *source, *falls_short;
+    char *source, *known_deviation;
 };
 
 /* convergence: {vary: n, values: [250, 500, 1000]}: a study of the case on several resolutions. */

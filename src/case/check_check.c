@@ -65,10 +65,10 @@ void case_check_check(struct checking *checking, int index)
     if (check->at > checking->input->run.until &&
         !document_is_wrong(checking->input->document, "run"))
         case_wrong(checking, "at", "the run ends before, at %.9g s", checking->input->run.until);
-    if (check->falls_short && !check->falls_short[0])
-        case_wrong(checking, "falls_short", "the reason is wanted");
-    if (!check->falls_short && check->falls_short_if != 1.0)
-        case_wrong(checking, "falls_short_if", "this needs `falls_short` beside it");
+    if (check->known_deviation && !check->known_deviation[0])
+        case_wrong(checking, "known_deviation", "the reason is wanted");
+    if (!check->known_deviation && check->known_deviation_if != 1.0)
+        case_wrong(checking, "known_deviation_if", "this needs `known_deviation` beside it");
     if (!case_is_wrong(checking, ""))
         check_limits(checking, check);
 }
@@ -90,8 +90,8 @@ void case_check_order(struct checking *checking, int index)
         case_wrong(checking, "", "a limit is missing: `at_least` or `at_most`");
     if (order->at_least > order->at_most)
         case_wrong(checking, "at_least", "this lies above `at_most`");
-    if (order->falls_short && !order->falls_short[0])
-        case_wrong(checking, "falls_short", "the reason is wanted");
+    if (order->known_deviation && !order->known_deviation[0])
+        case_wrong(checking, "known_deviation", "the reason is wanted");
 }
 
 void case_check_study(struct checking *checking)

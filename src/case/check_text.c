@@ -95,14 +95,14 @@ void case_check_texts(struct checking *checking)
         const struct check_input *check = case_check(input, i);
         checking->name = input->checks.names[i];
         check_text(checking, "source", check->source, TEXT_MAX_BYTES);
-        check_text(checking, "falls_short", check->falls_short, TEXT_MAX_BYTES);
+        check_text(checking, "known_deviation", check->known_deviation, TEXT_MAX_BYTES);
     }
     checking->map = "convergence.order";
     for (int i = 0; i < input->convergence.order.count; i++) {
         const struct order_input *order = case_order(input, i);
         checking->name = input->convergence.order.names[i];
         check_text(checking, "source", order->source, TEXT_MAX_BYTES);
-        check_text(checking, "falls_short", order->falls_short, TEXT_MAX_BYTES);
+        check_text(checking, "known_deviation", order->known_deviation, TEXT_MAX_BYTES);
     }
     checking->name = NULL;
 }

@@ -17,9 +17,9 @@ static const struct parameter order_table[] = {
      .offset = offsetof(struct order_input, source),
      .standard = PARAMETER_OPTIONAL,
      .help = "where the limit comes from"},
-    {.key = "falls_short",
+    {.key = "known_deviation",
      .kind = PARAMETER_TEXT,
-     .offset = offsetof(struct order_input, falls_short),
+     .offset = offsetof(struct order_input, known_deviation),
      .standard = PARAMETER_OPTIONAL,
      .help =
          "why the limit is not met, where that is known: missing it is no failure, meeting it is"},

@@ -276,19 +276,27 @@ static const struct parameter check_table[] = {
      .offset = offsetof(struct check_input, source),
      .standard = PARAMETER_OPTIONAL,
      .help = "where the wanted value comes from"},
-    {.key = "falls_short",
+    {.key = "known_deviation",
      .kind = PARAMETER_TEXT,
-     .offset = offsetof(struct check_input, falls_short),
+     .offset = offsetof(struct check_input, known_deviation),
      .standard = PARAMETER_OPTIONAL,
      .help =
-         "why the limit is not met, where that is known: missing it is no failure, meeting it is"},
-    {.key = "falls_short_if",
+         "why the check is expected to fail: it is listed separately and does not fail the run; "
+         "if it passes, the run fails, so that the key gets removed"},
+    {.key = "known_deviation_if",
      .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct check_input, falls_short_if),
+     .offset = offsetof(struct check_input, known_deviation_if),
      .standard = "1",
      .above = -INFINITY,
      .below = INFINITY,
-     .help = "above 0 in the runs of a sweep in which `falls_short` holds"},
+     .help = "`known_deviation` applies only where this is above 0, as in some runs of a sweep"},
+    {.key = "regression_bound",
+     .kind = PARAMETER_FLAG,
+     .offset = offsetof(struct check_input, regression_bound),
+     .standard = "no",
+     .help =
+         "the limit bounds the change from an earlier result of Bolide and proves nothing more: "
+         "counted separately"},
     PARAMETER_END,
 };
 

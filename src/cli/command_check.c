@@ -108,7 +108,7 @@ static void print_warnings(const struct simulation_case *input, const struct est
         printf("  warning: about %.2g steps are more than any run takes: look at `run.until`, the "
                "resolution of %s, its speed and its material\n",
                (double)estimate->steps, input->bodies.names[estimate->step_body]);
-    struct error *warnings = generate_warnings(input);
+    struct error *warnings = estimate_warnings(input);
     for (int i = 0; warnings && i < error_count(warnings); i++)
         printf("  warning: %s\n", error_message(warnings, i));
     error_free(warnings);

@@ -33,15 +33,12 @@ static void say(const struct listener *listener, char *text)
 static void tell_sweep(const struct listener *listener, const struct verify_result *result,
                        int runs, const char *folder)
 {
-    char *lacking = result->checks_short
-                        ? text_format(", %d of %d checks fall%s short", result->checks_short,
-                                      result->checks, result->checks_short == 1 ? "s" : "")
-                        : text_copy("");
-    if (lacking)
+    char *checks = verify_checks_text(result);
+    if (checks)
         say(listener,
             text_format("%d of %d runs passed%s; table in %s/sweep.csv, report: %s/report.html",
-                        result->passed, runs, lacking, folder, folder));
-    free(lacking);
+                        result->passed, runs, checks, folder, folder));
+    free(checks);
 }
 
 static int run_sweep(const struct simulation_case *input, const struct cli_options *options,

@@ -41,9 +41,9 @@ static void print_rule(int width)
 
 static const char *colour_of(const struct check_result *result)
 {
-    return colour(check_failed(result)                   ? COLOUR_BAD
-                  : result->verdict == CHECK_FALLS_SHORT ? COLOUR_WARN
-                                                         : COLOUR_GOOD);
+    return colour(check_failed(result)                       ? COLOUR_BAD
+                  : result->verdict == CHECK_KNOWN_DEVIATION ? COLOUR_WARN
+                                                             : COLOUR_GOOD);
 }
 
 /* Each case's name stands at its first check. */
@@ -80,11 +80,9 @@ static void print_table(const struct verify_result *result)
         }
     }
     print_rule(name + check + measured + allowed + 15);
-    printf("%d of %d cases passed, %d of %d checks", result->passed, result->count,
-           result->checks_passed, result->checks);
-    if (result->checks_short)
-        printf(", %d fall%s short", result->checks_short, result->checks_short == 1 ? "s" : "");
-    putchar('\n');
+    char *checks = verify_checks_text(result);
+    printf("%d of %d cases passed%s\n", result->passed, result->count, checks ? checks : "");
+    free(checks);
 }
 
 static int verify_paths(const char *const *paths, int count, const struct cli_options *options)

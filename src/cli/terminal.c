@@ -68,7 +68,7 @@ static void say_line(void *context, const char *text)
 {
     (void)context;
     terminal_clear_line();
-    bool bad = strstr(text, "check FAILED") != NULL, warn = strstr(text, "check falls short");
+    bool bad = strstr(text, "check FAILED") != NULL, warn = strstr(text, "check known deviation");
     fputs(bad ? colour(COLOUR_BAD) : warn ? colour(COLOUR_WARN) : "", stdout);
     text_put_visible(stdout, text);
     printf("%s\n", bad || warn ? colour(COLOUR_NONE) : "");

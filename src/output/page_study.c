@@ -32,14 +32,14 @@ static void put_verdict(FILE *file, const struct study *study)
     fprintf(file,
             "<section id=\"verdict\"><h2>Verdict</h2>\n<p class=\"verdict %s\"><strong>%s: %d of "
             "%d orders.</strong>",
-            count[STUDY_FAILED]        ? "bad"
-            : count[STUDY_FALLS_SHORT] ? "warn"
-                                       : "good",
+            count[STUDY_FAILED]            ? "bad"
+            : count[STUDY_KNOWN_DEVIATION] ? "warn"
+                                           : "good",
             count[STUDY_FAILED] ? "Failed" : "Passed",
             count[count[STUDY_FAILED] ? STUDY_FAILED : STUDY_PASSED], judged);
-    if (count[STUDY_FALLS_SHORT])
-        fprintf(file, " %d fall%s short.", count[STUDY_FALLS_SHORT],
-                count[STUDY_FALLS_SHORT] == 1 ? "s" : "");
+    if (count[STUDY_KNOWN_DEVIATION])
+        fprintf(file, " %d known deviation%s.", count[STUDY_KNOWN_DEVIATION],
+                count[STUDY_KNOWN_DEVIATION] == 1 ? "" : "s");
     fputs("</p></section>\n", file);
 }
 

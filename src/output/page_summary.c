@@ -55,8 +55,9 @@ static void put_cell(const struct page *page, const char *about, const char *nam
 
 /* The columns of checks.csv. */
 struct check {
-    const char *name, *measure, *unit, *verdict, *source, *falls_short;
+    const char *name, *measure, *unit, *verdict, *source, *known_deviation;
     double measured, wanted, low, high;
+    bool regression_bound;
 };
 
 static struct check read_check(const struct csv *csv, int64_t row)
@@ -67,7 +68,9 @@ static struct check read_check(const struct csv *csv, int64_t row)
         .unit = csv_field(csv, row, csv_column(csv, "unit")),
         .verdict = csv_field(csv, row, csv_column(csv, "verdict")),
         .source = csv_field(csv, row, csv_column(csv, "source")),
-        .falls_short = csv_field(csv, row, csv_column(csv, "falls_short")),
+        .known_deviation = csv_field(csv, row, csv_column(csv, "known_deviation")),
+        .regression_bound =
+            !strcmp(csv_field(csv, row, csv_column(csv, "regression_bound")), "yes"),
         .measured = csv_number(csv, row, csv_column(csv, "measured")),
         .wanted = csv_number(csv, row, csv_column(csv, "wanted")),
         .low = csv_number(csv, row, csv_column(csv, "low")),
@@ -77,14 +80,14 @@ static struct check read_check(const struct csv *csv, int64_t row)
 
 static bool has_passed(const struct check *check) { return !strcmp(check->verdict, "passed"); }
 
-static bool falls_short(const struct check *check)
+static bool known_deviation(const struct check *check)
 {
-    return !strcmp(check->verdict, "falls short");
+    return !strcmp(check->verdict, "known deviation");
 }
 
 static bool has_failed(const struct check *check)
 {
-    return !has_passed(check) && !falls_short(check);
+    return !has_passed(check) && !known_deviation(check);
 }
 
 /* True where the limits lie evenly about the wanted value. */
@@ -115,7 +118,7 @@ static void put_allowed(FILE *file, const struct check *check)
 
 static void put_check(FILE *file, const struct check *check)
 {
-    bool passed = has_passed(check), lacking = falls_short(check);
+    bool passed = has_passed(check), lacking = known_deviation(check);
     fprintf(file, "<tr class=\"%s\"><th scope=\"row\">",
             passed    ? "good"
             : lacking ? "warn"
@@ -124,9 +127,10 @@ static void put_check(FILE *file, const struct check *check)
     fputs(" <span class=\"unit\">", file);
     page_text(file, check->measure);
     fprintf(file, "</span></th><td data-label=\"verdict\"><span class=\"mark\">%s</span></td>",
-            passed                                  ? "✓ passed"
-            : lacking                               ? "△ falls short"
-            : !strcmp(check->verdict, "passes now") ? "✗ passes now: take falls_short away"
+            passed && check->regression_bound       ? "✓ regression bound"
+            : passed                                ? "✓ passed"
+            : lacking                               ? "△ known deviation"
+            : !strcmp(check->verdict, "passes now") ? "✗ passes now: remove known_deviation"
                                                     : "✗ failed");
     fputs("<td class=\"num\" data-label=\"measured\">", file);
     if (isnan(check->measured))
@@ -138,8 +142,8 @@ static void put_check(FILE *file, const struct check *check)
     fputs("</td><td data-label=\"source\">", file);
     page_text(file, check->source);
     if (lacking) {
-        fprintf(file, "%sfalls short: ", check->source[0] ? "<br>" : "");
-        page_text(file, check->falls_short);
+        fprintf(file, "%sknown deviation: ", check->source[0] ? "<br>" : "");
+        page_text(file, check->known_deviation);
     }
     fputs("</td></tr>\n", file);
 }
@@ -173,11 +177,12 @@ static void put_names(const struct page *page, bool (*among)(const struct check 
 
 static void put_judged(const struct page *page)
 {
-    int64_t failed = 0, lacking = 0, count = page->checks.rows;
+    int64_t failed = 0, lacking = 0, bounds = 0, count = page->checks.rows;
     for (int64_t row = 0; row < count; row++) {
         struct check check = read_check(&page->checks, row);
         failed += has_failed(&check);
-        lacking += falls_short(&check);
+        lacking += known_deviation(&check);
+        bounds += has_passed(&check) && check.regression_bound;
     }
     if (failed) {
         fprintf(page->file,
@@ -192,10 +197,13 @@ static void put_judged(const struct page *page)
         fprintf(page->file, "<p class=\"verdict good\"><strong>Passed: %s%lld check%s.</strong>",
                 count == 1 ? "" : "all ", (long long)count, count == 1 ? "" : "s");
     if (lacking) {
-        fprintf(page->file, " <strong>%lld fall%s short:</strong>", (long long)lacking,
-                lacking == 1 ? "s" : "");
-        put_names(page, falls_short);
+        fprintf(page->file, " <strong>%lld known deviation%s:</strong>", (long long)lacking,
+                lacking == 1 ? "" : "s");
+        put_names(page, known_deviation);
     }
+    if (bounds)
+        fprintf(page->file, " %lld of those that passed %s.", (long long)bounds,
+                bounds == 1 ? "is a regression bound" : "are regression bounds");
     if (count)
         fputs("</p>\n", page->file);
     else

@@ -44,7 +44,7 @@ static void put_cell(const struct page *page, int64_t row, int column)
     const double value = csv_number(table, row, column);
     const bool judged = is_verdict(table, column + 1);
     const char *verdict = judged ? csv_field(table, row, column + 1) : "";
-    const bool failed = begins(verdict, "FAILED"), lacking = begins(verdict, "falls short");
+    const bool failed = begins(verdict, "FAILED"), lacking = begins(verdict, "known deviation");
     fprintf(page->file, "<td class=\"num%s\" data-label=\"",
             failed    ? " bad"
             : lacking ? " warn"
@@ -101,14 +101,14 @@ static void put_table(const struct page *page)
     fputs("</tbody></table>\n", page->file);
 }
 
-/* Why checks fall short: what the first run says in which they do. */
+/* The reasons of known deviations: those of the first run that has them. */
 static void put_reasons(const struct page *page)
 {
     const struct csv *table = &page->sweep;
     for (int column = 1; column < table->columns - 1; column++)
         for (int64_t row = 0; row < table->rows && is_verdict(table, column); row++) {
             const char *verdict = csv_field(table, row, column);
-            if (!begins(verdict, "falls short"))
+            if (!begins(verdict, "known deviation"))
                 continue;
             fputs("<p class=\"warn\"><span class=\"mark\">△ </span>", page->file);
             page_text(page->file, head_of(table, column - 1).name);

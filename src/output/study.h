@@ -21,7 +21,7 @@ enum study_error {
 };
 
 /* What became of the order that is wanted. */
-enum study_verdict { STUDY_NOT_JUDGED, STUDY_PASSED, STUDY_FALLS_SHORT, STUDY_FAILED };
+enum study_verdict { STUDY_NOT_JUDGED, STUDY_PASSED, STUDY_KNOWN_DEVIATION, STUDY_FAILED };
 
 /* What is followed from run to run. Its arrays have an entry a run; NAN where there is nothing. */
 struct study_quantity {

@@ -272,11 +272,12 @@ static struct error *judge(const struct prepared_check *prepared, const struct c
     const bool within = result->measured >= result->low && result->measured <= result->high;
     /* What measured nothing is not excused. */
     const bool expected =
-        check->falls_short && check->falls_short_if > 0.0 && !isnan(result->measured);
+        check->known_deviation && check->known_deviation_if > 0.0 && !isnan(result->measured);
     result->verdict = within ? (expected ? CHECK_PASSES_NOW : CHECK_PASSED)
-                             : (expected ? CHECK_FALLS_SHORT : CHECK_FAILED);
-    result->falls_short =
-        result->verdict == CHECK_FALLS_SHORT ? text_copy(check->falls_short) : NULL;
+                             : (expected ? CHECK_KNOWN_DEVIATION : CHECK_FAILED);
+    result->known_deviation =
+        result->verdict == CHECK_KNOWN_DEVIATION ? text_copy(check->known_deviation) : NULL;
+    result->regression_bound = check->regression_bound;
     return result->name ? NULL : error_new(ERROR_SYSTEM, "out of memory for checks");
 }
 
@@ -294,7 +295,8 @@ struct error *checks_evaluate(const struct checks *checks, const struct check_mo
         struct check_result *result = &results->item[results->count++];
         TRY(judge(&checks->item[i], moment->memory, i, result));
         results->failed += check_failed(result);
-        results->falling_short += result->verdict == CHECK_FALLS_SHORT;
+        results->known_deviations += result->verdict == CHECK_KNOWN_DEVIATION;
+        results->regression_bounds += result->verdict == CHECK_PASSED && result->regression_bound;
     }
     return NULL;
 }
@@ -304,7 +306,7 @@ void check_results_free(struct check_results *results)
     for (int i = 0; i < results->count; i++) {
         free(results->item[i].name);
         free(results->item[i].source);
-        free(results->item[i].falls_short);
+        free(results->item[i].known_deviation);
     }
     free(results->item);
     *results = (struct check_results){0};

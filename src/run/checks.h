@@ -8,15 +8,16 @@
 enum check_verdict {
     CHECK_FAILED,
     CHECK_PASSED,
-    CHECK_FALLS_SHORT, /* outside its limits for the reason that the case gives */
-    CHECK_PASSES_NOW,  /* within them although the case gives a reason: a failure too */
+    CHECK_KNOWN_DEVIATION, /* outside its limits, for the reason that the case states */
+    CHECK_PASSES_NOW,      /* within them although the case gives a reason: a failure too */
 };
 
 /* One line of the table; SI units. It stands by itself when the run is gone. */
 struct check_result {
-    char *name, *source; /* source may be NULL */
-    char *falls_short;   /* why it does, where it does; else NULL */
-    const char *measure; /* static text */
+    char *name, *source;   /* source may be NULL */
+    char *known_deviation; /* its reason; else NULL */
+    bool regression_bound; /* the limit bounds the change from an earlier result of Bolide */
+    const char *measure;   /* static text */
     char unit[24];
     double measured, time; /* s, when it was measured; NAN: never */
     double wanted;         /* NAN: there are only limits */
@@ -30,7 +31,7 @@ static inline bool check_failed(const struct check_result *result)
 }
 
 struct check_results {
-    int count, failed, falling_short; /* of COUNT so many failed, so many fall short */
+    int count, failed, known_deviations, regression_bounds; /* the last: passed, and of that kind */
     struct check_result *item;
 };
 
@@ -83,8 +84,7 @@ void check_results_free(struct check_results *results);
  * reads them. BUFFER holds SIZE bytes. */
 void check_allowed_text(const struct check_result *result, char *buffer, size_t size);
 void check_measured_text(const struct check_result *result, char *buffer, size_t size);
-/* "passed", "FAILED", "falls short", and what is to be said of it behind a colon: why it falls short,
- * what to do where it passes now. Owned by the caller; NULL when memory is out. */
+/* "passed", "FAILED", "known deviation", with a reason or a remedy after a colon. Owned by the caller; NULL when memory is out. */
 char *check_verdict_text(const struct check_result *result);
 const char *check_verdict_name(enum check_verdict verdict);
 

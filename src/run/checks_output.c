@@ -63,25 +63,29 @@ void check_allowed_text(const struct check_result *result, char *buffer, size_t 
 
 const char *check_verdict_name(enum check_verdict verdict)
 {
-    return verdict == CHECK_PASSED        ? "passed"
-           : verdict == CHECK_FALLS_SHORT ? "falls short"
-                                          : "FAILED";
+    return verdict == CHECK_PASSED            ? "passed"
+           : verdict == CHECK_KNOWN_DEVIATION ? "known deviation"
+                                              : "FAILED";
 }
 
 char *check_verdict_text(const struct check_result *result)
 {
     const char *name = check_verdict_name(result->verdict);
     if (result->verdict == CHECK_PASSES_NOW)
-        return text_format("%s: passes now: take `falls_short` away", name);
-    return result->falls_short ? text_format("%s: %s", name, result->falls_short) : text_copy(name);
+        return text_format("%s: passes now: remove `known_deviation`", name);
+    if (result->verdict == CHECK_PASSED && result->regression_bound)
+        return text_format("%s (regression bound)", name);
+    return result->known_deviation ? text_format("%s: %s", name, result->known_deviation)
+                                   : text_copy(name);
 }
 
 struct error *check_results_write(const struct check_results *results, const char *path)
 {
-    static const char *const verdicts[] = {"failed", "passed", "falls short", "passes now"};
+    static const char *const verdicts[] = {"failed", "passed", "known deviation", "passes now"};
     FILE *file;
     TRY(file_begin(path, &file));
-    fprintf(file, "check,measure,unit,measured,wanted,low,high,verdict,source,time,falls_short\n");
+    fprintf(file, "check,measure,unit,measured,wanted,low,high,verdict,source,time,known_deviation,"
+                  "regression_bound\n");
     for (int i = 0; i < results->count; i++) {
         const struct check_result *r = &results->item[i];
         csv_put_text(file, r->name);
@@ -96,8 +100,8 @@ struct error *check_results_write(const struct check_results *results, const cha
         putc(',', file);
         csv_put_number(file, r->time);
         putc(',', file);
-        csv_put_text(file, r->falls_short);
-        fputc('\n', file);
+        csv_put_text(file, r->known_deviation);
+        fprintf(file, ",%s\n", r->regression_bound ? "yes" : "no");
     }
     return file_end(path, file);
 }

@@ -230,15 +230,15 @@ static struct error *judge(const struct simulation_case *input, struct study_qua
     if (!order)
         return NULL;
     const bool within = quantity->fitted >= quantity->low && quantity->fitted <= quantity->high;
-    const bool expected = order->falls_short && !isnan(quantity->fitted);
-    struct check_result result = {.verdict = within
-                                                 ? (expected ? CHECK_PASSES_NOW : CHECK_PASSED)
-                                                 : (expected ? CHECK_FALLS_SHORT : CHECK_FAILED)};
-    if (result.verdict == CHECK_FALLS_SHORT)
-        result.falls_short = order->falls_short;
+    const bool expected = order->known_deviation && !isnan(quantity->fitted);
+    struct check_result result = {.verdict =
+                                      within ? (expected ? CHECK_PASSES_NOW : CHECK_PASSED)
+                                             : (expected ? CHECK_KNOWN_DEVIATION : CHECK_FAILED)};
+    if (result.verdict == CHECK_KNOWN_DEVIATION)
+        result.known_deviation = order->known_deviation;
     quantity->verdict = check_failed(&result)            ? STUDY_FAILED
                         : result.verdict == CHECK_PASSED ? STUDY_PASSED
-                                                         : STUDY_FALLS_SHORT;
+                                                         : STUDY_KNOWN_DEVIATION;
     quantity->verdict_text = check_verdict_text(&result);
     return quantity->verdict_text ? NULL : out_of_memory();
 }

@@ -16,6 +16,7 @@
 #include "material/material.h"
 #include "model/generate.h"
 #include "output/picture.h"
+#include "run/estimate.h"
 #include "run/run_internal.h"
 
 /* A thread with fewer particles costs more in waiting than it gains in work. The second number
@@ -195,7 +196,7 @@ static void tell_beginning(struct run *run)
             (long long)ranks_sum(&run->ranks, s->particles.count), s->dimension,
             run->input->solver.choice->name, until, s->threads, s->threads == 1 ? "" : "s",
             run->options->resume ? ", resumed" : "");
-    struct error *warnings = generate_warnings(run->input);
+    struct error *warnings = estimate_warnings(run->input);
     for (int i = 0; warnings && i < error_count(warnings); i++)
         run_say(run, "warning: %s", error_message(warnings, i));
     error_free(warnings);
@@ -256,9 +257,10 @@ static void tell_end(struct run *run)
         check_measured_text(check, measured, sizeof measured);
         check_allowed_text(check, allowed, sizeof allowed);
         run_say(run, "  check %s: %s: %s (%s)%s%s", check_verdict_name(check->verdict), check->name,
-                measured, allowed, check->falls_short ? ": " : "",
-                check->falls_short                   ? check->falls_short
-                : check->verdict == CHECK_PASSES_NOW ? "; passes now: take `falls_short` away"
+                measured, allowed, check->known_deviation ? ": " : "",
+                check->known_deviation               ? check->known_deviation
+                : check->verdict == CHECK_PASSES_NOW ? "; passes now: remove `known_deviation`"
+                : check->regression_bound            ? "; regression bound"
                                                      : "");
     }
 }

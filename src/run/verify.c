@@ -1,6 +1,7 @@
 /* Verification of cases; see verify.h. */
 #include "run/verify.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -255,14 +256,17 @@ static struct error *named_error(const struct verify_case *verified)
 static struct error *sum_up(struct verify_result *result)
 {
     struct error *error = NULL;
-    result->passed = result->checks = result->checks_passed = result->checks_short = 0;
+    result->passed = result->checks = result->checks_passed = 0;
+    result->regression_bounds = result->known_deviations = 0;
     for (int i = 0; i < result->count; i++) {
         const struct verify_case *verified = &result->item[i];
         const struct check_results *checks = &verified->result.checks;
         result->passed += verified->passed;
         result->checks += checks->count;
-        result->checks_passed += checks->count - checks->failed - checks->falling_short;
-        result->checks_short += checks->falling_short;
+        result->checks_passed +=
+            checks->count - checks->failed - checks->known_deviations - checks->regression_bounds;
+        result->regression_bounds += checks->regression_bounds;
+        result->known_deviations += checks->known_deviations;
         if (verified->error)
             error = error_join(error, named_error(verified));
         else if (!verified->passed)
@@ -270,6 +274,23 @@ static struct error *sum_up(struct verify_result *result)
                                                 verified->name, checks->failed, checks->count));
     }
     return error;
+}
+
+char *verify_checks_text(const struct verify_result *result)
+{
+    const int passed = result->checks_passed, bounds = result->regression_bounds,
+              deviations = result->known_deviations,
+              failed = result->checks - passed - bounds - deviations;
+    char parts[3][64] = {"", "", ""};
+    if (bounds)
+        snprintf(parts[0], sizeof parts[0], ", %d within regression bounds", bounds);
+    if (deviations)
+        snprintf(parts[1], sizeof parts[1], ", %d known deviation%s", deviations,
+                 deviations == 1 ? "" : "s");
+    if (failed)
+        snprintf(parts[2], sizeof parts[2], ", %d failed", failed);
+    return text_format("; %d check%s: %d passed%s%s%s", result->checks,
+                       result->checks == 1 ? "" : "s", passed, parts[0], parts[1], parts[2]);
 }
 
 /* Runs the case at PATH; what keeps it from running becomes an item of its own. */

@@ -113,7 +113,8 @@ struct sph_scheme {
     /* The traits that OPTIONS bring; the doubles of a record of a solid, for `bolide check`. */
     unsigned (*traits)(const void *options, int dimension);
     size_t (*stride)(const void *options, int dimension);
-    bool wide_step; /* dt = K h/C in place of K D/C */
+    double (*largest_jump)(const void *options); /* as in solver_class; may be NULL */
+    bool wide_step;                              /* dt = K h/C in place of K D/C */
 };
 
 struct sph {

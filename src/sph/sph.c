@@ -278,6 +278,13 @@ static double sph_step(const void *parameters, int dimension, const struct mater
     return minimum(heat, all.courant * diameter / any_material_evaluate(material, &at).sound_long);
 }
 
+static double sph_largest_jump(const void *parameters)
+{
+    const struct sph_parameters *all = parameters;
+    const struct sph_scheme *scheme = all->method.choice->thing;
+    return scheme->largest_jump ? scheme->largest_jump(all->method.value) : INFINITY;
+}
+
 const struct solver_class sph_class = {.size = sizeof(struct sph),
                                        .create = sph_create,
                                        .start = sph_start,
@@ -288,4 +295,5 @@ const struct solver_class sph_class = {.size = sizeof(struct sph),
                                        .destroy = sph_destroy,
                                        .bytes = sph_bytes,
                                        .step = sph_step,
+                                       .largest_jump = sph_largest_jump,
                                        .fields = sph_field_tables};

@@ -141,13 +141,13 @@ expect 1 "check FAILED: energy" "$BOLIDE" run "$cases/riemann/gas/case.yaml" --o
     --set "checks.energy.at_least=1"
 expect 1 "checks failed" "$BOLIDE" verify "$cases/riemann/gas/case.yaml" \
     --set "checks.energy.at_least=1"
-expect 0 "check falls short: energy: " "$BOLIDE" run "$cases/riemann/gas/case.yaml" --overwrite \
-    --set "checks.energy.at_least=1" --set "checks.energy.falls_short=a test"
-grep -q '"a test"$' results/gas/checks.csv || { echo "FAILED: no reason in checks.csv"; status=1; }
-expect 0 "1 falls short" "$BOLIDE" verify "$cases/riemann/gas/case.yaml" \
-    --set "checks.energy.at_least=1" --set "checks.energy.falls_short=a test"
-expect 1 "passes now: take \`falls_short\` away" "$BOLIDE" verify "$cases/riemann/gas/case.yaml" \
-    --set "checks.energy.falls_short=a test"
+expect 0 "check known deviation: energy: " "$BOLIDE" run "$cases/riemann/gas/case.yaml" --overwrite \
+    --set "checks.energy.at_least=1" --set "checks.energy.known_deviation=a test"
+grep -q '"a test",no$' results/gas/checks.csv || { echo "FAILED: no reason in checks.csv"; status=1; }
+expect 0 "1 known deviation" "$BOLIDE" verify "$cases/riemann/gas/case.yaml" \
+    --set "checks.energy.at_least=1" --set "checks.energy.known_deviation=a test"
+expect 1 "passes now: remove \`known_deviation\`" "$BOLIDE" verify "$cases/riemann/gas/case.yaml" \
+    --set "checks.energy.known_deviation=a test"
 "$BOLIDE" verify "$cases/riemann/gas" --short --output verified >/dev/null 2>&1
 expect 2 "holds the results of a run already" "$BOLIDE" verify "$cases/riemann/gas" --short --output verified
 expect 0 "1 of 1 cases passed" "$BOLIDE" verify "$cases/riemann/gas" --short --output verified --overwrite

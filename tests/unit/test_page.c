@@ -306,28 +306,28 @@ static void the_verdict_names_the_checks_that_failed(void **state)
     free(page);
 }
 
-static void a_check_that_falls_short_has_its_own_mark_and_reason(void **state)
+static void a_known_deviation_has_its_own_mark_and_reason(void **state)
 {
     (void)state;
     put("run.log", "");
     put("summary.csv", "about,name,quantity,value,unit\nrun,\"\",\"status\",\"finished\",text\n");
     put("checks.csv",
-        "check,measure,unit,measured,wanted,low,high,verdict,source,time,falls_short\n"
+        "check,measure,unit,measured,wanted,low,high,verdict,source,time,known_deviation\n"
         "\"near\",mean,Pa,2e9,2e9,1.9e9,2.1e9,passed,\"\",1,\"\"\n"
-        "\"far\",mean,Pa,3e9,nan,-inf,1e9,falls short,\"a\",1,\"the <frame> creeps\"\n");
+        "\"far\",mean,Pa,3e9,nan,-inf,1e9,known deviation,\"a\",1,\"the <frame> creeps\"\n");
     char *page = page_of_folder();
-    expect_on_page(page, "Passed: 1 of 2 checks.</strong> <strong>1 falls short:</strong> far");
-    expect_on_page(page, "△ falls short");
-    expect_on_page(page, "a<br>falls short: the &lt;frame&gt; creeps");
+    expect_on_page(page, "Passed: 1 of 2 checks.</strong> <strong>1 known deviation:</strong> far");
+    expect_on_page(page, "△ known deviation");
+    expect_on_page(page, "a<br>known deviation: the &lt;frame&gt; creeps");
     expect_not_on_page(page, "✗");
     free(page);
     put("checks.csv",
-        "check,measure,unit,measured,wanted,low,high,verdict,source,time,falls_short\n"
-        "\"far\",mean,Pa,3e9,nan,-inf,1e9,falls short,\"a\",1,\"it creeps\"\n"
+        "check,measure,unit,measured,wanted,low,high,verdict,source,time,known_deviation\n"
+        "\"far\",mean,Pa,3e9,nan,-inf,1e9,known deviation,\"a\",1,\"it creeps\"\n"
         "\"near\",mean,Pa,2e9,2e9,1.9e9,2.1e9,passes now,\"\",1,\"\"\n");
     page = page_of_folder();
     expect_on_page(page,
-                   "Failed: 1 of 2 checks.</strong> near <strong>1 falls short:</strong> far");
+                   "Failed: 1 of 2 checks.</strong> near <strong>1 known deviation:</strong> far");
     expect_on_page(page, "✗ passes now");
     free(page);
 }
@@ -460,7 +460,7 @@ int main(void)
         IN_FOLDER(a_run_that_left_nothing_but_its_log_gets_a_page),
         IN_FOLDER(every_name_of_a_case_is_escaped),
         IN_FOLDER(the_verdict_names_the_checks_that_failed),
-        IN_FOLDER(a_check_that_falls_short_has_its_own_mark_and_reason),
+        IN_FOLDER(a_known_deviation_has_its_own_mark_and_reason),
         IN_FOLDER(a_failed_run_says_so_on_top),
         IN_FOLDER(numbers_that_are_none_interrupt_the_lines),
         IN_FOLDER(long_histories_stay_small),

@@ -128,6 +128,7 @@ static const struct solver_class flight_class = {sizeof(struct flight_parameters
                                                  flight_destroy,
                                                  flight_bytes,
                                                  flight_step,
+                                                 NULL,
                                                  NULL};
 
 static const struct choice flight_choice = {"flight", "free flight", flight_table,
@@ -668,6 +669,24 @@ static void a_body_thinner_than_the_resolution_is_a_warning(void **state)
     case_free(input);
 }
 
+static void acoustic_contacts_of_a_strong_shock_are_a_warning(void **state)
+{
+    (void)state;
+    const char *const solver[] = {"solver={sph: {method: contact}}",
+                                  "solver={sph: {method: {contact: {riemann: dukowicz}}}}",
+                                  "solver=sph"};
+    for (int k = 0; k < 3; k++) {
+        const char *const settings[] = {solver[k], "bodies.left.pressure=1 GPa", NULL};
+        struct simulation_case *input = read_text(shock_text, settings);
+        struct error *warnings = estimate_warnings(input);
+        assert_int_equal(warnings ? error_count(warnings) : 0, k == 0);
+        if (k == 0)
+            assert_non_null(strstr(error_message(warnings, 0), "times the speed of sound"));
+        error_free(warnings);
+        case_free(input);
+    }
+}
+
 /* Times of objects in HDF5 files count seconds. */
 static void two_runs_write_the_same_files(void **state)
 {
@@ -712,6 +731,7 @@ int main(void)
         cmocka_unit_test(a_picture_that_cannot_be_is_told_before_anything_is_written),
         cmocka_unit_test(what_a_run_would_refuse_is_foreseen_at_once),
         cmocka_unit_test(a_body_thinner_than_the_resolution_is_a_warning),
+        cmocka_unit_test(acoustic_contacts_of_a_strong_shock_are_a_warning),
         cmocka_unit_test(two_runs_write_the_same_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

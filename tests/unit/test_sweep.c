@@ -217,29 +217,30 @@ static void the_runs_make_one_table(void **state)
     assert_int_equal(access("results/speed=10_m_s,bodies.all.energy=1_J_kg/run.log", R_OK), 0);
 }
 
-static void a_check_falls_short_in_the_runs_that_it_names(void **state)
+static void a_known_deviation_holds_in_the_runs_that_it_names(void **state)
 {
     (void)state;
     struct verify_result result;
     struct csv table;
-    write_case(BODIES "checks: {fast: {mean: velocity.x, at_least: 20 m/s, falls_short: too slow, "
-                      "falls_short_if: 2 - speed/slow}}\n"
-                      "sweep: {speed: [slow, 3*slow]}\n");
+    write_case(BODIES
+               "checks: {fast: {mean: velocity.x, at_least: 20 m/s, known_deviation: too slow, "
+               "known_deviation_if: 2 - speed/slow}}\n"
+               "sweep: {speed: [slow, 3*slow]}\n");
     assert_null(run_all(true, false, &result));
     assert_int_equal(result.passed, 2);
     assert_int_equal(result.checks, 2);
     assert_int_equal(result.checks_passed, 1);
-    assert_int_equal(result.checks_short, 1);
+    assert_int_equal(result.known_deviations, 1);
     verify_result_free(&result);
     assert_null(csv_read("results/sweep.csv", &table));
     const int verdict = csv_column(&table, "fast verdict");
-    assert_string_equal(csv_field(&table, 0, verdict), "falls short: too slow");
+    assert_string_equal(csv_field(&table, 0, verdict), "known deviation: too slow");
     assert_string_equal(csv_field(&table, 1, verdict), "passed");
     csv_free(&table);
     char *page = NULL;
     size_t size;
     assert_null(file_read("results/report.html", &page, &size));
-    assert_non_null(strstr(page, "△ </span>fast falls short: too slow"));
+    assert_non_null(strstr(page, "△ </span>fast known deviation: too slow"));
     free(page);
     assert_int_equal(system("rm -r results"), 0);
 }
@@ -298,7 +299,7 @@ int main(void)
         cmocka_unit_test(a_run_knows_its_values),
         cmocka_unit_test(the_short_form_has_a_sweep_of_its_own),
         cmocka_unit_test(a_mistake_stands_where_its_value_does),
-        cmocka_unit_test(a_check_falls_short_in_the_runs_that_it_names),
+        cmocka_unit_test(a_known_deviation_holds_in_the_runs_that_it_names),
         cmocka_unit_test(the_runs_make_one_table),
         cmocka_unit_test(results_give_way_only_when_asked),
         cmocka_unit_test(a_sweep_goes_on_where_it_was_left),

@@ -148,6 +148,13 @@ size_t contact_stride(const void *options, int dimension)
     return (size_t)record_stride(kind);
 }
 
+/* Linear waves run at the speed of sound, where a shock of jump u in a solid runs at c + A u. */
+static double largest_jump(const void *of)
+{
+    const struct contact_options *options = of;
+    return options->riemann == CONTACT_ACOUSTIC ? 1.0 : INFINITY;
+}
+
 static const struct field_row no_rows[] = {FIELD_ROWS_END};
 
 const struct sph_scheme contact_scheme = {.name = "contact",
@@ -158,6 +165,7 @@ const struct sph_scheme contact_scheme = {.name = "contact",
                                           .state_size = sizeof(struct contact_state),
                                           .rows = no_rows,
                                           .traits = traits_of,
+                                          .largest_jump = largest_jump,
                                           .stride = contact_stride,
                                           .create = create,
                                           .start = sph_evaluate,
