@@ -77,6 +77,12 @@ bool dimension_equal(struct dimension a, struct dimension b)
            a.temperature == b.temperature;
 }
 
+struct dimension dimension_quotient(struct dimension a, struct dimension b)
+{
+    return (struct dimension){(int8_t)(a.length - b.length), (int8_t)(a.mass - b.mass),
+                              (int8_t)(a.time - b.time), (int8_t)(a.temperature - b.temperature)};
+}
+
 const char *unit_symbol(int index)
 {
     return index >= 0 && index < (int)COUNT_OF(symbols) ? symbols[index].name : NULL;

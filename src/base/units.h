@@ -17,6 +17,8 @@ struct unit {
 };
 
 bool dimension_equal(struct dimension a, struct dimension b);
+/* That of a value of A over one of B. */
+struct dimension dimension_quotient(struct dimension a, struct dimension b);
 
 /* The unit that TEXT spells: symbols of the list joined by '*', '/', '^' and integers: "kg/m^3",
  * "J/(kg*K)", "%". The empty text is the number one. An unknown symbol gives ERROR_INPUT with the

@@ -152,6 +152,17 @@ struct check_input {
     bool regression_bound;
 };
 
+/* fits: NAME: {of: CHECK, over: KEY, take: slope, is: ..., within: ...}: a line or a power law
+ * through what the runs of a sweep measured. */
+struct fit_input {
+    char *of, *over;          /* a check; a swept key or a check */
+    int form, take;           /* enum fit_form, fit_take */
+    struct quantity from, to; /* of `over`: other runs do not count; NAN: no bound */
+    struct check_input check; /* its limits, source and known deviation; the rest is not used */
+};
+enum fit_form { FIT_LINE, FIT_POWER };
+enum fit_take { FIT_SLOPE, FIT_INTERCEPT, FIT_MISFIT };
+
 /* convergence: order: CHECK: {at_least: 0.8}: what order of accuracy is wanted. */
 struct order_input {
     double at_least, at_most; /* NAN: not given */
@@ -198,6 +209,7 @@ struct simulation_case {
     struct named_map profiles; /* struct profile_input */
     struct one_of exact;       /* "exact": what checks measure against; not given: nothing */
     struct named_map checks;   /* struct check_input */
+    struct named_map fits;     /* struct fit_input */
     struct convergence_input convergence;
     int sweep_runs;   /* filled by case_read: runs that a sweep asks for; 0: it has none */
     int sweep_values; /* of this run of it; 0: the case itself */
@@ -295,6 +307,10 @@ static inline struct profile_input *case_profile(const struct simulation_case *c
 static inline struct order_input *case_order(const struct simulation_case *c, int index)
 {
     return (struct order_input *)c->convergence.order.items + index;
+}
+static inline struct fit_input *case_fit(const struct simulation_case *c, int index)
+{
+    return (struct fit_input *)c->fits.items + index;
 }
 static inline struct check_input *case_check(const struct simulation_case *c, int index)
 {

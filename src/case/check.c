@@ -428,6 +428,7 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "probes", &input->probes, check_probe);
     check_map(&checking, "profiles", &input->profiles, check_profile);
     check_map(&checking, "checks", &input->checks, case_check_check);
+    check_map(&checking, "fits", &input->fits, case_check_fit);
     case_check_study(&checking);
     check_map(&checking, "convergence.order", &input->convergence.order, case_check_order);
     return checking.error;

@@ -33,6 +33,14 @@ static void check_limits(struct checking *checking, const struct check_input *ch
                    "a fraction, or a quantity of the dimension of `is`, is wanted");
 }
 
+static void check_deviation(struct checking *checking, const struct check_input *check)
+{
+    if (check->known_deviation && !check->known_deviation[0])
+        case_wrong(checking, "known_deviation", "the reason is wanted");
+    if (!check->known_deviation && check->known_deviation_if != 1.0)
+        case_wrong(checking, "known_deviation_if", "this needs `known_deviation` beside it");
+}
+
 /* A chain of ratios would hide what is compared with what. */
 static void check_relative(struct checking *checking, struct check_input *check, int index)
 {
@@ -65,12 +73,37 @@ void case_check_check(struct checking *checking, int index)
     if (check->at > checking->input->run.until &&
         !document_is_wrong(checking->input->document, "run"))
         case_wrong(checking, "at", "the run ends before, at %.9g s", checking->input->run.until);
-    if (check->known_deviation && !check->known_deviation[0])
-        case_wrong(checking, "known_deviation", "the reason is wanted");
-    if (!check->known_deviation && check->known_deviation_if != 1.0)
-        case_wrong(checking, "known_deviation_if", "this needs `known_deviation` beside it");
     if (!case_is_wrong(checking, ""))
         check_limits(checking, check);
+    check_deviation(checking, check);
+}
+
+static bool is_swept(const struct simulation_case *input, const char *key)
+{
+    for (int k = 0; k < input->sweep_values; k++)
+        if (!strcmp(input->sweep[k].key, key))
+            return true;
+    return false;
+}
+
+void case_check_fit(struct checking *checking, int index)
+{
+    const struct simulation_case *input = checking->input;
+    const struct fit_input *fit = case_fit(input, index);
+    if (input->sweep_runs == 0) {
+        case_wrong(checking, "", "this wants a `sweep`, through whose runs it goes");
+        return;
+    }
+    case_find_name(checking, &input->checks, "check", fit->of, "of");
+    /* Keys of the sweep are known in its runs only, all of which are checked before the first
+     * begins. */
+    if (input->sweep_values > 0 && !is_swept(input, fit->over))
+        case_find_name(checking, &input->checks, "swept key or check", fit->over, "over");
+    if (fit->form == FIT_POWER && fit->take == FIT_INTERCEPT)
+        case_wrong(checking, "take", "a power law has no intercept: slope and misfit are wanted");
+    if (!case_is_wrong(checking, ""))
+        check_limits(checking, &fit->check);
+    check_deviation(checking, &fit->check);
 }
 
 /* NAMES of checks under KEY. */

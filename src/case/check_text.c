@@ -97,6 +97,13 @@ void case_check_texts(struct checking *checking)
         check_text(checking, "source", check->source, TEXT_MAX_BYTES);
         check_text(checking, "known_deviation", check->known_deviation, TEXT_MAX_BYTES);
     }
+    checking->map = "fits";
+    for (int i = 0; i < input->fits.count; i++) {
+        const struct check_input *check = &case_fit(input, i)->check;
+        checking->name = input->fits.names[i];
+        check_text(checking, "source", check->source, TEXT_MAX_BYTES);
+        check_text(checking, "known_deviation", check->known_deviation, TEXT_MAX_BYTES);
+    }
     checking->map = "convergence.order";
     for (int i = 0; i < input->convergence.order.count; i++) {
         const struct order_input *order = case_order(input, i);

@@ -39,6 +39,7 @@ void case_check_interval(struct checking *checking, const char *key, double inte
 
 /* Of checks and the study of convergence (check_check.c). */
 void case_check_check(struct checking *checking, int index);
+void case_check_fit(struct checking *checking, int index);
 void case_check_order(struct checking *checking, int index);
 void case_check_study(struct checking *checking);
 

@@ -15,6 +15,7 @@ extern const struct parameter case_outflow_table[];     /* struct outflow_input 
 extern const struct parameter case_load_table[];        /* struct load_input */
 extern const struct parameter case_probe_table[];       /* struct probe_input */
 extern const struct parameter case_profile_table[];     /* struct profile_input */
+extern const struct parameter case_fit_table[];         /* struct fit_input */
 extern const struct parameter case_convergence_table[]; /* struct convergence_input */
 
 /* Makes material->material, plain data, from what was read. */
@@ -65,5 +66,56 @@ const char *body_state_at(const struct body_input *body, const struct material *
 const char *body_start_at(const struct body_input *body, const struct material *material,
                           struct vec3 place, struct point *point, double velocity[3],
                           const char **key);
+
+/* The rows of what a check allows, in a table of TYPE whose struct check_input is MEMBER (with a
+ * dot after it, or nothing). */
+#define CASE_LIMITS(type, member)                                                                  \
+    {.key = "is",                                                                                  \
+     .kind = PARAMETER_QUANTITY,                                                                   \
+     .offset = offsetof(type, member is),                                                          \
+     .standard = PARAMETER_OPTIONAL,                                                               \
+     .help = "the wanted value"},                                                                  \
+        {.key = "within",                                                                          \
+         .kind = PARAMETER_QUANTITY,                                                               \
+         .offset = offsetof(type, member within),                                                  \
+         .standard = PARAMETER_OPTIONAL,                                                           \
+         .help = "allowed distance from `is`: a fraction of it or a quantity like it"},            \
+        {.key = "at_most",                                                                         \
+         .kind = PARAMETER_QUANTITY,                                                               \
+         .offset = offsetof(type, member at_most),                                                 \
+         .standard = PARAMETER_OPTIONAL,                                                           \
+         .help = "largest value allowed"},                                                         \
+        {.key = "at_least",                                                                        \
+         .kind = PARAMETER_QUANTITY,                                                               \
+         .offset = offsetof(type, member at_least),                                                \
+         .standard = PARAMETER_OPTIONAL,                                                           \
+         .help = "smallest value allowed"},                                                        \
+        {.key = "source",                                                                          \
+         .kind = PARAMETER_TEXT,                                                                   \
+         .offset = offsetof(type, member source),                                                  \
+         .standard = PARAMETER_OPTIONAL,                                                           \
+         .help = "where the wanted value comes from"},                                             \
+        {.key = "known_deviation",                                                                 \
+         .kind = PARAMETER_TEXT,                                                                   \
+         .offset = offsetof(type, member known_deviation),                                         \
+         .standard = PARAMETER_OPTIONAL,                                                           \
+         .help = "why the check is expected to fail: it is listed separately and does not fail "   \
+                 "the run; "                                                                       \
+                 "if it passes, the run fails, so that the key gets removed"},                     \
+        {.key = "known_deviation_if",                                                              \
+         .kind = PARAMETER_NUMBER,                                                                 \
+         .offset = offsetof(type, member known_deviation_if),                                      \
+         .standard = "1",                                                                          \
+         .above = -INFINITY,                                                                       \
+         .below = INFINITY,                                                                        \
+         .help =                                                                                   \
+             "`known_deviation` applies only where this is above 0, as in some runs of a sweep"},  \
+    {                                                                                              \
+        .key = "regression_bound", .kind = PARAMETER_FLAG,                                         \
+        .offset = offsetof(type, member regression_bound), .standard = "no",                       \
+        .help = "the limit bounds the change from an earlier result of Bolide and proves nothing " \
+                "more: "                                                                           \
+                "counted separately"                                                               \
+    }
 
 #endif

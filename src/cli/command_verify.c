@@ -81,7 +81,7 @@ static void print_table(const struct verify_result *result)
     }
     print_rule(name + check + measured + allowed + 15);
     char *checks = verify_checks_text(result);
-    printf("%d of %d cases passed%s\n", result->passed, result->count, checks ? checks : "");
+    printf("%d of %d cases passed%s\n", result->passed, result->cases, checks ? checks : "");
     free(checks);
 }
 

@@ -148,6 +148,7 @@ static struct error *read_run(const char *folder, struct page *page)
 /* The words of the sweep's page are those of its first run. */
 static struct error *read_first_run(const char *folder, struct page *page)
 {
+    TRY(read_table(folder, "checks.csv", &page->checks)); /* its fits */
     char *first = path_join(folder, csv_field(&page->sweep, 0, 0));
     struct error *error =
         first ? read_table(first, "summary.csv", &page->summary) : out_of_memory();

@@ -46,6 +46,8 @@ void summary_put(const struct page *page, const char *about, const char *name,
                  const char *quantity);
 
 void page_verdict(const struct page *page);
+/* The table of the checks, under CAPTION. */
+void page_checks(const struct page *page, const char *caption);
 void page_about(const struct page *page);
 void page_speed(const struct page *page);
 

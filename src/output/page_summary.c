@@ -148,14 +148,14 @@ static void put_check(FILE *file, const struct check *check)
     fputs("</td></tr>\n", file);
 }
 
-static void put_checks(const struct page *page)
+void page_checks(const struct page *page, const char *caption)
 {
-    fputs(
-        "<table class=\"cards\"><caption>Checks</caption>\n<thead><tr><th scope=\"col\">check</th>"
-        "<th scope=\"col\">verdict</th><th scope=\"col\" class=\"num\">measured</th><th "
-        "scope=\"col\" class=\"num\">allowed</th><th scope=\"col\">source</th></tr></thead>\n"
-        "<tbody>\n",
-        page->file);
+    fprintf(page->file, "<table class=\"cards\"><caption>%s</caption>\n", caption);
+    fputs("<thead><tr><th scope=\"col\">check</th>"
+          "<th scope=\"col\">verdict</th><th scope=\"col\" class=\"num\">measured</th><th "
+          "scope=\"col\" class=\"num\">allowed</th><th scope=\"col\">source</th></tr></thead>\n"
+          "<tbody>\n",
+          page->file);
     for (int64_t row = 0; row < page->checks.rows; row++) {
         struct check check = read_check(&page->checks, row);
         put_check(page->file, &check);
@@ -259,7 +259,7 @@ void page_verdict(const struct page *page)
             "run.</p>\n",
             page->file);
     if (page->checks.rows)
-        put_checks(page);
+        page_checks(page, "Checks");
     fputs("</section>\n", page->file);
 }
 

@@ -133,5 +133,7 @@ void page_sweep(const struct page *page)
             (long long)table->rows);
     put_table(page);
     put_reasons(page);
+    if (page->checks.rows)
+        page_checks(page, "Fits through the runs");
     fputs("</section>\n", page->file);
 }

@@ -17,7 +17,7 @@ static const struct measure_class *class_of(const struct check_input *check)
 static bool given(const struct quantity *quantity) { return !isnan(quantity->value); }
 
 /* QUANTITY must have the dimension of what is measured; not given is right too. */
-static struct error *same_dimension(const struct measurement *measurement, const char *key,
+static struct error *same_dimension(const char *what, const char *key,
                                     const struct quantity *quantity, struct dimension wanted)
 {
     if (!given(quantity) || dimension_equal(quantity->dimension, wanted))
@@ -25,40 +25,49 @@ static struct error *same_dimension(const struct measurement *measurement, const
     char is[DIMENSION_TEXT], must[DIMENSION_TEXT];
     dimension_text(quantity->dimension, is);
     dimension_text(wanted, must);
-    return measure_error(measurement, "`%s` is in %s, but the measure `%s` is in %s", key,
-                         is[0] ? is : "plain numbers", measurement->check->measure.choice->name,
-                         must[0] ? must : "plain numbers");
+    return error_new(ERROR_INPUT, "`%s` is in %s, but `%s` is in %s", key,
+                     is[0] ? is : "plain numbers", what, must[0] ? must : "plain numbers");
 }
 
-/* The interval that the check allows. A `within` without dimension is a fraction of `is`; where
- * `is` is zero or not given and the measure is a plain number, it is the distance itself. */
-static struct error *find_limits(struct prepared_check *prepared, struct dimension dimension)
+/* A `within` without dimension is a fraction of `is`; where `is` is zero or not given and the
+ * measure is a plain number, it is the distance itself. */
+struct error *check_find_limits(const struct check_input *check, const char *what,
+                                struct dimension dimension, double *wanted, double *low,
+                                double *high)
 {
-    const struct measurement *m = &prepared->measurement;
-    const struct check_input *check = m->check;
     const struct dimension none = {0, 0, 0, 0};
-    TRY(same_dimension(m, "is", &check->is, dimension));
-    TRY(same_dimension(m, "at_most", &check->at_most, dimension));
-    TRY(same_dimension(m, "at_least", &check->at_least, dimension));
-    prepared->wanted = NAN;
-    prepared->low = given(&check->at_least) ? check->at_least.value : -INFINITY;
-    prepared->high = given(&check->at_most) ? check->at_most.value : INFINITY;
+    TRY(same_dimension(what, "is", &check->is, dimension));
+    TRY(same_dimension(what, "at_most", &check->at_most, dimension));
+    TRY(same_dimension(what, "at_least", &check->at_least, dimension));
+    *wanted = NAN;
+    *low = given(&check->at_least) ? check->at_least.value : -INFINITY;
+    *high = given(&check->at_most) ? check->at_most.value : INFINITY;
     if (given(&check->is) != given(&check->within) && given(&check->is))
-        return measure_error(m, "`is` wants `within`");
+        return error_new(ERROR_INPUT, "`is` wants `within`");
     if (given(&check->within)) {
         double is = given(&check->is) ? check->is.value : 0.0, distance = check->within.value;
         if (dimension_equal(check->within.dimension, none) && is != 0.0)
             distance *= fabs(is);
         else
-            TRY(same_dimension(m, "within", &check->within, dimension));
-        prepared->wanted = is;
-        prepared->low = maximum(prepared->low, is - distance);
-        prepared->high = minimum(prepared->high, is + distance);
+            TRY(same_dimension(what, "within", &check->within, dimension));
+        *wanted = is;
+        *low = maximum(*low, is - distance);
+        *high = minimum(*high, is + distance);
     }
-    if (isinf(prepared->low) && isinf(prepared->high))
-        return measure_error(m, "nothing to compare with: give `is` and `within`, `at_most` or "
-                                "`at_least`");
+    if (isinf(*low) && isinf(*high))
+        return error_new(ERROR_INPUT, "nothing to compare with: give `is` and `within`, `at_most` "
+                                      "or `at_least`");
     return NULL;
+}
+
+/* ERROR (taken) at the place of the check in the case. */
+static struct error *located(const struct measurement *m, struct error *error)
+{
+    if (!error)
+        return NULL;
+    struct error *with_place = measure_error(m, "%s", error_message(error, 0));
+    error_free(error);
+    return with_place;
 }
 
 static const struct one_of *against_of(const struct measurement *m)
@@ -107,28 +116,20 @@ static struct error *solve_exact(const struct checks *checks, struct prepared_ch
     if (!prepared->solved)
         return error_new(ERROR_SYSTEM, "out of memory for an exact solution");
     m->solved = prepared->solved;
-    struct error *error = m->exact->solve(against->value, prepared->solved);
-    if (error) {
-        struct error *located = measure_error(m, "%s", error_message(error, 0));
-        error_free(error);
-        return located;
-    }
-    return NULL;
+    return located(m, m->exact->solve(against->value, prepared->solved));
 }
 
 static struct error *prepare_check(const struct checks *checks, struct prepared_check *prepared)
 {
     const struct measurement *m = &prepared->measurement;
     const struct measure_class *class = class_of(m->check);
-    struct unit unit, field_unit;
-    prepared->unit = prepared->raw_unit = "";
+    struct unit field_unit;
     const char *own_unit;
+    prepared->raw_unit = NULL;
     TRY(class->unit(m, &own_unit));
     if (!own_unit)
         return NULL;
     prepared->raw_unit = own_unit;
-    prepared->unit = m->check->relative ? "" : prepared->raw_unit;
-    TRY(unit_parse(prepared->unit, &unit));
     if (m->check->between.count != 0 && m->check->between.count != 2)
         return measure_error(m, "`between` wants two positions");
     if (class->of_bodies && m->check->between.count)
@@ -138,26 +139,31 @@ static struct error *prepare_check(const struct checks *checks, struct prepared_
         const char *text;
         TRY(measure_field_unit(m, &text));
         TRY(unit_parse(text, &field_unit));
-        TRY(same_dimension(m, "scale", &m->check->scale, field_unit.dimension));
+        TRY(located(m, same_dimension(m->check->measure.choice->name, "scale", &m->check->scale,
+                                      field_unit.dimension)));
     } else if (given(&m->check->scale))
         return measure_error(m, "`scale` has no meaning for `%s`", m->check->measure.choice->name);
-    TRY(find_limits(prepared, unit.dimension));
     return solve_exact(checks, prepared);
 }
 
-/* A ratio is one of two values of the same unit. */
-static struct error *check_ratio(const struct checks *checks, const struct prepared_check *prepared)
+/* The unit of the result and its limits, when all checks know what they measure. */
+static struct error *prepare_limits(const struct checks *checks, struct prepared_check *prepared)
 {
     const struct measurement *m = &prepared->measurement;
-    if (!m->check->relative || m->check->relative_check < 0)
+    const int by = m->check->relative ? m->check->relative_check : -1;
+    const char *divided_by = by < 0 ? prepared->raw_unit : checks->item[by].raw_unit;
+    struct unit unit, other;
+    if (!prepared->raw_unit || !divided_by) /* a mistake that was reported */
         return NULL;
-    const struct prepared_check *other = &checks->item[m->check->relative_check];
-    if (!strcmp(prepared->raw_unit, other->raw_unit))
-        return NULL;
-    return measure_error(m, "`relative`: this is in %s, but \"%s\" in %s",
-                         prepared->raw_unit[0] ? prepared->raw_unit : "plain numbers",
-                         m->check->relative,
-                         other->raw_unit[0] ? other->raw_unit : "plain numbers");
+    TRY(unit_parse(prepared->raw_unit, &unit));
+    snprintf(prepared->unit, sizeof prepared->unit, "%s", prepared->raw_unit);
+    if (m->check->relative) {
+        TRY(unit_parse(divided_by, &other));
+        unit.dimension = dimension_quotient(unit.dimension, other.dimension);
+        dimension_text(unit.dimension, prepared->unit);
+    }
+    return located(m, check_find_limits(m->check, m->check->measure.choice->name, unit.dimension,
+                                        &prepared->wanted, &prepared->low, &prepared->high));
 }
 
 struct error *checks_prepare(const struct simulation *simulation, const struct views *views,
@@ -183,8 +189,8 @@ struct error *checks_prepare(const struct simulation *simulation, const struct v
                                                     .at_start = NAN};
         error = error_join(error, prepare_check(checks, &items[i]));
     }
-    for (int i = 0; i < checks->count && !error; i++)
-        error = check_ratio(checks, &items[i]);
+    for (int i = 0; i < checks->count; i++)
+        error = error_join(error, prepare_limits(checks, &items[i]));
     if (error) {
         checks_free(checks);
         checks = NULL;
@@ -251,13 +257,26 @@ struct error *checks_watch(const struct checks *checks, const struct check_momen
     return NULL;
 }
 
+void check_judge(const struct check_input *check, struct check_result *result)
+{
+    const bool within = result->measured >= result->low && result->measured <= result->high;
+    /* What measured nothing is not excused. */
+    const bool expected =
+        check->known_deviation && check->known_deviation_if > 0.0 && !isnan(result->measured);
+    result->source = text_copy(check->source);
+    result->verdict = within ? (expected ? CHECK_PASSES_NOW : CHECK_PASSED)
+                             : (expected ? CHECK_KNOWN_DEVIATION : CHECK_FAILED);
+    result->known_deviation =
+        result->verdict == CHECK_KNOWN_DEVIATION ? text_copy(check->known_deviation) : NULL;
+    result->regression_bound = check->regression_bound;
+}
+
 /* MEMORY holds what all checks measured. */
 static struct error *judge(const struct prepared_check *prepared, const struct check_memory *memory,
                            int index, struct check_result *result)
 {
     const struct check_input *check = prepared->measurement.check;
     result->name = text_copy(prepared->measurement.name);
-    result->source = text_copy(check->source);
     result->measure = check->measure.choice->name;
     snprintf(result->unit, sizeof result->unit, "%s", prepared->unit);
     result->wanted = prepared->wanted;
@@ -269,17 +288,19 @@ static struct error *judge(const struct prepared_check *prepared, const struct c
         result->measured /= memory[index].start;
     else if (check->relative)
         result->measured /= memory[check->relative_check].measured;
-    const bool within = result->measured >= result->low && result->measured <= result->high;
-    /* What measured nothing is not excused. */
-    const bool expected =
-        check->known_deviation && check->known_deviation_if > 0.0 && !isnan(result->measured);
-    result->verdict = within ? (expected ? CHECK_PASSES_NOW : CHECK_PASSED)
-                             : (expected ? CHECK_KNOWN_DEVIATION : CHECK_FAILED);
-    result->known_deviation =
-        result->verdict == CHECK_KNOWN_DEVIATION ? text_copy(check->known_deviation) : NULL;
-    result->regression_bound = check->regression_bound;
+    check_judge(check, result);
     return result->name ? NULL : error_new(ERROR_SYSTEM, "out of memory for checks");
 }
+
+void check_results_count(struct check_results *results)
+{
+    const struct check_result *result = &results->item[results->count++];
+    results->failed += check_failed(result);
+    results->known_deviations += result->verdict == CHECK_KNOWN_DEVIATION;
+    results->regression_bounds += result->verdict == CHECK_PASSED && result->regression_bound;
+}
+
+const char *checks_unit(const struct checks *checks, int index) { return checks->item[index].unit; }
 
 struct error *checks_evaluate(const struct checks *checks, const struct check_moment *moment,
                               struct check_results *results)
@@ -292,11 +313,8 @@ struct error *checks_evaluate(const struct checks *checks, const struct check_mo
         if (isnan(checks->item[i].measurement.check->at))
             TRY(measure_now(&checks->item[i], moment, &moment->memory[i]));
     for (int i = 0; i < checks->count; i++) {
-        struct check_result *result = &results->item[results->count++];
-        TRY(judge(&checks->item[i], moment->memory, i, result));
-        results->failed += check_failed(result);
-        results->known_deviations += result->verdict == CHECK_KNOWN_DEVIATION;
-        results->regression_bounds += result->verdict == CHECK_PASSED && result->regression_bound;
+        TRY(judge(&checks->item[i], moment->memory, i, &results->item[i]));
+        check_results_count(results);
     }
     return NULL;
 }

@@ -18,7 +18,7 @@ struct check_result {
     char *known_deviation; /* its reason; else NULL */
     bool regression_bound; /* the limit bounds the change from an earlier result of Bolide */
     const char *measure;   /* static text */
-    char unit[24];
+    char unit[DIMENSION_TEXT];
     double measured, time; /* s, when it was measured; NAN: never */
     double wanted;         /* NAN: there are only limits */
     double low, high;      /* allowed from .. to; -INFINITY, INFINITY: no limit */
@@ -43,6 +43,9 @@ struct check_memory {
 enum { CHECK_MEMORY_NUMBERS = sizeof(struct check_memory) / sizeof(double) };
 
 struct checks;
+
+/* The unit of what the check at INDEX measures. */
+const char *checks_unit(const struct checks *checks, int index);
 
 /* Readies the checks of a run before its first step: finds their fields in VIEWS, looks at
  * dimensions, solves the exact problems. PROBES (NULL: none), which stay, keep what checks read. All
@@ -76,6 +79,8 @@ char *checks_picture(const struct checks *checks, int index);
 struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,
                           const struct views *views, const char *folder);
 
+/* Counts the item that was filled in after the last one. */
+void check_results_count(struct check_results *results);
 /* Writes the table as CSV. */
 struct error *check_results_write(const struct check_results *results, const char *path);
 void check_results_free(struct check_results *results);
@@ -86,6 +91,13 @@ void check_allowed_text(const struct check_result *result, char *buffer, size_t 
 void check_measured_text(const struct check_result *result, char *buffer, size_t size);
 /* "passed", "FAILED", "known deviation", with a reason or a remedy after a colon. Owned by the caller; NULL when memory is out. */
 char *check_verdict_text(const struct check_result *result);
+/* The interval that CHECK allows to a value of DIMENSION, which WHAT names in messages. ERROR_INPUT
+ * without a place. */
+struct error *check_find_limits(const struct check_input *check, const char *what,
+                                struct dimension dimension, double *wanted, double *low,
+                                double *high);
+/* Fills in verdict, source and reasons of RESULT, whose measured value and limits are known. */
+void check_judge(const struct check_input *check, struct check_result *result);
 const char *check_verdict_name(enum check_verdict verdict);
 
 #endif

@@ -6,7 +6,8 @@
 
 struct prepared_check {
     struct measurement measurement; /* without the totals at the start */
-    const char *unit, *raw_unit;    /* of the result, and of what it is before it is divided */
+    const char *raw_unit;           /* of what is measured */
+    char unit[DIMENSION_TEXT];      /* of the result, which `relative` may have divided */
     void *solved;                   /* owned; NULL: that of an earlier check serves */
     double wanted, low, high;
 };

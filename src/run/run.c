@@ -17,6 +17,7 @@
 #include "model/generate.h"
 #include "output/picture.h"
 #include "run/estimate.h"
+#include "run/fits.h"
 #include "run/run_internal.h"
 
 /* A thread with fewer particles costs more in waiting than it gains in work. The second number
@@ -164,6 +165,8 @@ static struct error *look_ahead(struct run *run)
     error = error_join(error, profiles_prepare(&run->simulation, &run->views, &run->profiles));
     error = error_join(error,
                        checks_prepare(&run->simulation, &run->views, &run->probes, &run->checks));
+    if (run->checks)
+        error = error_join(error, fits_prepare(run->input, run->checks));
     for (int i = 0; i < pictures->count; i++) {
         struct error *mistake =
             picture_field_check(&run->simulation, &run->views, pictures->names[i]);

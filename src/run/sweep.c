@@ -291,12 +291,23 @@ static struct error *draw_checks(const char *folder, const struct verify_case *r
     return error;
 }
 
-struct error *sweep_write(const char *folder, const struct verify_case *runs, int count)
+static struct error *write_fits(const char *folder, const struct check_results *fits)
+{
+    char *path = path_join(folder, "checks.csv");
+    struct error *error = path ? check_results_write(fits, path) : out_of_memory();
+    free(path);
+    return error;
+}
+
+struct error *sweep_write(const char *folder, const struct verify_case *runs, int count,
+                          const struct check_results *fits)
 {
     if (count == 0)
         return NULL;
     TRY(folder_make(folder));
     TRY(write_table(folder, runs, count));
+    if (fits->count > 0)
+        TRY(write_fits(folder, fits));
     char *pictures = path_join(folder, "pictures");
     struct error *error = pictures ? draw_checks(pictures, runs, count) : out_of_memory();
     free(pictures);

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/results.h"
+#include "run/fits.h"
 #include "run/sweep.h"
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
@@ -119,11 +120,7 @@ static struct error *run_of_sweep(struct simulation_case *input, const char *pat
     struct error *error = verified && (own_folder || !folder) ? NULL : out_of_memory();
     if (!error) {
         assert(verified);
-        verified->sweep = input->sweep;
-        verified->sweep_values = input->sweep_values;
         verified->resolution = input->resolution;
-        input->sweep = NULL;
-        input->sweep_values = 0;
         struct run_options running = options->running;
         if (running.resume && !is_there(own_folder, "checkpoint.h5")) {
             running.resume = false;
@@ -133,6 +130,10 @@ static struct error *run_of_sweep(struct simulation_case *input, const char *pat
         if (listener && listener->line)
             listener->line(listener->context, verified->name);
         run_input(input, own_folder, &running, !options->reading.convergence, verified);
+        verified->sweep = input->sweep;
+        verified->sweep_values = input->sweep_values;
+        input->sweep = NULL;
+        input->sweep_values = 0;
         tell_end(options, verified);
     }
     free(own_folder);
@@ -179,6 +180,42 @@ static struct error *check_folder(const char *folder, const struct run_options *
                      folder);
 }
 
+/* Fits through the COUNT runs of the sweep of the case at PATH; none where a run stopped. */
+static struct error *evaluate_fits(const char *path, const struct verify_options *options,
+                                   const struct verify_case *runs, int count,
+                                   struct check_results *fits)
+{
+    struct simulation_case *input = NULL;
+    struct case_options reading = options->reading;
+    for (int i = 0; i < count; i++)
+        if (runs[i].error) /* told already */
+            return NULL;
+    reading.sweep_run = 1;
+    TRY(read_case(path, &reading, options, &input));
+    struct error *error = fits_evaluate(input, runs, count, fits);
+    case_free(input);
+    return error;
+}
+
+/* An item "NAME/fits" with the results FITS (taken), if there are any. */
+static struct error *add_fits(struct verify_result *result, const char *path, const char *name,
+                              struct check_results *fits)
+{
+    if (fits->count == 0) {
+        check_results_free(fits);
+        return NULL;
+    }
+    struct verify_case *item = add_case(result, path, text_format("%s/fits", name));
+    if (!item) {
+        check_results_free(fits);
+        return out_of_memory();
+    }
+    item->fits = true;
+    item->result.checks = *fits;
+    item->passed = fits->failed == 0;
+    return NULL;
+}
+
 static struct error *run_all(const char *path, const char *name, const char *folder, int runs,
                              const struct verify_options *options, struct verify_result *result)
 {
@@ -192,9 +229,14 @@ static struct error *run_all(const char *path, const char *name, const char *fol
         case_free(input);
         TRY(error);
     }
-    if (!folder || options->reading.convergence || ranks_of(options)->rank != 0)
+    if (options->reading.convergence)
         return NULL;
-    return sweep_write(folder, result->item + first, result->count - first);
+    struct check_results fits = {0};
+    struct error *error =
+        evaluate_fits(path, options, result->item + first, result->count - first, &fits);
+    if (!error && folder && ranks_of(options)->rank == 0)
+        error = sweep_write(folder, result->item + first, result->count - first, &fits);
+    return error_join(error, add_fits(result, path, name, &fits));
 }
 
 /* The folder of a sweep holds no run itself, but its table and its plots. */
@@ -256,12 +298,13 @@ static struct error *named_error(const struct verify_case *verified)
 static struct error *sum_up(struct verify_result *result)
 {
     struct error *error = NULL;
-    result->passed = result->checks = result->checks_passed = 0;
+    result->cases = result->passed = result->checks = result->checks_passed = 0;
     result->regression_bounds = result->known_deviations = 0;
     for (int i = 0; i < result->count; i++) {
         const struct verify_case *verified = &result->item[i];
         const struct check_results *checks = &verified->result.checks;
-        result->passed += verified->passed;
+        result->cases += !verified->fits;
+        result->passed += verified->passed && !verified->fits;
         result->checks += checks->count;
         result->checks_passed +=
             checks->count - checks->failed - checks->known_deviations - checks->regression_bounds;

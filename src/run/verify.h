@@ -14,6 +14,7 @@ struct verify_case {
     struct run_result result;
     bool passed;       /* a run of a convergence study: came to its end, whatever its checks say */
     double resolution; /* m; of a run of a sweep or a study */
+    bool fits;         /* no run: the fits through those of a sweep */
     int sweep_values;  /* 0: no run of a sweep */
     struct sweep_value *sweep;
 };
@@ -29,7 +30,8 @@ struct verify_options {
 };
 
 struct verify_result {
-    int count, passed; /* cases */
+    int count;         /* items */
+    int cases, passed; /* items that ran: not the fits through a sweep */
     /* REGRESSION_BOUNDS passed too, and are not counted among CHECKS_PASSED. */
     int checks, checks_passed, regression_bounds, known_deviations;
     struct verify_case *item;

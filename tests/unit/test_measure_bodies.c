@@ -488,7 +488,7 @@ static void what_makes_no_sense_of_a_body_is_told_before_the_run(void **state)
         {"  it: {extent: x, at_most: 1 s}\n", "`at_most` is in s"},
         {"  it: {total: mass, relative: start, at_most: 1 kg/m}\n", "`at_most` is in"},
         {"  it: {mean: pressure, relative: at, at_most: 1}\n  at: {mean: position.x, at_most: 1 m}",
-         "`relative`: this is in Pa, but \"at\" in m"},
+         "`at_most` is in plain numbers, but `mean` is in kg/(m^2*s^2)"},
     };
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         struct stage s;

@@ -245,6 +245,76 @@ static void a_known_deviation_holds_in_the_runs_that_it_names(void **state)
     assert_int_equal(system("rm -r results"), 0);
 }
 
+static const char fitted[] = BODIES
+    "checks: {u: {mean: velocity.x, at_least: 0 m/s}, e: {maximum: energy, at_least: 0 J/kg}}\n"
+    "sweep: {all: {speed: [1 m/s, 2 m/s, 4 m/s, 8 m/s],"
+    " bodies.all.energy: [3 J/kg, 12 J/kg, 48 J/kg, 1 kJ/kg]}}\n"
+    "fits: {";
+
+/* u is the speed; e is 3 J/kg (speed/(1 m/s))^2 in the first three runs. */
+static void lines_and_power_laws_go_through_the_runs(void **state)
+{
+    (void)state;
+    struct verify_result result;
+    char text[4096];
+    snprintf(text, sizeof text, "%s%s", fitted,
+             "line: {of: u, over: speed, take: slope, is: 1, within: 1e-12},"
+             " start: {of: u, over: speed, take: intercept, is: 0 m/s, within: 1e-12 m/s},"
+             " square: {of: e, over: u, form: power, take: slope, to: 5 m/s, is: 2, within: 1e-12},"
+             " exact: {of: e, over: u, form: power, take: misfit, to: 5 m/s, at_most: 1e-12},"
+             " off: {of: e, over: speed, take: misfit, to: 5 m/s, is: 0.13226, within: 1e-4},"
+             " one: {of: e, over: speed, take: slope, from: 5 m/s, at_least: 0 J*s/(kg*m)},"
+             " late: {of: e, over: speed, take: slope, at_most: 0 m/s, known_deviation: is}}\n");
+    write_case(text);
+    struct error *error = run_all(true, false, &result);
+    assert_int_equal(error_kind(error), ERROR_CHECK);
+    error_free(error);
+    assert_int_equal(result.cases, 4);
+    assert_int_equal(result.passed, 4);
+    assert_int_equal(result.count, 5);
+    const struct check_results *fits = &result.item[4].result.checks;
+    const enum check_verdict wanted[] = {CHECK_PASSED,         CHECK_PASSED, CHECK_PASSED,
+                                         CHECK_PASSED,         CHECK_PASSED, CHECK_FAILED,
+                                         CHECK_KNOWN_DEVIATION};
+    assert_int_equal(fits->count, COUNT_OF(wanted));
+    for (int i = 0; i < fits->count; i++)
+        if (fits->item[i].verdict != wanted[i])
+            fail_msg("%s: %g", fits->item[i].name, fits->item[i].measured);
+    assert_true(isnan(fits->item[5].measured));
+    assert_string_equal(fits->item[1].unit, "m/s");
+    verify_result_free(&result);
+    char *page = NULL;
+    size_t size;
+    assert_null(file_read("results/report.html", &page, &size));
+    assert_non_null(strstr(page, "Fits through the runs"));
+    free(page);
+    assert_int_equal(system("rm -r results"), 0);
+}
+
+static void dimensions_of_fits_are_compared_before_the_first_step(void **state)
+{
+    (void)state;
+    static const char *const wrong[][2] = {
+        {"f: {of: u, over: speed, take: slope, at_most: 1 m}}\n",
+         "but `slope` is in plain numbers"},
+        {"f: {of: u, over: speed, take: slope, from: 1 s, at_most: 1}}\n", "`from` is in s"},
+        {"f: {of: u, over: sped, take: slope, at_most: 1}}\n", "no swept key or check \"sped\""},
+    };
+    for (size_t i = 0; i < COUNT_OF(wrong); i++) {
+        struct verify_result result;
+        char text[4096];
+        snprintf(text, sizeof text, "%s%s", fitted, wrong[i][0]);
+        write_case(text);
+        struct error *error = run_all(true, false, &result);
+        assert_int_equal(error_kind(error), ERROR_INPUT);
+        if (!strstr(error_message(error, 0), wrong[i][1]))
+            fail_msg("\"%s\" does not say \"%s\"", error_message(error, 0), wrong[i][1]);
+        error_free(error);
+        verify_result_free(&result);
+    }
+    assert_int_equal(system("rm -rf results"), 0);
+}
+
 static void results_give_way_only_when_asked(void **state)
 {
     (void)state;
@@ -300,6 +370,8 @@ int main(void)
         cmocka_unit_test(the_short_form_has_a_sweep_of_its_own),
         cmocka_unit_test(a_mistake_stands_where_its_value_does),
         cmocka_unit_test(a_known_deviation_holds_in_the_runs_that_it_names),
+        cmocka_unit_test(lines_and_power_laws_go_through_the_runs),
+        cmocka_unit_test(dimensions_of_fits_are_compared_before_the_first_step),
         cmocka_unit_test(the_runs_make_one_table),
         cmocka_unit_test(results_give_way_only_when_asked),
         cmocka_unit_test(a_sweep_goes_on_where_it_was_left),
