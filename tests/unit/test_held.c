@@ -88,6 +88,36 @@ static void a_driven_body_moves_by_its_velocity(void **state)
     end(run);
 }
 
+/* Its particles do not deform each other, so that no pressure runs into it. */
+static void the_thickness_of_a_driven_body_does_not_matter(void **state)
+{
+    (void)state;
+    const struct variant variants[] = {
+        {"thin", 1, 1.0, "solver.sph.method=muscl", false},
+        {"thick", 1, 1.0, "solver.sph.method=muscl", false},
+    };
+    double velocity[2], pressure[2];
+    for (int k = 0; k < 2; k++) {
+        const char *at = strstr(push, "-6 mm");
+        char *text =
+            text_format("%.*s%s%s", (int)(at - push), push, k ? "-24 mm" : "-6 mm", at + 5);
+        struct running *run = begin_fresh(text, &variants[k]);
+        const struct particles *p = &run->simulation.particles;
+        free(text);
+        while (run->simulation.time < 1.4e-6)
+            step_of(run, 1.4e-6 - run->simulation.time);
+        velocity[k] = pressure[k] = 0.0;
+        for (int32_t i = 0; i < p->count; i++)
+            if (p->body[i] == 1) {
+                velocity[k] += p->velocity[i][0];
+                pressure[k] += p->pressure[i];
+            }
+        end(run);
+    }
+    assert_near(velocity[1], velocity[0], 1e-7 * velocity[0]);
+    assert_near(pressure[1], pressure[0], 1e-7 * pressure[0]);
+}
+
 static const struct variant of_heun = {"hllc", 1, 1.0, "solver={sph: {method: hllc}}", false};
 static const struct variant of_mpm = {"mpm", 1, 1.0, "solver=mpm", false};
 
@@ -167,6 +197,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_piston_keeps_its_velocity_until_it_stops),
         cmocka_unit_test(a_driven_body_moves_by_its_velocity),
+        cmocka_unit_test(the_thickness_of_a_driven_body_does_not_matter),
         cmocka_unit_test(a_driven_body_follows_the_time),
         cmocka_unit_test(a_driven_body_has_the_same_bits_after_a_resume),
     };

@@ -185,7 +185,8 @@ BOLIDE_INLINE void find_changes(struct muscl_kind kind, double matter, const dou
         const struct vec3 du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
                                         vector_from(dimension, own + u, 1));
         const double along_u = vec3_dot(du, n), speed = fabs(along_u);
-        const bool smooth = matter == lanes->field[other][k] && speed * own[q] < own[z] &&
+        const bool smooth = matter == muscl_index(lanes->field[other][k]) &&
+                            speed * own[q] < own[z] &&
                             speed * lanes->field[q][k] < lanes->field[z][k];
         const double near = pairs->near[k], near_i = smooth ? near : 0.0,
                      near_j = smooth ? 2.0 - near : 0.0;
@@ -250,7 +251,7 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
 {
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
-    const int z = muscl_impedance(kind), q = muscl_shock_slope(kind);
+    const int z = muscl_impedance(kind), q = muscl_shock_slope(kind), m = muscl_material(kind);
     const struct layout at = layout_of(kind);
     const struct pair_law law = {STAR_SHOCK, shear, true, with_law};
 #pragma omp simd simdlen(8)
@@ -291,6 +292,12 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
             t = vec3_add(t, star.shear);
         if (dimension > 1)
             w = vec3_add(w, star.sliding);
+        /* Particles with prescribed motion do not deform each other: no wave runs between them. */
+        if (muscl_driven(own[m]) && muscl_driven(lanes->field[m][k])) {
+            w = vec3_scale(0.5 * pairs->along_u[k], n);
+            if (dimension > 1)
+                w = vec3_add(w, vec3_scale(0.5, difference.sliding));
+        }
         const double weight = pairs->weight[k];
         double force_weight = weight * pairs->area[k];
         if (kind.depth) {

@@ -21,7 +21,8 @@ BOLIDE_INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kin
                                          loop->empty,  loop->smoothing,    loop->place};
     const double *own = loop->record + (size_t)i * (size_t)records.stride;
     const struct laws laws = {loop->neighbours, loop->groups, loop->body};
-    const double matter = part.with_law ? -1.0 : own[muscl_material(kind)]; /* no material is -1 */
+    const double matter =
+        part.with_law ? -1.0 : muscl_index(own[muscl_material(kind)]); /* none is -1 */
     struct lane_walk walk;
     struct lanes lanes[GROUPS];
     struct pairs pairs[GROUPS];

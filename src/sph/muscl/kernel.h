@@ -41,7 +41,10 @@ BOLIDE_INLINE int muscl_shock_slope(struct muscl_kind kind)
 {
     return muscl_impedance(kind) + 1 + (kind.dimension > 1);
 }
+/* The index of the material; of a particle with prescribed motion -2 less that. */
 BOLIDE_INLINE int muscl_material(struct muscl_kind kind) { return muscl_shock_slope(kind) + 1; }
+BOLIDE_INLINE bool muscl_driven(double material) { return material < -1.5; }
+BOLIDE_INLINE double muscl_index(double material) { return maximum(material, -2.0 - material); }
 BOLIDE_INLINE int muscl_depth(struct muscl_kind kind) { return muscl_shock_slope(kind) + 2; }
 BOLIDE_INLINE int muscl_correction(struct muscl_kind kind)
 {

@@ -143,7 +143,7 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     if (dimension > 1)
         record[k++] = across_impedance(f, kind, p->density[i], i);
     record[k++] = p->density[i] * state->shock_slope[p->material[i]];
-    record[k++] = p->material[i];
+    record[k++] = body_is_held(simulation, p->body[i]) ? -2.0 - p->material[i] : p->material[i];
     if (kind.depth)
         record[k++] = sph_depth(simulation, &f->sph, i);
     size_t tensors = (size_t)tensor_components(dimension);
