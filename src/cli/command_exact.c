@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/memory.h"
 #include "cli/cli.h"
@@ -176,11 +177,12 @@ static struct error *solve_case(const char *given, const struct cli_options *opt
     return error;
 }
 
-/* A word that is a path of a file is a case. */
+/* A word that is a path, or what is there, is a case. */
 static bool names_case(const char *word)
 {
     size_t length = strlen(word);
-    return strchr(word, '/') || (length > 5 && !strcmp(word + length - 5, ".yaml"));
+    return strchr(word, '/') || (length > 5 && !strcmp(word + length - 5, ".yaml")) ||
+           access(word, F_OK) == 0;
 }
 
 static struct error *unknown_solution(const struct choice_list *list, const char *word)

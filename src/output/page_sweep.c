@@ -119,6 +119,17 @@ static void put_reasons(const struct page *page)
         }
 }
 
+/* Fits through the runs that failed. */
+static int64_t failed_fits(const struct page *page)
+{
+    int64_t failed = 0;
+    for (int64_t row = 0; row < page->checks.rows; row++) {
+        const char *verdict = csv_field(&page->checks, row, csv_column(&page->checks, "verdict"));
+        failed += !strcmp(verdict, "failed") || !strcmp(verdict, "passes now");
+    }
+    return failed;
+}
+
 void page_sweep(const struct page *page)
 {
     const struct csv *table = &page->sweep;
@@ -127,10 +138,15 @@ void page_sweep(const struct page *page)
         passed += has_passed(table, row);
     fprintf(page->file,
             "<section id=\"sweep\"><h2>Verdict</h2>\n<p class=\"verdict %s\"><strong>%s: %lld of "
-            "%lld runs.</strong></p>\n",
-            passed == table->rows ? "good" : "bad", passed == table->rows ? "Passed" : "Failed",
+            "%lld runs.</strong>",
+            passed == table->rows && !failed_fits(page) ? "good" : "bad",
+            passed == table->rows ? "Passed" : "Failed",
             (long long)(passed == table->rows ? passed : table->rows - passed),
             (long long)table->rows);
+    if (failed_fits(page))
+        fprintf(page->file, " <strong>Failed: %lld of %lld fits.</strong>",
+                (long long)failed_fits(page), (long long)page->checks.rows);
+    fputs("</p>\n", page->file);
     put_table(page);
     put_reasons(page);
     if (page->checks.rows)

@@ -37,9 +37,29 @@ static char *values_text(const struct sweep_value *values, int first, int count)
     return text;
 }
 
+/* The same of the first value of every entry. */
+static char *first_values_text(const struct sweep_value *values, int count)
+{
+    char *text = text_copy("");
+    for (int i = 0; i < count && text; i++) {
+        if (i > 0 && values[i].entry == values[i - 1].entry)
+            continue;
+        char *longer =
+            text_format("%s%s%s=%s", text, text[0] ? "," : "", values[i].key, values[i].text);
+        free(text);
+        text = longer;
+    }
+    return text;
+}
+
 char *sweep_run_name(const struct sweep_value *values, int count)
 {
+    enum { LONGEST = 120 }; /* a folder has a name of 255 bytes at most */
     char *name = values_text(values, 0, count);
+    if (name && strlen(name) > LONGEST) {
+        free(name);
+        name = first_values_text(values, count);
+    }
     if (name)
         make_name(name);
     return name;

@@ -286,6 +286,7 @@ static void lines_and_power_laws_go_through_the_runs(void **state)
     char *page = NULL;
     size_t size;
     assert_null(file_read("results/report.html", &page, &size));
+    assert_non_null(strstr(page, "Passed: 4 of 4 runs.</strong> <strong>Failed: 1 of 7 fits."));
     assert_non_null(strstr(page, "Fits through the runs"));
     free(page);
     assert_int_equal(system("rm -r results"), 0);
@@ -348,6 +349,24 @@ static void a_sweep_goes_on_where_it_was_left(void **state)
     assert_int_equal(access("results/sweep.csv", R_OK), 0);
 }
 
+static void a_long_name_has_the_first_of_keys_that_change_together(void **state)
+{
+    (void)state;
+    char digits[121];
+    memset(digits, '1', sizeof digits);
+    digits[120] = '\0';
+    struct sweep_value values[] = {{.entry = 0, .key = "a", .text = "1 m"},
+                                   {.entry = 0, .key = "b", .text = "2"},
+                                   {.entry = 1, .key = "c", .text = "3"}};
+    char *name = sweep_run_name(values, 3);
+    assert_string_equal(name, "a=1_m,b=2,c=3");
+    free(name);
+    values[1].text = digits;
+    name = sweep_run_name(values, 3);
+    assert_string_equal(name, "a=1_m,c=3");
+    free(name);
+}
+
 static void runs_of_one_name_are_a_mistake(void **state)
 {
     (void)state;
@@ -375,6 +394,7 @@ int main(void)
         cmocka_unit_test(the_runs_make_one_table),
         cmocka_unit_test(results_give_way_only_when_asked),
         cmocka_unit_test(a_sweep_goes_on_where_it_was_left),
+        cmocka_unit_test(a_long_name_has_the_first_of_keys_that_change_together),
         cmocka_unit_test(runs_of_one_name_are_a_mistake),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
