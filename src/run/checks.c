@@ -16,9 +16,8 @@ static const struct measure_class *class_of(const struct check_input *check)
 
 static bool given(const struct quantity *quantity) { return !isnan(quantity->value); }
 
-/* QUANTITY must have the dimension of what is measured; not given is right too. */
-static struct error *same_dimension(const char *what, const char *key,
-                                    const struct quantity *quantity, struct dimension wanted)
+struct error *check_same_dimension(const char *what, const char *key,
+                                   const struct quantity *quantity, struct dimension wanted)
 {
     if (!given(quantity) || dimension_equal(quantity->dimension, wanted))
         return NULL;
@@ -36,9 +35,9 @@ struct error *check_find_limits(const struct check_input *check, const char *wha
                                 double *high)
 {
     const struct dimension none = {0, 0, 0, 0};
-    TRY(same_dimension(what, "is", &check->is, dimension));
-    TRY(same_dimension(what, "at_most", &check->at_most, dimension));
-    TRY(same_dimension(what, "at_least", &check->at_least, dimension));
+    TRY(check_same_dimension(what, "is", &check->is, dimension));
+    TRY(check_same_dimension(what, "at_most", &check->at_most, dimension));
+    TRY(check_same_dimension(what, "at_least", &check->at_least, dimension));
     *wanted = NAN;
     *low = given(&check->at_least) ? check->at_least.value : -INFINITY;
     *high = given(&check->at_most) ? check->at_most.value : INFINITY;
@@ -49,7 +48,7 @@ struct error *check_find_limits(const struct check_input *check, const char *wha
         if (dimension_equal(check->within.dimension, none) && is != 0.0)
             distance *= fabs(is);
         else
-            TRY(same_dimension(what, "within", &check->within, dimension));
+            TRY(check_same_dimension(what, "within", &check->within, dimension));
         *wanted = is;
         *low = maximum(*low, is - distance);
         *high = minimum(*high, is + distance);
@@ -139,8 +138,8 @@ static struct error *prepare_check(const struct checks *checks, struct prepared_
         const char *text;
         TRY(measure_field_unit(m, &text));
         TRY(unit_parse(text, &field_unit));
-        TRY(located(m, same_dimension(m->check->measure.choice->name, "scale", &m->check->scale,
-                                      field_unit.dimension)));
+        TRY(located(m, check_same_dimension(m->check->measure.choice->name, "scale",
+                                            &m->check->scale, field_unit.dimension)));
     } else if (given(&m->check->scale))
         return measure_error(m, "`scale` has no meaning for `%s`", m->check->measure.choice->name);
     return solve_exact(checks, prepared);

@@ -91,6 +91,10 @@ void check_allowed_text(const struct check_result *result, char *buffer, size_t 
 void check_measured_text(const struct check_result *result, char *buffer, size_t size);
 /* "passed", "FAILED", "known deviation", with a reason or a remedy after a colon. Owned by the caller; NULL when memory is out. */
 char *check_verdict_text(const struct check_result *result);
+/* ERROR_INPUT without a place where QUANTITY, the value of KEY, has not the dimension of WHAT; not
+ * given is right too. */
+struct error *check_same_dimension(const char *what, const char *key,
+                                   const struct quantity *quantity, struct dimension wanted);
 /* The interval that CHECK allows to a value of DIMENSION, which WHAT names in messages. ERROR_INPUT
  * without a place. */
 struct error *check_find_limits(const struct check_input *check, const char *what,

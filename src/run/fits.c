@@ -38,18 +38,6 @@ static const char *take_name(const struct fit_input *fit)
     return fit->take == FIT_SLOPE ? "slope" : fit->take == FIT_INTERCEPT ? "intercept" : "misfit";
 }
 
-static struct error *bound_dimension(const char *key, const struct quantity *bound,
-                                     struct dimension wanted)
-{
-    if (isnan(bound->value) || dimension_equal(bound->dimension, wanted))
-        return NULL;
-    char is[DIMENSION_TEXT], must[DIMENSION_TEXT];
-    dimension_text(bound->dimension, is);
-    dimension_text(wanted, must);
-    return error_new(ERROR_INPUT, "`%s` is in %s, but `over` is in %s", key,
-                     is[0] ? is : "plain numbers", must[0] ? must : "plain numbers");
-}
-
 /* The dimensions of `over` and `of`. */
 static struct error *find_axes(const struct simulation_case *input, const struct checks *checks,
                                const struct fit_input *fit, struct dimension *x,
@@ -76,8 +64,8 @@ static struct error *prepare(const struct simulation_case *input, const struct c
     struct dimension x, y;
     double wanted, low, high;
     TRY(find_axes(input, checks, fit, &x, &y));
-    TRY(bound_dimension("from", &fit->from, x));
-    TRY(bound_dimension("to", &fit->to, x));
+    TRY(check_same_dimension("over", "from", &fit->from, x));
+    TRY(check_same_dimension("over", "to", &fit->to, x));
     return check_find_limits(&fit->check, take_name(fit), dimension_of(fit, x, y), &wanted, &low,
                              &high);
 }
@@ -95,14 +83,6 @@ struct error *fits_prepare(const struct simulation_case *input, const struct che
     return all;
 }
 
-static const struct check_result *result_called(const struct verify_case *run, const char *name)
-{
-    for (int i = 0; i < run->result.checks.count; i++)
-        if (!strcmp(run->result.checks.item[i].name, name))
-            return &run->result.checks.item[i];
-    return NULL;
-}
-
 struct points {
     int count;
     double *x, *y;
@@ -115,8 +95,8 @@ static struct error *take_points(const struct fit_input *fit, const struct verif
 {
     struct unit unit;
     for (int i = 0; i < count; i++) {
-        const struct check_result *y = result_called(&runs[i], fit->of);
-        const struct check_result *other = result_called(&runs[i], fit->over);
+        const struct check_result *y = verify_find_check(&runs[i], fit->of);
+        const struct check_result *other = verify_find_check(&runs[i], fit->over);
         const struct sweep_value *value = swept(runs[i].sweep, runs[i].sweep_values, fit->over);
         if (!y || (!value && !other))
             continue;

@@ -86,14 +86,6 @@ static const struct check_results *checks_of(const struct verify_case *runs, int
     return &runs[0].result.checks;
 }
 
-static const struct check_result *find_check(const struct verify_case *run, const char *name)
-{
-    for (int i = 0; i < run->result.checks.count; i++)
-        if (!strcmp(run->result.checks.item[i].name, name))
-            return &run->result.checks.item[i];
-    return NULL;
-}
-
 static void put_head(FILE *file, const char *name, const char *unit)
 {
     char *head = unit && unit[0] ? text_format(",%s [%s]", name, unit) : text_format(",%s", name);
@@ -135,7 +127,7 @@ static void put_row(FILE *file, const struct verify_case *runs, int count,
             csv_put_text(file, run->sweep[k].text);
     }
     for (int k = 0; k < checks->count; k++) {
-        const struct check_result *check = find_check(run, checks->item[k].name);
+        const struct check_result *check = verify_find_check(run, checks->item[k].name);
         fputc(',', file);
         if (check && !isnan(check->measured))
             csv_put_number(file, check->measured);
@@ -213,7 +205,7 @@ static int take_dots(const struct verify_case *runs, int count, const char *name
 {
     int taken = 0;
     for (int i = 0; i < count; i++) {
-        const struct check_result *check = find_check(&runs[i], name);
+        const struct check_result *check = verify_find_check(&runs[i], name);
         if (!check || !isfinite(check->measured))
             continue;
         dots[taken++] = (struct dot){

@@ -319,6 +319,14 @@ static struct error *sum_up(struct verify_result *result)
     return error;
 }
 
+const struct check_result *verify_find_check(const struct verify_case *run, const char *name)
+{
+    for (int i = 0; i < run->result.checks.count; i++)
+        if (!strcmp(run->result.checks.item[i].name, name))
+            return &run->result.checks.item[i];
+    return NULL;
+}
+
 char *verify_checks_text(const struct verify_result *result)
 {
     const int passed = result->checks_passed, bounds = result->regression_bounds,

@@ -41,6 +41,9 @@ struct verify_result {
  * nothing is said. Owned by the caller; NULL when memory is out. */
 char *verify_checks_text(const struct verify_result *result);
 
+/* What the check called NAME of a run measured; NULL: it has none. */
+const struct check_result *verify_find_check(const struct verify_case *run, const char *name);
+
 /* Runs the COUNT cases at PATHS one after the other. NULL when all pass; ERROR_CHECK when a check
  * failed; the gravest error when a case could not be read or run (the others run nevertheless). */
 struct error *verify_cases(const char *const *paths, int count,
