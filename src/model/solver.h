@@ -43,8 +43,8 @@ struct solver_class {
     /* The step that a particle of DIAMETER allows in state POINT at the start, for `bolide check`. */
     double (*step)(const void *parameters, int dimension, const struct material *material,
                    const struct point *point, double diameter);
-    /* The jump of velocity over the speed of sound up to which its contact problem holds; NULL where
-     * that has no bound. */
+    /* The jump of velocity over the speed of sound up to which its contact problem holds; NULL
+     * where that has no bound. */
     double (*largest_jump)(const void *parameters);
     /* Every field that it may add to the store: tables of rows, NULL after the last table. */
     const struct field_row *const *fields;

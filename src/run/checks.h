@@ -89,7 +89,8 @@ void check_results_free(struct check_results *results);
  * reads them. BUFFER holds SIZE bytes. */
 void check_allowed_text(const struct check_result *result, char *buffer, size_t size);
 void check_measured_text(const struct check_result *result, char *buffer, size_t size);
-/* "passed", "FAILED", "known deviation", with a reason or a remedy after a colon. Owned by the caller; NULL when memory is out. */
+/* "passed", "FAILED", "known deviation", with a reason or a remedy after a colon. Owned by the
+ * caller; NULL when memory is out. */
 char *check_verdict_text(const struct check_result *result);
 /* ERROR_INPUT without a place where QUANTITY, the value of KEY, has not the dimension of WHAT; not
  * given is right too. */

@@ -1,15 +1,16 @@
-/* Fits through the runs of a sweep: a line or a power law, whose slope, intercept and misfit are checked. */
+/* Fits through the runs of a sweep: a line or a power law, whose slope, intercept and misfit are
+ * checked. */
 #ifndef BOLIDE_FITS_H
 #define BOLIDE_FITS_H
 
 #include "run/verify.h"
 
-/* Looks at the dimensions of the fits of INPUT, a run of a sweep, whose checks are CHECKS. All mistakes
- * come joined in one ERROR_INPUT, located in the case. */
+/* Compares the dimensions of the fits of INPUT, a run of a sweep with CHECKS. All mistakes come
+ * joined in one ERROR_INPUT, located in the case. */
 struct error *fits_prepare(const struct simulation_case *input, const struct checks *checks);
 
-/* Fits what the COUNT runs of the sweep of INPUT measured: RESULTS, owned by the caller, gets an item a
- * fit. A fit through fewer runs than it has constants measures nothing (NAN) and fails. */
+/* Fits what the COUNT runs of the sweep of INPUT measured: RESULTS, owned by the caller, gets an
+ * item a fit. A fit through fewer runs than it has constants measures nothing (NAN) and fails. */
 struct error *fits_evaluate(const struct simulation_case *input, const struct verify_case *runs,
                             int count, struct check_results *results);
 
