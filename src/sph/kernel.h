@@ -34,9 +34,9 @@ BOLIDE_INLINE double kernel_norm(double inverse_h, int dimension)
 }
 
 /* W(r), 1/m^dimension. */
-BOLIDE_INLINE double kernel_value(double r, double h, int dimension)
+BOLIDE_INLINE double kernel_value(double r, double inverse_h, int dimension)
 {
-    return kernel_shape(r / h) * kernel_norm(1.0 / h, dimension);
+    return kernel_norm(inverse_h, dimension) * kernel_shape(r * inverse_h);
 }
 
 /* dW/dr, never positive. */

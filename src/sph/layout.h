@@ -47,4 +47,10 @@ enum {
     PACKING_NUMBERS
 };
 
+/* How the volume of a particle follows from the places of its neighbours. In a step
+ * dt it grows by (1 + dt I1 + dt^2 I2 + dt^3 I3) exp(dt X): the invariants of the gradient of the
+ * velocities that particles move with, and the exchange. And the share that this has in the growth,
+ * beside that of the velocities of contacts. */
+enum { VOLUME_SHARE, VOLUME_FIRST, VOLUME_SECOND, VOLUME_THIRD, VOLUME_EXCHANGE, VOLUME_NUMBERS };
+
 #endif

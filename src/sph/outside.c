@@ -146,6 +146,8 @@ static void freeze_particle(struct simulation *simulation, const void *of, int32
         f->density_rate[i] = 0.0;
     if (f->packing)
         f->packing[i][PACKING_EXCESS] = 0.0;
+    if (f->volume)
+        memset(f->volume[i], 0, sizeof *f->volume);
 }
 
 static void hold_particle(struct simulation *simulation, const void *of, int32_t i,

@@ -34,6 +34,7 @@ enum sph_trait {
     SPH_DENSITY_RATE = 1 << 14,  /* pair sums give the rate of density */
     SPH_PACKING = 1 << 15,       /* how volumes fill space corrects densities and supports */
     SPH_ALL_RECONSTRUCTED = 1 << 16,
+    SPH_PLACES = 1 << 17, /* volumes follow the places of particles */
 };
 
 /* Components that depend on the run: of a symmetric tensor and of a gradient of velocity in its
@@ -52,6 +53,8 @@ struct sph_fields {
     double *density_rate; /* kg/(m^3 s) */
     double *support;      /* the diameter that sets the support of the kernel, m */
     double (*packing)[PACKING_NUMBERS];
+    double *density_start; /* of a fresh particle, kg/m^3 */
+    double (*volume)[VOLUME_NUMBERS];
 };
 
 /* Options that several schemes have, as rows of their tables. */

@@ -19,7 +19,8 @@ static double moment(double h, int dimension, int power)
         for (int k = 0; k < 5; k++) {
             double r = h * (piece + 0.5 + 0.5 * node[k]);
             double shell = dimension == 1 ? 2.0 : dimension == 2 ? 2.0 * pi * r : 4.0 * pi * r * r;
-            sum += 0.5 * h * weight[k] * kernel_value(r, h, dimension) * shell * pow(r, power);
+            sum +=
+                0.5 * h * weight[k] * kernel_value(r, 1.0 / h, dimension) * shell * pow(r, power);
         }
     return sum;
 }
@@ -48,10 +49,10 @@ static void the_slope_is_the_derivative(void **state)
     const double h = 0.3, step = 1e-5;
     for (int dimension = 1; dimension <= 3; dimension++)
         for (double r = 0.01; r < 2.2 * h; r += 0.007) {
-            double difference =
-                (kernel_value(r + step, h, dimension) - kernel_value(r - step, h, dimension)) /
-                (2.0 * step);
-            double scale = kernel_value(0.0, h, dimension) / h;
+            double difference = (kernel_value(r + step, 1.0 / h, dimension) -
+                                 kernel_value(r - step, 1.0 / h, dimension)) /
+                                (2.0 * step);
+            double scale = kernel_value(0.0, 1.0 / h, dimension) / h;
             assert_near(kernel_slope(r, 1.0 / h, dimension), difference, 1e-8 * scale);
             assert_true(kernel_slope(r, 1.0 / h, dimension) <= 0.0);
         }

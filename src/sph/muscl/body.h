@@ -29,6 +29,7 @@ struct pairs {
     /* what values in rows change by over x, by the neighbour's slopes */
     double wide[ROW][LANES] ALIGNED;
     double weight[LANES] ALIGNED, area[LANES] ALIGNED; /* V W', |a| */
+    double value[LANES] ALIGNED;                       /* V W/h^2, where volumes follow places */
     double near[LANES] ALIGNED;                        /* 2 D_i/(D_i + D_j) */
     /* along n and across: changes over the pair, own stress, and shares of the slopes, times near
      */
@@ -55,6 +56,24 @@ BOLIDE_INLINE void add_product(int dimension, double (*sums)[LANES], int at, int
         add_vector(dimension, sums, at + dimension, k, vec3_scale(v.y, e));
     if (dimension > 2)
         add_vector(dimension, sums, at + 2 * dimension, k, vec3_scale(v.z, e));
+}
+
+/* Adds V^a E^b, V along E, to the sums of a symmetric tensor, in the order of a record. */
+BOLIDE_INLINE void add_symmetric(int dimension, double (*sums)[LANES], int at, int k, struct vec3 v,
+                                 struct vec3 e)
+{
+    sums[at][k] += v.x * e.x;
+    if (dimension == 2) {
+        sums[at + 1][k] += v.y * e.y;
+        sums[at + 2][k] += v.x * e.y;
+    }
+    if (dimension == 3) {
+        sums[at + 1][k] += v.y * e.y;
+        sums[at + 2][k] += v.z * e.z;
+        sums[at + 3][k] += v.x * e.y;
+        sums[at + 4][k] += v.y * e.z;
+        sums[at + 5][k] += v.z * e.x;
+    }
 }
 
 BOLIDE_INLINE void put_vector(int dimension, double (*to)[LANES], int k, struct vec3 v)
@@ -94,6 +113,9 @@ BOLIDE_INLINE void find_places(struct muscl_kind kind, double smoothing, const d
                    dimension == 1 ? e : vec3_scale(inverse * (r * two_h), lx));
         double weight = lanes->field[v][k] * kernel_slope(r, inverse_h, dimension);
         pairs->weight[k] = weight;
+        if (kind.places)
+            pairs->value[k] =
+                lanes->field[v][k] * kernel_value(r, inverse_h, dimension) * square(inverse_h);
         pairs->area[k] = 0.5 * (ar * inverse_r);
         double near = smoothing * own[d] * inverse_h;
         pairs->near[k] = near;
@@ -145,18 +167,7 @@ BOLIDE_INLINE void add_slopes(struct muscl_kind kind, const double *own, const s
         const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
         struct vec3 m = vec3_scale(vec3_dot(x, e), c);
         add_vector(dimension, sums, at.offset, k, m);
-        sums[at.moment][k] += m.x * e.x;
-        if (dimension == 2) {
-            sums[at.moment + 1][k] += m.y * e.y;
-            sums[at.moment + 2][k] += m.x * e.y;
-        }
-        if (dimension == 3) {
-            sums[at.moment + 1][k] += m.y * e.y;
-            sums[at.moment + 2][k] += m.z * e.z;
-            sums[at.moment + 3][k] += m.x * e.y;
-            sums[at.moment + 4][k] += m.y * e.z;
-            sums[at.moment + 5][k] += m.z * e.x;
-        }
+        add_symmetric(dimension, sums, at.moment, k, m, e);
         for (int f = values - narrow; f < values; f++) {
             const int from = muscl_next(kind, f), to = at.narrow + f - (values - narrow);
             double dq = lanes->field[from][k] - own[from];
@@ -244,6 +255,31 @@ BOLIDE_INLINE void find_changes(struct muscl_kind kind, double matter, const dou
     }
 }
 
+/* What the volumes of a pair follow from: whether it counts, 0 or 1; how much faster the contact
+ * moves along n than the own particle, and the neighbour; how much more the neighbour is compressed.
+ */
+struct volume_pair {
+    double counts, contact, compression;
+    struct vec3 moved;
+};
+
+/* What the contact is ahead of its place between the two, one volume gains and the other loses:
+ * weighed so that the sum of the logarithms stays, if they were of one size at the start. */
+BOLIDE_INLINE void add_volume(struct muscl_kind kind, const struct pairs *pairs, int k,
+                              const struct volume_pair *pair, double (*sums)[LANES])
+{
+    const int dimension = kind.dimension;
+    const struct layout at = layout_of(kind);
+    const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
+    const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
+    const struct vec3 m = vec3_scale(pair->counts * pairs->value[k], x);
+    const double lead = pair->contact - 0.5 * pairs->near[k] * vec3_dot(pair->moved, n);
+    const double weight = pair->counts * pairs->weight[k] * pairs->area[k];
+    add_symmetric(dimension, sums, at.spread, k, m, x);
+    add_product(dimension, sums, at.parting, k, pair->moved, m);
+    sums[at.exchange][k] += 0.5 * (1.0 + pair->compression) * weight * lead;
+}
+
 /* Solves the contact problems and adds up what they give. */
 BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const double *own,
                                 const struct lanes *lanes, const struct pairs *pairs,
@@ -252,8 +288,10 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
     const int z = muscl_impedance(kind), q = muscl_shock_slope(kind), m = muscl_material(kind);
+    const int compression = muscl_compression(kind);
     const struct layout at = layout_of(kind);
     const struct pair_law law = {STAR_SHOCK, shear, true, with_law};
+    const double own_volume = kind.places ? 1.0 / own[compression] : 1.0;
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
@@ -314,6 +352,16 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
             sums[at.drift][k] += weight * w.x;
         add_product(dimension, sums, at.gradient, k, w,
                     vec3_scale(weight, vector_from(dimension, &pairs->e[0][k], LANES)));
+        if (kind.places) {
+            /* Bodies keep their volumes where they part, and where they slide past each other. */
+            const bool apart = with_law && limits.open > 0.0 && star.stress == 0.0;
+            const bool slips = with_law && limits.slip > 0.0;
+            const struct vec3 moved = vec3_add(vec3_scale(pairs->along_u[k], n),
+                                               vec3_scale(slips ? 0.0 : 1.0, difference.sliding));
+            const struct volume_pair volume = {apart ? 0.0 : 1.0, vec3_dot(w, n),
+                                               own_volume * lanes->field[compression][k], moved};
+            add_volume(kind, pairs, k, &volume, sums);
+        }
     }
 }
 

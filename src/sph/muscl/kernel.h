@@ -5,12 +5,12 @@
  * with the inverse L of the kernel's second moment, which makes sums exact for linear fields;
  * contacts are solved along n = a/|a|. And impedances are those of shocks. A neighbour is seen
  * through its record:
- *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] shock_slope material [depth]
- *   L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
+ *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] shock_slope material
+ *   [compression] [depth] L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
  * with stress as in record.h, velocity and stress half a step ahead, q' both of them a whole step,
  * and `shock_slope` rho times the slope of the shock adiabat (riemann/shock_slope.h). Z_across is
  * the shear impedance; of a material that has none, minus the fraction of compression in its
- * velocity gradient.
+ * velocity gradient. `compression` is rho over that of the start, where volumes follow places.
  *
  * Of q, the first four or eight values (the most that there are) stand at the end of the record, a
  * row for dq/dx, one for dq/dy, ..., one for q': the kernel takes these a neighbour at a time, a
@@ -23,6 +23,7 @@
 struct muscl_kind {
     int dimension;
     bool shear, depth; /* as in pair_kind */
+    bool places;       /* volumes follow places */
 };
 
 /* Components of a symmetric tensor in DIMENSION dimensions. */
@@ -45,7 +46,11 @@ BOLIDE_INLINE int muscl_shock_slope(struct muscl_kind kind)
 BOLIDE_INLINE int muscl_material(struct muscl_kind kind) { return muscl_shock_slope(kind) + 1; }
 BOLIDE_INLINE bool muscl_driven(double material) { return material < -1.5; }
 BOLIDE_INLINE double muscl_index(double material) { return maximum(material, -2.0 - material); }
-BOLIDE_INLINE int muscl_depth(struct muscl_kind kind) { return muscl_shock_slope(kind) + 2; }
+BOLIDE_INLINE int muscl_compression(struct muscl_kind kind) { return muscl_shock_slope(kind) + 2; }
+BOLIDE_INLINE int muscl_depth(struct muscl_kind kind)
+{
+    return muscl_compression(kind) + kind.places;
+}
 BOLIDE_INLINE int muscl_correction(struct muscl_kind kind)
 {
     return muscl_depth(kind) + kind.depth;
@@ -104,6 +109,7 @@ struct muscl_rates {
     double *velocity_gradient, *stress_gradient;
     double (*force)[3];                 /* likewise, on a unit of volume, N/m^3 */
     double (*packing)[PACKING_NUMBERS]; /* NULL on a line */
+    double (*volume)[VOLUME_NUMBERS];   /* NULL unless volumes follow places */
 };
 
 struct muscl_loop {

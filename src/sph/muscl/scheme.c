@@ -70,7 +70,7 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
                   .velocity = (const double(*)[3])p->velocity,
                   .rates = {fields->sph.rates, fields->own.correction,
                             fields->own.velocity_gradient, fields->own.stress_gradient,
-                            fields->own.force, fields->sph.packing}},
+                            fields->own.force, fields->sph.packing, fields->sph.volume}},
         .prune = {sph->record, (int)sph->stride, p->dimension, sph->place,
                   sph->parameters.smoothing, &sph->neighbours}};
     sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &sweep, 1});
@@ -120,6 +120,8 @@ static void start(const struct sph *sph, struct simulation *simulation)
         double *l = f.own.correction + (size_t)i * (size_t)tensors;
         for (int a = 0; a < dimension && l[0] == 0.0; a++) /* fresh */
             l[dimension - 1 - a] = 1.0;
+        if (f.sph.density_start && f.sph.density_start[i] == 0.0) /* fresh */
+            f.sph.density_start[i] = simulation->particles.density[i];
     }
     sph_evaluate(sph, simulation);
 }
@@ -147,8 +149,8 @@ static struct error *create(struct sph *sph, const struct simulation *simulation
 {
     struct muscl_state *state = sph->state;
     TRY(refuse(sph, simulation));
-    state->kind =
-        (struct muscl_kind){simulation->dimension, sph_has(sph, SPH_SHEAR), sph_deep(simulation)};
+    state->kind = (struct muscl_kind){simulation->dimension, sph_has(sph, SPH_SHEAR),
+                                      sph_deep(simulation), sph_has(sph, SPH_PLACES)};
     sph->stride = (size_t)muscl_stride(state->kind);
     sph->places = true;
     return sph_find_slopes(simulation, state->shock_slope);
@@ -169,13 +171,14 @@ static unsigned traits_of(const void *of, int dimension)
                        : dimension == 1     ? SPH_MOTION_CONTACT
                                             : SPH_MOTION_PARTICLE;
     return sph_traits_of(motion, options->energy) | SPH_FINITE_STRAIN |
-           (dimension > 1 ? SPH_PACKING : 0u);
+           (dimension > 1 ? SPH_PACKING : 0u) |
+           (dimension > 1 && options->volume == MUSCL_VOLUME_PLACES ? SPH_PLACES : 0u);
 }
 
-static size_t stride_of(const void *options, int dimension)
+static size_t stride_of(const void *of, int dimension)
 {
-    (void)options;
-    return (size_t)muscl_stride((struct muscl_kind){dimension, dimension > 1, false}) +
+    const bool places = dimension > 1 && ((const struct muscl_options *)of)->volume;
+    return (size_t)muscl_stride((struct muscl_kind){dimension, dimension > 1, false, places}) +
            PLACE_STRIDE;
 }
 

@@ -6,7 +6,7 @@
 #include "sph/muscl/kernel.h"
 #include "sph/record.h"
 
-enum { SUMS = 32, ROW = 8, TOTALS = SUMS + 3 * (ROW + 1) };
+enum { SUMS = 48, ROW = 8, TOTALS = SUMS + 3 * (ROW + 1) };
 
 /* Where the sums over a row stand, with w = V W' and f = 2 D_i/(D_i + D_j) twice the share of the
  * pair that i has. */
@@ -19,6 +19,9 @@ struct layout {
     int offset, moment;  /* -f w x, -f w x^a e^b */
     int narrow;          /* slopes of what stands in no row */
     int hoop;            /* of axisymmetry: w |a| (depth - d) n_x, w |a| x n_x */
+    /* where volumes follow places, v = V W/h^2: v x^a x^b, v (U_j - U)^a x^b; w |a| of the exchange
+     * of volume */
+    int spread, parting, exchange;
     int slopes; /* totals only: -f w dq e^b by b, of the values after the step; all above, a multiple of eight */
     int count;
 };
@@ -37,7 +40,10 @@ BOLIDE_INLINE struct layout layout_of(struct muscl_kind kind)
     at.moment = at.offset + dimension;
     at.narrow = at.moment + tensor;
     at.hoop = at.narrow + dimension * muscl_narrow(kind);
-    at.slopes = (at.hoop + (kind.depth ? 2 : 0) + 7) / 8 * 8;
+    at.spread = at.hoop + (kind.depth ? 2 : 0);
+    at.parting = at.spread + (kind.places ? tensor : 0);
+    at.exchange = at.parting + (kind.places ? dimension * dimension : 0);
+    at.slopes = (at.exchange + (kind.places ? 1 : 0) + 7) / 8 * 8;
     at.count = at.slopes + dimension * muscl_values(kind);
     return at;
 }
@@ -145,6 +151,46 @@ BOLIDE_INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kin
     if (packing[PACKING_THIN_START] == 0.0)
         packing[PACKING_THIN_START] =
             maximum(kind.dimension == 2 ? 2.0 : 2.2360679774997896, packing[PACKING_THIN]);
+}
+
+/* How the volume of a particle grows as it and its neighbours move: by the gradient T/N of the
+ * velocities that they move with, that of least squares weighed by V W/h^2, in which both sides of
+ * a shock count. Volumes so arrive where the places do. What contact velocities are ahead of these
+ * is exchanged between neighbours: it damps what the lattice could do by itself, and adds up to
+ * nothing over a shock. Where N has next to nothing on some axis, as in a sheet of one layer, the
+ * contact velocities alone must do: the norm of the inverse of N times its trace is
+ * dimension^(3/2) where neighbours stand evenly, and the share falls from one to none as it grows
+ * from 1.4 to 2.8 of that. */
+BOLIDE_INLINE void write_volume(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                                const double *all)
+{
+    const int dimension = kind.dimension;
+    const struct layout at = layout_of(kind);
+    const struct sym3 n = stress_from(dimension, all + at.spread, 1);
+    const double trace = n.xx + n.yy + n.zz,
+                 even = dimension == 2 ? 2.8284271247461903 : 5.196152422706632;
+    double det, *volume = loop->rates.volume[i];
+    struct sym3 adjoint = adjoint_of(dimension, n, &det);
+    if (dimension == 2)
+        adjoint.zz = 0.0;
+    const double uneven = sqrt(sym3_square(adjoint)) * trace / even; /* times det N */
+    const double share = minimum(1.0, 2.0 - uneven / (1.4 * det));
+    memset(volume, 0, sizeof *loop->rates.volume);
+    if (!(det > 0.0 && share > 0.0))
+        return;
+    const struct sym3 l = sym3_scale(1.0 / det, adjoint);
+    const struct vec3 x = corrected(dimension, l, all + at.parting);
+    const struct vec3 y = corrected(dimension, l, all + at.parting + dimension);
+    volume[VOLUME_SHARE] = share;
+    volume[VOLUME_FIRST] = x.x + y.y;
+    volume[VOLUME_SECOND] = x.x * y.y - x.y * y.x;
+    if (dimension > 2) {
+        const struct vec3 z = corrected(dimension, l, all + at.parting + 6);
+        volume[VOLUME_FIRST] += z.z;
+        volume[VOLUME_SECOND] += x.x * z.z - x.z * z.x + (y.y * z.z - y.z * z.y);
+        volume[VOLUME_THIRD] = vec3_dot(x, vec3_cross(y, z));
+    }
+    volume[VOLUME_EXCHANGE] = -2.0 * all[at.exchange];
 }
 
 /* Strain rate, spin and, on a line, drift. O is the first moment. */
@@ -293,6 +339,8 @@ BOLIDE_INLINE void write_rates(const struct muscl_loop *loop, struct muscl_kind 
     moments.of_forces = moment_of_forces(moments.second, moments.first);
     if (kind.dimension > 1)
         write_packing(loop, kind, i, moments.second, moments.of_forces);
+    if (kind.places)
+        write_volume(loop, kind, i, all);
     write_strain(loop, kind, i, all, moments.inverse, moments.first);
     write_gradients(loop, kind, i, all, &moments);
 }
