@@ -291,7 +291,7 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
     const int compression = muscl_compression(kind);
     const struct layout at = layout_of(kind);
     const struct pair_law law = {STAR_SHOCK, shear, true, with_law};
-    const double own_volume = kind.places ? 1.0 / own[compression] : 1.0;
+    const double per_own = kind.places ? 1.0 / own[compression] : 1.0;
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
@@ -359,7 +359,7 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
             const struct vec3 moved = vec3_add(vec3_scale(pairs->along_u[k], n),
                                                vec3_scale(slips ? 0.0 : 1.0, difference.sliding));
             const struct volume_pair volume = {apart ? 0.0 : 1.0, vec3_dot(w, n),
-                                               own_volume * lanes->field[compression][k], moved};
+                                               per_own * lanes->field[compression][k], moved};
             add_volume(kind, pairs, k, &volume, sums);
         }
     }

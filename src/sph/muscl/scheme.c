@@ -162,6 +162,11 @@ static void destroy(struct sph *sph)
     free(state->end);
 }
 
+static bool follows_places(const struct muscl_options *options, int dimension)
+{
+    return dimension > 1 && options->volume == MUSCL_VOLUME_PLACES;
+}
+
 /* In 1-D density and spacing must not drift apart; in 2-D and 3-D a mean of contact velocities
  * would smear jets. */
 static unsigned traits_of(const void *of, int dimension)
@@ -172,14 +177,13 @@ static unsigned traits_of(const void *of, int dimension)
                                             : SPH_MOTION_PARTICLE;
     return sph_traits_of(motion, options->energy) | SPH_FINITE_STRAIN |
            (dimension > 1 ? SPH_PACKING : 0u) |
-           (dimension > 1 && options->volume == MUSCL_VOLUME_PLACES ? SPH_PLACES : 0u);
+           (follows_places(options, dimension) ? SPH_PLACES : 0u);
 }
 
 static size_t stride_of(const void *of, int dimension)
 {
-    const bool places = dimension > 1 && ((const struct muscl_options *)of)->volume;
-    return (size_t)muscl_stride((struct muscl_kind){dimension, dimension > 1, false, places}) +
-           PLACE_STRIDE;
+    const struct muscl_kind kind = {dimension, dimension > 1, false, follows_places(of, dimension)};
+    return (size_t)muscl_stride(kind) + PLACE_STRIDE;
 }
 
 const struct sph_scheme muscl_scheme = {.name = "muscl",
