@@ -36,11 +36,12 @@ struct pair_rates {
 };
 
 /* How the volumes about a particle fill space, in 2-D and 3-D (muscl/sums.h): at the start, one at
- * least; what they do beyond; by how much density has grown for it. And how thinly neighbours stand
- * on some axis, at the start and now. */
+ * least; what they do beyond, and its mean over the neighbours; by how much density has grown for
+ * it. And how thinly neighbours stand on some axis, at the start and now. */
 enum {
     PACKING_START,
     PACKING_EXCESS,
+    PACKING_MEAN,
     PACKING_GROWTH,
     PACKING_THIN_START,
     PACKING_THIN,

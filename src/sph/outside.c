@@ -145,7 +145,7 @@ static void freeze_particle(struct simulation *simulation, const void *of, int32
     if (f->density_rate)
         f->density_rate[i] = 0.0;
     if (f->packing)
-        f->packing[i][PACKING_EXCESS] = 0.0;
+        f->packing[i][PACKING_MEAN] = 0.0;
     if (f->volume)
         memset(f->volume[i], 0, sizeof *f->volume);
 }

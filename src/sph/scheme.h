@@ -32,9 +32,8 @@ enum sph_trait {
     SPH_FINITE_STRAIN = 1 << 12, /* the velocity gradient is that of positions at level n */
     SPH_VISCOUS = 1 << 13,       /* an artificial viscous pressure adds to the pressure */
     SPH_DENSITY_RATE = 1 << 14,  /* pair sums give the rate of density */
-    SPH_PACKING = 1 << 15,       /* how volumes fill space corrects densities and supports */
+    SPH_PACKING = 1 << 15,       /* volumes follow places, fill space, and correct supports */
     SPH_ALL_RECONSTRUCTED = 1 << 16,
-    SPH_PLACES = 1 << 17, /* volumes follow the places of particles */
 };
 
 /* Components that depend on the run: of a symmetric tensor and of a gradient of velocity in its

@@ -36,7 +36,7 @@ static void note_failure(struct failure *failure, uint64_t id, int32_t index)
 }
 
 /* The relative growth of a particle's density in a step of DT where neighbouring volumes overlap:
- * the excess, at most 0.1, times the sound transits of the particle in DT. No work goes with it, so
+ * the mean excess about it times the sound transits of the particle in DT. No work goes with it, so
  * internal energy must suffice: growth is zero below the energy of cold compression and full at
  * twice as much. Where volumes leave gaps, density decreases, but by no more than it has grown here
  * before: at a surface and in stretched material neighbours are few too. */
@@ -49,8 +49,8 @@ BOLIDE_INLINE double packing_growth(const struct material *material, const struc
     const double cold =
         0.5 * bulk * square(maximum(0.0, 1.0 - material_density(material) / p->density[i]));
     const double room = cold > 0.0 ? minimum(1.0, maximum(0.0, (p->energy[i] - cold) / cold)) : 1.0;
-    const double excess = packing[PACKING_EXCESS];
-    const double growth = excess > 0.0 ? room * passages * minimum(excess, 0.1)
+    const double excess = packing[PACKING_MEAN];
+    const double growth = excess > 0.0 ? room * passages * excess
                                        : maximum(passages * excess, -packing[PACKING_GROWTH]);
     packing[PACKING_GROWTH] += growth;
     return growth;
@@ -66,7 +66,7 @@ BOLIDE_INLINE double volume_ratio(const double *volume, double dt, double ratio,
     const double growth = 1.0 + dt * (volume[VOLUME_FIRST] +
                                       dt * (volume[VOLUME_SECOND] + dt * volume[VOLUME_THIRD]));
     const double placed = growth * (1.0 + dt * across) * exponential(dt * volume[VOLUME_EXCHANGE]);
-    return share * minimum(maximum(placed, 0.75), 4.0 / 3.0) + (1.0 - share) * ratio;
+    return ratio + share * (minimum(maximum(placed, 0.75), 4.0 / 3.0) - ratio);
 }
 
 /* The largest stretch that the plastic and elastic strain allow. */

@@ -55,6 +55,30 @@ static void random_gradient(struct dice *dice, bool turning, double a[3][3])
                 !turning && column < row ? a[column][row] : dice_between(dice, -1e4, 1e4);
 }
 
+/* The invariants of A, by which volumes follow places. Contacts are ahead of nothing. */
+static void assert_volume_rates(const struct running *run, const double a[3][3])
+{
+    const struct particles *p = &run->simulation.particles;
+    const double(*volume)[VOLUME_NUMBERS] = particles_field(p, "volume_rate");
+    const bool space = p->dimension > 2;
+    const double minors[3] = {a[0][0] * a[1][1] - a[0][1] * a[1][0],
+                              a[0][0] * a[2][2] - a[0][2] * a[2][0],
+                              a[1][1] * a[2][2] - a[1][2] * a[2][1]};
+    const double first = a[0][0] + a[1][1] + (space ? a[2][2] : 0.0);
+    const double second = minors[0] + (space ? minors[1] + minors[2] : 0.0);
+    const double third = space ? a[0][0] * minors[2] -
+                                     a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
+                                     a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0])
+                               : 0.0;
+    for (int32_t i = 0; i < p->count; i++) {
+        assert_true(volume[i][VOLUME_SHARE] > 0.0);
+        assert_near(volume[i][VOLUME_FIRST], first, 3e-6);
+        assert_near(volume[i][VOLUME_SECOND], second, 3e-2);
+        assert_near(volume[i][VOLUME_THIRD], third, 3e2);
+        assert_near(volume[i][VOLUME_EXCHANGE], 0.0, 3e-6);
+    }
+}
+
 /* All that the second pass says of velocity, A. */
 static void assert_velocity_gradient(const struct running *run, const double a[3][3])
 {
@@ -78,6 +102,8 @@ static void assert_velocity_gradient(const struct running *run, const double a[3
         a[0][0] + (dimension > 1 ? a[1][1] : 0.0) + (dimension > 2 ? a[2][2] : 0.0);
     for (int32_t i = 0; i < p->count; i++)
         assert_near(muscl_divergence(&run->simulation, &fields, i), divergence, 3.0 * tolerance);
+    if (dimension > 1)
+        assert_volume_rates(run, a);
 }
 
 static void linear_velocities_have_their_gradient_inside_and_at_free_surfaces(void **state)

@@ -29,7 +29,7 @@ struct pairs {
     /* what values in rows change by over x, by the neighbour's slopes */
     double wide[ROW][LANES] ALIGNED;
     double weight[LANES] ALIGNED, area[LANES] ALIGNED; /* V W', |a| */
-    double value[LANES] ALIGNED;                       /* V W/h^2, where volumes follow places */
+    double value[LANES] ALIGNED;                       /* V W/h^2, in 2-D and 3-D */
     double near[LANES] ALIGNED;                        /* 2 D_i/(D_i + D_j) */
     /* along n and across: changes over the pair, own stress, and shares of the slopes, times near
      */
@@ -113,7 +113,7 @@ BOLIDE_INLINE void find_places(struct muscl_kind kind, double smoothing, const d
                    dimension == 1 ? e : vec3_scale(inverse * (r * two_h), lx));
         double weight = lanes->field[v][k] * kernel_slope(r, inverse_h, dimension);
         pairs->weight[k] = weight;
-        if (kind.places)
+        if (dimension > 1)
             pairs->value[k] =
                 lanes->field[v][k] * kernel_value(r, inverse_h, dimension) * square(inverse_h);
         pairs->area[k] = 0.5 * (ar * inverse_r);
@@ -255,11 +255,12 @@ BOLIDE_INLINE void find_changes(struct muscl_kind kind, double matter, const dou
     }
 }
 
-/* What the volumes of a pair follow from: whether it counts, 0 or 1; how much faster the contact
- * moves along n than the own particle, and the neighbour; how much more the neighbour is compressed.
+/* What the volumes of a pair follow from: whether it counts, 0 or 1, and whether it is of one
+ * material; how much faster the contact moves along n than the own particle, and the neighbour; how
+ * much more the neighbour is compressed, and its packing.
  */
 struct volume_pair {
-    double counts, contact, compression;
+    double counts, like, contact, compression, packing;
     struct vec3 moved;
 };
 
@@ -277,6 +278,8 @@ BOLIDE_INLINE void add_volume(struct muscl_kind kind, const struct pairs *pairs,
     const double weight = pair->counts * pairs->weight[k] * pairs->area[k];
     add_symmetric(dimension, sums, at.spread, k, m, x);
     add_product(dimension, sums, at.parting, k, pair->moved, m);
+    sums[at.like][k] += pair->like * pairs->value[k];
+    sums[at.packing][k] += pair->like * pairs->value[k] * pair->packing;
     sums[at.exchange][k] += 0.5 * (1.0 + pair->compression) * weight * lead;
 }
 
@@ -291,7 +294,7 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
     const int compression = muscl_compression(kind);
     const struct layout at = layout_of(kind);
     const struct pair_law law = {STAR_SHOCK, shear, true, with_law};
-    const double per_own = kind.places ? 1.0 / own[compression] : 1.0;
+    const double per_own = dimension > 1 ? 1.0 / own[compression] : 1.0;
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
@@ -352,14 +355,20 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
             sums[at.drift][k] += weight * w.x;
         add_product(dimension, sums, at.gradient, k, w,
                     vec3_scale(weight, vector_from(dimension, &pairs->e[0][k], LANES)));
-        if (kind.places) {
+        if (dimension > 1) {
             /* Bodies keep their volumes where they part, and where they slide past each other. */
             const bool apart = with_law && limits.open > 0.0 && star.stress == 0.0;
             const bool slips = with_law && limits.slip > 0.0;
             const struct vec3 moved = vec3_add(vec3_scale(pairs->along_u[k], n),
                                                vec3_scale(slips ? 0.0 : 1.0, difference.sliding));
-            const struct volume_pair volume = {apart ? 0.0 : 1.0, vec3_dot(w, n),
-                                               per_own * lanes->field[compression][k], moved};
+            const double counts = apart ? 0.0 : 1.0;
+            const struct volume_pair volume = {.counts = counts,
+                                               .like = own[m] == lanes->field[m][k] ? counts : 0.0,
+                                               .contact = vec3_dot(w, n),
+                                               .compression =
+                                                   per_own * lanes->field[compression][k],
+                                               .packing = lanes->field[muscl_packing(kind)][k],
+                                               .moved = moved};
             add_volume(kind, pairs, k, &volume, sums);
         }
     }

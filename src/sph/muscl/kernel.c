@@ -125,32 +125,22 @@ BOLIDE_INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind ki
             row_rates(loop, (struct muscl_kind){__VA_ARGS__}, name##_part, i);         \
     }
 
-INSTANCE(line, 1, false, false, false)
-INSTANCE(plane_fluid, 2, false, false, false)
-INSTANCE(plane_solid, 2, true, false, false)
-INSTANCE(deep_fluid, 2, false, true, false)
-INSTANCE(deep_solid, 2, true, true, false)
-INSTANCE(space_fluid, 3, false, false, false)
-INSTANCE(space_solid, 3, true, false, false)
-INSTANCE(plane_fluid_places, 2, false, false, true)
-INSTANCE(plane_solid_places, 2, true, false, true)
-INSTANCE(deep_fluid_places, 2, false, true, true)
-INSTANCE(deep_solid_places, 2, true, true, true)
-INSTANCE(space_fluid_places, 3, false, false, true)
-INSTANCE(space_solid_places, 3, true, false, true)
+INSTANCE(line, 1, false, false)
+INSTANCE(plane_fluid, 2, false, false)
+INSTANCE(plane_solid, 2, true, false)
+INSTANCE(deep_fluid, 2, false, true)
+INSTANCE(deep_solid, 2, true, true)
+INSTANCE(space_fluid, 3, false, false)
+INSTANCE(space_solid, 3, true, false)
 
 ISA_KERNEL(void, muscl_loop_run, const struct muscl_loop *loop, int32_t begin, int32_t end)
 {
     typedef void instance(const struct muscl_loop *, int32_t, int32_t);
     enum { DEEP = 3 }; /* behind the dimensions */
-    static instance *const table[2][4][2] = {{{line, line},
-                                              {plane_fluid, plane_solid},
-                                              {space_fluid, space_solid},
-                                              {deep_fluid, deep_solid}},
-                                             {{line, line},
-                                              {plane_fluid_places, plane_solid_places},
-                                              {space_fluid_places, space_solid_places},
-                                              {deep_fluid_places, deep_solid_places}}};
+    static instance *const table[4][2] = {{line, line},
+                                          {plane_fluid, plane_solid},
+                                          {space_fluid, space_solid},
+                                          {deep_fluid, deep_solid}};
     const int form = loop->kind.depth ? DEEP : loop->kind.dimension - 1;
-    table[loop->kind.places][form][loop->kind.shear](loop, begin, end);
+    table[form][loop->kind.shear](loop, begin, end);
 }

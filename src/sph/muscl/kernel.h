@@ -6,11 +6,12 @@
  * contacts are solved along n = a/|a|. And impedances are those of shocks. A neighbour is seen
  * through its record:
  *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] shock_slope material
- *   [compression] [depth] L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
+ *   [compression packing] [depth] L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
  * with stress as in record.h, velocity and stress half a step ahead, q' both of them a whole step,
  * and `shock_slope` rho times the slope of the shock adiabat (riemann/shock_slope.h). Z_across is
  * the shear impedance; of a material that has none, minus the fraction of compression in its
- * velocity gradient. `compression` is rho over that of the start, where volumes follow places.
+ * velocity gradient. In 2-D and 3-D `compression` is rho over that of the start, and `packing` what
+ * volumes filled too much of the space a step before (muscl_told).
  *
  * Of q, the first four or eight values (the most that there are) stand at the end of the record, a
  * row for dq/dx, one for dq/dy, ..., one for q': the kernel takes these a neighbour at a time, a
@@ -23,7 +24,6 @@
 struct muscl_kind {
     int dimension;
     bool shear, depth; /* as in pair_kind */
-    bool places;       /* volumes follow places */
 };
 
 /* Components of a symmetric tensor in DIMENSION dimensions. */
@@ -47,9 +47,16 @@ BOLIDE_INLINE int muscl_material(struct muscl_kind kind) { return muscl_shock_sl
 BOLIDE_INLINE bool muscl_driven(double material) { return material < -1.5; }
 BOLIDE_INLINE double muscl_index(double material) { return maximum(material, -2.0 - material); }
 BOLIDE_INLINE int muscl_compression(struct muscl_kind kind) { return muscl_shock_slope(kind) + 2; }
+BOLIDE_INLINE int muscl_packing(struct muscl_kind kind)
+{
+    return muscl_compression(kind) + (kind.dimension > 1);
+}
+/* An excess of packing as neighbours are told of it. At a surface, and in a lattice that is
+ * compressed along one axis, there is far less than at the start; that does not count in full. */
+BOLIDE_INLINE double muscl_told(double excess) { return minimum(0.1, maximum(-0.05, excess)); }
 BOLIDE_INLINE int muscl_depth(struct muscl_kind kind)
 {
-    return muscl_compression(kind) + kind.places;
+    return muscl_packing(kind) + (kind.dimension > 1);
 }
 BOLIDE_INLINE int muscl_correction(struct muscl_kind kind)
 {
@@ -109,7 +116,7 @@ struct muscl_rates {
     double *velocity_gradient, *stress_gradient;
     double (*force)[3];                 /* likewise, on a unit of volume, N/m^3 */
     double (*packing)[PACKING_NUMBERS]; /* NULL on a line */
-    double (*volume)[VOLUME_NUMBERS];   /* NULL unless volumes follow places */
+    double (*volume)[VOLUME_NUMBERS];   /* NULL on a line */
 };
 
 struct muscl_loop {

@@ -7,12 +7,9 @@
 #include "sph/muscl/kernel.h"
 #include "sph/scheme.h"
 
-enum muscl_volume { MUSCL_VOLUME_CONTACTS, MUSCL_VOLUME_PLACES };
-
 struct muscl_options {
     int motion; /* enum sph_motion; -1: contact in 1-D, else particle */
     int energy; /* enum sph_energy */
-    int volume; /* enum muscl_volume */
 };
 
 /* A particle next to a transmitting body, and what the body adds to it: force and power, N and W.

@@ -1,8 +1,6 @@
 /* The options of second-order contact SPH, as a case names them. */
 #include "sph/muscl/muscl.h"
 
-static const char *const volume_names[] = {"contacts", "places", NULL};
-
 const struct parameter muscl_table[] = {
     {.key = "motion",
      .kind = PARAMETER_CHOICE,
@@ -13,11 +11,4 @@ const struct parameter muscl_table[] = {
              "contact velocities, in 1-D only; none: nothing, heat is conducted and that is all; "
              "default contact in 1-D, particle in 2-D and 3-D"},
     SPH_ENERGY_ROW(struct muscl_options),
-    {.key = "volume",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct muscl_options, volume),
-     .standard = "contacts",
-     .names = volume_names,
-     .help = "what volumes follow in 2-D and 3-D; contacts: the velocities of contacts; places: "
-             "those that particles move with"},
     PARAMETER_END};

@@ -144,8 +144,10 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
         record[k++] = across_impedance(f, kind, p->density[i], i);
     record[k++] = p->density[i] * state->shock_slope[p->material[i]];
     record[k++] = body_is_held(simulation, p->body[i]) ? -2.0 - p->material[i] : p->material[i];
-    if (kind.places)
+    if (dimension > 1) {
         record[k++] = p->density[i] / f->sph.density_start[i];
+        record[k++] = muscl_told(f->sph.packing[i][PACKING_EXCESS]);
+    }
     if (kind.depth)
         record[k++] = sph_depth(simulation, &f->sph, i);
     size_t tensors = (size_t)tensor_components(dimension);
@@ -220,19 +222,13 @@ BOLIDE_INLINE void pack_all(const struct sph *sph, const struct simulation *simu
         const struct muscl_kind kind = {__VA_ARGS__};                            \
         pack_all(sph, simulation, f, kind);                                      \
     }
-PACK_KIND(pack_line, 1, false, false, false)
-PACK_KIND(pack_plane_fluid, 2, false, false, false)
-PACK_KIND(pack_plane_solid, 2, true, false, false)
-PACK_KIND(pack_deep_fluid, 2, false, true, false)
-PACK_KIND(pack_deep_solid, 2, true, true, false)
-PACK_KIND(pack_space_fluid, 3, false, false, false)
-PACK_KIND(pack_space_solid, 3, true, false, false)
-PACK_KIND(place_plane_fluid, 2, false, false, true)
-PACK_KIND(place_plane_solid, 2, true, false, true)
-PACK_KIND(place_deep_fluid, 2, false, true, true)
-PACK_KIND(place_deep_solid, 2, true, true, true)
-PACK_KIND(place_space_fluid, 3, false, false, true)
-PACK_KIND(place_space_solid, 3, true, false, true)
+PACK_KIND(pack_line, 1, false, false)
+PACK_KIND(pack_plane_fluid, 2, false, false)
+PACK_KIND(pack_plane_solid, 2, true, false)
+PACK_KIND(pack_deep_fluid, 2, false, true)
+PACK_KIND(pack_deep_solid, 2, true, true)
+PACK_KIND(pack_space_fluid, 3, false, false)
+PACK_KIND(pack_space_solid, 3, true, false)
 
 struct sph_records muscl_records(const struct sph *sph)
 {
@@ -243,17 +239,13 @@ void muscl_pack(struct sph *sph, const struct simulation *simulation)
 {
     typedef void pack(const struct sph *, const struct simulation *, const struct muscl_fields *);
     enum { DEEP = 3 }; /* after the dimensions */
-    static pack *const table[2][4][2] = {{{pack_line, pack_line},
-                                          {pack_plane_fluid, pack_plane_solid},
-                                          {pack_space_fluid, pack_space_solid},
-                                          {pack_deep_fluid, pack_deep_solid}},
-                                         {{pack_line, pack_line},
-                                          {place_plane_fluid, place_plane_solid},
-                                          {place_space_fluid, place_space_solid},
-                                          {place_deep_fluid, place_deep_solid}}};
+    static pack *const table[4][2] = {{pack_line, pack_line},
+                                      {pack_plane_fluid, pack_plane_solid},
+                                      {pack_space_fluid, pack_space_solid},
+                                      {pack_deep_fluid, pack_deep_solid}};
     const struct muscl_fields f = muscl_fields_of(sph, simulation);
     const struct muscl_kind kind = muscl_kind_of(sph);
     const struct sph_records records = muscl_records(sph);
-    table[kind.places][kind.depth ? DEEP : kind.dimension - 1][kind.shear](sph, simulation, &f);
+    table[kind.depth ? DEEP : kind.dimension - 1][kind.shear](sph, simulation, &f);
     sph_records_start(sph, simulation, &records);
 }

@@ -149,8 +149,8 @@ static struct error *create(struct sph *sph, const struct simulation *simulation
 {
     struct muscl_state *state = sph->state;
     TRY(refuse(sph, simulation));
-    state->kind = (struct muscl_kind){simulation->dimension, sph_has(sph, SPH_SHEAR),
-                                      sph_deep(simulation), sph_has(sph, SPH_PLACES)};
+    state->kind =
+        (struct muscl_kind){simulation->dimension, sph_has(sph, SPH_SHEAR), sph_deep(simulation)};
     sph->stride = (size_t)muscl_stride(state->kind);
     sph->places = true;
     return sph_find_slopes(simulation, state->shock_slope);
@@ -162,11 +162,6 @@ static void destroy(struct sph *sph)
     free(state->end);
 }
 
-static bool follows_places(const struct muscl_options *options, int dimension)
-{
-    return dimension > 1 && options->volume == MUSCL_VOLUME_PLACES;
-}
-
 /* In 1-D density and spacing must not drift apart; in 2-D and 3-D a mean of contact velocities
  * would smear jets. */
 static unsigned traits_of(const void *of, int dimension)
@@ -176,13 +171,13 @@ static unsigned traits_of(const void *of, int dimension)
                        : dimension == 1     ? SPH_MOTION_CONTACT
                                             : SPH_MOTION_PARTICLE;
     return sph_traits_of(motion, options->energy) | SPH_FINITE_STRAIN |
-           (dimension > 1 ? SPH_PACKING : 0u) |
-           (follows_places(options, dimension) ? SPH_PLACES : 0u);
+           (dimension > 1 ? SPH_PACKING : 0u);
 }
 
-static size_t stride_of(const void *of, int dimension)
+static size_t stride_of(const void *options, int dimension)
 {
-    const struct muscl_kind kind = {dimension, dimension > 1, false, follows_places(of, dimension)};
+    (void)options;
+    const struct muscl_kind kind = {dimension, dimension > 1, false};
     return (size_t)muscl_stride(kind) + PLACE_STRIDE;
 }
 

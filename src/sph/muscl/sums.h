@@ -19,9 +19,9 @@ struct layout {
     int offset, moment;  /* -f w x, -f w x^a e^b */
     int narrow;          /* slopes of what stands in no row */
     int hoop;            /* of axisymmetry: w |a| (depth - d) n_x, w |a| x n_x */
-    /* where volumes follow places, v = V W/h^2: v x^a x^b, v (U_j - U)^a x^b; w |a| of the exchange
-     * of volume */
-    int spread, parting, exchange;
+    /* in 2-D and 3-D, v = V W/h^2: v x^a x^b, v (U_j - U)^a x^b; w |a| of the exchange of volume; v
+     * of the same material, v times its packing */
+    int spread, parting, exchange, like, packing;
     int slopes; /* totals only: -f w dq e^b by b, of the values after the step; all above, a multiple of eight */
     int count;
 };
@@ -41,9 +41,11 @@ BOLIDE_INLINE struct layout layout_of(struct muscl_kind kind)
     at.narrow = at.moment + tensor;
     at.hoop = at.narrow + dimension * muscl_narrow(kind);
     at.spread = at.hoop + (kind.depth ? 2 : 0);
-    at.parting = at.spread + (kind.places ? tensor : 0);
-    at.exchange = at.parting + (kind.places ? dimension * dimension : 0);
-    at.slopes = (at.exchange + (kind.places ? 1 : 0) + 7) / 8 * 8;
+    at.parting = at.spread + (dimension > 1 ? tensor : 0);
+    at.exchange = at.parting + (dimension > 1 ? dimension * dimension : 0);
+    at.like = at.exchange + (dimension > 1 ? 1 : 0);
+    at.packing = at.like + (dimension > 1 ? 1 : 0);
+    at.slopes = (at.packing + (dimension > 1 ? 1 : 0) + 7) / 8 * 8;
     at.count = at.slopes + dimension * muscl_values(kind);
     return at;
 }
@@ -128,29 +130,43 @@ BOLIDE_INLINE struct sym3 moment_of_forces(struct sym3 m, struct vec3 o)
     return sym3_add(m, sym3_scale(scale, missing));
 }
 
+/* The first moment of a row, its second, that for forces, and the inverse of the second. */
+struct moments {
+    struct vec3 first;
+    struct sym3 second, of_forces, inverse;
+};
+
 /* What the volumes about a particle fill beyond the space there is: the excess of tr M/dimension
  * over the start's. Where matter has met across a gap the velocity gradient counts too little of
  * the closing, and bodies would run into each other. The trace is 1 on the average of points that
- * stand at random, and 1.003 to 1.012 of particles that have been stirred, which keep their
- * distances; elastic waves change it by less than the slack. And how thinly
- * neighbours stand on some axis: the norm of the inverse of the MOMENT of forces, 100 at most. At
+ * stand at random; among particles that have been stirred it scatters by 0.02, so that the mean
+ * over the neighbours of the same material counts. And how thinly
+ * neighbours stand on some axis: the norm of the inverse of the moment of forces, 100 at most. At
  * the start it counts as that of a moment with 1/sqrt(3) on one axis and 1 on the others, at least.
  */
 BOLIDE_INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                                 struct sym3 m, struct sym3 moment)
+                                 const double *all, const struct moments *moments)
 {
-    const double slack = 0.007;
-    const double filled = kind.dimension == 2 ? 0.5 * (m.xx + m.yy) : (m.xx + m.yy + m.zz) / 3.0;
+    const int dimension = kind.dimension;
+    const struct layout at = layout_of(kind);
+    const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
+    const struct sym3 m = moments->second;
+    const double filled = dimension == 2 ? 0.5 * (m.xx + m.yy) : (m.xx + m.yy + m.zz) / 3.0;
     double *packing = loop->rates.packing[i];
     if (packing[PACKING_START] == 0.0)
         packing[PACKING_START] = maximum(1.0, filled);
-    packing[PACKING_EXCESS] = filled - packing[PACKING_START] - slack;
+    packing[PACKING_EXCESS] = filled - packing[PACKING_START];
+    const double inverse_h = 1.0 / (loop->smoothing * own[record_diameter(dimension)]);
+    const double self =
+        own[record_volume(dimension)] * kernel_value(0.0, inverse_h, dimension) * square(inverse_h);
+    const double sum = all[at.packing] + self * muscl_told(packing[PACKING_EXCESS]);
+    packing[PACKING_MEAN] = self > 0.0 ? sum / (all[at.like] + self) : 0.0;
     double det;
-    const double norm = sqrt(sym3_square(adjoint_of(kind.dimension, moment, &det)));
+    const double norm = sqrt(sym3_square(adjoint_of(dimension, moments->of_forces, &det)));
     packing[PACKING_THIN] = 100.0 * det > norm ? norm / det : 100.0;
     if (packing[PACKING_THIN_START] == 0.0)
         packing[PACKING_THIN_START] =
-            maximum(kind.dimension == 2 ? 2.0 : 2.2360679774997896, packing[PACKING_THIN]);
+            maximum(dimension == 2 ? 2.0 : 2.2360679774997896, packing[PACKING_THIN]);
 }
 
 /* How the volume of a particle grows as it and its neighbours move: by the gradient T/N of the
@@ -237,12 +253,6 @@ BOLIDE_INLINE void find_slopes(struct muscl_kind kind, const double *sums, struc
             slope[a * values + f] = sum;
         }
 }
-
-/* The first moment of a row, its second, that for forces, and the inverse of the second. */
-struct moments {
-    struct vec3 first;
-    struct sym3 second, of_forces, inverse;
-};
 
 /* The force on a unit of volume that the values after the step will make: from their slopes, and
  * from the stress that ends at a free surface. There, with the first moment O and the mean distance
@@ -337,10 +347,10 @@ BOLIDE_INLINE void write_rates(const struct muscl_loop *loop, struct muscl_kind 
     moments.second = stress_from(kind.dimension, all + at.moment, 1);
     moments.inverse = correction_of(kind.dimension, moments.second);
     moments.of_forces = moment_of_forces(moments.second, moments.first);
-    if (kind.dimension > 1)
-        write_packing(loop, kind, i, moments.second, moments.of_forces);
-    if (kind.places)
+    if (kind.dimension > 1) {
+        write_packing(loop, kind, i, all, &moments);
         write_volume(loop, kind, i, all);
+    }
     write_strain(loop, kind, i, all, moments.inverse, moments.first);
     write_gradients(loop, kind, i, all, &moments);
 }
