@@ -90,6 +90,8 @@ void case_check_fit(struct checking *checking, int index)
 {
     const struct simulation_case *input = checking->input;
     const struct fit_input *fit = case_fit(input, index);
+    if (case_is_wrong(checking, "")) /* no map at all, or keys are missing */
+        return;
     if (input->sweep_runs == 0) {
         case_wrong(checking, "", "this wants a `sweep`, through whose runs it goes");
         return;
@@ -101,8 +103,7 @@ void case_check_fit(struct checking *checking, int index)
         case_find_name(checking, &input->checks, "swept key or check", fit->over, "over");
     if (fit->form == FIT_POWER && fit->take == FIT_INTERCEPT)
         case_wrong(checking, "take", "a power law has no intercept: slope and misfit are wanted");
-    if (!case_is_wrong(checking, ""))
-        check_limits(checking, &fit->check);
+    check_limits(checking, &fit->check);
     check_deviation(checking, &fit->check);
 }
 

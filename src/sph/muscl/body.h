@@ -255,9 +255,9 @@ BOLIDE_INLINE void find_changes(struct muscl_kind kind, double matter, const dou
     }
 }
 
-/* What the volumes of a pair follow from: whether it counts, 0 or 1, and whether it is of one
- * material; how much faster the contact moves along n than the own particle, and the neighbour; how
- * much more the neighbour is compressed, and its packing.
+/* What the volumes of a pair follow from: whether it counts, 0 or 1; how far its packing does, 1 in
+ * like matter and 0 in another material; how much faster the contact moves along n than the own
+ * particle, and the neighbour; how much more the neighbour is compressed, and its packing.
  */
 struct volume_pair {
     double counts, like, contact, compression, packing;
@@ -362,11 +362,12 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
             const struct vec3 moved = vec3_add(vec3_scale(pairs->along_u[k], n),
                                                vec3_scale(slips ? 0.0 : 1.0, difference.sliding));
             const double counts = apart ? 0.0 : 1.0;
+            const double ratio = per_own * lanes->field[compression][k], by = square(ratio);
+            const double like = counts * minimum(by, 1.0) / maximum(by, 1.0);
             const struct volume_pair volume = {.counts = counts,
-                                               .like = own[m] == lanes->field[m][k] ? counts : 0.0,
+                                               .like = own[m] == lanes->field[m][k] ? like : 0.0,
                                                .contact = vec3_dot(w, n),
-                                               .compression =
-                                                   per_own * lanes->field[compression][k],
+                                               .compression = ratio,
                                                .packing = lanes->field[muscl_packing(kind)][k],
                                                .moved = moved};
             add_volume(kind, pairs, k, &volume, sums);

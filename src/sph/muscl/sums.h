@@ -20,7 +20,7 @@ struct layout {
     int narrow;          /* slopes of what stands in no row */
     int hoop;            /* of axisymmetry: w |a| (depth - d) n_x, w |a| x n_x */
     /* in 2-D and 3-D, v = V W/h^2: v x^a x^b, v (U_j - U)^a x^b; w |a| of the exchange of volume; v
-     * of the same material, v times its packing */
+     * of like matter, v times its packing */
     int spread, parting, exchange, like, packing;
     int slopes; /* totals only: -f w dq e^b by b, of the values after the step; all above, a multiple of eight */
     int count;
@@ -140,13 +140,14 @@ struct moments {
  * over the start's. Where matter has met across a gap the velocity gradient counts too little of
  * the closing, and bodies would run into each other. The trace is 1 on the average of points that
  * stand at random; among particles that have been stirred it scatters by 0.02, so that the mean
- * over the neighbours of the same material counts. And how thinly
- * neighbours stand on some axis: the norm of the inverse of the moment of forces, 100 at most. At
+ * over the neighbours counts: those of the same material, the less the more their compression
+ * differs. And how thinly neighbours stand on some axis: the norm of the inverse of the moment of forces, 100 at most. At
  * the start it counts as that of a moment with 1/sqrt(3) on one axis and 1 on the others, at least.
  */
 BOLIDE_INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
                                  const double *all, const struct moments *moments)
 {
+    const double slack = 0.003;
     const int dimension = kind.dimension;
     const struct layout at = layout_of(kind);
     const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
@@ -155,7 +156,7 @@ BOLIDE_INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kin
     double *packing = loop->rates.packing[i];
     if (packing[PACKING_START] == 0.0)
         packing[PACKING_START] = maximum(1.0, filled);
-    packing[PACKING_EXCESS] = filled - packing[PACKING_START];
+    packing[PACKING_EXCESS] = filled - packing[PACKING_START] - slack;
     const double inverse_h = 1.0 / (loop->smoothing * own[record_diameter(dimension)]);
     const double self =
         own[record_volume(dimension)] * kernel_value(0.0, inverse_h, dimension) * square(inverse_h);
