@@ -74,6 +74,8 @@ static double *rates_by(muscl_loop_isa *set, struct running *run, size_t *bytes)
                 {f.own.correction, tensor_components(dimension)},
                 {f.own.velocity_gradient, dimension * dimension},
                 {f.own.stress_gradient, dimension * muscl_stresses(kind)},
+                {f.sph.packing, f.sph.packing ? PACKING_NUMBERS : 0},
+                {f.sph.volume, f.sph.volume ? VOLUME_NUMBERS : 0},
                 {f.sph.rates.hoop_pull, f.sph.rates.hoop_pull ? 1 : 0}};
     double *all = malloc((size_t)p->count * 64 * sizeof *all), *to = all;
     for (size_t k = 0; k < COUNT_OF(part); k++) {

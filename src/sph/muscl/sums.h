@@ -3,6 +3,7 @@
 #ifndef BOLIDE_SPH_MUSCL_SUMS_H
 #define BOLIDE_SPH_MUSCL_SUMS_H
 
+#include "sph/kernel.h"
 #include "sph/muscl/kernel.h"
 #include "sph/record.h"
 
