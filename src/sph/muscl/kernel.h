@@ -115,8 +115,8 @@ struct muscl_rates {
      * stresses by direction, Pa/m */
     double *velocity_gradient, *stress_gradient;
     double (*force)[3];                 /* likewise, on a unit of volume, N/m^3 */
-    double (*packing)[PACKING_NUMBERS]; /* NULL on a line */
-    double (*volume)[VOLUME_NUMBERS];   /* NULL on a line */
+    double (*packing)[PACKING_NUMBERS]; /* NULL in 1-D */
+    double (*volume)[VOLUME_NUMBERS];   /* NULL in 1-D */
 };
 
 struct muscl_loop {

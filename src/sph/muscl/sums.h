@@ -138,13 +138,13 @@ struct moments {
 };
 
 /* What the volumes about a particle fill beyond the space there is: the excess of tr M/dimension
- * over the start's. Where matter has met across a gap the velocity gradient counts too little of
- * the closing, and bodies would run into each other. The trace is 1 on the average of points that
- * stand at random; among particles that have been stirred it scatters by 0.02, so that the mean
- * over the neighbours counts: those of the same material, the less the more their compression
- * differs. And how thinly neighbours stand on some axis: the norm of the inverse of the moment of forces, 100 at most. At
- * the start it counts as that of a moment with 1/sqrt(3) on one axis and 1 on the others, at least.
- */
+ * over the start's, less a slack. Where matter has met across a gap the velocity gradient counts too
+ * little of the closing, and bodies would run into each other. The trace is 1 on the average of
+ * points that stand at random; among particles that have been stirred it scatters by 0.02, so the
+ * mean over the neighbours counts: those of the same material, the less the more their compression
+ * differs. And how thinly neighbours stand on some axis: the norm of the inverse of the moment of
+ * forces, 100 at most. At the start it counts as that of a moment with 1/sqrt(3) on one axis and 1
+ * on the others, at least. */
 BOLIDE_INLINE void write_packing(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
                                  const double *all, const struct moments *moments)
 {
