@@ -37,7 +37,7 @@ int64_t bins_reach(int dimension)
 /* The index of the cell along AXIS. */
 static inline int64_t cell_along(const struct binned *p, int axis, double x)
 {
-    int64_t index = cell_index(x, p->edge, bins_reach(p->dimension) + 1);
+    int64_t index = cell_index(x + p->shift, p->edge, bins_reach(p->dimension) + 1);
     index = index < p->low[axis] ? p->low[axis] : index;
     return index > p->high[axis] ? p->high[axis] : index;
 }
@@ -247,7 +247,7 @@ struct error *bins_make(struct bins *bins, const struct binned *p, int threads)
         !memory_reserve((void **)&bins->candidate, &bins->candidate_capacity,
                         (int64_t)p->blocks * p->groups, 0, sizeof *bins->candidate))
         return out_of_memory(p);
-    struct cell_loop loop = {p->dimension, p->edge, p->position, {0.0}, {0.0}};
+    struct cell_loop loop = {p->dimension, p->edge, p->shift, p->position, {0.0}, {0.0}};
     for (int axis = 0; axis < 3; axis++) {
         loop.low[axis] = (double)p->low[axis];
         loop.high[axis] = (double)p->high[axis];

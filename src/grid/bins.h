@@ -16,11 +16,12 @@ struct bin {
     int32_t first, cell[BLOCK_CELLS + 1];
 };
 
-/* The particles: COUNT of them at POSITION, stored in BLOCKS of cells of edge EDGE; an index means the same particle while
+/* The particles: COUNT of them at POSITION, stored in BLOCKS of cells of edge EDGE, the
+ * first of which begins at -SHIFT; an index means the same particle while
  * ORDER stays. Where there are several GROUPS, a body belongs to one of them. Cells below LOW and above HIGH do not exist: what rounding puts there is in the outermost. */
 struct binned {
     int dimension;
-    double edge;
+    double edge, shift;
     int32_t count, blocks;
     const struct block *block;
     const double (*position)[3];

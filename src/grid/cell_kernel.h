@@ -8,10 +8,10 @@
 /* The cell of a particle outside of the block that it is stored in. */
 enum { CELL_ELSEWHERE = 255 };
 
-/* Cells of edge EDGE; those below LOW and above HIGH do not exist, what would be in them is in the outermost. */
+/* Cells of edge EDGE, number 0 from -SHIFT on; those below LOW and above HIGH do not exist, what would be in them is in the outermost. */
 struct cell_loop {
     int dimension;
-    double edge;
+    double edge, shift;
     const double (*position)[3];
     double low[3], high[3];
 };
@@ -23,7 +23,7 @@ BOLIDE_INLINE double cell_number(const struct cell_loop *loop, int dimension,
     const double cells = block_cells(dimension);
     double sum = 0.0, away = 0.0;
     for (int axis = 0; axis < dimension; axis++) {
-        const double index = floor(x[axis] / loop->edge);
+        const double index = floor((x[axis] + loop->shift) / loop->edge);
         const double at = minimum(maximum(index, loop->low[axis]), loop->high[axis]) - corner[axis];
         sum = sum * cells + at;
         away += fabs(at - 0.5 * (cells - 1.0)) < 0.5 * cells ? 0.0 : 1.0;

@@ -32,18 +32,16 @@ static struct grid_overlap overlap_of(const struct grid *grid, int code)
         return o;
     for (int axis = 0; axis < grid->dimension; axis++) {
         o.from[axis] = offset[axis] < 0 ? cells - grid->reach : 0;
-        o.count[axis] = offset[axis] == 0  ? cells
-                        : offset[axis] < 0 ? grid->reach
-                                           : 1 + grid->reach;
+        o.count[axis] = offset[axis] == 0 ? cells : offset[axis] < 0 ? grid->reach : grid->after;
         o.at[axis] = o.from[axis] + offset[axis] * cells + grid->reach;
     }
     return o;
 }
 
-void grid_start(struct grid *grid, int dimension, int reach)
+void grid_start(struct grid *grid, int dimension, struct shape_window window)
 {
-    *grid = (struct grid){.dimension = dimension, .reach = reach};
-    grid->side = block_cells(dimension) + 1 + 2 * reach;
+    *grid = (struct grid){.dimension = dimension, .reach = window.before, .after = window.after};
+    grid->side = block_cells(dimension) + window.before + window.after;
     grid->patch = 1;
     for (int axis = 0; axis < dimension; axis++)
         grid->patch *= grid->side;

@@ -9,6 +9,7 @@
 #define BOLIDE_GRID_H
 
 #include "grid/bins.h"
+#include "grid/grid_shape.h"
 
 /* Blocks about a block, itself included: the offset o of -1, 0, 1 on each axis is digit o + 1 of a number to the base 3,
  * the first axis on top. */
@@ -26,7 +27,8 @@ struct grid_overlap {
 
 struct grid {
     int dimension;
-    int reach;       /* nodes that a cell reaches beyond its own corners: 0 or 1 */
+    int reach,
+        after;       /* nodes that a cell reaches before the one with its index, 0 or 1; after it */
     int side, patch; /* nodes of a patch along an axis; in all */
     int32_t bins, blocks;
     uint64_t *key;                  /* of blocks of nodes, ascending */
@@ -47,8 +49,8 @@ struct grid_field {
     int64_t node_capacity, patch_capacity;
 };
 
-/* A grid for cells that reach REACH nodes beyond their corners. */
-void grid_start(struct grid *grid, int dimension, int reach);
+/* A grid whose cells reach the nodes of WINDOW. */
+void grid_start(struct grid *grid, int dimension, struct shape_window window);
 /* Makes the blocks for BINS; quick while their keys stay. */
 struct error *grid_plan(struct grid *grid, const struct bins *bins);
 void grid_free(struct grid *grid);

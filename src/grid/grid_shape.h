@@ -16,8 +16,22 @@
 
 enum grid_shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_QUADRATIC, SHAPE_CUBIC };
 
-/* How many nodes beyond the corners of its cell a particle may reach. */
-BOLIDE_INLINE int shape_reach(enum grid_shape shape) { return shape == SHAPE_LINEAR ? 0 : 1; }
+/* Which nodes a particle of a cell may reach: so many before and after the one with the index of the
+ * cell. That is its low corner, or with CENTRED the node in its middle: quadratic functions, whose
+ * support is three cells, then reach three nodes and not four. Those around an axis, which are means
+ * over a particle, reach further. */
+struct shape_window {
+    bool centred;
+    int before, after;
+};
+
+BOLIDE_INLINE struct shape_window shape_window_of(enum grid_shape shape, bool axisymmetric)
+{
+    const bool centred = shape == SHAPE_QUADRATIC && !axisymmetric;
+    const int before = shape == SHAPE_LINEAR ? 0 : 1;
+    const struct shape_window window = {centred, before, centred ? 1 : 1 + before};
+    return window;
+}
 
 BOLIDE_INLINE double shape_value(enum grid_shape shape, double r, double half)
 {

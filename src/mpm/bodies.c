@@ -173,6 +173,21 @@ static void book_hoop(struct simulation *simulation, const void *of, int32_t i,
                 vector_at(p->position[i]), 0.0);
 }
 
+static void book_ambient(struct simulation *simulation, const void *of, int32_t i,
+                         struct ledger *ledger)
+{
+    const struct particles *p = &simulation->particles;
+    const struct vec3 none = vec3_make(0.0, 0.0, 0.0);
+    ledger_book(ledger, LEDGER_LOADS, 0.0, none, none, p->mass[i] * ((const double *)of)[i]);
+}
+
+void mpm_book_ambient(const struct mpm *mpm, struct simulation *simulation)
+{
+    const double *ambient = mpm_fields_of(mpm, simulation).ambient;
+    if (ambient)
+        act_on_particles(simulation, is_free, book_ambient, ambient);
+}
+
 /* Nodes without mass, which shape functions around the axis reach and others do not, give their forces to nothing. */
 static void unbook_lost(const struct mpm *mpm, const struct layer *layer, int32_t block, double dt,
                         struct ledger *ledger)

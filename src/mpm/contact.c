@@ -195,7 +195,10 @@ static struct contact_push push_by_held(const struct meeting *m, int k, const do
                                               area * layer->sound_long, area * layer->sound_shear};
         push.impulse = contact_run_out(side, vector_at(held + NODE_FORCE), u, outlet, dt);
         push.state = CONTACT_NONE;
-        u = vec3_scale(1.0 / side.mass, vec3_add(side.momentum, push.impulse));
+        const struct vec3 kick =
+            vec3_add(vec3_scale(dt, vector_at(node + NODE_FORCE)), push.impulse);
+        u = vec3_scale(1.0 / side.mass,
+                       vec3_add(vector_at(node + NODE_MOMENTUM), vec3_scale(0.5, kick)));
     } else {
         push = contact_push_held(side, u, normal, m->rule);
     }
@@ -383,6 +386,69 @@ struct error *mpm_find_meetings(struct mpm *mpm)
     return NULL;
 }
 
+/* Forces before contact, which the nodes of a layer that moves keep in the second field. */
+static void keep_forces(const struct layer *layer, int threads)
+{
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
+        for (int k = 0; k < BLOCK_CELLS && layer->meets[n]; k++)
+            memcpy(grid_node(&layer->back, n, k), grid_node(&layer->main, n, k) + NODE_FORCE,
+                   3 * sizeof(double));
+}
+
+/* What the pushes of a step of DT give to the motion of a layer at node K of its block. */
+static double work_of_contact(const struct layer *layer, int32_t block, int k, double dt)
+{
+    const double *node = grid_node(&layer->main, block, k),
+                 *kept = grid_node(&layer->back, block, k);
+    double work = 0.0;
+    for (int c = 0; c < 3 && node[NODE_MASS] > 0.0; c++)
+        work += dt * (node[NODE_FORCE + c] - kept[c]) *
+                (node[NODE_MOMENTUM + c] + 0.5 * dt * node[NODE_FORCE + c]) / node[NODE_MASS];
+    return work;
+}
+
+/* What all layers lose by contact at node K of a block of layer G, per mass of those that move. */
+static double heat_of_contact(const struct mpm *mpm, int g, int32_t block, int k, double dt)
+{
+    double heat = 0.0, mass = 0.0;
+    for (int h = 0; h < mpm->layers; h++) {
+        const struct layer *layer = &mpm->layer[h];
+        const int32_t in = h == g ? block
+                           : layer->bins.count > 0
+                               ? block_table_find(&layer->grid.table, mpm->layer[g].grid.key[block])
+                               : -1;
+        if (in < 0)
+            continue;
+        if (layer->held) {
+            heat += grid_node(&layer->back, in, k)[BACK_HEAT]; /* the work of what holds it */
+        } else {
+            heat -= work_of_contact(layer, in, k, dt);
+            mass += grid_node(&layer->main, in, k)[NODE_MASS];
+        }
+    }
+    return mass > 0.0 ? heat / mass : 0.0;
+}
+
+/* The particles of all layers that move get what contact takes from the motion. */
+static void heat_by_contact(struct mpm *mpm, const struct simulation *simulation, double dt)
+{
+    for (int g = 0; g < mpm->layers; g++) {
+        const struct layer *layer = &mpm->layer[g];
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+        for (int32_t n = 0; n < layer->grid.blocks; n++)
+            for (int k = 0; k < BLOCK_CELLS && !layer->held; k++)
+                grid_node(&layer->back, n, k)[BACK_HEAT] =
+                    layer->meets[n] ? heat_of_contact(mpm, g, n, k, dt) : 0.0;
+    }
+    for (int g = 0; g < mpm->layers; g++)
+        if (!mpm->layer[g].held)
+            mpm_mirror_contact(mpm, &mpm->layer[g]);
+    for (int g = 0; g < mpm->layers; g++)
+        if (!mpm->layer[g].held)
+            mpm_warm(mpm, simulation, &mpm->layer[g], mpm->layer[g].meets);
+}
+
 void mpm_meet(struct mpm *mpm, struct simulation *simulation, double dt)
 {
     const bool normals = wants_normals(mpm, simulation);
@@ -395,7 +461,10 @@ void mpm_meet(struct mpm *mpm, struct simulation *simulation, double dt)
     for (int g = 0; g < mpm->layers; g++)
         if (mpm->layer[g].held)
             clear_notes(&mpm->layer[g]);
+        else
+            keep_forces(&mpm->layer[g], simulation->threads);
     meet_pairs(mpm, simulation, dt);
+    heat_by_contact(mpm, simulation, dt);
     for (int g = 0; g < mpm->layers; g++)
         if (mpm->layer[g].held)
             book_notes(mpm, simulation, &mpm->layer[g]);

@@ -3,6 +3,7 @@
 #include "mpm/mpm.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "material/any.h"
@@ -10,7 +11,7 @@
 #include "mpm/mpm_internal.h"
 
 /* Conditions of the fields. */
-enum { MPM_AFFINE = 1 };
+enum { MPM_AFFINE = 1, MPM_CONSERVES = 2, MPM_FILTERS = 4, MPM_MIXES = 8, MPM_GAUGED = 16 };
 
 static const struct field_row field_rows[] = {
     {.field = {"sound_long", "m/s", "longitudinal sound speed", NUMBER_DOUBLE, 1, FIELD_DERIVED},
@@ -21,13 +22,44 @@ static const struct field_row field_rows[] = {
      .when = MPM_AFFINE,
      .where = "transfer: apic or tpic",
      .offset = offsetof(struct mpm_fields, velocity_gradient)},
+    {.field = {"state_energy", "J/kg", "energy that the pressure is of, half a step ahead",
+               NUMBER_DOUBLE, 1, FIELD_STATE},
+     .when = MPM_CONSERVES,
+     .where = "transfer: flip",
+     .offset = offsetof(struct mpm_fields, at_state)},
+    {.field = {"shock", NULL, "how much of a shock it is in, 0 to 1", NUMBER_DOUBLE, 1,
+               FIELD_STATE},
+     .when = MPM_MIXES,
+     .where = "shock_mixing",
+     .offset = offsetof(struct mpm_fields, shock)},
+    {.field = {"divergence", "1/s", "of the velocity, before the nodes have filtered it",
+               NUMBER_DOUBLE, 1, FIELD_STATE},
+     .when = MPM_FILTERS,
+     .where = "viscosity_unresolved",
+     .offset = offsetof(struct mpm_fields, divergence)},
+    {.field = {"ambient_work", "J/kg", "of the ambient pressure in the last step", NUMBER_DOUBLE, 1,
+               FIELD_DERIVED},
+     .when = MPM_GAUGED,
+     .where = "gauge_pressure",
+     .offset = offsetof(struct mpm_fields, ambient)},
     FIELD_ROWS_END,
 };
 enum { MPM_FIELDS = COUNT_OF(field_rows) - 1 };
 
 static struct field_needs needs_of(const struct mpm_parameters *parameters)
 {
-    return (struct field_needs){.conditions = parameters->transfer != MPM_FLIP ? MPM_AFFINE : 0};
+    unsigned conditions = 0;
+    if (parameters->transfer != MPM_FLIP)
+        conditions |= MPM_AFFINE;
+    if (mpm_conserves(parameters))
+        conditions |= MPM_CONSERVES;
+    if (parameters->viscosity_unresolved > 0.0)
+        conditions |= MPM_FILTERS;
+    if (parameters->shock_mixing > 0.0)
+        conditions |= MPM_MIXES;
+    if (mpm_conserves(parameters) && parameters->gauge_pressure != 0.0)
+        conditions |= MPM_GAUGED;
+    return (struct field_needs){.conditions = conditions};
 }
 
 struct mpm_fields mpm_fields_of(const struct mpm *mpm, const struct simulation *simulation)
@@ -41,8 +73,7 @@ struct mpm_fields mpm_fields_of(const struct mpm *mpm, const struct simulation *
 static void start_layers(struct mpm *mpm, const struct simulation *simulation)
 {
     for (int g = 0; g < mpm->layers; g++) {
-        grid_start(&mpm->layer[g].grid, simulation->dimension,
-                   shape_reach((enum grid_shape)mpm->parameters.shape));
+        grid_start(&mpm->layer[g].grid, simulation->dimension, mpm_window(mpm, simulation));
         mpm->layer[g].main.stride = NODE_STRIDE;
         mpm->layer[g].back.stride = BACK_STRIDE;
         mpm->layer[g].normal.stride = BACK_STRIDE;
@@ -64,6 +95,8 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     int count = simulation_history(simulation, fields);
     count += field_rows_declare(field_rows, &needs, fields + count);
     TRY(particles_create(simulation->dimension, mpm->edge, fields, count, &simulation->particles));
+    if (mpm_window(mpm, simulation).centred)
+        simulation->particles.shift = 0.5 * mpm->edge;
     simulation->particles.ranks = simulation->ranks;
     simulation->particles.threads = simulation->threads;
     return NULL;
@@ -80,6 +113,10 @@ static struct error *mpm_start(void *solver, struct simulation *simulation)
         TRY(particles_sort(&simulation->particles));
     if (mpm_is_affine(mpm) && simulation->step == 0)
         mpm_start_gradients(mpm, simulation);
+    const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
+    if (fields.at_state && simulation->step == 0)
+        memcpy(fields.at_state, simulation->particles.energy,
+               (size_t)simulation->particles.count * sizeof *fields.at_state);
     mpm_evaluate(mpm, simulation);
     return NULL;
 }
@@ -126,7 +163,10 @@ static void mpm_destroy(void *solver)
 static double mpm_bytes(const void *parameters, int dimension)
 {
     const struct mpm_parameters *of = parameters;
-    const struct field_needs needs = needs_of(of);
+    struct mpm_parameters most = *of; /* what is left to the method may need its fields */
+    most.shock_mixing = isnan(of->shock_mixing) ? 1.0 : of->shock_mixing;
+    most.viscosity_unresolved = isnan(of->viscosity_unresolved) ? 1.0 : of->viscosity_unresolved;
+    const struct field_needs needs = needs_of(&most);
     struct field_declaration declared[MPM_FIELDS];
     struct particles store;
     error_free(particles_create(dimension, 1.0, declared,
@@ -135,7 +175,7 @@ static double mpm_bytes(const void *parameters, int dimension)
     particles_destroy(&store);
     /* Blocks full of cells of two particles an axis. */
     struct grid grid;
-    grid_start(&grid, dimension, shape_reach((enum grid_shape)of->shape));
+    grid_start(&grid, dimension, shape_window_of((enum grid_shape)of->shape, false));
     const int stride = NODE_STRIDE + BACK_STRIDE + (of->order > 1 ? 2 * NODE_STRIDE : 0);
     const double numbers = stride * (double)(BLOCK_CELLS + grid.patch);
     const double particles = BLOCK_CELLS * pow(2.0, dimension);

@@ -83,14 +83,35 @@ BOLIDE_INLINE bool mpm_is_affine(const struct mpm *mpm)
     return mpm->parameters.transfer != MPM_FLIP;
 }
 
+/* Whether the energy of particles follows from what forces do at nodes, to rounding: where nodes have
+ * lumped masses and particles keep their velocities. Not with linear shape functions: the kinetic
+ * energy that they give to a node of next to no mass has no bound, nor has what one of its particles
+ * gains and another loses. */
+BOLIDE_INLINE bool mpm_conserves(const struct mpm_parameters *parameters)
+{
+    return parameters->transfer == MPM_FLIP && parameters->order == 1 &&
+           !(parameters->flip < 1.0) && parameters->energy == MPM_ENERGY_CONSERVED &&
+           parameters->shape != SHAPE_LINEAR;
+}
+
 /* The step, as struct solver_class has it. */
 struct error *mpm_prepare(void *solver, struct simulation *simulation, struct limit *limit);
 struct error *mpm_advance(void *solver, struct simulation *simulation, double dt);
+
+/* The nodes that the particles of a cell may reach. */
+BOLIDE_INLINE struct shape_window mpm_window(const struct mpm *mpm,
+                                             const struct simulation *simulation)
+{
+    return shape_window_of((enum grid_shape)mpm->parameters.shape,
+                           simulation->geometry == GEOMETRY_AXISYMMETRIC);
+}
 
 /* The fields that MPM adds to the store, as its rows (mpm.c) point to them. */
 struct mpm_fields {
     double *sound_long, *viscosity;
     double (*velocity_gradient)[9]; /* NULL: particles carry none */
+    double *at_state, *divergence, *shock,
+        *ambient; /* NULL likewise; see point_kernel.h, transfer.h */
 };
 struct mpm_fields mpm_fields_of(const struct mpm *mpm, const struct simulation *simulation);
 
@@ -126,6 +147,9 @@ void mpm_keep_before_walls(const struct simulation *simulation, double x[3]);
 /* Held bodies move by their velocities in a step of DT. */
 void mpm_move_held(struct simulation *simulation, double dt);
 
+/* Books what the ambient pressure of fluids has done in the step of velocities. */
+void mpm_book_ambient(const struct mpm *mpm, struct simulation *simulation);
+
 /* What the particles of each body and material are to the grid. */
 struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulation);
 
@@ -136,8 +160,11 @@ void mpm_book_gravity(struct simulation *simulation, double dt, bool begin);
 /* Books what the hoop stress pushes in a step of DT by the forces that nodes have from particles alone. */
 void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double dt);
 
-struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simulation,
+struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *simulation,
                                 struct layer *layer);
+
+/* Whether any of the blocks that the patch of a bin covers is one OF which is set. */
+bool mpm_covers(const struct layer *layer, int32_t bin, const bool *of);
 
 /* Finds the planes of nodes that the walls lie on; a located error when they lie between. */
 struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulation);
@@ -180,6 +207,15 @@ void mpm_raise_order(struct mpm *mpm, struct simulation *simulation, double dt, 
 /* Adds to the forces at nodes those that stand in the second field, summed over patches; walls know of them. */
 void mpm_add_forces(const struct mpm *mpm, const struct simulation *simulation,
                     struct layer *layer);
+
+/* Nodes behind walls get the forces, mirrored, and the heat of contact of those that they are images of:
+ * the layer that pushes there may not reach as far. */
+void mpm_mirror_contact(const struct mpm *mpm, const struct layer *layer);
+
+/* Particles get the heat that the nodes of LAYER have in the second field: those of bins that cover a
+ * block for which OF is set, or of all for NULL. */
+void mpm_warm(const struct mpm *mpm, const struct simulation *simulation, struct layer *layer,
+              const bool *of);
 
 /* Collective: loads, as they are in its middle, and faces of outflow push in a step of DT. ERROR_STATE: a load is not finite. */
 struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt);

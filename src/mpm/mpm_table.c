@@ -6,6 +6,7 @@ static const char *const shape_names[] = {"linear", "gimp", "quadratic", "cubic"
 static const char *const scheme_names[] = {"musl", "usl", "usf", NULL};
 static const char *const transfer_names[] = {"flip", "apic", "tpic", NULL};
 static const char *const rotation_names[] = {"exact", "jaumann", NULL};
+static const char *const energy_names[] = {"conserved", "work", NULL};
 static const char *const damping_names[] = {"plain", "symmetric", NULL};
 
 const struct parameter mpm_table[] = {
@@ -68,6 +69,15 @@ const struct parameter mpm_table[] = {
      .below = 1.0,
      .help = "K of dt = min K h/(c + max |u_i|), h the cell; when not given 0.2 where there are "
              "fluids, else 0.5"},
+    {.key = "energy",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct mpm_parameters, energy),
+     .standard = "conserved",
+     .names = energy_names,
+     .help =
+         "of particles; conserved: what forces take from the motion at nodes, with all of "
+         "`transfer: flip`, `order: 1`, a shape that is not linear, and no axis; work: that of the "
+         "stress in the strain of the particle, as in the source"},
     {.key = "rotation",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, rotation),
@@ -89,11 +99,22 @@ const struct parameter mpm_table[] = {
     {.key = "viscosity_linear",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, viscosity_linear),
-     .standard = "0.06",
+     .standard = PARAMETER_OPTIONAL,
      .above = 0.0,
      .below = 1e3,
      .closed = true,
-     .help = "b1 of the artificial viscosity"},
+     .help =
+         "b1 of the artificial viscosity; when not given 0.06, and up to 0.2 in shocks in solids"},
+    {.key = "viscosity_unresolved",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct mpm_parameters, viscosity_unresolved),
+     .standard = PARAMETER_OPTIONAL,
+     .above = 0.0,
+     .below = 10.0,
+     .closed = true,
+     .help = "b3 of the artificial viscosity -b3 rho h c w, w what nodes do not resolve of the "
+             "rate of volume, which then does not change volumes, in solids; 0: it does; default 2 "
+             "with another viscosity, `scheme: musl` and where `energy` is conserved, else 0"},
     {.key = "shock_mixing",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, shock_mixing),
@@ -103,8 +124,8 @@ const struct parameter mpm_table[] = {
      .closed = true,
      .help =
          "rate, in c/h, at which the energies of particles that share a node in a shock are mixed, "
-         "ten times that of their velocities; 0: none; default 3 with `transfer: flip` and "
-         "`order: 1`, else 0"},
+         "one and a half times that of their velocities; 0: none; default 3 with `transfer: flip`, "
+         "`order: 1` and a shape that is not linear, else 0"},
     {.key = "shear_damping",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, shear_damping),
@@ -146,6 +167,19 @@ struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
     if (settled.transfer != MPM_FLIP)
         settled.flip = 0.0;
     if (isnan(settled.shock_mixing))
-        settled.shock_mixing = settled.transfer == MPM_FLIP && settled.order == 1 ? 3.0 : 0.0;
+        settled.shock_mixing =
+            settled.transfer == MPM_FLIP && settled.order == 1 && settled.shape != SHAPE_LINEAR
+                ? 3.0
+                : 0.0;
+    /* what a node of next to no mass gets by functions around the axis, which reach further than those
+     * that its mass is from, has no bound */
+    if (simulation->geometry == GEOMETRY_AXISYMMETRIC)
+        settled.energy = MPM_ENERGY_WORK;
+    if (isnan(settled.viscosity_unresolved))
+        settled.viscosity_unresolved =
+            mpm_conserves(&settled) && settled.scheme == MPM_MUSL &&
+                    !(settled.viscosity_linear + settled.viscosity_quadratic <= 0.0)
+                ? 2.0
+                : 0.0;
     return settled;
 }

@@ -106,9 +106,10 @@ void mpm_node_index(int dimension, const int64_t corner[3], int k, int64_t at[3]
         at[axis] = corner[axis] + place[axis];
 }
 
-/* Lists the nodes of a block that walls change. */
-static struct error *collect_block(const struct mpm *mpm, struct layer *layer, int32_t block,
-                                   const int64_t corner[3])
+/* Lists the nodes of a block that walls change. In CORNERS a node behind both walls may have no mass
+ * but that of its images. */
+static struct error *collect_block(const struct mpm *mpm, struct layer *layer, bool corners,
+                                   int32_t block, const int64_t corner[3])
 {
     if (!memory_reserve((void **)&layer->wall, &layer->wall_capacity, layer->walls + BLOCK_CELLS,
                         layer->walls, sizeof *layer->wall))
@@ -117,7 +118,8 @@ static struct error *collect_block(const struct mpm *mpm, struct layer *layer, i
         struct wall_node *wall = &layer->wall[layer->walls];
         mpm_node_index(layer->grid.dimension, corner, k, wall->at);
         double *node = grid_node(&layer->main, block, k);
-        if (node[NODE_MASS] <= 0.0 || !mpm_near_wall(mpm, layer, wall->at))
+        if (!mpm_near_wall(mpm, layer, wall->at) ||
+            (node[NODE_MASS] <= 0.0 && !(corners && mpm_behind_wall(mpm, layer, wall->at))))
             continue;
         wall->node = node;
         wall->booked = !mpm_is_far(mpm, layer, layer->grid.touch[block][0].bin);
@@ -130,14 +132,14 @@ static struct error *collect_block(const struct mpm *mpm, struct layer *layer, i
     return NULL;
 }
 
-static struct error *collect_walls(const struct mpm *mpm, struct layer *layer)
+static struct error *collect_walls(const struct mpm *mpm, struct layer *layer, bool corners)
 {
     layer->walls = 0;
     for (int32_t n = 0; n < layer->grid.blocks; n++) {
         int64_t corner[3];
         grid_corner(&layer->grid, n, corner);
         if (block_near_wall(mpm, layer, corner, layer->grid.reach))
-            TRY(collect_block(mpm, layer, n, corner));
+            TRY(collect_block(mpm, layer, corners, n, corner));
     }
     return NULL;
 }
@@ -152,6 +154,7 @@ static const struct folded folded_main = {2,
                                           2,
                                           {NODE_MOMENTUM, NODE_FORCE}},
                            folded_vector = {.vectors = 1},
+                           folded_back = {.scalars = 1, .scalar = {BACK_DIVERGENCE}, .vectors = 1},
                            folded_heat = {.scalars = HEAT_NUMBERS,
                                           .scalar = {HEAT_ENERGY, HEAT_NUMBER, HEAT_SQUARE}};
 
@@ -192,9 +195,33 @@ static void fold(const struct mpm *mpm, struct layer *layer, const struct grid_f
                 int64_t at[3] = {wall->at[0], wall->at[1], wall->at[2]};
                 at[axis] = mirrored(mpm, axis, side, at[axis]);
                 double *onto = grid_node_at(&layer->grid, field, at);
-                assert(onto);
-                fold_onto(node, onto, axis, folded);
+                if (onto)
+                    fold_onto(node, onto, axis, folded);
             }
+}
+
+void mpm_mirror_contact(const struct mpm *mpm, const struct layer *layer)
+{
+    for (int32_t w = 0; w < layer->walls; w++) {
+        const struct wall_node *wall = &layer->wall[w];
+        int64_t at[3] = {wall->at[0], wall->at[1], wall->at[2]};
+        double sign[3] = {1.0, 1.0, 1.0};
+        bool mirror = false;
+        for (int axis = 0; axis < layer->grid.dimension; axis++)
+            for (int side = 0; side < 2; side++)
+                if (mpm->has_plane[axis][side] && behind(mpm, axis, side, at[axis]) > 0) {
+                    at[axis] = mirrored(mpm, axis, side, at[axis]);
+                    sign[axis] = -1.0;
+                    mirror = true;
+                }
+        if (!mirror)
+            continue;
+        const double *image = grid_node_at(&layer->grid, &layer->main, at),
+                     *heat = grid_node_at(&layer->grid, &layer->back, at);
+        for (int c = 0; c < 3 && image; c++)
+            wall->node[NODE_FORCE + c] = sign[c] * image[NODE_FORCE + c];
+        wall->back[BACK_HEAT] = heat ? heat[BACK_HEAT] : 0.0;
+    }
 }
 
 static void add_gravity(const struct simulation *simulation, const struct layer *layer,
@@ -217,7 +244,8 @@ struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simu
         if (heavy)
             add_gravity(simulation, layer, n);
     }
-    TRY(collect_walls(mpm, layer));
+    /* about an axis such nodes have forces, which are lost (see mpm_book_hoop) */
+    TRY(collect_walls(mpm, layer, simulation->geometry != GEOMETRY_AXISYMMETRIC));
     fold(mpm, layer, &layer->main, &folded_main);
     return NULL;
 }
@@ -246,6 +274,29 @@ void mpm_add_forces(const struct mpm *mpm, const struct simulation *simulation, 
                 grid_node(&layer->main, n, k)[NODE_FORCE + c] += grid_node(&layer->back, n, k)[c];
 }
 
+bool mpm_covers(const struct layer *layer, int32_t bin, const bool *of)
+{
+    bool covers = false;
+    for (int code = 0; code < GRID_AROUND; code++) {
+        const int32_t block = layer->grid.around[bin][code];
+        covers |= block >= 0 && of[block];
+    }
+    return covers;
+}
+
+void mpm_warm(const struct mpm *mpm, const struct simulation *simulation, struct layer *layer,
+              const bool *of)
+{
+    const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
+#pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
+    for (int32_t b = 0; b < layer->bins.count; b++) {
+        if (mpm_is_far(mpm, layer, b) || (of && !mpm_covers(layer, b, of)))
+            continue;
+        grid_spread(&layer->grid, &layer->back, b);
+        transfer_warm(&transfer, b);
+    }
+}
+
 /* Whether the plane across x that a node is at is the axis of symmetry. */
 static bool is_at_axis(const struct mpm *mpm, const struct simulation *simulation, int64_t x)
 {
@@ -267,6 +318,21 @@ void mpm_book_wall(const struct mpm *mpm, struct simulation *simulation,
                 0.0);
 }
 
+/* Weights work with the velocities of nodes, those of the particles but at walls: what they do there
+ * beyond what mpm_book_gravity has. */
+static void book_weight(struct simulation *simulation, const struct wall_node *wall, double dt)
+{
+    const double *sum = wall->sum, *node = wall->node;
+    double work = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double before = node[NODE_VELOCITY + k] - dt * node[NODE_ACCELERATION + k];
+        work += dt * simulation->gravity[k] * (1.0 - 0.5 * node[NODE_MIXING]) *
+                (sum[NODE_MASS] * before - sum[NODE_MOMENTUM + k]);
+    }
+    ledger_book(&simulation->ledger, LEDGER_GRAVITY, 0.0, vec3_make(0.0, 0.0, 0.0),
+                vec3_make(0.0, 0.0, 0.0), work);
+}
+
 /* A wall changes the momentum of particles by what they get from a node in excess of what they have put into it. */
 static void book_walls(const struct mpm *mpm, struct simulation *simulation,
                        const struct layer *layer, double dt)
@@ -282,9 +348,12 @@ static void book_walls(const struct mpm *mpm, struct simulation *simulation,
             const double gain =
                 flip * dt * mass * node[NODE_ACCELERATION + k] +
                 (1.0 - flip) * (mass * node[NODE_VELOCITY + k] - sum[NODE_MOMENTUM + k]);
-            push[k] = gain - dt * sum[NODE_FORCE + k];
+            const double before = node[NODE_VELOCITY + k] - dt * node[NODE_ACCELERATION + k];
+            const double mixed = node[NODE_MIXING] * (mass * before - sum[NODE_MOMENTUM + k]);
+            push[k] = gain + flip * mixed - dt * sum[NODE_FORCE + k];
         }
         mpm_book_wall(mpm, simulation, wall, push);
+        book_weight(simulation, wall, dt);
     }
 }
 
@@ -297,8 +366,11 @@ void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, str
         for (int k = 0; k < BLOCK_CELLS; k++) {
             double *node = grid_node(&layer->main, n, k);
             const double mass = node[NODE_MASS];
-            if (mass <= 0.0)
+            if (mass <= 0.0) { /* what shape functions around the axis, or slopes reach */
+                memset(node, 0, NODE_STRIDE * sizeof *node);
                 continue;
+            }
+            node[NODE_MIXING] = mixing_of_velocity(dt * node[NODE_MIXING] / mass);
             for (int c = 0; c < 3; c++) {
                 const double force = held ? 0.0 : node[NODE_FORCE + c];
                 node[NODE_VELOCITY + c] = (node[NODE_MOMENTUM + c] + dt * force) / mass;
@@ -339,13 +411,14 @@ void mpm_find_velocities(const struct mpm *mpm, const struct simulation *simulat
         }
     }
     if (!plain)
-        fold(mpm, layer, &layer->back, &folded_vector);
+        fold(mpm, layer, &layer->back, &folded_back);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++)
         for (int k = 0; k < BLOCK_CELLS; k++) {
             const double mass = grid_node(&layer->main, n, k)[NODE_MASS];
             double *node = grid_node(&layer->back, n, k);
             for (int c = 0; c < 3; c++)
-                node[c] = mass < mpm->least_mass ? 0.0 : node[c] / mass;
+                node[c] = mass > 0.0 ? node[c] / mass : 0.0;
+            node[BACK_DIVERGENCE] = mass > 0.0 ? node[BACK_DIVERGENCE] / mass : 0.0;
         }
 }

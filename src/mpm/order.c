@@ -57,7 +57,8 @@ static void book_walls(const struct mpm *mpm, struct simulation *simulation, str
     for (int32_t w = 0; w < layer->walls; w++) {
         const struct wall_node *wall = &layer->wall[w];
         const double *raw = wall->raised, *sum = wall->mapped;
-        const double share = wall->sum[NODE_MASS] / wall->node[NODE_MASS];
+        const double mass = wall->node[NODE_MASS],
+                     share = mass > 0.0 ? wall->sum[NODE_MASS] / mass : 0.0;
         double push[3], place[3];
         for (int c = 0; c < 3 && wall->booked; c++) {
             const double v = raw[NODE_VELOCITY + c] - share * sum[NODE_VELOCITY + c],

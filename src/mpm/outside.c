@@ -29,7 +29,7 @@ static void give(const struct mpm *mpm, const struct layer *layer, const struct 
 {
     const double *x = reached->x, half = reached->half;
     const enum grid_shape shape = (enum grid_shape)mpm->parameters.shape;
-    const int dimension = layer->grid.dimension, window = 2 + 2 * layer->grid.reach;
+    const int dimension = layer->grid.dimension, window = 1 + layer->grid.reach + layer->grid.after;
     double value[3][4], slope[3][4];
     int count[3] = {1, 1, 1};
     for (int axis = 0; axis < dimension; axis++) {

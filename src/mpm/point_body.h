@@ -5,23 +5,43 @@
 
 #include "material/batch.h"
 #include "mpm/point_kernel.h"
+#include "mpm/transfer.h"
+
+/* The norm of the velocity gradient. */
+BOLIDE_INLINE double norm_of(struct sym3 strain, struct vec3 spin)
+{
+    return sqrt(sym3_square(strain) + 2.0 * vec3_dot(spin, spin));
+}
+
+/* Half of what a step of MOTION takes by the stress at its begin, with VISCOSITY of then. */
+BOLIDE_INLINE double work_at_begin(const struct point *point, const struct motion *motion,
+                                   double viscosity)
+{
+    struct motion half = *motion;
+    half.dt *= 0.5;
+    half.viscous_pressure = 0.5 * viscosity;
+    return material_work(point, &half, point->deviator);
+}
 
 /* Brings particle I, number K of its bin, of any material to the next level. LENGTH is its size
  * at the start. */
 BOLIDE_INLINE void point_advance(const struct point_loop *loop, const struct material *material,
                                  int32_t i, int32_t k, double length)
 {
-    double *s = loop->deviator[i], rate[9];
+    double *s = loop->deviator[i], rate[RATES];
     struct motion motion;
     struct point point;
-    for (int c = 0; c < 9; c++)
+    for (int c = 0; c < RATES; c++)
         rate[c] = loop->rate[(size_t)c * loop->rate_stride + (size_t)k];
-    const double divergence = rate[0] + rate[1] + rate[2];
+    const bool solid = material_has_strength(material);
+    const double filtered = point_unresolved(loop, solid, rate[RATE_UNRESOLVED], loop->sound[i]),
+                 divergence = rate[0] + rate[1] + rate[2] - filtered;
     motion.dt = loop->dt;
     motion.time = loop->time;
     motion.length = length;
     motion.strain_rate = sym3_make(rate);
-    motion.spin = vec3_make(rate[6], rate[7], rate[8]);
+    const struct vec3 spin = vec3_make(rate[6], rate[7], rate[8]);
+    motion.spin = spin;
     motion.density = loop->density[i] / (1.0 + loop->dt * divergence); /* (2-20) */
     motion.energy = 0.0;
     point.density = loop->density[i];
@@ -32,21 +52,26 @@ BOLIDE_INLINE void point_advance(const struct point_loop *loop, const struct mat
         point.history[slot] = loop->history[slot] ? loop->history[slot][i] : 0.0;
     /* an explosive that has yet to burn has no viscosity */
     const bool inert = material_burns(material) && point.history[HISTORY_burnt] == 0.0;
-    const double viscosity =
-        inert ? 0.0 : point_viscosity(loop, motion.density, loop->sound[i], divergence);
+    const struct point_flow flow = {solid, motion.density, loop->sound[i], divergence, filtered};
+    const double viscosity = inert ? 0.0 : point_viscosity(loop, &flow);
     motion.viscous_pressure = 0.5 * (loop->viscosity[i] + viscosity);
     if (loop->jaumann) {
         point.deviator = jaumann_turn(point.deviator, vec3_scale(loop->dt, motion.spin));
         motion.spin = vec3_make(0.0, 0.0, 0.0);
     }
+    if (loop->at_state)
+        point.energy -= work_at_begin(&point, &motion, loop->viscosity[i]);
     const struct response r = material_step_by_work(material, &point, &motion);
     loop->density[i] = point.density;
-    loop->energy[i] = point.energy;
+    *(loop->at_state ? &loop->at_state[i] : &loop->energy[i]) = point.energy;
     loop->pressure[i] = point.pressure;
     for (int slot = 0; slot < POINT_HISTORY; slot++)
         if (loop->history[slot])
             loop->history[slot][i] = point.history[slot];
     loop->viscosity[i] = viscosity;
+    if (loop->shock)
+        loop->shock[i] = point_shock(viscosity, point.density, loop->sound[i], divergence,
+                                     norm_of(motion.strain_rate, spin));
     loop->sound[i] = r.sound_long;
     sym3_store(point.deviator, s);
 }
@@ -77,32 +102,50 @@ BOLIDE_INLINE void points_load(const struct point_loop *loop, const int32_t *lis
     }
 }
 
-/* What the rates do to density and viscosity; the new one goes to VISCOSITY. */
-BOLIDE_INLINE void points_start(const struct point_loop *loop, struct batch *b, double *viscosity)
+/* What the rates do to density and viscosity; the new one goes to VISCOSITY. UNRESOLVED is what
+ * nodes do not resolve of the divergence, SHOCK becomes that of the particles; SOLID: the material has strength. */
+BOLIDE_INLINE void points_start(const struct point_loop *loop, bool solid, struct batch *b,
+                                const double *unresolved, double *viscosity, double *shock)
 {
+    double before[BATCH], divergence[BATCH];
     for (int k = 0; k < b->count; k++) {
-        const double divergence =
-            b->strain_rate[0][k] + b->strain_rate[1][k] + b->strain_rate[2][k];
-        b->new_density[k] = b->density[k] / (1.0 + b->dt * divergence); /* (2-20) */
-        viscosity[k] = point_viscosity(loop, b->new_density[k], b->sound_long[k], divergence);
-        b->viscous_pressure[k] = 0.5 * (b->viscous_pressure[k] + viscosity[k]);
+        const double filtered = point_unresolved(loop, solid, unresolved[k], b->sound_long[k]);
+        divergence[k] =
+            b->strain_rate[0][k] + b->strain_rate[1][k] + b->strain_rate[2][k] - filtered;
+        b->new_density[k] = b->density[k] / (1.0 + b->dt * divergence[k]); /* (2-20) */
+        const struct point_flow flow = {solid, b->new_density[k], b->sound_long[k], divergence[k],
+                                        filtered};
+        viscosity[k] = point_viscosity(loop, &flow);
+        before[k] = b->viscous_pressure[k];
+        b->viscous_pressure[k] = 0.5 * (before[k] + viscosity[k]);
     }
-    if (!loop->jaumann)
-        return;
-    for (int k = 0; k < b->count; k++) {
+    for (int k = 0; k < b->count && loop->shock; k++) {
+        const struct motion motion = batch_motion(b, k);
+        shock[k] = point_shock(viscosity[k], b->new_density[k], b->sound_long[k], divergence[k],
+                               norm_of(motion.strain_rate, motion.spin));
+    }
+    for (int k = 0; k < b->count && loop->jaumann; k++) {
         const struct vec3 angle =
             vec3_make(b->dt * b->spin[0][k], b->dt * b->spin[1][k], b->dt * b->spin[2][k]);
         batch_keep_tensor(b->deviator, k, jaumann_turn(batch_tensor(b->deviator, k), angle));
         for (int c = 0; c < 3; c++)
             b->spin[c][k] = 0.0;
     }
+    for (int k = 0; k < b->count && loop->at_state; k++) {
+        const struct motion motion = batch_motion(b, k);
+        const struct point point = {.density = b->density[k],
+                                    .pressure = b->pressure[k],
+                                    .deviator = batch_tensor(b->deviator, k)};
+        b->energy[k] -= work_at_begin(&point, &motion, before[k]);
+    }
 }
 
 BOLIDE_INLINE bool points_keep(const struct point_loop *loop, const int32_t *list, int count,
-                               const struct batch *b, const double *viscosity)
+                               const struct batch *b, const double *viscosity, const double *shock)
 {
     double *strain = loop->history[HISTORY_plastic_strain],
-           *heating = loop->history[HISTORY_plastic_heating];
+           *heating = loop->history[HISTORY_plastic_heating],
+           *energy = loop->at_state ? loop->at_state : loop->energy;
     int64_t wrong = 0;
     double zero = 0.0; /* unless a place or velocity is not finite */
     for (int k = 0; k < b->count; k++) {
@@ -116,12 +159,14 @@ BOLIDE_INLINE bool points_keep(const struct point_loop *loop, const int32_t *lis
         for (int c = 0; c < 6; c++)
             s[c] = b->new_deviator[c][k];
         loop->density[i] = b->new_density[k];
-        loop->energy[i] = b->energy[k];
+        energy[i] = b->energy[k];
         loop->pressure[i] = b->pressure[k];
         strain[i] = b->plastic_strain[k];
         if (heating)
             heating[i] = b->plastic_heating[k];
         loop->viscosity[i] = viscosity[k];
+        if (loop->shock)
+            loop->shock[i] = shock[k];
         loop->sound[i] = b->sound_long[k];
         zero += 0.0 * ((x[0] + x[1]) + (x[2] + u[0]) + (u[1] + u[2]));
     }

@@ -9,11 +9,13 @@ ISA_KERNEL(bool, point_loop_run, const struct point_loop *loop, const struct mat
     for (int32_t first = begin; first < end; first += BATCH) {
         const int count = end - first < BATCH ? end - first : BATCH;
         struct batch batch;
-        double viscosity[BATCH];
+        double viscosity[BATCH], shock[BATCH];
         points_load(loop, list + first, loop->rate + first, count, &batch);
-        points_start(loop, &batch, viscosity);
+        points_start(loop, material_has_strength(material), &batch,
+                     loop->rate + first + (size_t)RATE_UNRESOLVED * loop->rate_stride, viscosity,
+                     shock);
         batch_step(material, &batch);
-        possible &= points_keep(loop, list + first, count, &batch, viscosity);
+        possible &= points_keep(loop, list + first, count, &batch, viscosity, shock);
     }
     return possible;
 }

@@ -7,15 +7,22 @@
 
 struct material;
 
-/* The fields of the particles, and their rates: component c of the k-th of the bin is rate[c * rate_stride + k]. */
+/* The fields of the particles, and their rates: component c of the k-th of the bin is rate[c *
+ * rate_stride + k], as transfer.h has them.
+ *
+ * With AT_STATE `energy` is that of the end of the step, half a step behind the state, when the
+ * velocities are of that time: stresses work between the one middle of a step and the next. What the
+ * state has is then `at_state`, and `energy` is not changed. */
 struct point_loop {
-    double *density, *energy, *pressure, (*deviator)[6];
-    double *history[POINT_HISTORY]; /* by slot, NULL where the store has none */
-    double *sound, *viscosity;
+    double *density, *energy, *at_state, *pressure, (*deviator)[6];
+    double *history[POINT_HISTORY];    /* by slot, NULL where the store has none */
+    double *sound, *viscosity, *shock; /* shock: NULL where none is mixed */
     const double (*position)[3], (*velocity)[3];
     const double *rate;
     size_t rate_stride;
-    double dt, time, edge, viscosity_quadratic, viscosity_linear; /* time: at the end of the step */
+    double dt, time, edge; /* time: at the end of the step */
+    double viscosity_quadratic, viscosity_unresolved;
+    double viscosity_linear, viscosity_shock; /* and how much more of it in shocks in solids */
     bool jaumann;
 };
 
@@ -34,13 +41,45 @@ BOLIDE_INLINE struct sym3 jaumann_turn(struct sym3 s, struct vec3 angle)
     return r;
 }
 
-/* q = rho h (b2 h d^2 - b1 c d) in compression. */
-BOLIDE_INLINE double point_viscosity(const struct point_loop *loop, double density, double sound,
-                                     double divergence)
+/* What is filtered of W, what nodes do not resolve of the divergence: all of it from h |w| = 0.001 c
+ * on, as behind shocks, and in proportion to itself below, so that what is elastic rings on. In fluids
+ * nothing: there is no deviator that the overshoots of a shock spoil, and at the edge of a gas that
+ * expands into nothing few particles share a node. */
+BOLIDE_INLINE double point_unresolved(const struct point_loop *loop, bool solid, double w,
+                                      double sound)
 {
-    const double d = minimum(divergence, 0.0), h = loop->edge;
-    return density * h *
-           (loop->viscosity_quadratic * h * square(d) - loop->viscosity_linear * sound * d);
+    const double full = 1e-3;
+    return solid ? w * minimum(1.0, loop->edge * fabs(w) / (full * sound)) : 0.0;
+}
+
+/* What the viscosity of a particle follows from: whether it has strength; its new density; the sound
+ * speed before; the divergence that changes its volume, and what is filtered of it. */
+struct point_flow {
+    bool solid;
+    double density, sound, divergence, filtered;
+};
+
+/* q = rho h (b2 h d^2 - b1 c d) in compression, d < 0, and -rho h b3 c w of what is filtered, w. In
+ * solids b1 grows with h |d|/c up to 0.001, so that a shock is without overshoot and sound goes on. */
+BOLIDE_INLINE double point_viscosity(const struct point_loop *loop, const struct point_flow *flow)
+{
+    const double d = minimum(flow->divergence, 0.0), h = loop->edge, c = flow->sound;
+    const double full = 1e-3, shock = flow->solid ? minimum(1.0, -h * d / (full * c)) : 0.0,
+                 linear = loop->viscosity_linear + loop->viscosity_shock * shock;
+    return flow->density * h *
+           (loop->viscosity_quadratic * h * square(d) - linear * c * d -
+            loop->viscosity_unresolved * c * flow->filtered);
+}
+
+/* How much of a shock a particle is in: 0 where the artificial viscosity q is less than 0.002 rho
+ * c^2, as in sound, 1 from twice as much on; less where it is sheared more than compressed, by the
+ * square of the part of DIVERGENCE in the velocity gradient of norm GRADIENT. */
+BOLIDE_INLINE double point_shock(double viscosity, double density, double sound, double divergence,
+                                 double gradient)
+{
+    const double soft = 2e-3, strength = viscosity / (density * square(sound));
+    const double part = divergence < 0.0 ? minimum(1.0, -divergence / gradient) : 0.0;
+    return square(part) * minimum(1.0, maximum(0.0, strength / soft - 1.0));
 }
 
 /* Brings particles BEGIN .. END - 1 of the bin at LIST, of MATERIAL, which batches must take, to the next level. False when

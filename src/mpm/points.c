@@ -10,14 +10,15 @@
 void mpm_evaluate(const struct mpm *mpm, struct simulation *simulation)
 {
     struct particles *p = &simulation->particles;
-    double *sound = mpm_fields_of(mpm, simulation).sound_long;
+    const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
+    const double *energy = fields.at_state ? fields.at_state : p->energy;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
-        struct point point = {.density = p->density[i], .energy = p->energy[i]};
+        struct point point = {.density = p->density[i], .energy = energy[i]};
         particle_load_history(p, i, point.history);
         struct response r = any_material_evaluate(&simulation->material[p->material[i]], &point);
         p->pressure[i] = point.pressure;
-        sound[i] = r.sound_long;
+        fields.sound_long[i] = r.sound_long;
     }
 }
 
@@ -37,12 +38,15 @@ static struct point_loop loop_of(const struct mpm *mpm, const struct simulation 
 {
     const struct particles *p = &simulation->particles;
     const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
+    const double linear = mpm->parameters.viscosity_linear;
     struct point_loop loop = {.density = p->density,
                               .energy = p->energy,
+                              .at_state = fields.at_state,
                               .pressure = p->pressure,
                               .deviator = p->deviator,
                               .sound = fields.sound_long,
                               .viscosity = fields.viscosity,
+                              .shock = fields.shock,
                               .position = (const double(*)[3])p->position,
                               .velocity = (const double(*)[3])p->velocity,
                               .rate = rate,
@@ -51,7 +55,9 @@ static struct point_loop loop_of(const struct mpm *mpm, const struct simulation 
                               .time = simulation->time + dt,
                               .edge = mpm->edge,
                               .viscosity_quadratic = mpm->parameters.viscosity_quadratic,
-                              .viscosity_linear = mpm->parameters.viscosity_linear,
+                              .viscosity_linear = isnan(linear) ? 0.06 : linear,
+                              .viscosity_shock = isnan(linear) ? 0.14 : 0.0,
+                              .viscosity_unresolved = mpm->parameters.viscosity_unresolved,
                               .jaumann = mpm->parameters.rotation == MPM_JAUMANN};
     memcpy(loop.history, p->history, sizeof loop.history);
     return loop;
@@ -63,6 +69,24 @@ static bool is_possible(const struct particles *p, const struct point_loop *loop
     return p->density[i] > 0.0 && loop->sound[i] > 0.0 &&
            isfinite(p->density[i] + p->pressure[i] + p->energy[i]) &&
            isfinite(x[0] + x[1] + x[2]) && isfinite(u[0] + u[1] + u[2]);
+}
+
+/* A gas that runs into nothing turns all of its energy into motion, and may overdraw it a little: half
+ * a step lies between the energy that stresses have worked with and the state. Such a particle goes on
+ * as next to cold, and what it has overdrawn stays in its energy. */
+static void let_go_on(struct simulation *simulation, const struct point_loop *loop, int32_t i)
+{
+    const double little = 0.1, least = 1e-3, *u = loop->velocity[i];
+    const double motion = 0.5 * (square(u[0]) + square(u[1]) + square(u[2]));
+    struct particles *p = &simulation->particles;
+    if (!loop->at_state || !(loop->at_state[i] < 0.0 && -loop->at_state[i] < little * motion))
+        return;
+    struct point point = {.density = p->density[i], .energy = -least * loop->at_state[i]};
+    particle_load_history(p, i, point.history);
+    const struct response r = any_material_evaluate(&simulation->material[p->material[i]], &point);
+    loop->at_state[i] = point.energy;
+    loop->pressure[i] = point.pressure;
+    loop->sound[i] = r.sound_long;
 }
 
 /* Particles BEGIN .. END - 1 of the bin at LIST, which are of one material; false when one has become impossible. */
@@ -101,9 +125,12 @@ int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
             end++;
         possible &= update_run(mpm, simulation, &loop, list, begin, end);
     }
-    for (int32_t k = 0; k < count && !possible; k++)
+    for (int32_t k = 0; k < count && !possible; k++) {
+        if (!is_possible(p, &loop, list[k]))
+            let_go_on(simulation, &loop, list[k]);
         if (!is_possible(p, &loop, list[k]) &&
             (impossible < 0 || p->id[list[k]] < p->id[impossible]))
             impossible = list[k];
+    }
     return impossible;
 }

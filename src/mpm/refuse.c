@@ -32,6 +32,16 @@ static struct error *refuse_transfer(const struct mpm_parameters *given,
     return error;
 }
 
+static struct error *refuse_filter(const struct mpm_parameters *given,
+                                   const struct simulation_case *input)
+{
+    if (!(given->viscosity_unresolved > 0.0) || given->scheme == MPM_MUSL)
+        return NULL;
+    return input_error(input, "solver", "mpm.viscosity_unresolved",
+                       "this belongs to `scheme: musl`, which gives velocities back to nodes; "
+                       "leave it out");
+}
+
 static struct error *refuse_order(const struct mpm_parameters *given,
                                   const struct simulation *simulation)
 {
@@ -125,6 +135,7 @@ struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
     if (simulation->geometry == GEOMETRY_PLANE_STRESS)
         error = input_error(input, "geometry", NULL, "the solver mpm knows no plane stress");
     error = error_join(error, refuse_transfer(given, input));
+    error = error_join(error, refuse_filter(given, input));
     error = error_join(error, refuse_order(given, simulation));
     error = error_join(error, refuse_contacts(input));
     error = error_join(error, refuse_wide_cell(edge, simulation));

@@ -12,13 +12,14 @@
 /* The store is sorted again when so much of it has left the cells that it was stored by. */
 static const double moved_limit = 0.25;
 
-struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simulation,
+struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *simulation,
                                 struct layer *layer)
 {
     const struct particles *p = &simulation->particles;
     const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
     return (struct transfer){.dimension = simulation->dimension,
                              .shape = (enum grid_shape)mpm->parameters.shape,
+                             .window = 1 + layer->grid.reach + layer->grid.after,
                              .axisymmetric = simulation->geometry == GEOMETRY_AXISYMMETRIC,
                              .affine = mpm_is_affine(mpm),
                              .by_moments = mpm->parameters.transfer == MPM_APIC,
@@ -29,6 +30,7 @@ struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simula
                              .back = &layer->back,
                              .normal = &layer->normal,
                              .flip = mpm->parameters.flip,
+                             .conserves = mpm_conserves(&mpm->parameters),
                              .mixing = mpm->parameters.shock_mixing,
                              .position = p->position,
                              .velocity = p->velocity,
@@ -42,8 +44,11 @@ struct transfer mpm_transfer_of(struct mpm *mpm, const struct simulation *simula
                              .material = p->material,
                              .body = p->body,
                              .gradient = fields.velocity_gradient,
+                             .divergence = fields.divergence,
+                             .shock = fields.shock,
                              .half_size = mpm->half_size,
-                             .gauge = mpm->gauge};
+                             .gauge = mpm->gauge,
+                             .ambient = fields.ambient};
 }
 
 static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
@@ -51,6 +56,7 @@ static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
     const struct particles *p = &simulation->particles;
     struct binned binned = {.dimension = simulation->dimension,
                             .edge = mpm->edge,
+                            .shift = p->shift,
                             .count = p->count,
                             .blocks = p->blocks,
                             .block = p->block,
@@ -62,7 +68,8 @@ static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
                             .body = p->body};
     for (int axis = 0; axis < 3; axis++) {
         binned.low[axis] = mpm->has_plane[axis][0] ? mpm->plane[axis][0] : INT64_MIN;
-        binned.high[axis] = mpm->has_plane[axis][1] ? mpm->plane[axis][1] - 1 : INT64_MAX;
+        binned.high[axis] =
+            mpm->has_plane[axis][1] ? mpm->plane[axis][1] - (p->shift > 0.0 ? 0 : 1) : INT64_MAX;
     }
     return bins_make(&mpm->bins, &binned, simulation->threads);
 }
@@ -217,7 +224,7 @@ static const char *const limit_reasons[] = {"sound speed", "velocity"};
 /* A fast impact that starts with a whole step is felt one step too late, and what strikes first is
  * compressed too far. So no particle moves further than this fraction of a cell in the first step,
  * and a step is at most this factor longer than the one before. */
-static const double first_way = 0.3, step_growth = 1.2;
+static const double first_way = 0.1, step_growth = 1.2;
 
 /* Collective: dt = K min h/(c + max |u_i|), of equal ones that of the smallest id. */
 static struct limit limit_step(const struct mpm *mpm, const struct simulation *simulation)
@@ -384,6 +391,7 @@ struct error *mpm_advance(void *solver, struct simulation *simulation, double dt
     simulation_spend(simulation, "nodes", clock_seconds() - begin);
     find_velocities(mpm, simulation, (struct transfer_step){dt, scheme == MPM_USF},
                     scheme == MPM_MUSL);
+    mpm_book_ambient(mpm, simulation);
     mpm_book_gravity(simulation, dt, false);
     struct error *error = scheme == MPM_USF ? NULL : update_states(mpm, simulation, dt, false);
     mpm_move_held(simulation, dt);

@@ -9,23 +9,30 @@
 /* What a node has. The sums over particles are its mass, momentum and force; from the step on velocity (momentum at the
  * end of the step over mass) and acceleration stand in the place of the last two. */
 enum { NODE_MASS = 0, NODE_MOMENTUM = 1, NODE_VELOCITY = 1, NODE_FORCE = 4, NODE_ACCELERATION = 4 };
-enum { NODE_MIXING = 7 }; /* mass times the rate of mixing in shocks, 1/s */
+enum {
+    NODE_MIXING = 7
+}; /* mass times the rate of mixing in shocks, 1/s; from the step on its
+                             fraction for velocities */
 enum { NODE_STRIDE = 8 };
-/* What a node has of particles whose velocities are new: their momentum, then their velocity. */
-enum { BACK_STRIDE = 4 };
+/* What a node has of particles whose velocities are new: their momentum, then their velocity; and
+ * their mass times, then their mean of the divergence of the step before. Until then it holds
+ * forces, and the heat, J/kg, that they leave. */
+enum { BACK_DIVERGENCE = 3, BACK_HEAT = 3, BACK_STRIDE = 4 };
 /* What a node has there during mixing in shocks: sums of m e, m k and m k^2, k the number of the
  * material. */
 enum { HEAT_ENERGY = 0, HEAT_NUMBER = 1, HEAT_SQUARE = 2, HEAT_NUMBERS = 3 };
 
-/* The fraction a for velocities where that for energies is b = PART: a tenth of the rate. */
-BOLIDE_INLINE double mixing_of_velocity(double part) { return minimum(1.0, part / 10.0); }
+/* The fraction a for velocities where that for energies is b = PART: two thirds of the rate. */
+BOLIDE_INLINE double mixing_of_velocity(double part) { return minimum(1.0, part / 1.5); }
 
-/* Of a particle over the step: its velocity gradient's parts xx, yy, zz, xy, yz, zx, and half the curl. */
-enum { RATE_STRAIN = 0, RATE_SPIN = 6, RATES = 9 };
+/* Of a particle over the step: its velocity gradient's parts xx, yy, zz, xy, yz, zx, and half the
+ * curl; and how much of its divergence the nodes do not resolve. */
+enum { RATE_STRAIN = 0, RATE_SPIN = 6, RATE_UNRESOLVED = 9, RATES = 10 };
 
 struct transfer {
     int dimension;
     enum grid_shape shape;
+    int window;        /* nodes along an axis that a particle of a cell may reach */
     bool axisymmetric; /* x is the radius, zz of tensors goes around */
     bool affine;       /* particles carry a gradient of velocity */
     bool by_moments; /* which is found from first moments of velocity, else from shape functions */
@@ -35,8 +42,8 @@ struct transfer {
     struct grid_field *main, *back, *normal;
     double
         flip; /* of a particle's new velocity, how much is its old one and the nodes' acceleration */
-
-    double mixing; /* in shocks, the rate over c/h; 0: none */
+    bool conserves; /* what changes velocities changes energies by as much */
+    double mixing;  /* in shocks, the rate over c/h; 0: none */
 
     /* of the particles */
     double (*position)[3], (*velocity)[3], *energy;
@@ -44,9 +51,13 @@ struct transfer {
     const double (*deviator)[6];
     const uint16_t *material, *body;
     double (*gradient)[9]; /* affine: d velocity_i / d x_j at 3 i + j */
+    double *divergence;    /* of the step before, where nodes filter it; else NULL */
+    const double *shock;   /* how much of one a particle is in; NULL where none is mixed */
 
     const double *half_size; /* of the particles of each body, in cells */
     const double *gauge;     /* pressure that does not count, of each material */
+    double *
+        ambient; /* of each particle, the work of that pressure per mass; NULL where there is none */
 };
 
 /* Fills the patch of BIN with the mass, momentum and force of its particles (2-9)-(2-12). */
@@ -63,7 +74,8 @@ struct transfer_step {
 
 /* New velocities of the particles of BIN from its patch, where nodes have velocity and acceleration
  * (2-15), and with SCATTER their momentum in its patch of BACK (2-17); with STEP.move they move
- * (2-16). */
+ * (2-16). Where the transfer conserves energy, theirs is that of the end of the step, which the
+ * velocities are of: it has the work of their stress at the begin and of mixing in shocks. */
 void transfer_velocity(const struct transfer *transfer, int32_t bin, struct transfer_step step,
                        bool scatter);
 
@@ -72,11 +84,14 @@ void transfer_velocity(const struct transfer *transfer, int32_t bin, struct tran
 void transfer_again(const struct transfer *transfer, int32_t bin, const double *from,
                     bool accelerations, double *to);
 
-/* Mixing in shocks (mixing.c). The first fills the patch of BIN in BACK with the sums HEAT_... of
- * its particles; the second changes the particles in a step of DT from the sums of the nodes in
- * both patches of BIN, and overwrites these. */
+/* Mixing of energies in shocks (mixing.c). The first fills the patch of BIN in BACK with the sums
+ * HEAT_... of its particles; the second changes the particles in a step of DT from the sums of the
+ * nodes in both patches of BIN, and overwrites these. */
 void transfer_heat(const struct transfer *transfer, int32_t bin);
 void transfer_mix(const struct transfer *transfer, int32_t bin, double dt);
+
+/* Particles of BIN take the heat that nodes have in the patch of BACK. */
+void transfer_warm(const struct transfer *transfer, int32_t bin);
 
 /* Where the rates of a bin's particles go: number c of the k-th at to[c * stride + k]; each row has room for seven more, which
  * are written too. */

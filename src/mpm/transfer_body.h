@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/wide.h"
-#include "mpm/transfer_weights.h"
+#include "mpm/transfer_work.h"
 
 /* Nodes of a window. */
 enum { NODES_MAX = WINDOW_MAX * WINDOW_MAX * WINDOW_MAX };
@@ -40,13 +40,10 @@ struct node_record {
     ALIGNED double plain[NODE_STRIDE], by_slope[3][NODE_STRIDE], around[NODE_STRIDE];
 };
 
-/* The rate at which the energy of a particle is mixed, 1/s: 0 where the artificial viscosity q is
- * less than SOFT rho c^2, as in sound; it grows to its full value over another SHOCK rho c^2. */
+/* The rate at which the energy of a particle is mixed, 1/s. */
 BOLIDE_INLINE double mixing_rate(const struct transfer *t, int32_t i)
 {
-    const double soft = 2e-3, shock = 2e-3, c = t->sound[i];
-    const double strength = t->viscosity[i] / (t->density[i] * square(c)) - soft;
-    return strength > 0.0 ? t->mixing * c / t->edge * minimum(1.0, strength / shock) : 0.0;
+    return t->mixing * t->sound[i] / t->edge * t->shock[i];
 }
 
 BOLIDE_INLINE void node_record_of(const struct transfer *t, struct kind kind, int32_t i,
@@ -274,7 +271,8 @@ BOLIDE_INLINE void add_momenta(const struct transfer *t, struct kind kind,
 {
     for (int lane = 0; lane < chunk->count; lane++) {
         const double *u = t->velocity[chunk->index[lane]], mass = t->mass[chunk->index[lane]];
-        const vector4 momentum = {mass * u[0], mass * u[1], mass * u[2], 0.0};
+        const double divergence = t->divergence ? t->divergence[chunk->index[lane]] : 0.0;
+        const vector4 momentum = {mass * u[0], mass * u[1], mass * u[2], mass * divergence};
         for (int n = 0; n < nodes_of(kind); n++)
             sum[n] += weight[n][lane] * momentum;
     }
@@ -291,9 +289,11 @@ BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int3
     const struct corner corner = corner_of(t, kind, bin);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
-        const struct window flows = window_of(patch + NODE_VELOCITY, NODE_STRIDE, walk.base),
+        const struct window nodes = window_of(patch, NODE_STRIDE, walk.base),
+                            flows = window_of(patch + NODE_VELOCITY, NODE_STRIDE, walk.base),
                             accelerations =
                                 window_of(patch + NODE_ACCELERATION, NODE_STRIDE, walk.base);
+        const bool mixes = t->mixing > 0.0 && walk.count > 0 && window_mixes(t, kind, nodes);
         struct chunk chunk;
         ALIGNED double push[3][LANES], flow[3][LANES], weight[NODES_MAX][LANES];
         vector4 sum[NODES_MAX];
@@ -306,6 +306,14 @@ BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int3
             gather(t, kind, weight, accelerations, kind.dimension, push);
             if (blend)
                 gather(t, kind, weight, flows, kind.dimension, flow);
+            if (mixes || t->conserves) {
+                struct given given = {{{0.0}}, {0.0}};
+                if (mixes)
+                    gather_mixed(t, kind, &chunk, weight, nodes, step.dt, push, &given);
+                if (t->conserves)
+                    gather_work(t, kind, &chunk, weight, nodes, step.dt, push, &given);
+                take_given(t, kind, &chunk, &given);
+            }
             accelerate(t, kind, &chunk, step, push, flow);
             if (t->affine)
                 keep_gradient(t, kind, &chunk, flows);
@@ -382,21 +390,24 @@ BOLIDE_INLINE void keep_rates(const struct transfer *t, struct kind kind, const 
         row[6][lane] = 0.5 * (sum[2][1][lane] - sum[1][2][lane]);
         row[7][lane] = 0.5 * (sum[0][2][lane] - sum[2][0][lane]);
         row[8][lane] = 0.5 * (sum[1][0][lane] - sum[0][1][lane]);
+        row[RATE_UNRESOLVED][lane] = 0.0;
     }
 }
 
-/* The radial velocity of the lanes of a chunk as the hoop strain sees it. */
-BOLIDE_INLINE void gather_around(const struct transfer *t, struct kind kind,
-                                 const struct chunk *chunk, struct window velocity, double *sum)
+/* Of the divergence of the lanes of a chunk in the step before, what their nodes do not have; that of
+ * this step is kept for the next one. */
+BOLIDE_INLINE void filter_divergence(const struct transfer *t, struct kind kind,
+                                     const struct chunk *chunk, const double (*weight)[LANES],
+                                     struct window back, struct rates rates)
 {
+    ALIGNED double mean[1][LANES];
+    double *unresolved = rates.to + (size_t)RATE_UNRESOLVED * rates.stride;
+    gather(t, kind, weight, back, 1, mean);
     for (int lane = 0; lane < kind.lanes; lane++)
-        sum[lane] = 0.0;
-    for (int a = 0; a < kind.window; a++)
-        for (int b = 0; b < kind.window; b++) {
-            const double *node = numbers_at(t, kind, velocity, a, b, 0);
-            for (int lane = 0; lane < kind.lanes; lane++)
-                sum[lane] += chunk->around[a][lane] * chunk->value[1][b][lane] * node[0];
-        }
+        unresolved[lane] = t->divergence[chunk->index[lane]] - mean[0][lane];
+    for (int lane = 0; lane < chunk->count; lane++)
+        t->divergence[chunk->index[lane]] =
+            rates.to[lane] + rates.to[rates.stride + lane] + rates.to[2 * rates.stride + lane];
 }
 
 BOLIDE_INLINE void bin_gradient(const struct transfer *t, struct kind kind, int32_t bin,
@@ -422,10 +433,32 @@ BOLIDE_INLINE void bin_gradient(const struct transfer *t, struct kind kind, int3
             if (step.move)
                 gather(t, kind, weight, flows, kind.dimension, flow);
             keep_rates(t, kind, &chunk, sum, around, rates);
+            if (t->divergence)
+                filter_divergence(
+                    t, kind, &chunk, weight,
+                    window_of(velocity.data + BACK_DIVERGENCE, velocity.stride, walk.base), rates);
             rates.to += chunk.count;
             for (int lane = 0; lane < chunk.count && step.move; lane++)
                 for (int k = 0; k < kind.dimension; k++)
                     t->position[chunk.index[lane]][k] += step.dt * flow[k][lane];
+        }
+    }
+}
+
+BOLIDE_INLINE void bin_warm(const struct transfer *t, struct kind kind, int32_t bin)
+{
+    const double *patch = grid_patch(t->grid, t->back, bin);
+    const struct corner corner = corner_of(t, kind, bin);
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
+        struct chunk chunk;
+        ALIGNED double heat[1][LANES], weight[NODES_MAX][LANES];
+        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
+            weigh(t, kind, &walk, begin, &chunk);
+            find_weights(kind, &chunk, weight);
+            gather(t, kind, weight, window_of(patch + BACK_HEAT, BACK_STRIDE, walk.base), 1, heat);
+            for (int lane = 0; lane < chunk.count; lane++)
+                t->energy[chunk.index[lane]] += heat[0][lane];
         }
     }
 }

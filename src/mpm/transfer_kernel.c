@@ -5,25 +5,20 @@
 #include "mpm/transfer_mixing.h"
 
 /* One switch a block: in each branch dimension and window are constants. */
-#define BY_KIND(t, CALL)                                         \
-    switch ((t)->dimension * 2 + ((t)->shape != SHAPE_LINEAR)) { \
-    case 2:                                                      \
-        CALL(1, 2);                                              \
-        break;                                                   \
-    case 3:                                                      \
-        CALL(1, 4);                                              \
-        break;                                                   \
-    case 4:                                                      \
-        CALL(2, 2);                                              \
-        break;                                                   \
-    case 5:                                                      \
-        CALL(2, 4);                                              \
-        break;                                                   \
-    case 6:                                                      \
-        CALL(3, 2);                                              \
-        break;                                                   \
-    default:                                                     \
-        CALL(3, 4);                                              \
+#define BY_WINDOW(t, CALL, dimension) \
+    if ((t)->window == 2)             \
+        CALL(dimension, 2);           \
+    else if ((t)->window == 3)        \
+        CALL(dimension, 3);           \
+    else                              \
+        CALL(dimension, 4)
+#define BY_KIND(t, CALL)              \
+    if ((t)->dimension == 1) {        \
+        BY_WINDOW(t, CALL, 1);        \
+    } else if ((t)->dimension == 2) { \
+        BY_WINDOW(t, CALL, 2);        \
+    } else {                          \
+        BY_WINDOW(t, CALL, 3);        \
     }
 
 ISA_KERNEL(void, transfer_scatter, const struct transfer *t, int32_t bin){
@@ -62,6 +57,12 @@ ISA_KERNEL(void, transfer_heat, const struct transfer *t, int32_t bin){
 
 ISA_KERNEL(void, transfer_mix, const struct transfer *t, int32_t bin, double dt){
 #define CALL(dimension, window) bin_mix(t, kind_make(dimension, window, 1 << dimension), bin, dt)
+    BY_KIND(t, CALL)
+#undef CALL
+}
+
+ISA_KERNEL(void, transfer_warm, const struct transfer *t, int32_t bin){
+#define CALL(dimension, window) bin_warm(t, kind_make(dimension, window, 1 << dimension), bin)
     BY_KIND(t, CALL)
 #undef CALL
 }

@@ -20,6 +20,8 @@ ISA_CHOOSE(void, transfer_heat, (const struct transfer *transfer, int32_t bin), 
 ISA_CHOOSE(void, transfer_mix, (const struct transfer *transfer, int32_t bin, double dt),
            (transfer, bin, dt))
 
+ISA_CHOOSE(void, transfer_warm, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+
 ISA_CHOOSE(void, transfer_gradient,
            (const struct transfer *transfer, int32_t bin, struct transfer_step step,
             struct nodal velocity, struct rates rates),

@@ -34,64 +34,37 @@ BOLIDE_INLINE void bin_heat(const struct transfer *t, struct kind kind, int32_t 
     }
 }
 
-/* Turns the sums of a node into what particles take from it in a step of DT: its velocity and
- * energy, in NODE_MIXING the fraction a and in HEAT_NUMBER the fraction b, 0 where the node has
- * several materials (mixing.c). */
-BOLIDE_INLINE void settle_node(double *node, double *heat, double dt)
+/* Turns the sums of a node into what particles take from it in a step of DT: its energy, and in
+ * HEAT_NUMBER the fraction b, 0 where the node has several materials (mixing.c). */
+BOLIDE_INLINE void settle_node(const double *node, double *heat, double dt)
 {
     const double per_mass = 1.0 / node[NODE_MASS], part = dt * node[NODE_MIXING] * per_mass;
     const double mean = heat[HEAT_NUMBER] * per_mass,
                  spread = heat[HEAT_SQUARE] * per_mass - square(mean);
-    for (int k = 0; k < 3; k++)
-        node[NODE_VELOCITY + k] *= per_mass;
-    node[NODE_MIXING] = mixing_of_velocity(part);
     heat[HEAT_ENERGY] *= per_mass;
     heat[HEAT_NUMBER] = fabs(spread) < 1e-6 ? minimum(1.0, part) : 0.0;
 }
 
-/* Whether any node of a window mixes. */
-BOLIDE_INLINE bool window_mixes(const struct transfer *t, struct kind kind, struct window nodes)
+/* What the energies of the lanes of a chunk change by. */
+BOLIDE_INLINE void gather_heat(const struct transfer *t, struct kind kind,
+                               const struct chunk *chunk, struct window nodes, struct window heats,
+                               double *gain)
 {
-    bool mixes = false;
-    FOR_NODES(kind, a, b, c)
-    mixes |= numbers_at(t, kind, nodes, a, b, c)[NODE_MIXING] > 0.0;
-    return mixes;
-}
-
-/* What the lanes of a chunk change by: velocity, and energy. */
-BOLIDE_INLINE void gather_mixed(const struct transfer *t, struct kind kind,
-                                const struct chunk *chunk, struct window nodes, struct window heats,
-                                double (*change)[LANES], double *gain)
-{
-    ALIGNED double weight[NODES_MAX][LANES], energy[LANES], velocity[3][LANES];
+    ALIGNED double weight[NODES_MAX][LANES], energy[LANES];
     const double(*w)[LANES] = weight;
     find_weights(kind, chunk, weight);
     for (int lane = 0; lane < kind.lanes; lane++) {
         energy[lane] = t->energy[chunk->index[lane]];
         gain[lane] = 0.0;
-        for (int k = 0; k < kind.dimension; k++) {
-            velocity[k][lane] = t->velocity[chunk->index[lane]][k];
-            change[k][lane] = 0.0;
-        }
     }
     FOR_NODES(kind, a, b, c)
     {
         const double *node = numbers_at(t, kind, nodes, a, b, c),
                      *heat = numbers_at(t, kind, heats, a, b, c);
-        for (int lane = 0; lane < kind.lanes && node[NODE_MIXING] > 0.0; lane++) {
-            const double part = (*w)[lane] * node[NODE_MIXING];
-            for (int k = 0; k < kind.dimension; k++) {
-                const double off = node[NODE_VELOCITY + k] - velocity[k][lane];
-                change[k][lane] += part * off;
-                gain[lane] += part * square(off);
-            }
+        for (int lane = 0; lane < kind.lanes && node[NODE_MIXING] > 0.0; lane++)
             gain[lane] += (*w)[lane] * heat[HEAT_NUMBER] * (heat[HEAT_ENERGY] - energy[lane]);
-        }
         w++;
     }
-    for (int lane = 0; lane < kind.lanes; lane++)
-        for (int k = 0; k < kind.dimension; k++)
-            gain[lane] -= 0.5 * square(change[k][lane]);
 }
 
 BOLIDE_INLINE void bin_mix(const struct transfer *t, struct kind kind, int32_t bin, double dt)
@@ -106,18 +79,14 @@ BOLIDE_INLINE void bin_mix(const struct transfer *t, struct kind kind, int32_t b
         const struct window nodes = window_of(patch, NODE_STRIDE, walk.base),
                             heats = window_of(heat, BACK_STRIDE, walk.base);
         struct chunk chunk;
-        ALIGNED double change[3][LANES], gain[LANES];
+        ALIGNED double gain[LANES];
         if (walk.count == 0 || !window_mixes(t, kind, nodes))
             continue;
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
-            gather_mixed(t, kind, &chunk, nodes, heats, change, gain);
-            for (int lane = 0; lane < chunk.count; lane++) {
-                const int32_t i = chunk.index[lane];
-                for (int k = 0; k < kind.dimension; k++)
-                    t->velocity[i][k] += change[k][lane];
-                t->energy[i] += gain[lane];
-            }
+            gather_heat(t, kind, &chunk, nodes, heats, gain);
+            for (int lane = 0; lane < chunk.count; lane++)
+                t->energy[chunk.index[lane]] += gain[lane];
         }
     }
 }

@@ -83,6 +83,21 @@ BOLIDE_INLINE void weigh_axis(struct kind kind, enum grid_shape shape, const dou
         }
 }
 
+/* Quadratic functions at XI, at most half a cell from the node in the middle. */
+BOLIDE_INLINE void weigh_centred(struct kind kind, const double *xi, double (*value)[LANES],
+                                 double (*slope)[LANES])
+{
+    for (int lane = 0; lane < kind.lanes; lane++) {
+        const double low = 0.5 - xi[lane], high = 0.5 + xi[lane];
+        value[0][lane] = 0.5 * square(low);
+        value[1][lane] = 0.75 - square(xi[lane]);
+        value[2][lane] = 0.5 * square(high);
+        slope[0][lane] = -low;
+        slope[1][lane] = -2.0 * xi[lane];
+        slope[2][lane] = high;
+    }
+}
+
 BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
                                const struct cell_walk *walk, int32_t begin, int32_t count,
                                struct chunk *chunk)
@@ -108,8 +123,10 @@ BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
                 slope[0][lane] = -1.0;
                 slope[1][lane] = 1.0;
             }
-        else if (t->shape == SHAPE_GIMP)
+        else if (kind.window == 4 && t->shape == SHAPE_GIMP)
             weigh_axis(kind, SHAPE_GIMP, xi, half, value, slope);
+        else if (kind.window == 3)
+            weigh_centred(kind, xi, value, slope);
         else if (t->shape == SHAPE_QUADRATIC)
             weigh_axis(kind, SHAPE_QUADRATIC, xi, half, value, slope);
         else
@@ -128,15 +145,19 @@ BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
 }
 
 /* Of wide windows there is one body a dimension, which all loops call. */
-#define WEIGH_WIDE(dimension)                                                                 \
-    APART void weigh_wide_##dimension(const struct transfer *t, const struct cell_walk *walk, \
-                                      int32_t begin, int32_t count, struct chunk *chunk)      \
-    {                                                                                         \
-        weigh_chunk(t, kind_make(dimension, 4, 1 << dimension), walk, begin, count, chunk);   \
+#define WEIGH_WIDE(dimension, window)                                                            \
+    APART void weigh_##dimension##_##window(const struct transfer *t,                            \
+                                            const struct cell_walk *walk, int32_t begin,         \
+                                            int32_t count, struct chunk *chunk)                  \
+    {                                                                                            \
+        weigh_chunk(t, kind_make(dimension, window, 1 << dimension), walk, begin, count, chunk); \
     }
-WEIGH_WIDE(1)
-WEIGH_WIDE(2)
-WEIGH_WIDE(3)
+WEIGH_WIDE(1, 3)
+WEIGH_WIDE(2, 3)
+WEIGH_WIDE(3, 3)
+WEIGH_WIDE(1, 4)
+WEIGH_WIDE(2, 4)
+WEIGH_WIDE(3, 4)
 #undef WEIGH_WIDE
 
 BOLIDE_INLINE void weigh(const struct transfer *t, struct kind kind, const struct cell_walk *walk,
@@ -145,12 +166,14 @@ BOLIDE_INLINE void weigh(const struct transfer *t, struct kind kind, const struc
     const int32_t left = walk->count - begin, count = left < kind.lanes ? left : kind.lanes;
     if (kind.window == 2)
         weigh_chunk(t, kind, walk, begin, count, chunk);
-    else if (kind.dimension == 1)
-        weigh_wide_1(t, walk, begin, count, chunk);
-    else if (kind.dimension == 2)
-        weigh_wide_2(t, walk, begin, count, chunk);
+    else if (kind.window == 3)
+        kind.dimension == 1   ? weigh_1_3(t, walk, begin, count, chunk)
+        : kind.dimension == 2 ? weigh_2_3(t, walk, begin, count, chunk)
+                              : weigh_3_3(t, walk, begin, count, chunk);
     else
-        weigh_wide_3(t, walk, begin, count, chunk);
+        kind.dimension == 1   ? weigh_1_4(t, walk, begin, count, chunk)
+        : kind.dimension == 2 ? weigh_2_4(t, walk, begin, count, chunk)
+                              : weigh_3_4(t, walk, begin, count, chunk);
     chunk->count = count;
 }
 

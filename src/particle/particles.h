@@ -46,7 +46,8 @@ struct particles {
     uint64_t *cut;             /* rank r owns the blocks of keys cut[r] .. cut[r + 1] - 1 */
     double work;               /* seconds spent on the particles since the cut */
     double cell;               /* edge of a cell of the global grid, m; fixed for a run */
-    int threads;               /* that sort */
+    double shift; /* of the grid: cell 0 begins at minus this along each axis, m; fixed likewise */
+    int threads;  /* that sort */
     struct scratch
         scratch; /* for sorting, and for who has no need of what it holds when particles are sorted */
     uint64_t order; /* grows with every sort: an index means the same particle while it stays */

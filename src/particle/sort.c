@@ -29,7 +29,7 @@ static uint64_t locate(const struct particles *p, const double x[3], uint64_t *c
     int64_t at[3] = {0, 0, 0}, cells = block_cells(p->dimension);
     *cell = 0;
     for (int axis = 0; axis < p->dimension; axis++) {
-        int64_t index = cell_index(x[axis], p->cell, cells * BLOCK_MIDDLE);
+        int64_t index = cell_index(x[axis] + p->shift, p->cell, cells * BLOCK_MIDDLE);
         at[axis] = block_of_cell(index, cells);
         *cell = *cell * (uint64_t)cells + (uint64_t)(index - at[axis] * cells);
     }

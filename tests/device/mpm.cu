@@ -18,6 +18,7 @@ __global__ void gather(struct transfer transfer, struct kind kind, const double 
     bin_velocity(&transfer, kind, (int32_t)blockIdx.x, step, true);
     bin_again(&transfer, kind, (int32_t)blockIdx.x, from, true, to);
     bin_gradient(&transfer, kind, (int32_t)blockIdx.x, step, velocity, rates);
+    bin_warm(&transfer, kind, (int32_t)blockIdx.x);
 }
 
 __global__ void step_particles(struct point_loop loop, const struct material *material,
@@ -28,12 +29,14 @@ __global__ void step_particles(struct point_loop loop, const struct material *ma
 }
 
 __global__ void step_batch(struct point_loop loop, const struct material *material,
-                           const int32_t *list, struct batch *batch, double *viscosity)
+                           const int32_t *list, struct batch *batch, double *viscosity,
+                           double *shock)
 {
     points_load(&loop, list, loop.rate, BATCH, batch);
-    points_start(&loop, batch, viscosity);
+    points_start(&loop, material_has_strength(material), batch,
+                 loop.rate + (size_t)RATE_UNRESOLVED * loop.rate_stride, viscosity, shock);
     batch_step(material, batch);
-    points_keep(&loop, list, BATCH, batch, viscosity);
+    points_keep(&loop, list, BATCH, batch, viscosity, shock);
 }
 
 __global__ void find_cells(struct cell_loop loop, const double *corner, double *number)

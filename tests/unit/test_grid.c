@@ -20,7 +20,8 @@ struct cloud {
     struct binned binned;
     double position[PARTICLES][3], velocity[PARTICLES][3], deviator[PARTICLES][6],
         gradient[PARTICLES][9];
-    double mass[PARTICLES], density[PARTICLES], pressure[PARTICLES], viscosity[PARTICLES];
+    double energy[PARTICLES], mass[PARTICLES], density[PARTICLES], pressure[PARTICLES],
+        viscosity[PARTICLES];
     uint64_t id[PARTICLES];
     uint16_t material[PARTICLES], body[PARTICLES];
     double half_size, gauge;
@@ -53,6 +54,7 @@ static struct cloud *make_cloud(int dimension, enum grid_shape shape, bool affin
     c->block[1] = (struct block){block_key(origin), PARTICLES / 2, PARTICLES - PARTICLES / 2};
     c->binned = (struct binned){.dimension = dimension,
                                 .edge = edge,
+                                .shift = shape_window_of(shape, false).centred ? 0.5 * edge : 0.0,
                                 .count = PARTICLES,
                                 .blocks = 2,
                                 .block = c->block,
@@ -63,7 +65,7 @@ static struct cloud *make_cloud(int dimension, enum grid_shape shape, bool affin
                                 .low = {INT64_MIN, INT64_MIN, INT64_MIN},
                                 .high = {INT64_MAX, INT64_MAX, INT64_MAX}};
     assert_success(bins_make(&c->bins, &c->binned, 2));
-    grid_start(&c->grid, dimension, shape_reach(shape));
+    grid_start(&c->grid, dimension, shape_window_of(shape, false));
     c->main.stride = NODE_STRIDE;
     c->back.stride = BACK_STRIDE;
     assert_success(grid_plan(&c->grid, &c->bins));
@@ -71,6 +73,7 @@ static struct cloud *make_cloud(int dimension, enum grid_shape shape, bool affin
     assert_success(grid_field_reserve(&c->back, &c->grid));
     c->transfer = (struct transfer){.dimension = dimension,
                                     .shape = shape,
+                                    .window = 1 + c->grid.reach + c->grid.after,
                                     .affine = affine,
                                     .by_moments = true,
                                     .edge = edge,
@@ -81,6 +84,7 @@ static struct cloud *make_cloud(int dimension, enum grid_shape shape, bool affin
                                     .flip = 0.25,
                                     .position = c->position,
                                     .velocity = c->velocity,
+                                    .energy = c->energy,
                                     .mass = c->mass,
                                     .density = c->density,
                                     .pressure = c->pressure,
@@ -181,7 +185,8 @@ static void particles_lie_in_their_cells_in_the_order_of_ids(void **state)
                     block_coordinates(bin->key, block);
                     bin_cell_place(dimension, cell, place);
                     for (int axis = 0; axis < dimension; axis++)
-                        assert_int_equal((int64_t)floor(c->position[i][axis] / c->binned.edge),
+                        assert_int_equal((int64_t)floor((c->position[i][axis] + c->binned.shift) /
+                                                        c->binned.edge),
                                          block[axis] * block_cells(dimension) + place[axis]);
                     assert_false(seen[i]);
                     seen[i] = true;

@@ -1,0 +1,163 @@
+/* What the step of velocities does to the energies of particles, in lanes: the work of their stresses,
+ * what their nodes take from the motion, and mixing in shocks. For the file that is compiled once an
+ * instruction set (transfer_kernel.c). */
+#ifndef BOLIDE_MPM_TRANSFER_WORK_H
+#define BOLIDE_MPM_TRANSFER_WORK_H
+
+#include "mpm/transfer_weights.h"
+
+/* What the lanes of a chunk are given by mixing in a shock (mixing.c), and by the work of stresses:
+ * changes of velocity, and of energy. */
+struct given {
+    ALIGNED double velocity[3][LANES], energy[LANES];
+};
+
+/* Whether any node of a window mixes. */
+BOLIDE_INLINE bool window_mixes(const struct transfer *t, struct kind kind, struct window nodes)
+{
+    bool mixes = false;
+    FOR_NODES(kind, a, b, c)
+    mixes |= numbers_at(t, kind, nodes, a, b, c)[NODE_MIXING] > 0.0;
+    return mixes;
+}
+
+/* Velocities go a fraction of the way to those that the nodes had before the step. Forces work with
+ * those of the nodes, which do not know of it: the last term. */
+BOLIDE_INLINE void gather_mixed(const struct transfer *t, struct kind kind,
+                                const struct chunk *chunk, const double (*weight)[LANES],
+                                struct window nodes, double dt, const double (*push)[LANES],
+                                struct given *given)
+{
+    ALIGNED double velocity[3][LANES];
+    for (int k = 0; k < kind.dimension; k++)
+        for (int lane = 0; lane < kind.lanes; lane++)
+            velocity[k][lane] = t->velocity[chunk->index[lane]][k];
+    FOR_NODES(kind, a, b, c)
+    {
+        const double *node = numbers_at(t, kind, nodes, a, b, c);
+        for (int k = 0; k < kind.dimension && node[NODE_MIXING] > 0.0; k++) {
+            const double before = node[NODE_VELOCITY + k] - dt * node[NODE_ACCELERATION + k];
+            for (int lane = 0; lane < kind.lanes; lane++) {
+                const double part = (*weight)[lane] * node[NODE_MIXING],
+                             off = before - velocity[k][lane];
+                given->velocity[k][lane] += part * off;
+                given->energy[lane] += part * square(off);
+            }
+        }
+        weight++;
+    }
+    for (int k = 0; k < kind.dimension; k++)
+        for (int lane = 0; lane < kind.lanes; lane++)
+            given->energy[lane] -=
+                given->velocity[k][lane] * (0.5 * given->velocity[k][lane] + dt * push[k][lane]);
+}
+
+/* The radial component of the numbers of nodes, as the hoop strain of the lanes of a chunk sees it. */
+BOLIDE_INLINE void gather_around(const struct transfer *t, struct kind kind,
+                                 const struct chunk *chunk, struct window velocity, double *sum)
+{
+    for (int lane = 0; lane < kind.lanes; lane++)
+        sum[lane] = 0.0;
+    for (int a = 0; a < kind.window; a++)
+        for (int b = 0; b < kind.window; b++) {
+            const double *node = numbers_at(t, kind, velocity, a, b, 0);
+            for (int lane = 0; lane < kind.lanes; lane++)
+                sum[lane] += chunk->around[a][lane] * chunk->value[1][b][lane] * node[0];
+        }
+}
+
+/* What the pressure that fluids do not push with gives in a step of DT to particle LANE, per mass: as
+ * much as its pressure does beyond what pushes. */
+BOLIDE_INLINE double work_of_gauge(const struct transfer *t, struct kind kind,
+                                   const struct chunk *chunk, int lane, struct window nodes,
+                                   double dt)
+{
+    const int32_t i = chunk->index[lane];
+    double grown = 0.0;
+    FOR_NODES(kind, a, b, c)
+    {
+        const double *node = numbers_at(t, kind, nodes, a, b, c);
+        const struct weight w = weight_of(kind, chunk, lane, a, b, c);
+        for (int k = 0; k < kind.dimension; k++) {
+            const double change = dt * node[NODE_ACCELERATION + k],
+                         mean = dt * (node[NODE_VELOCITY + k] - 0.5 * change);
+            grown += w.slope[k] * mean;
+            if (k == 0 && kind.dimension == 2 && t->axisymmetric)
+                grown +=
+                    chunk->around[a][lane] * chunk->value[1][b][lane] * mean / t->position[i][0];
+        }
+    }
+    return -t->gauge[t->material[i]] / t->density[i] * grown;
+}
+
+/* The work of the stresses of the lanes of a chunk in a step of DT, per mass, with the mean velocity
+ * of the nodes, W = V + dt A/2, and what the nodes take from the motion: with dv = sum N dt A of the
+ * particle,
+ *
+ *   (1/rho) sigma : sum W grad N dt + (sum N (dt A)^2 - dv^2)/2
+ *
+ * The second part is never negative. Summed over the particles it is, with the change of their
+ * kinetic energy, what other forces than those of stresses do with W. */
+BOLIDE_INLINE void gather_work(const struct transfer *t, struct kind kind,
+                               const struct chunk *chunk, const double (*weight)[LANES],
+                               struct window nodes, double dt, const double (*push)[LANES],
+                               struct given *given)
+{
+    ALIGNED double stress[3][3][LANES], hoop[LANES], work[LANES] = {0.0};
+    for (int lane = 0; lane < kind.lanes; lane++) {
+        const int32_t i = chunk->index[lane];
+        const double *s = t->deviator[i], p = t->pressure[i] + t->viscosity[i],
+                     v = 1.0 / t->density[i];
+        stress[0][0][lane] = v * (s[0] - p);
+        stress[1][1][lane] = v * (s[1] - p);
+        stress[2][2][lane] = v * (s[2] - p);
+        stress[0][1][lane] = stress[1][0][lane] = v * s[3];
+        stress[1][2][lane] = stress[2][1][lane] = v * s[4];
+        stress[2][0][lane] = stress[0][2][lane] = v * s[5];
+        hoop[lane] = t->axisymmetric ? v * (s[2] - p) / t->position[i][0] : 0.0;
+    }
+    FOR_NODES(kind, a, b, c)
+    {
+        const double *node = numbers_at(t, kind, nodes, a, b, c);
+        double mean[3] = {0.0}, kick = 0.0;
+        for (int k = 0; k < kind.dimension; k++) {
+            const double change = dt * node[NODE_ACCELERATION + k];
+            mean[k] = dt * (node[NODE_VELOCITY + k] - 0.5 * change);
+            kick += 0.5 * square(change);
+        }
+        for (int lane = 0; lane < kind.lanes; lane++) {
+            const struct weight w = weight_of(kind, chunk, lane, a, b, c);
+            double sum = (*weight)[lane] * kick;
+            for (int j = 0; j < kind.dimension; j++) {
+                double along = 0.0;
+                for (int k = 0; k < kind.dimension; k++)
+                    along += stress[k][j][lane] * mean[k];
+                sum += along * w.slope[j];
+            }
+            if (kind.dimension == 2 && t->axisymmetric)
+                sum += hoop[lane] * chunk->around[a][lane] * chunk->value[1][b][lane] * mean[0];
+            work[lane] += sum;
+        }
+        weight++;
+    }
+    for (int lane = 0; lane < chunk->count && t->ambient; lane++)
+        t->ambient[chunk->index[lane]] = work_of_gauge(t, kind, chunk, lane, nodes, dt);
+    for (int lane = 0; lane < kind.lanes; lane++) {
+        double dv2 = 0.0;
+        for (int k = 0; k < kind.dimension; k++)
+            dv2 += square(dt * push[k][lane]);
+        given->energy[lane] += work[lane] - 0.5 * dv2;
+    }
+}
+
+BOLIDE_INLINE void take_given(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                              const struct given *given)
+{
+    for (int lane = 0; lane < chunk->count; lane++) {
+        t->energy[chunk->index[lane]] += given->energy[lane];
+        for (int k = 0; k < kind.dimension; k++)
+            t->velocity[chunk->index[lane]][k] += given->velocity[k][lane];
+    }
+}
+
+#endif
