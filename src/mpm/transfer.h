@@ -75,7 +75,7 @@ struct transfer_step {
 /* New velocities of the particles of BIN from its patch, where nodes have velocity and acceleration
  * (2-15), and with SCATTER their momentum in its patch of BACK (2-17); with STEP.move they move
  * (2-16). Where the transfer conserves energy, theirs is that of the end of the step, which the
- * velocities are of: it has the work of their stress at the begin and of mixing in shocks. */
+ * velocities are of: it has the work of their stress at the start and of mixing in shocks. */
 void transfer_velocity(const struct transfer *transfer, int32_t bin, struct transfer_step step,
                        bool scatter);
 
