@@ -18,16 +18,16 @@ enum grid_shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_QUADRATIC, SHAPE_CUBIC };
 
 /* Which nodes a particle of a cell may reach: so many before and after the one with the index of the
  * cell. That is its low corner, or with CENTRED the node in its middle: quadratic functions, whose
- * support is three cells, then reach three nodes and not four. Those around an axis, which are means
- * over a particle, reach further. */
+ * support is three cells, then reach three nodes and not four. With functions AROUND an axis, which are
+ * means over a particle, they reach further. */
 struct shape_window {
     bool centred;
     int before, after;
 };
 
-BOLIDE_INLINE struct shape_window shape_window_of(enum grid_shape shape, bool axisymmetric)
+BOLIDE_INLINE struct shape_window shape_window_of(enum grid_shape shape, bool around)
 {
-    const bool centred = shape == SHAPE_QUADRATIC && !axisymmetric;
+    const bool centred = shape == SHAPE_QUADRATIC && !around;
     const int before = shape == SHAPE_LINEAR ? 0 : 1;
     const struct shape_window window = {centred, before, centred ? 1 : 1 + before};
     return window;

@@ -204,17 +204,42 @@ static void unbook_lost(const struct mpm *mpm, const struct layer *layer, int32_
     }
 }
 
+/* By faces, what pushes the nodes that the particles of bin BIN reach. */
+static void book_ring(const struct mpm *mpm, const struct layer *layer, int32_t bin, double dt,
+                      struct ledger *ledger)
+{
+    const double *stress = grid_patch(&layer->grid, &layer->stress, bin),
+                 *fill = grid_patch(&layer->grid, &layer->fill, bin);
+    int64_t corner[3];
+    block_coordinates(layer->bins.bin[bin].key, corner);
+    for (int n = 0; n < layer->grid.patch; n++) {
+        const double push = stress[n * 2 * FACE_STRIDE + FACE_HOOP] * fill[n * FILL_STRIDE + FILL_RING];
+        const int64_t first = -layer->grid.reach, cells = block_cells(2),
+                      x = corner[0] * cells + first + n / layer->grid.side,
+                      y = corner[1] * cells + first + n % layer->grid.side;
+        if (push != 0.0)
+            ledger_book(ledger, LEDGER_AXIS, 0.0, vec3_make(dt * push, 0.0, 0.0),
+                        vec3_scale(mpm->edge, vec3_make((double)x, (double)y, 0.0)), 0.0);
+    }
+}
+
 void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double dt)
 {
     if (simulation->geometry != GEOMETRY_AXISYMMETRIC)
         return;
     const struct hoop hoop = {mpm->gauge, mpm_fields_of(mpm, simulation).viscosity, dt};
-    act_on_particles(simulation, is_free, book_hoop, &hoop);
+    const bool by_faces = mpm_is_by_faces(&mpm->parameters);
+    if (!by_faces)
+        act_on_particles(simulation, is_free, book_hoop, &hoop);
     for (int g = 0; g < mpm->layers; g++) {
         const struct layer *layer = &mpm->layer[g];
 #pragma omp parallel num_threads(simulation->threads)
         {
             struct ledger own = {0};
+#pragma omp for schedule(static)
+            for (int32_t b = 0; b < layer->bins.count; b++)
+                if (by_faces && !layer->held && !mpm_is_far(mpm, layer, b))
+                    book_ring(mpm, layer, b, dt, &own);
 #pragma omp for schedule(static)
             for (int32_t n = 0; n < layer->grid.blocks; n++)
                 if (!layer->held && !mpm_is_far(mpm, layer, layer->grid.touch[n][0].bin))

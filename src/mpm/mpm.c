@@ -77,6 +77,8 @@ static void start_layers(struct mpm *mpm, const struct simulation *simulation)
         mpm->layer[g].main.stride = NODE_STRIDE;
         mpm->layer[g].back.stride = BACK_STRIDE;
         mpm->layer[g].normal.stride = BACK_STRIDE;
+        mpm->layer[g].stress.stride = FACE_STRIDE * simulation->dimension;
+        mpm->layer[g].fill.stride = FILL_STRIDE;
     }
 }
 
@@ -157,6 +159,8 @@ static void mpm_destroy(void *solver)
         grid_field_free(&layer->main);
         grid_field_free(&layer->back);
         grid_field_free(&layer->normal);
+        grid_field_free(&layer->stress);
+        grid_field_free(&layer->fill);
     }
 }
 

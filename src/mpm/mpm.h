@@ -8,6 +8,7 @@
 enum mpm_scheme { MPM_MUSL, MPM_USL, MPM_USF };
 enum mpm_transfer { MPM_FLIP, MPM_APIC, MPM_TPIC };
 enum mpm_rotation { MPM_EXACT, MPM_JAUMANN };
+enum mpm_quadrature { MPM_PARTICLES, MPM_FACES };
 enum mpm_energy { MPM_ENERGY_CONSERVED, MPM_ENERGY_WORK };
 enum mpm_damping { MPM_DAMPING_PLAIN, MPM_DAMPING_SYMMETRIC };
 
@@ -18,7 +19,7 @@ struct mpm_parameters {
     int64_t order; /* of velocities of nodes */
     double flip;
     double courant; /* NAN: by the materials */
-    int energy;
+    int quadrature, energy;
     int rotation;
     double viscosity_quadratic, viscosity_linear, viscosity_unresolved; /* NAN: see mpm_table */
     double shock_mixing;

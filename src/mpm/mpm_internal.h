@@ -31,6 +31,7 @@ struct layer {
     struct grid_field main, back;
     struct grid_field
         normal; /* gradient of mass, and how it touches other layers; of several layers only */
+    struct grid_field stress, fill; /* by faces only; of the first patches, see transfer.h */
     double surface[SURFACES + 1];   /* mass per gradient of it, of a surface so far beyond a node */
     struct grid_field left, mapped; /* of velocities of higher order only, see order.c */
     struct wall_node *wall;
@@ -94,6 +95,12 @@ BOLIDE_INLINE bool mpm_conserves(const struct mpm_parameters *parameters)
            parameters->shape != SHAPE_LINEAR;
 }
 
+/* Whether stresses push through the faces between nodes. */
+BOLIDE_INLINE bool mpm_is_by_faces(const struct mpm_parameters *parameters)
+{
+    return parameters->quadrature == MPM_FACES;
+}
+
 /* The step, as struct solver_class has it. */
 struct error *mpm_prepare(void *solver, struct simulation *simulation, struct limit *limit);
 struct error *mpm_advance(void *solver, struct simulation *simulation, double dt);
@@ -103,7 +110,8 @@ BOLIDE_INLINE struct shape_window mpm_window(const struct mpm *mpm,
                                              const struct simulation *simulation)
 {
     return shape_window_of((enum grid_shape)mpm->parameters.shape,
-                           simulation->geometry == GEOMETRY_AXISYMMETRIC);
+                           simulation->geometry == GEOMETRY_AXISYMMETRIC &&
+                               !mpm_is_by_faces(&mpm->parameters));
 }
 
 /* The fields that MPM adds to the store, as its rows (mpm.c) point to them. */
@@ -169,12 +177,18 @@ bool mpm_covers(const struct layer *layer, int32_t bin, const bool *of);
 /* Finds the planes of nodes that the walls lie on; a located error when they lie between. */
 struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulation);
 
+/* Collective, by faces: patches of stresses become forces in those of nodes, see fill.c. */
+void mpm_push_faces(struct mpm *mpm, const struct simulation *simulation);
+
 /* Sums of patches at all nodes of a layer; mass, momentum and force then know of walls. */
 struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simulation,
                             struct layer *layer);
 /* Whether walls change the node at AT, and whether it lies behind one. */
 bool mpm_near_wall(const struct mpm *mpm, const struct layer *layer, const int64_t at[3]);
 bool mpm_behind_wall(const struct mpm *mpm, const struct layer *layer, const int64_t at[3]);
+/* Whether any node of the block of nodes with its first at CORNER may be at a wall. */
+bool mpm_block_near_wall(const struct mpm *mpm, const struct layer *layer,
+                         const int64_t corner[3]);
 /* The index of node K of a block whose first node has index CORNER. */
 void mpm_node_index(int dimension, const int64_t corner[3], int k, int64_t at[3]);
 /* What walls do to the vectors of the second or third field. */

@@ -6,6 +6,7 @@ static const char *const shape_names[] = {"linear", "gimp", "quadratic", "cubic"
 static const char *const scheme_names[] = {"musl", "usl", "usf", NULL};
 static const char *const transfer_names[] = {"flip", "apic", "tpic", NULL};
 static const char *const rotation_names[] = {"exact", "jaumann", NULL};
+static const char *const quadrature_names[] = {"particles", "faces", NULL};
 static const char *const energy_names[] = {"conserved", "work", NULL};
 static const char *const damping_names[] = {"plain", "symmetric", NULL};
 
@@ -69,6 +70,13 @@ const struct parameter mpm_table[] = {
      .below = 1.0,
      .help = "K of dt = min K h/(c + max |u_i|), h the cell; when not given 0.2 where there are "
              "fluids, else 0.5"},
+    {.key = "quadrature",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct mpm_parameters, quadrature),
+     .standard = "faces",
+     .names = quadrature_names,
+     .help = "of the stress that pushes nodes; faces: by its means on the faces between nodes, so "
+             "that a uniform stress pushes none; particles: of each in its volume, as in the source"},
     {.key = "energy",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, energy),
@@ -170,9 +178,11 @@ struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
             settled.transfer == MPM_FLIP && settled.order == 1 && settled.shape != SHAPE_LINEAR
                 ? 3.0
                 : 0.0;
+    if (!mpm_conserves(&settled) || settled.shape == SHAPE_GIMP)
+        settled.quadrature = MPM_PARTICLES;
     /* what a node of next to no mass gets by functions around the axis, which reach further than those
      * that its mass is from, has no bound */
-    if (simulation->geometry == GEOMETRY_AXISYMMETRIC)
+    if (simulation->geometry == GEOMETRY_AXISYMMETRIC && settled.quadrature == MPM_PARTICLES)
         settled.energy = MPM_ENERGY_WORK;
     if (isnan(settled.viscosity_unresolved))
         settled.viscosity_unresolved =

@@ -85,10 +85,10 @@ bool mpm_behind_wall(const struct mpm *mpm, const struct layer *layer, const int
     return false;
 }
 
-/* Whether any node of a block may be at a wall. */
-static bool block_near_wall(const struct mpm *mpm, const struct layer *layer,
-                            const int64_t corner[3], int64_t within)
+bool mpm_block_near_wall(const struct mpm *mpm, const struct layer *layer,
+                         const int64_t corner[3])
 {
+    const int64_t within = layer->grid.reach;
     const int64_t last = block_cells(layer->grid.dimension) - 1;
     for (int axis = 0; axis < layer->grid.dimension; axis++)
         for (int side = 0; side < 2; side++)
@@ -138,7 +138,7 @@ static struct error *collect_walls(const struct mpm *mpm, struct layer *layer, b
     for (int32_t n = 0; n < layer->grid.blocks; n++) {
         int64_t corner[3];
         grid_corner(&layer->grid, n, corner);
-        if (block_near_wall(mpm, layer, corner, layer->grid.reach))
+        if (mpm_block_near_wall(mpm, layer, corner))
             TRY(collect_block(mpm, layer, corners, n, corner));
     }
     return NULL;
@@ -244,8 +244,9 @@ struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simu
         if (heavy)
             add_gravity(simulation, layer, n);
     }
-    /* about an axis such nodes have forces, which are lost (see mpm_book_hoop) */
-    TRY(collect_walls(mpm, layer, simulation->geometry != GEOMETRY_AXISYMMETRIC));
+    /* about an axis such nodes may have forces, which are lost (see mpm_book_hoop) */
+    TRY(collect_walls(mpm, layer, simulation->geometry != GEOMETRY_AXISYMMETRIC ||
+                                      mpm_is_by_faces(&mpm->parameters)));
     fold(mpm, layer, &layer->main, &folded_main);
     return NULL;
 }

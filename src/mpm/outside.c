@@ -10,9 +10,12 @@
 
 #include "mpm/mpm_internal.h"
 
-/* What a particle gives to the numbers of its nodes: number n gets the sum over axes k of by_slope[n][k] dN/dx_k. */
+/* What a particle gives to the numbers of its nodes: number n gets the sum over axes k of
+ * by_slope[n][k] dN/dx_k. By faces the slope along k is that of what has the factors of its faces
+ * where k is filled[n]. */
 struct given {
     double by_slope[3][3];
+    int filled[3];
 };
 
 /* A particle at X of half the size HALF, in cells, in a cell whose first node is at PLACE of the patch
@@ -24,8 +27,23 @@ struct reached {
     double half;
 };
 
+/* The slope of a shape function along an axis with the factors FILL of the two faces of its node, from
+ * the slopes SLOPE of the window; K is the number of the node in it, and BEFORE how far back in FILL the
+ * one before stands. */
+static double filled_slope(const double *slope, int k, int window, const double *fill,
+                           size_t before)
+{
+    double face = 0.0, sum = 0.0;
+    for (int j = 0; j <= k; j++) {
+        const double next = j + 1 < window ? face - slope[j] : 0.0;
+        sum = (j > 0 ? face * *(fill - before) : 0.0) - next * *fill;
+        face = next;
+    }
+    return sum;
+}
+
 static void give(const struct mpm *mpm, const struct layer *layer, const struct reached *reached,
-                 const struct given *given, double *patch)
+                 const struct given *given, const double *fill, double *patch)
 {
     const double *x = reached->x, half = reached->half;
     const enum grid_shape shape = (enum grid_shape)mpm->parameters.shape;
@@ -49,12 +67,20 @@ static void give(const struct mpm *mpm, const struct layer *layer, const struct 
                 for (int axis = 0; axis < dimension; axis++)
                     node =
                         node * (size_t)layer->grid.side + (size_t)(reached->place[axis] + at[axis]);
-                for (int k = 0; k < dimension; k++) {
-                    double d = 1.0;
+                size_t step = 1;
+                for (int k = dimension - 1; k >= 0; k--, step *= (size_t)layer->grid.side) {
+                    double others = 1.0;
                     for (int axis = 0; axis < dimension; axis++)
-                        d *= axis == k ? slope[axis][at[axis]] : value[axis][at[axis]];
+                        others *= axis == k ? 1.0 : value[axis][at[axis]];
+                    const double plain = slope[k][at[k]] * others,
+                                 filled = fill ? filled_slope(slope[k], at[k], count[k],
+                                                              fill + node * FILL_STRIDE + k,
+                                                              step * FILL_STRIDE) *
+                                                     others
+                                               : plain;
                     for (int n = 0; n < 3; n++)
-                        patch[node * BACK_STRIDE + (size_t)n] += given->by_slope[n][k] * d;
+                        patch[node * BACK_STRIDE + (size_t)n] +=
+                            given->by_slope[n][k] * (given->filled[n] == k ? filled : plain);
                 }
             }
 }
@@ -78,7 +104,7 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
     const struct load_input *load = surface->load;
     const double volume = p->mass[i] / p->density[i],
                  sign = load->side == WALL_HIGH ? volume : -volume;
-    struct given given = {{{0.0}}};
+    struct given given = {{{0.0}}, {0, 1, 2}};
     (void)mpm;
     for (int k = 0; k < simulation->dimension; k++)
         if (load->traction.count)
@@ -99,7 +125,7 @@ static struct given by_outflow(const struct mpm *mpm, const struct simulation *s
     const double gauge = mpm->gauge[p->material[i]], volume = p->mass[i] / p->density[i];
     const double sign = surface->outflow->side == WALL_HIGH ? 1.0 : -1.0;
     const int axis = surface->axis;
-    struct given given = {{{0.0}}};
+    struct given given = {{{0.0}}, {axis, axis, axis}};
     given.by_slope[FACE_AREA][axis] = sign * volume;
     given.by_slope[FACE_IMPEDANCE][axis] = sign * p->mass[i] * fields.sound_long[i];
     given.by_slope[FACE_PUSH][axis] =
@@ -126,6 +152,8 @@ static void give_bin(const struct mpm *mpm, const struct simulation *simulation,
     const struct bin *bin = &layer->bins.bin[b];
     const int dimension = layer->grid.dimension;
     double *patch = grid_patch(&layer->grid, &layer->back, b);
+    const double *fill =
+        mpm_is_by_faces(&mpm->parameters) ? grid_patch(&layer->grid, &layer->fill, b) : NULL;
     memset(patch, 0, (size_t)(layer->grid.patch * BACK_STRIDE) * sizeof *patch);
     if (!is_near(layer, surface, b))
         return;
@@ -143,7 +171,7 @@ static void give_bin(const struct mpm *mpm, const struct simulation *simulation,
             reached.x = p->position[i];
             reached.half = mpm->half_size[p->body[i]];
             if (surface->body < 0 || p->body[i] == surface->body)
-                give(mpm, layer, &reached, &given, patch);
+                give(mpm, layer, &reached, &given, fill, patch);
         }
     }
 }

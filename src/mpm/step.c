@@ -29,6 +29,9 @@ struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *
                              .main = &layer->main,
                              .back = &layer->back,
                              .normal = &layer->normal,
+                             .by_faces = mpm_is_by_faces(&mpm->parameters),
+                             .stress = &layer->stress,
+                             .fill = &layer->fill,
                              .flip = mpm->parameters.flip,
                              .conserves = mpm_conserves(&mpm->parameters),
                              .mixing = mpm->parameters.shock_mixing,
@@ -166,6 +169,10 @@ static struct error *reserve_fields(struct mpm *mpm)
         TRY(grid_field_reserve(&layer->back, &layer->grid));
         if (mpm->layers > 1)
             TRY(grid_field_reserve(&layer->normal, &layer->grid));
+        if (mpm_is_by_faces(&mpm->parameters)) {
+            TRY(grid_field_reserve(&layer->stress, &layer->grid));
+            TRY(grid_field_reserve(&layer->fill, &layer->grid));
+        }
     }
     for (int g = 0; g < mpm->layers; g++)
         if (!memory_reserve((void **)&mpm->layer[g].shocked, &mpm->layer[g].shocked_capacity,
@@ -204,6 +211,7 @@ static struct error *sum_particles(struct mpm *mpm, struct simulation *simulatio
             if (!mpm_is_far(mpm, layer, b))
                 transfer_scatter(&transfer, b);
     }
+    mpm_push_faces(mpm, simulation);
     mpm->work += clock_seconds() - begin;
     mpm_exchange(mpm, simulation, offsetof(struct layer, main));
     double shocks = 0.0;

@@ -22,6 +22,15 @@ enum { BACK_DIVERGENCE = 3, BACK_HEAT = 3, BACK_STRIDE = 4 };
  * material. */
 enum { HEAT_ENERGY = 0, HEAT_NUMBER = 1, HEAT_SQUARE = 2, HEAT_NUMBERS = 3 };
 
+/* A patch of stresses has for each axis of a node the face between it and the next node along the
+ * axis: what stresses push through it, and the part of it that particles fill. The second stands
+ * in a field of its own too, by axis, and becomes there what the first is multiplied by. */
+enum { FACE_FILL = 3, FACE_STRIDE = 4 };
+enum { FILL_STRIDE = 4 };
+/* About an axis there are two axes of faces. Behind what pushes through them stand numbers of the node:
+ * what particles fill of it, and what pushes it away from the axis; the first is in the field too. */
+enum { FACE_RING = 2, FACE_HOOP = FACE_STRIDE + 2, FILL_RING = 2 };
+
 /* The fraction a for velocities where that for energies is b = PART: two thirds of the rate. */
 BOLIDE_INLINE double mixing_of_velocity(double part) { return minimum(1.0, part / 1.5); }
 
@@ -40,6 +49,8 @@ struct transfer {
     const struct bins *bins;
     const struct grid *grid;
     struct grid_field *main, *back, *normal;
+    bool by_faces; /* stresses push through the faces between nodes, see transfer_faces.h */
+    struct grid_field *stress, *fill; /* then; of the first patches only */
     double
         flip; /* of a particle's new velocity, how much is its old one and the nodes' acceleration */
     bool conserves; /* what changes velocities changes energies by as much */
@@ -60,8 +71,13 @@ struct transfer {
         ambient; /* of each particle, the work of that pressure per mass; NULL where there is none */
 };
 
-/* Fills the patch of BIN with the mass, momentum and force of its particles (2-9)-(2-12). */
+/* Fills the patch of BIN with the mass, momentum and force of its particles (2-9)-(2-12); by faces
+ * not with the force, but the patches of STRESS and FILL. */
 void transfer_scatter(const struct transfer *transfer, int32_t bin);
+
+/* By faces: what the stresses in the patch of BIN push, with the factors of its faces in FILL, goes to
+ * its nodes. */
+void transfer_push(const struct transfer *transfer, int32_t bin);
 
 /* Fills the patch of BIN in NORMAL with the gradient of mass, sum m grad N (2-23), which points out of the bodies. */
 void transfer_slopes(const struct transfer *transfer, int32_t bin);

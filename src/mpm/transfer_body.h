@@ -58,6 +58,8 @@ BOLIDE_INLINE void node_record_of(const struct transfer *t, struct kind kind, in
         record->plain[NODE_MIXING] = mass * mixing_rate(t, i);
     for (int k = 0; k < 3; k++)
         record->plain[NODE_MOMENTUM + k] = mass * u[k];
+    if (t->by_faces)
+        return;
     if (t->axisymmetric)
         record->around[NODE_FORCE] = v * (s[2] - p) / t->position[i][0];
     /* force = -V sigma grad N (2-10); what an axis that there is not would get stays zero */
@@ -128,21 +130,41 @@ BOLIDE_INLINE void add_sums(const struct transfer *t, struct kind kind, size_t b
     }
 }
 
+/* Adds what the lanes of a chunk have to the faces of their window, in the patch of stresses. */
+BOLIDE_INLINE void scatter_faces(const struct transfer *t, struct kind kind,
+                                 const struct chunk *chunk, vector4 *sum)
+{
+    for (int lane = 0; lane < chunk->count; lane++) {
+        const struct face_record record = face_record_of(t, kind, chunk->index[lane]);
+        add_faces(kind, chunk, lane, &record, sum);
+        if (kind.dimension == 2 && t->axisymmetric)
+            add_ring(t, kind, chunk, lane, sum);
+    }
+}
+
 BOLIDE_INLINE void bin_scatter(const struct transfer *t, struct kind kind, int32_t bin)
 {
     double *patch = grid_patch(t->grid, t->main, bin);
+    double *stress = t->by_faces ? grid_patch(t->grid, t->stress, bin) : NULL;
+    const int stress_stride = FACE_STRIDE * kind.dimension;
     memset(patch, 0, (size_t)(t->grid->patch * NODE_STRIDE) * sizeof *patch);
+    if (stress)
+        memset(stress, 0, (size_t)(t->grid->patch * stress_stride) * sizeof *stress);
     const struct corner corner = corner_of(t, kind, bin);
     struct node_record record[LANES] = {0};
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
         vector8 sum[NODES_MAX];
+        vector4 through[3 * NODES_MAX];
         if (walk.count == 0)
             continue;
         vector8_clear(sum, nodes_of(kind));
+        vector4_clear(through, stress ? kind.dimension * nodes_of(kind) : 0);
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
+            if (stress)
+                scatter_faces(t, kind, &chunk, through);
             for (int lane = 0; lane < chunk.count; lane++)
                 node_record_of(t, kind, chunk.index[lane], &record[lane]);
             for (int lane = 0; lane < chunk.count; lane++)
@@ -156,7 +178,11 @@ BOLIDE_INLINE void bin_scatter(const struct transfer *t, struct kind kind, int32
                 }
         }
         add_sums(t, kind, walk.base, sum, NODE_STRIDE, patch);
+        if (stress)
+            add_sums(t, kind, walk.base, through, stress_stride, stress);
     }
+    if (stress)
+        keep_fill(t, kind, stress, grid_patch(t->grid, t->fill, bin));
 }
 
 BOLIDE_INLINE void bin_slopes(const struct transfer *t, struct kind kind, int32_t bin)
@@ -286,6 +312,8 @@ BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int3
     const bool blend = t->flip < 1.0 || step.move;
     if (back)
         memset(back, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *back);
+    if (t->by_faces && t->conserves)
+        bin_stretch(t, kind, bin, step.dt);
     const struct corner corner = corner_of(t, kind, bin);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
@@ -311,7 +339,7 @@ BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int3
                 if (mixes)
                     gather_mixed(t, kind, &chunk, weight, nodes, step.dt, push, &given);
                 if (t->conserves)
-                    gather_work(t, kind, &chunk, weight, nodes, step.dt, push, &given);
+                    gather_work(t, kind, &chunk, weight, nodes, bin, step.dt, push, &given);
                 take_given(t, kind, &chunk, &given);
             }
             accelerate(t, kind, &chunk, step, push, flow);

@@ -27,6 +27,12 @@ ISA_KERNEL(void, transfer_scatter, const struct transfer *t, int32_t bin){
 #undef CALL
 }
 
+ISA_KERNEL(void, transfer_push, const struct transfer *t, int32_t bin){
+#define CALL(dimension, window) bin_push(t, kind_make(dimension, window, 1 << dimension), bin)
+    BY_KIND(t, CALL)
+#undef CALL
+}
+
 ISA_KERNEL(void, transfer_slopes, const struct transfer *t, int32_t bin){
 #define CALL(dimension, window) bin_slopes(t, kind_make(dimension, window, 1 << dimension), bin)
     BY_KIND(t, CALL)

@@ -4,6 +4,8 @@
 
 ISA_CHOOSE(void, transfer_scatter, (const struct transfer *transfer, int32_t bin), (transfer, bin))
 
+ISA_CHOOSE(void, transfer_push, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+
 ISA_CHOOSE(void, transfer_slopes, (const struct transfer *transfer, int32_t bin), (transfer, bin))
 
 ISA_CHOOSE(void, transfer_velocity,

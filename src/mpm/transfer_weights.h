@@ -29,6 +29,7 @@ struct chunk {
     ALIGNED double slope[3][WINDOW_MAX][LANES]; /* 1/m */
     ALIGNED double away[3][WINDOW_MAX][LANES];  /* of the node from the particle, m; affine only */
     ALIGNED double around[WINDOW_MAX][LANES];   /* along x, for what acts around the axis */
+    ALIGNED double face[3][WINDOW_MAX][LANES];  /* of the face behind a node; by faces only */
 };
 
 /* The cell of a bin that a loop is at. */
@@ -98,6 +99,16 @@ BOLIDE_INLINE void weigh_centred(struct kind kind, const double *xi, double (*va
     }
 }
 
+/* Functions of the faces behind nodes, whose differences are the slopes: of a B-spline that of the
+ * next lower degree. */
+BOLIDE_INLINE void weigh_faces(struct kind kind, const double (*slope)[LANES],
+                               double (*face)[LANES])
+{
+    for (int k = 0; k + 1 < kind.window; k++)
+        for (int lane = 0; lane < kind.lanes; lane++)
+            face[k][lane] = (k > 0 ? face[k - 1][lane] : 0.0) - slope[k][lane];
+}
+
 BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
                                const struct cell_walk *walk, int32_t begin, int32_t count,
                                struct chunk *chunk)
@@ -134,7 +145,11 @@ BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
         const double first = kind.window == 2 ? 0.0 : -1.0;
         for (int k = 0; axis == 0 && t->axisymmetric && k < kind.window; k++)
             for (int lane = 0; lane < kind.lanes; lane++)
-                chunk->around[k][lane] = shape_around(t->shape, xi[lane] - (first + k), half[lane]);
+                chunk->around[k][lane] =
+                    t->by_faces ? value[k][lane]
+                                : shape_around(t->shape, xi[lane] - (first + k), half[lane]);
+        if (t->by_faces)
+            weigh_faces(kind, slope, chunk->face[axis]);
         for (int k = 0; k < kind.window; k++)
             for (int lane = 0; lane < kind.lanes; lane++)
                 slope[k][lane] *= per_edge;

@@ -4,7 +4,7 @@
 #ifndef BOLIDE_MPM_TRANSFER_WORK_H
 #define BOLIDE_MPM_TRANSFER_WORK_H
 
-#include "mpm/transfer_weights.h"
+#include "mpm/transfer_faces.h"
 
 /* What the lanes of a chunk are given by mixing in a shock (mixing.c), and by the work of stresses:
  * changes of velocity, and of energy. */
@@ -90,9 +90,100 @@ BOLIDE_INLINE double work_of_gauge(const struct transfer *t, struct kind kind,
     return -t->gauge[t->material[i]] / t->density[i] * grown;
 }
 
-/* The work of the stresses of the lanes of a chunk in a step of DT, per mass, with the mean velocity
- * of the nodes, W = V + dt A/2, and what the nodes take from the motion: with dv = sum N dt A of the
- * particle,
+/* The stresses of the lanes of a chunk over density, and what acts around the axis. */
+struct lane_stress {
+    ALIGNED double of[3][3][LANES], hoop[LANES];
+};
+
+BOLIDE_INLINE void load_stress(const struct transfer *t, struct kind kind,
+                               const struct chunk *chunk, struct lane_stress *stress)
+{
+    for (int lane = 0; lane < kind.lanes; lane++) {
+        const int32_t i = chunk->index[lane];
+        const double *s = t->deviator[i], p = t->pressure[i] + t->viscosity[i],
+                     v = 1.0 / t->density[i];
+        stress->of[0][0][lane] = v * (s[0] - p);
+        stress->of[1][1][lane] = v * (s[1] - p);
+        stress->of[2][2][lane] = v * (s[2] - p);
+        stress->of[0][1][lane] = stress->of[1][0][lane] = v * s[3];
+        stress->of[1][2][lane] = stress->of[2][1][lane] = v * s[4];
+        stress->of[2][0][lane] = stress->of[0][2][lane] = v * s[5];
+        stress->hoop[lane] = t->axisymmetric ? v * (s[2] - p) / t->position[i][0] : 0.0;
+    }
+}
+
+/* sigma : sum W grad N dt / rho of the lanes of a chunk, W = V + dt A/2. */
+BOLIDE_INLINE void work_at_nodes(const struct transfer *t, struct kind kind,
+                                 const struct chunk *chunk, struct window nodes, double dt,
+                                 double *work)
+{
+    struct lane_stress stress;
+    load_stress(t, kind, chunk, &stress);
+    FOR_NODES(kind, a, b, c)
+    {
+        const double *node = numbers_at(t, kind, nodes, a, b, c);
+        double mean[3] = {0.0};
+        for (int k = 0; k < kind.dimension; k++)
+            mean[k] = dt * (node[NODE_VELOCITY + k] - 0.5 * dt * node[NODE_ACCELERATION + k]);
+        for (int lane = 0; lane < kind.lanes; lane++) {
+            const struct weight w = weight_of(kind, chunk, lane, a, b, c);
+            double sum = 0.0;
+            for (int j = 0; j < kind.dimension; j++) {
+                double along = 0.0;
+                for (int k = 0; k < kind.dimension; k++)
+                    along += stress.of[k][j][lane] * mean[k];
+                sum += along * w.slope[j];
+            }
+            if (kind.dimension == 2 && t->axisymmetric)
+                sum +=
+                    stress.hoop[lane] * chunk->around[a][lane] * chunk->value[1][b][lane] * mean[0];
+            work[lane] += sum;
+        }
+    }
+    for (int lane = 0; lane < chunk->count && t->ambient; lane++)
+        t->ambient[chunk->index[lane]] = work_of_gauge(t, kind, chunk, lane, nodes, dt);
+}
+
+/* The same by faces, whose differences of ways stand in the patch of stresses of BIN. */
+BOLIDE_INLINE void work_at_faces(const struct transfer *t, struct kind kind,
+                                 const struct chunk *chunk, int32_t bin, size_t base, double *work)
+{
+    const double *stretch = grid_patch(t->grid, t->stress, bin);
+    struct lane_stress stress;
+    ALIGNED double sum[3][LANES], grown[LANES] = {0.0};
+    load_stress(t, kind, chunk, &stress);
+    for (int d = 0; d < kind.dimension; d++) {
+        gather_faces(t, kind, chunk, stretch, base, d, sum);
+        for (int lane = 0; lane < kind.lanes; lane++) {
+            for (int k = 0; k < kind.dimension; k++)
+                work[lane] += stress.of[k][d][lane] * sum[k][lane];
+            grown[lane] += sum[d][lane];
+        }
+    }
+    if (kind.dimension == 2 && t->axisymmetric) {
+        for (int lane = 0; lane < kind.lanes; lane++)
+            sum[0][lane] = 0.0;
+        for (int a = 0; a < kind.window; a++)
+            for (int b = 0; b < kind.window; b++) {
+                const double out =
+                    stretch[node_of(t, kind, base, a, b, 0) * 2 * FACE_STRIDE + FACE_HOOP];
+                for (int lane = 0; lane < kind.lanes; lane++)
+                    sum[0][lane] += chunk->value[0][a][lane] * chunk->value[1][b][lane] * out;
+            }
+        for (int lane = 0; lane < kind.lanes; lane++) {
+            work[lane] += stress.hoop[lane] * sum[0][lane];
+            grown[lane] += sum[0][lane] / t->position[chunk->index[lane]][0];
+        }
+    }
+    for (int lane = 0; lane < chunk->count && t->ambient; lane++) {
+        const int32_t i = chunk->index[lane];
+        t->ambient[i] = -t->gauge[t->material[i]] / t->density[i] * grown[lane];
+    }
+}
+
+/* What the lanes of a chunk get in a step of DT per mass: the work of their stresses with the mean
+ * velocity of the nodes, W = V + dt A/2, and what the nodes take from the motion: with dv = sum N dt A
+ * of the particle,
  *
  *   (1/rho) sigma : sum W grad N dt + (sum N (dt A)^2 - dv^2)/2
  *
@@ -100,48 +191,24 @@ BOLIDE_INLINE double work_of_gauge(const struct transfer *t, struct kind kind,
  * kinetic energy, what other forces than those of stresses do with W. */
 BOLIDE_INLINE void gather_work(const struct transfer *t, struct kind kind,
                                const struct chunk *chunk, const double (*weight)[LANES],
-                               struct window nodes, double dt, const double (*push)[LANES],
-                               struct given *given)
+                               struct window nodes, int32_t bin, double dt,
+                               const double (*push)[LANES], struct given *given)
 {
-    ALIGNED double stress[3][3][LANES], hoop[LANES], work[LANES] = {0.0};
-    for (int lane = 0; lane < kind.lanes; lane++) {
-        const int32_t i = chunk->index[lane];
-        const double *s = t->deviator[i], p = t->pressure[i] + t->viscosity[i],
-                     v = 1.0 / t->density[i];
-        stress[0][0][lane] = v * (s[0] - p);
-        stress[1][1][lane] = v * (s[1] - p);
-        stress[2][2][lane] = v * (s[2] - p);
-        stress[0][1][lane] = stress[1][0][lane] = v * s[3];
-        stress[1][2][lane] = stress[2][1][lane] = v * s[4];
-        stress[2][0][lane] = stress[0][2][lane] = v * s[5];
-        hoop[lane] = t->axisymmetric ? v * (s[2] - p) / t->position[i][0] : 0.0;
-    }
+    ALIGNED double work[LANES] = {0.0};
+    if (t->by_faces)
+        work_at_faces(t, kind, chunk, bin, nodes.base, work);
+    else
+        work_at_nodes(t, kind, chunk, nodes, dt, work);
     FOR_NODES(kind, a, b, c)
     {
         const double *node = numbers_at(t, kind, nodes, a, b, c);
-        double mean[3] = {0.0}, kick = 0.0;
-        for (int k = 0; k < kind.dimension; k++) {
-            const double change = dt * node[NODE_ACCELERATION + k];
-            mean[k] = dt * (node[NODE_VELOCITY + k] - 0.5 * change);
-            kick += 0.5 * square(change);
-        }
-        for (int lane = 0; lane < kind.lanes; lane++) {
-            const struct weight w = weight_of(kind, chunk, lane, a, b, c);
-            double sum = (*weight)[lane] * kick;
-            for (int j = 0; j < kind.dimension; j++) {
-                double along = 0.0;
-                for (int k = 0; k < kind.dimension; k++)
-                    along += stress[k][j][lane] * mean[k];
-                sum += along * w.slope[j];
-            }
-            if (kind.dimension == 2 && t->axisymmetric)
-                sum += hoop[lane] * chunk->around[a][lane] * chunk->value[1][b][lane] * mean[0];
-            work[lane] += sum;
-        }
+        double kick = 0.0;
+        for (int k = 0; k < kind.dimension; k++)
+            kick += 0.5 * square(dt * node[NODE_ACCELERATION + k]);
+        for (int lane = 0; lane < kind.lanes; lane++)
+            work[lane] += (*weight)[lane] * kick;
         weight++;
     }
-    for (int lane = 0; lane < chunk->count && t->ambient; lane++)
-        t->ambient[chunk->index[lane]] = work_of_gauge(t, kind, chunk, lane, nodes, dt);
     for (int lane = 0; lane < kind.lanes; lane++) {
         double dv2 = 0.0;
         for (int k = 0; k < kind.dimension; k++)
