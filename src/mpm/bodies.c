@@ -213,7 +213,8 @@ static void book_ring(const struct mpm *mpm, const struct layer *layer, int32_t 
     int64_t corner[3];
     block_coordinates(layer->bins.bin[bin].key, corner);
     for (int n = 0; n < layer->grid.patch; n++) {
-        const double push = stress[n * 2 * FACE_STRIDE + FACE_HOOP] * fill[n * FILL_STRIDE + FILL_RING];
+        const double push =
+            stress[n * 2 * FACE_STRIDE + FACE_HOOP] * fill[n * FILL_STRIDE + FILL_RING];
         const int64_t first = -layer->grid.reach, cells = block_cells(2),
                       x = corner[0] * cells + first + n / layer->grid.side,
                       y = corner[1] * cells + first + n % layer->grid.side;

@@ -187,8 +187,7 @@ struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simu
 bool mpm_near_wall(const struct mpm *mpm, const struct layer *layer, const int64_t at[3]);
 bool mpm_behind_wall(const struct mpm *mpm, const struct layer *layer, const int64_t at[3]);
 /* Whether any node of the block of nodes with its first at CORNER may be at a wall. */
-bool mpm_block_near_wall(const struct mpm *mpm, const struct layer *layer,
-                         const int64_t corner[3]);
+bool mpm_block_near_wall(const struct mpm *mpm, const struct layer *layer, const int64_t corner[3]);
 /* The index of node K of a block whose first node has index CORNER. */
 void mpm_node_index(int dimension, const int64_t corner[3], int k, int64_t at[3]);
 /* What walls do to the vectors of the second or third field. */

@@ -75,8 +75,9 @@ const struct parameter mpm_table[] = {
      .offset = offsetof(struct mpm_parameters, quadrature),
      .standard = "faces",
      .names = quadrature_names,
-     .help = "of the stress that pushes nodes; faces: by its means on the faces between nodes, so "
-             "that a uniform stress pushes none; particles: of each in its volume, as in the source"},
+     .help =
+         "of the stress that pushes nodes; faces: by its means on the faces between nodes, so "
+         "that a uniform stress pushes none; particles: of each in its volume, as in the source"},
     {.key = "energy",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, energy),

@@ -85,8 +85,7 @@ bool mpm_behind_wall(const struct mpm *mpm, const struct layer *layer, const int
     return false;
 }
 
-bool mpm_block_near_wall(const struct mpm *mpm, const struct layer *layer,
-                         const int64_t corner[3])
+bool mpm_block_near_wall(const struct mpm *mpm, const struct layer *layer, const int64_t corner[3])
 {
     const int64_t within = layer->grid.reach;
     const int64_t last = block_cells(layer->grid.dimension) - 1;
@@ -245,8 +244,9 @@ struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simu
             add_gravity(simulation, layer, n);
     }
     /* about an axis such nodes may have forces, which are lost (see mpm_book_hoop) */
-    TRY(collect_walls(mpm, layer, simulation->geometry != GEOMETRY_AXISYMMETRIC ||
-                                      mpm_is_by_faces(&mpm->parameters)));
+    TRY(collect_walls(mpm, layer,
+                      simulation->geometry != GEOMETRY_AXISYMMETRIC ||
+                          mpm_is_by_faces(&mpm->parameters)));
     fold(mpm, layer, &layer->main, &folded_main);
     return NULL;
 }

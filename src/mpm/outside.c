@@ -12,7 +12,7 @@
 
 /* What a particle gives to the numbers of its nodes: number n gets the sum over axes k of
  * by_slope[n][k] dN/dx_k. By faces the slope along k is that of what has the factors of its faces
- * where k is filled[n]. */
+ * where k is filled[n], so that a pressure balances the stress inside. */
 struct given {
     double by_slope[3][3];
     int filled[3];
@@ -107,9 +107,10 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
     struct given given = {{{0.0}}, {0, 1, 2}};
     (void)mpm;
     for (int k = 0; k < simulation->dimension; k++)
-        if (load->traction.count)
+        if (load->traction.count) { /* is to give its force, not to balance a stress */
             given.by_slope[k][load->axis] = sign * surface->traction[k];
-        else
+            given.filled[k] = -1;
+        } else
             given.by_slope[k][k] = -volume * surface->pressure;
     return given;
 }

@@ -10,16 +10,6 @@
 #include "base/wide.h"
 #include "mpm/transfer_work.h"
 
-/* Nodes of a window. */
-enum { NODES_MAX = WINDOW_MAX * WINDOW_MAX * WINDOW_MAX };
-
-BOLIDE_INLINE int nodes_of(struct kind kind)
-{
-    return kind.dimension == 1   ? kind.window
-           : kind.dimension == 2 ? kind.window * kind.window
-                                 : kind.window * kind.window * kind.window;
-}
-
 /* Where the nodes of a particle may have a velocity that changes over them: what its gradient
  * adds at a node. */
 BOLIDE_INLINE void add_affine(const struct transfer *t, struct kind kind, const struct chunk *chunk,
@@ -58,8 +48,6 @@ BOLIDE_INLINE void node_record_of(const struct transfer *t, struct kind kind, in
         record->plain[NODE_MIXING] = mass * mixing_rate(t, i);
     for (int k = 0; k < 3; k++)
         record->plain[NODE_MOMENTUM + k] = mass * u[k];
-    if (t->by_faces)
-        return;
     if (t->axisymmetric)
         record->around[NODE_FORCE] = v * (s[2] - p) / t->position[i][0];
     /* force = -V sigma grad N (2-10); what an axis that there is not would get stays zero */
@@ -130,45 +118,61 @@ BOLIDE_INLINE void add_sums(const struct transfer *t, struct kind kind, size_t b
     }
 }
 
-/* Adds what the lanes of a chunk have to the faces of their window, in the patch of stresses. */
-BOLIDE_INLINE void scatter_faces(const struct transfer *t, struct kind kind,
-                                 const struct chunk *chunk, vector4 *sum)
+/* Adds what the lanes of a chunk have to the sums of their nodes; by faces without forces. */
+BOLIDE_INLINE void scatter_nodes(const struct transfer *t, struct kind kind,
+                                 const struct chunk *chunk, const double (*weight)[LANES],
+                                 vector8 *sum)
 {
-    for (int lane = 0; lane < chunk->count; lane++) {
-        const struct face_record record = face_record_of(t, kind, chunk->index[lane]);
-        add_faces(kind, chunk, lane, &record, sum);
-        if (kind.dimension == 2 && t->axisymmetric)
-            add_ring(t, kind, chunk, lane, sum);
+    vector8 record[LANES];
+    for (int lane = 0; lane < kind.lanes; lane++) {
+        const int32_t i = chunk->index[lane];
+        const double mass = lane < chunk->count ? t->mass[i] : 0.0, *u = t->velocity[i],
+                     mixing = t->mixing > 0.0 ? mass * mixing_rate(t, i) : 0.0;
+        const vector8 of = {mass, mass * u[0], mass * u[1], mass * u[2], 0.0, 0.0, 0.0, mixing};
+        record[lane] = of;
     }
+    add_records8(kind, nodes_of(kind), weight, record, sum);
+}
+
+/* The same with forces. */
+BOLIDE_INLINE void scatter_forces(const struct transfer *t, struct kind kind,
+                                  const struct chunk *chunk, struct node_record *record,
+                                  vector8 *sum)
+{
+    for (int lane = 0; lane < chunk->count; lane++)
+        node_record_of(t, kind, chunk->index[lane], &record[lane]);
+    for (int lane = 0; lane < chunk->count; lane++)
+        add_node_record(t, kind, chunk, lane, &record[lane], sum);
 }
 
 BOLIDE_INLINE void bin_scatter(const struct transfer *t, struct kind kind, int32_t bin)
 {
     double *patch = grid_patch(t->grid, t->main, bin);
     double *stress = t->by_faces ? grid_patch(t->grid, t->stress, bin) : NULL;
-    const int stress_stride = FACE_STRIDE * kind.dimension;
     memset(patch, 0, (size_t)(t->grid->patch * NODE_STRIDE) * sizeof *patch);
     if (stress)
-        memset(stress, 0, (size_t)(t->grid->patch * stress_stride) * sizeof *stress);
+        memset(stress, 0, (size_t)(t->grid->patch * FACE_STRIDE * kind.dimension) * sizeof *stress);
     const struct corner corner = corner_of(t, kind, bin);
     struct node_record record[LANES] = {0};
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
+        struct face_sums through;
+        ALIGNED double weight[NODES_MAX][LANES];
         vector8 sum[NODES_MAX];
-        vector4 through[3 * NODES_MAX];
         if (walk.count == 0)
             continue;
         vector8_clear(sum, nodes_of(kind));
-        vector4_clear(through, stress ? kind.dimension * nodes_of(kind) : 0);
+        if (stress)
+            clear_faces(kind, t->axisymmetric, &through);
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
-            if (stress)
-                scatter_faces(t, kind, &chunk, through);
-            for (int lane = 0; lane < chunk.count; lane++)
-                node_record_of(t, kind, chunk.index[lane], &record[lane]);
-            for (int lane = 0; lane < chunk.count; lane++)
-                add_node_record(t, kind, &chunk, lane, &record[lane], sum);
+            if (stress) {
+                find_weights(kind, &chunk, weight);
+                scatter_nodes(t, kind, &chunk, weight, sum);
+                scatter_faces(t, kind, &chunk, weight, &through);
+            } else
+                scatter_forces(t, kind, &chunk, record, sum);
             for (int lane = 0; lane < chunk.count && t->affine; lane++)
                 FOR_NODES(kind, a, b, c)
                 {
@@ -179,7 +183,7 @@ BOLIDE_INLINE void bin_scatter(const struct transfer *t, struct kind kind, int32
         }
         add_sums(t, kind, walk.base, sum, NODE_STRIDE, patch);
         if (stress)
-            add_sums(t, kind, walk.base, through, stress_stride, stress);
+            keep_faces(t, kind, walk.base, &through, stress);
     }
     if (stress)
         keep_fill(t, kind, stress, grid_patch(t->grid, t->fill, bin));
@@ -214,21 +218,22 @@ BOLIDE_INLINE void gather_slopes(const struct transfer *t, struct kind kind,
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            for (int lane = 0; lane < kind.lanes; lane++)
-                sum[i][j][lane] = 0.0;
+            FOR_LANES(kind, lane)
+    sum[i][j][lane] = 0.0;
     FOR_NODES(kind, a, b, c)
     {
         const double *node = numbers_at(t, kind, from, a, b, c);
         ALIGNED double slope[3][LANES];
-        for (int lane = 0; lane < kind.lanes; lane++) {
+        FOR_LANES(kind, lane)
+        {
             const struct weight w = weight_of(kind, chunk, lane, a, b, c);
             for (int j = 0; j < kind.dimension; j++)
                 slope[j][lane] = w.slope[j];
         }
         for (int i = 0; i < kind.dimension; i++)
             for (int j = 0; j < kind.dimension; j++)
-                for (int lane = 0; lane < kind.lanes; lane++)
-                    sum[i][j][lane] += slope[j][lane] * node[i];
+                FOR_LANES(kind, lane)
+        sum[i][j][lane] += slope[j][lane] * node[i];
     }
 }
 
@@ -243,27 +248,28 @@ BOLIDE_INLINE void keep_gradient(const struct transfer *t, struct kind kind,
     if (t->by_moments && kind.window > 2) {
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
-                for (int lane = 0; lane < kind.lanes; lane++)
-                    sum[i][j][lane] = 0.0;
+                FOR_LANES(kind, lane)
+        sum[i][j][lane] = 0.0;
         FOR_NODES(kind, a, b, c)
         {
             const int at[3] = {a, b, c};
             const double *node = numbers_at(t, kind, velocity, a, b, c);
-            for (int lane = 0; lane < kind.lanes; lane++) {
+            FOR_LANES(kind, lane)
+            {
                 const double w = weight_of(kind, chunk, lane, a, b, c).value;
                 for (int i = 0; i < kind.dimension; i++)
                     for (int j = 0; j < kind.dimension; j++)
                         sum[i][j][lane] += w * node[i] * chunk->away[j][at[j]][lane];
             }
         }
-        for (int lane = 0; lane < kind.lanes; lane++)
-            for (int j = 0; j < kind.dimension; j++) {
-                double second = 0.0;
-                for (int k = 0; k < kind.window; k++)
-                    second += chunk->value[j][k][lane] * square(chunk->away[j][k][lane]);
-                for (int i = 0; i < kind.dimension; i++)
-                    sum[i][j][lane] /= second;
-            }
+        FOR_LANES(kind, lane)
+        for (int j = 0; j < kind.dimension; j++) {
+            double second = 0.0;
+            for (int k = 0; k < kind.window; k++)
+                second += chunk->value[j][k][lane] * square(chunk->away[j][k][lane]);
+            for (int i = 0; i < kind.dimension; i++)
+                sum[i][j][lane] /= second;
+        }
     }
     for (int lane = 0; lane < chunk->count; lane++)
         for (int i = 0; i < 3; i++)
@@ -295,13 +301,15 @@ BOLIDE_INLINE void add_momenta(const struct transfer *t, struct kind kind,
                                const struct chunk *chunk, const double (*weight)[LANES],
                                vector4 *sum)
 {
-    for (int lane = 0; lane < chunk->count; lane++) {
-        const double *u = t->velocity[chunk->index[lane]], mass = t->mass[chunk->index[lane]];
-        const double divergence = t->divergence ? t->divergence[chunk->index[lane]] : 0.0;
+    vector4 record[LANES];
+    for (int lane = 0; lane < kind.lanes; lane++) {
+        const int32_t i = chunk->index[lane];
+        const double *u = t->velocity[i], mass = lane < chunk->count ? t->mass[i] : 0.0;
+        const double divergence = t->divergence ? t->divergence[i] : 0.0;
         const vector4 momentum = {mass * u[0], mass * u[1], mass * u[2], mass * divergence};
-        for (int n = 0; n < nodes_of(kind); n++)
-            sum[n] += weight[n][lane] * momentum;
+        record[lane] = momentum;
     }
+    add_records4(kind, nodes_of(kind), weight, record, sum);
 }
 
 BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int32_t bin,
@@ -408,7 +416,8 @@ BOLIDE_INLINE void keep_rates(const struct transfer *t, struct kind kind, const 
     double *row[RATES];
     for (int c = 0; c < RATES; c++)
         row[c] = rates.to + (size_t)c * rates.stride;
-    for (int lane = 0; lane < kind.lanes; lane++) {
+    FOR_LANES(kind, lane)
+    {
         row[0][lane] = sum[0][0][lane];
         row[1][lane] = sum[1][1][lane];
         row[2][lane] = round ? around[lane] / t->position[chunk->index[lane]][0] : sum[2][2][lane];
@@ -431,8 +440,8 @@ BOLIDE_INLINE void filter_divergence(const struct transfer *t, struct kind kind,
     ALIGNED double mean[1][LANES];
     double *unresolved = rates.to + (size_t)RATE_UNRESOLVED * rates.stride;
     gather(t, kind, weight, back, 1, mean);
-    for (int lane = 0; lane < kind.lanes; lane++)
-        unresolved[lane] = t->divergence[chunk->index[lane]] - mean[0][lane];
+    FOR_LANES(kind, lane)
+    unresolved[lane] = t->divergence[chunk->index[lane]] - mean[0][lane];
     for (int lane = 0; lane < chunk->count; lane++)
         t->divergence[chunk->index[lane]] =
             rates.to[lane] + rates.to[rates.stride + lane] + rates.to[2 * rates.stride + lane];

@@ -21,9 +21,9 @@ BOLIDE_INLINE int faces_along(struct kind kind, int across, int axis)
     return axis >= kind.dimension ? 1 : kind.window - (across == axis);
 }
 
-#define FOR_FACES(kind, across, a, b, c)                         \
-    for (int a = 0; a < faces_along(kind, across, 0); a++)       \
-        for (int b = 0; b < faces_along(kind, across, 1); b++)   \
+#define FOR_FACES(kind, across, a, b, c)                       \
+    for (int a = 0; a < faces_along(kind, across, 0); a++)     \
+        for (int b = 0; b < faces_along(kind, across, 1); b++) \
             for (int c = 0; c < faces_along(kind, across, 2); c++)
 
 /* The functions along AXIS of faces ACROSS an axis. */
@@ -32,70 +32,139 @@ BOLIDE_INLINE const double (*factors_of(const struct chunk *chunk, int across, i
     return across == axis ? chunk->face[axis] : chunk->value[axis];
 }
 
-/* The place of a node of a window among its nodes. */
-BOLIDE_INLINE int place_of(struct kind kind, int a, int b, int c)
+BOLIDE_INLINE int faces_of(struct kind kind, int across)
 {
-    return kind.dimension == 1   ? a
-           : kind.dimension == 2 ? a * kind.window + b
-                                 : (a * kind.window + b) * kind.window + c;
+    return faces_along(kind, across, 0) * faces_along(kind, across, 1) *
+           faces_along(kind, across, 2);
 }
 
-/* What pushes through faces across each axis. */
-struct face_record {
-    vector4 of[3];
-};
-
-BOLIDE_INLINE struct face_record face_record_of(const struct transfer *t, struct kind kind,
-                                                int32_t i)
+/* The functions of the lanes of a chunk at the faces of the window ACROSS an axis. */
+BOLIDE_INLINE void find_face_weights(struct kind kind, const struct chunk *chunk, int across,
+                                     double (*weight)[LANES])
 {
-    const double edge = t->edge, v = t->mass[i] / (t->density[i] * edge);
-    const double p = t->pressure[i] + t->viscosity[i] - t->gauge[t->material[i]];
-    const double *s = t->deviator[i];
-    const double fill = kind.dimension == 1   ? v
-                        : kind.dimension == 2 ? v / edge
-                                              : v / square(edge);
-    const bool round = kind.dimension == 2 && t->axisymmetric;
-    const struct face_record record = {{{v * (s[0] - p), v * s[3], round ? 0.0 : v * s[5], fill},
-                                        {v * s[3], v * (s[1] - p), round ? 0.0 : v * s[4], fill},
-                                        {v * s[5], v * s[4], v * (s[2] - p), fill}}};
-    return record;
-}
-
-/* Adds the record of particle LANE to the sums of the faces of the window, DIMENSION a node. */
-BOLIDE_INLINE void add_faces(struct kind kind, const struct chunk *chunk, int lane,
-                             const struct face_record *record, vector4 *sum)
-{
-    for (int d = 0; d < kind.dimension; d++) {
-        const double(*wa)[LANES] = factors_of(chunk, d, 0), (*wb)[LANES] = factors_of(chunk, d, 1),
-                    (*wc)[LANES] = factors_of(chunk, d, 2);
-        for (int a = 0; a < faces_along(kind, d, 0); a++) {
-            const vector4 in_a = wa[a][lane] * record->of[d];
-            for (int b = 0; b < faces_along(kind, d, 1); b++) {
-                const vector4 in_b = kind.dimension > 1 ? wb[b][lane] * in_a : in_a;
-                for (int c = 0; c < faces_along(kind, d, 2); c++)
-                    sum[place_of(kind, a, b, c) * kind.dimension + d] +=
-                        kind.dimension > 2 ? wc[c][lane] * in_b : in_b;
-            }
+    const double(*wa)[LANES] = factors_of(chunk, across, 0),
+          (*wb)[LANES] = factors_of(chunk, across, 1), (*wc)[LANES] = factors_of(chunk, across, 2);
+    FOR_FACES(kind, across, a, b, c)
+    {
+        FOR_LANES(kind, lane)
+        {
+            double w = wa[a][lane];
+            if (kind.dimension > 1)
+                w *= wb[b][lane];
+            if (kind.dimension > 2)
+                w *= wc[c][lane];
+            (*weight)[lane] = w;
         }
+        weight++;
     }
 }
 
-/* Adds what particle LANE has around the axis to the nodes of the window, two records each. */
-BOLIDE_INLINE void add_ring(const struct transfer *t, struct kind kind, const struct chunk *chunk,
-                            int lane, vector4 *sum)
+/* What the particles of a cell have for faces across each axis, or for nodes: what pushes, and fills. */
+struct face_sums {
+    vector4 of[3][NODES_MAX], ring[NODES_MAX];
+};
+
+BOLIDE_INLINE void clear_faces(struct kind kind, bool round, struct face_sums *sums)
 {
-    const int32_t i = chunk->index[lane];
-    const double area = t->mass[i] / (t->density[i] * t->position[i][0]);
-    const double stress = t->deviator[i][2] - t->pressure[i] - t->viscosity[i] +
-                          t->gauge[t->material[i]];
-    const vector4 fill = {0.0, 0.0, area / square(t->edge), 0.0},
-                  hoop = {0.0, 0.0, -area * stress, 0.0};
-    for (int a = 0; a < kind.window; a++)
-        for (int b = 0; b < kind.window; b++) {
-            const double w = chunk->value[0][a][lane] * chunk->value[1][b][lane];
-            sum[2 * place_of(kind, a, b, 0)] += w * fill;
-            sum[2 * place_of(kind, a, b, 0) + 1] += w * hoop;
+    for (int d = 0; d < kind.dimension; d++)
+        vector4_clear(sums->of[d], faces_of(kind, d));
+    vector4_clear(sums->ring, round ? nodes_of(kind) : 0);
+}
+
+/* The records of the lanes of a chunk for faces across each axis. */
+struct face_records {
+    vector4 of[3][LANES];
+};
+
+BOLIDE_INLINE void load_face_records(const struct transfer *t, struct kind kind,
+                                     const struct chunk *chunk, struct face_records *records)
+{
+    const double edge = t->edge, full = kind.dimension == 1   ? 1.0
+                                        : kind.dimension == 2 ? 1.0 / edge
+                                                              : 1.0 / square(edge);
+    for (int lane = 0; lane < kind.lanes; lane++) {
+        const int32_t i = chunk->index[lane];
+        const double v = lane < chunk->count ? t->mass[i] / (t->density[i] * edge) : 0.0;
+        const double p = t->pressure[i] + t->viscosity[i] - t->gauge[t->material[i]];
+        const double *s = t->deviator[i];
+        const vector4 x = {v * (s[0] - p), v * s[3], v * s[5], v * full},
+                      y = {v * s[3], v * (s[1] - p), v * s[4], v * full},
+                      z = {v * s[5], v * s[4], v * (s[2] - p), v * full};
+        records->of[0][lane] = x;
+        records->of[1][lane] = y;
+        records->of[2][lane] = z;
+    }
+}
+
+/* Adds what the lanes of a chunk have for faces ACROSS an axis. */
+BOLIDE_INLINE void add_faces(struct kind kind, const struct chunk *chunk, int across,
+                             const struct face_records *records, struct face_sums *sums)
+{
+    ALIGNED double weight[NODES_MAX][LANES];
+    find_face_weights(kind, chunk, across, weight);
+    add_records4(kind, faces_of(kind, across), weight, records->of[across], sums->of[across]);
+}
+
+/* Adds what the lanes of a chunk have around the axis to the nodes of the window. */
+BOLIDE_INLINE void add_ring(const struct transfer *t, struct kind kind, const struct chunk *chunk,
+                            const double (*weight)[LANES], struct face_sums *sums)
+{
+    vector4 record[LANES];
+    for (int lane = 0; lane < kind.lanes; lane++) {
+        const int32_t i = chunk->index[lane];
+        const double stress =
+            t->deviator[i][2] - t->pressure[i] - t->viscosity[i] + t->gauge[t->material[i]];
+        const double area =
+            lane < chunk->count ? t->mass[i] / (t->density[i] * t->position[i][0]) : 0.0;
+        const vector4 ring = {area / square(t->edge), -area * stress, 0.0, 0.0};
+        record[lane] = ring;
+    }
+    add_records4(kind, nodes_of(kind), weight, record, sums->ring);
+}
+
+/* Adds what the lanes of a chunk push through faces, and fill; WEIGHT at nodes. */
+BOLIDE_INLINE void scatter_faces(const struct transfer *t, struct kind kind,
+                                 const struct chunk *chunk, const double (*weight)[LANES],
+                                 struct face_sums *sums)
+{
+    struct face_records records;
+    load_face_records(t, kind, chunk, &records);
+    add_faces(kind, chunk, 0, &records, sums);
+    if (kind.dimension > 1)
+        add_faces(kind, chunk, 1, &records, sums);
+    if (kind.dimension > 2)
+        add_faces(kind, chunk, 2, &records, sums);
+    if (kind.dimension == 2 && t->axisymmetric)
+        add_ring(t, kind, chunk, weight, sums);
+}
+
+/* Adds the sums of a cell, whose first node is BASE, to the patch of stresses. */
+BOLIDE_INLINE void keep_faces(const struct transfer *t, struct kind kind, size_t base,
+                              const struct face_sums *sums, double *stress)
+{
+    for (int d = 0; d < kind.dimension; d++) {
+        const double *sum = (const double *)sums->of[d];
+        FOR_FACES(kind, d, a, b, c)
+        {
+            double *face =
+                stress + (node_of(t, kind, base, a, b, c) * (size_t)kind.dimension + (size_t)d) *
+                             FACE_STRIDE;
+            for (int k = 0; k < FACE_STRIDE; k++)
+                if (!(kind.dimension == 2 && k == FACE_RING))
+                    face[k] += sum[k];
+            sum += FACE_STRIDE;
         }
+    }
+    if (!(kind.dimension == 2 && t->axisymmetric))
+        return;
+    const double *sum = (const double *)sums->ring;
+    FOR_NODES(kind, a, b, c)
+    {
+        double *node = stress + node_of(t, kind, base, a, b, c) * 2 * FACE_STRIDE;
+        node[FACE_RING] += sum[0];
+        node[FACE_HOOP] += sum[1];
+        sum += FACE_STRIDE;
+    }
 }
 
 /* Copies what fills the faces of a patch. */
@@ -182,26 +251,21 @@ BOLIDE_INLINE void gather_faces(const struct transfer *t, struct kind kind,
                                 const struct chunk *chunk, const double *stretch, size_t base,
                                 int across, double (*sum)[LANES])
 {
-    const double(*wa)[LANES] = factors_of(chunk, across, 0),
-                (*wb)[LANES] = factors_of(chunk, across, 1),
-                (*wc)[LANES] = factors_of(chunk, across, 2);
+    ALIGNED double weight[NODES_MAX][LANES];
+    const double(*w)[LANES] = weight;
+    find_face_weights(kind, chunk, across, weight);
     for (int k = 0; k < kind.dimension; k++)
-        for (int lane = 0; lane < kind.lanes; lane++)
-            sum[k][lane] = 0.0;
+        FOR_LANES(kind, lane)
+    sum[k][lane] = 0.0;
     FOR_FACES(kind, across, a, b, c)
     {
         const double *face =
             stretch + (node_of(t, kind, base, a, b, c) * (size_t)kind.dimension + (size_t)across) *
                           FACE_STRIDE;
-        for (int lane = 0; lane < kind.lanes; lane++) {
-            double w = wa[a][lane];
-            if (kind.dimension > 1)
-                w *= wb[b][lane];
-            if (kind.dimension > 2)
-                w *= wc[c][lane];
-            for (int k = 0; k < kind.dimension; k++)
-                sum[k][lane] += w * face[k];
-        }
+        for (int k = 0; k < kind.dimension; k++)
+            FOR_LANES(kind, lane)
+        sum[k][lane] += (*w)[lane] * face[k];
+        w++;
     }
 }
 

@@ -14,21 +14,21 @@ BOLIDE_INLINE void bin_heat(const struct transfer *t, struct kind kind, int32_t 
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
         ALIGNED double weight[NODES_MAX][LANES];
-        vector4 sum[NODES_MAX];
+        vector4 sum[NODES_MAX], record[LANES];
         if (walk.count == 0)
             continue;
         vector4_clear(sum, nodes_of(kind));
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             find_weights(kind, &chunk, weight);
-            for (int lane = 0; lane < chunk.count; lane++) {
+            for (int lane = 0; lane < kind.lanes; lane++) {
                 const int32_t i = chunk.index[lane];
-                const double mass = t->mass[i], number = (double)t->material[i];
-                const vector4 record = {mass * t->energy[i], mass * number, mass * square(number),
-                                        0.0};
-                for (int n = 0; n < nodes_of(kind); n++)
-                    sum[n] += weight[n][lane] * record;
+                const double mass = lane < chunk.count ? t->mass[i] : 0.0,
+                             number = (double)t->material[i];
+                const vector4 of = {mass * t->energy[i], mass * number, mass * square(number), 0.0};
+                record[lane] = of;
             }
+            add_records4(kind, nodes_of(kind), weight, record, sum);
         }
         add_sums(t, kind, walk.base, sum, BACK_STRIDE, patch);
     }
@@ -53,7 +53,8 @@ BOLIDE_INLINE void gather_heat(const struct transfer *t, struct kind kind,
     ALIGNED double weight[NODES_MAX][LANES], energy[LANES];
     const double(*w)[LANES] = weight;
     find_weights(kind, chunk, weight);
-    for (int lane = 0; lane < kind.lanes; lane++) {
+    FOR_LANES(kind, lane)
+    {
         energy[lane] = t->energy[chunk->index[lane]];
         gain[lane] = 0.0;
     }

@@ -4,9 +4,11 @@
 #define BOLIDE_MPM_TRANSFER_WEIGHTS_H
 
 #include "base/lanes.h"
+#include "base/wide.h"
 #include "mpm/transfer.h"
 
-enum { WINDOW_MAX = 4 };
+/* Nodes of a window along an axis, and in all. */
+enum { WINDOW_MAX = 4, NODES_MAX = WINDOW_MAX * WINDOW_MAX * WINDOW_MAX };
 
 /* What is known when the loops are compiled. */
 struct kind {
@@ -18,6 +20,16 @@ BOLIDE_INLINE struct kind kind_make(int dimension, int window, int lanes)
 {
     struct kind kind = {dimension, window, lanes};
     return kind;
+}
+
+/* All lanes; a loop over them stays one until it is made wide. */
+#define FOR_LANES(kind, lane) _Pragma("omp simd") for (int lane = 0; lane < (kind).lanes; lane++)
+
+BOLIDE_INLINE int nodes_of(struct kind kind)
+{
+    return kind.dimension == 1   ? kind.window
+           : kind.dimension == 2 ? kind.window * kind.window
+                                 : kind.window * kind.window * kind.window;
 }
 
 /* Up to eight particles of a cell, and their shape functions. What is behind the last particle
@@ -77,7 +89,8 @@ BOLIDE_INLINE void weigh_axis(struct kind kind, enum grid_shape shape, const dou
                               const double *half, double (*value)[LANES], double (*slope)[LANES])
 {
     for (int k = 0; k < kind.window; k++)
-        for (int lane = 0; lane < kind.lanes; lane++) {
+        FOR_LANES(kind, lane)
+        {
             const double r = xi[lane] - (double)(k - 1);
             value[k][lane] = shape_value(shape, r, half[lane]);
             slope[k][lane] = shape_slope(shape, r, half[lane]);
@@ -88,7 +101,8 @@ BOLIDE_INLINE void weigh_axis(struct kind kind, enum grid_shape shape, const dou
 BOLIDE_INLINE void weigh_centred(struct kind kind, const double *xi, double (*value)[LANES],
                                  double (*slope)[LANES])
 {
-    for (int lane = 0; lane < kind.lanes; lane++) {
+    FOR_LANES(kind, lane)
+    {
         const double low = 0.5 - xi[lane], high = 0.5 + xi[lane];
         value[0][lane] = 0.5 * square(low);
         value[1][lane] = 0.75 - square(xi[lane]);
@@ -105,8 +119,8 @@ BOLIDE_INLINE void weigh_faces(struct kind kind, const double (*slope)[LANES],
                                double (*face)[LANES])
 {
     for (int k = 0; k + 1 < kind.window; k++)
-        for (int lane = 0; lane < kind.lanes; lane++)
-            face[k][lane] = (k > 0 ? face[k - 1][lane] : 0.0) - slope[k][lane];
+        FOR_LANES(kind, lane)
+    face[k][lane] = (k > 0 ? face[k - 1][lane] : 0.0) - slope[k][lane];
 }
 
 BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
@@ -115,20 +129,20 @@ BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
 {
     const double per_edge = 1.0 / t->edge;
     ALIGNED double xi[LANES], half[LANES];
-    for (int lane = 0; lane < kind.lanes; lane++)
-        chunk->index[lane] = walk->list[begin + (lane < count ? lane : count - 1)];
-    for (int lane = 0; lane < kind.lanes; lane++)
-        half[lane] = t->shape == SHAPE_GIMP || t->axisymmetric
-                         ? t->half_size[t->body[chunk->index[lane]]]
-                         : 0.5;
+    FOR_LANES(kind, lane)
+    chunk->index[lane] = walk->list[begin + (lane < count ? lane : count - 1)];
+    const bool sized = t->shape == SHAPE_GIMP || t->axisymmetric;
+    for (int lane = 0; lane < kind.lanes && sized; lane++)
+        half[lane] = t->half_size[t->body[chunk->index[lane]]];
     for (int axis = 0; axis < kind.dimension; axis++) {
         double(*value)[LANES] = chunk->value[axis], (*slope)[LANES] = chunk->slope[axis];
-        for (int lane = 0; lane < kind.lanes; lane++)
-            xi[lane] = t->position[chunk->index[lane]][axis];
-        for (int lane = 0; lane < kind.lanes; lane++)
-            xi[lane] = xi[lane] / t->edge - (double)walk->index[axis];
+        FOR_LANES(kind, lane)
+        xi[lane] = t->position[chunk->index[lane]][axis];
+        FOR_LANES(kind, lane)
+        xi[lane] = xi[lane] / t->edge - (double)walk->index[axis];
         if (kind.window == 2)
-            for (int lane = 0; lane < kind.lanes; lane++) {
+            FOR_LANES(kind, lane)
+            {
                 value[0][lane] = 1.0 - xi[lane];
                 value[1][lane] = xi[lane];
                 slope[0][lane] = -1.0;
@@ -144,18 +158,18 @@ BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
             weigh_axis(kind, SHAPE_CUBIC, xi, half, value, slope);
         const double first = kind.window == 2 ? 0.0 : -1.0;
         for (int k = 0; axis == 0 && t->axisymmetric && k < kind.window; k++)
-            for (int lane = 0; lane < kind.lanes; lane++)
-                chunk->around[k][lane] =
-                    t->by_faces ? value[k][lane]
-                                : shape_around(t->shape, xi[lane] - (first + k), half[lane]);
+            FOR_LANES(kind, lane)
+        chunk->around[k][lane] = t->by_faces
+                                     ? value[k][lane]
+                                     : shape_around(t->shape, xi[lane] - (first + k), half[lane]);
         if (t->by_faces)
             weigh_faces(kind, slope, chunk->face[axis]);
         for (int k = 0; k < kind.window; k++)
-            for (int lane = 0; lane < kind.lanes; lane++)
-                slope[k][lane] *= per_edge;
+            FOR_LANES(kind, lane)
+        slope[k][lane] *= per_edge;
         for (int k = 0; t->affine && k < kind.window; k++)
-            for (int lane = 0; lane < kind.lanes; lane++)
-                chunk->away[axis][k][lane] = ((first + k) - xi[lane]) * t->edge;
+            FOR_LANES(kind, lane)
+        chunk->away[axis][k][lane] = ((first + k) - xi[lane]) * t->edge;
     }
 }
 
@@ -256,7 +270,8 @@ BOLIDE_INLINE void find_weights(struct kind kind, const struct chunk *chunk,
 {
     FOR_NODES(kind, a, b, c)
     {
-        for (int lane = 0; lane < kind.lanes; lane++) {
+        FOR_LANES(kind, lane)
+        {
             double w = chunk->value[0][a][lane];
             if (kind.dimension > 1)
                 w *= chunk->value[1][b][lane];
@@ -273,15 +288,39 @@ BOLIDE_INLINE void gather(const struct transfer *t, struct kind kind, const doub
                           struct window from, int count, double (*sum)[LANES])
 {
     for (int k = 0; k < count; k++)
-        for (int lane = 0; lane < kind.lanes; lane++)
-            sum[k][lane] = 0.0;
+        FOR_LANES(kind, lane)
+    sum[k][lane] = 0.0;
     FOR_NODES(kind, a, b, c)
     {
         const double *node = numbers_at(t, kind, from, a, b, c);
         for (int k = 0; k < count; k++)
-            for (int lane = 0; lane < kind.lanes; lane++)
-                sum[k][lane] += (*weight)[lane] * node[k];
+            FOR_LANES(kind, lane)
+        sum[k][lane] += (*weight)[lane] * node[k];
         weight++;
+    }
+}
+
+/* Adds the RECORD of each lane to the sums of COUNT nodes or faces, with their WEIGHT; records of lanes
+ * behind the last particle are zero. */
+BOLIDE_INLINE void add_records8(struct kind kind, int count, const double (*weight)[LANES],
+                                const vector8 *record, vector8 *sum)
+{
+    for (int n = 0; n < count; n++) {
+        vector8 all = sum[n];
+        for (int lane = 0; lane < kind.lanes; lane++)
+            all += weight[n][lane] * record[lane];
+        sum[n] = all;
+    }
+}
+
+BOLIDE_INLINE void add_records4(struct kind kind, int count, const double (*weight)[LANES],
+                                const vector4 *record, vector4 *sum)
+{
+    for (int n = 0; n < count; n++) {
+        vector4 all = sum[n];
+        for (int lane = 0; lane < kind.lanes; lane++)
+            all += weight[n][lane] * record[lane];
+        sum[n] = all;
     }
 }
 
