@@ -14,6 +14,7 @@ struct wall_node {
     bool booked;             /* by this rank: the first patch that covers it is its own */
     double sum[NODE_STRIDE]; /* of the particles alone, before what is behind the wall is added */
     double raised[NODE_STRIDE]; /* the same of the field `mapped` */
+    double pushed[3];           /* the force of a surface on the particles alone */
 };
 
 /* Distances of a surface from a node that are told apart, and the largest in cells. */

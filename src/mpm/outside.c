@@ -237,39 +237,70 @@ static void push_face(struct layer *layer, const struct surface *surface, double
         }
 }
 
-/* The nodes of a block that do not have the surface get no force; what the others get in a step of DT is booked, with the
- * mean velocity of the step, where the block is this rank's. */
-static void book_block(const struct mpm *mpm, const struct layer *layer,
-                       const struct surface *surface, int32_t block, double dt,
-                       struct ledger *ledger)
+/* The nodes of a block that do not have the surface get no force. */
+static void keep_surface(const struct layer *layer, const struct surface *surface, int32_t block)
 {
-    const bool booked = !mpm_is_far(mpm, layer, layer->grid.touch[block][0].bin);
-    const enum ledger_cause cause = surface->load ? LEDGER_LOADS : LEDGER_OUTFLOWS;
     int64_t corner[3], at[3];
     grid_corner(&layer->grid, block, corner);
     for (int k = 0; k < BLOCK_CELLS; k++) {
-        double *f = grid_node(&layer->back, block, k);
         const double *node = grid_node(&layer->main, block, k);
         mpm_node_index(layer->grid.dimension, corner, k, at);
         const double place = (double)at[surface->axis];
         if (!(place >= surface->low && place <= surface->high && node[NODE_MASS] > 0.0))
-            memset(f, 0, BACK_STRIDE * sizeof *f);
-        if (!booked || (f[0] == 0.0 && f[1] == 0.0 && f[2] == 0.0))
-            continue;
-        double work = 0.0;
-        for (int c = 0; c < 3; c++)
-            work += dt * f[c] *
-                    (node[NODE_MOMENTUM + c] + 0.5 * dt * (node[NODE_FORCE + c] + f[c])) /
-                    node[NODE_MASS];
-        ledger_book(ledger, cause, 0.0, vec3_scale(dt, vec3_make(f[0], f[1], f[2])),
-                    vec3_scale(mpm->edge, vec3_make((double)at[0], (double)at[1], (double)at[2])),
-                    work);
+            memset(grid_node(&layer->back, block, k), 0, BACK_STRIDE * sizeof(double));
     }
 }
 
-static void book_forces(const struct mpm *mpm, struct simulation *simulation,
-                        const struct layer *layer, const struct surface *surface, double dt)
+/* Books the force F on a node in a step of DT, with the mean velocity of the step. NODE has all
+ * forces, F too. */
+static void book_force(const struct mpm *mpm, const struct surface *surface, const double *node,
+                       const int64_t at[3], const double f[3], double dt, struct ledger *ledger)
 {
+    if (f[0] == 0.0 && f[1] == 0.0 && f[2] == 0.0)
+        return;
+    double work = 0.0;
+    for (int c = 0; c < 3; c++)
+        work += dt * f[c] * (node[NODE_MOMENTUM + c] + 0.5 * dt * node[NODE_FORCE + c]) /
+                node[NODE_MASS];
+    ledger_book(ledger, surface->load ? LEDGER_LOADS : LEDGER_OUTFLOWS, 0.0,
+                vec3_scale(dt, vec3_make(f[0], f[1], f[2])),
+                vec3_scale(mpm->edge, vec3_make((double)at[0], (double)at[1], (double)at[2])),
+                work);
+}
+
+/* The same of the nodes of a block that walls do not change, where the block is this rank's. */
+static void book_block(const struct mpm *mpm, const struct layer *layer,
+                       const struct surface *surface, int32_t block, double dt,
+                       struct ledger *ledger)
+{
+    if (mpm_is_far(mpm, layer, layer->grid.touch[block][0].bin))
+        return;
+    int64_t corner[3], at[3];
+    grid_corner(&layer->grid, block, corner);
+    for (int k = 0; k < BLOCK_CELLS; k++) {
+        mpm_node_index(layer->grid.dimension, corner, k, at);
+        if (!mpm_near_wall(mpm, layer, at))
+            book_force(mpm, surface, grid_node(&layer->main, block, k), at,
+                       grid_node(&layer->back, block, k), dt, ledger);
+    }
+}
+
+/* Pushes with what stands in the second field. Particles get the forces of their own nodes, and
+ * move with velocities that walls have folded: so those at walls are noted before they are. */
+static void push_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
+                       const struct surface *surface, double dt)
+{
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
+        keep_surface(layer, surface, n);
+    for (int32_t w = 0; w < layer->walls; w++)
+        memcpy(layer->wall[w].pushed, layer->wall[w].back, sizeof layer->wall[w].pushed);
+    mpm_add_forces(mpm, simulation, layer);
+    for (int32_t w = 0; w < layer->walls; w++) {
+        const struct wall_node *wall = &layer->wall[w];
+        if (wall->booked)
+            book_force(mpm, surface, wall->node, wall->at, wall->pushed, dt, &simulation->ledger);
+    }
 #pragma omp parallel num_threads(simulation->threads)
     {
         struct ledger own = {0};
@@ -291,8 +322,7 @@ static void push_surface(struct mpm *mpm, struct simulation *simulation,
             continue;
         if (surface->outflow)
             push_face(layer, surface, dt, simulation->threads);
-        book_forces(mpm, simulation, layer, surface, dt);
-        mpm_add_forces(mpm, simulation, layer);
+        push_nodes(mpm, simulation, layer, surface, dt);
     }
 }
 

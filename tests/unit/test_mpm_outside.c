@@ -231,6 +231,31 @@ static void axis_and_hoop_stress_are_booked(void **state)
     }
 }
 
+/* A block between two floors that a pressure all around it squeezes: floors do no work. */
+static const char squeezed[] =
+    "format: 1\ndimension: 2\nresolution: 1 mm\nsolver: mpm\n" MATERIALS "bodies:\n"
+    "  block: {material: metal, box: {from: [0 mm, 0 mm], to: [20 mm, 10 mm]}}\n"
+    "loads: {around: {on: block, pressure: 1 GPa*sin(pi*t/10 us)^2}}\n"
+    "walls:\n"
+    "  floor: {mirror: y, at: 0 mm, side: low}\n"
+    "  side: {mirror: x, at: 0 mm, side: low}\n"
+    "run: {until: 1 s}\n";
+
+static void a_load_does_no_work_on_a_wall(void **state)
+{
+    (void)state;
+    struct running *run = begin_fresh(squeezed, &plain);
+    while (run->simulation.time < 5e-6) {
+        step(run, 1);
+        const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        const struct totals loads =
+            ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_LOADS);
+        assert_near(now.entry[LEDGER_ENERGY], loads.entry[LEDGER_ENERGY],
+                    1e-10 * loads.entry[LEDGER_ENERGY]);
+    }
+    end(run);
+}
+
 static uint64_t hash_of(const char *text, const struct variant *variant)
 {
     struct running *run = begin_fresh(text, variant->resumed ? &plain : variant);
@@ -264,6 +289,7 @@ int main(void)
         cmocka_unit_test(a_traction_gives_its_force_while_it_acts),
         cmocka_unit_test(a_load_follows_the_time),
         cmocka_unit_test(a_load_that_is_not_finite_ends_the_run),
+        cmocka_unit_test(a_load_does_no_work_on_a_wall),
         cmocka_unit_test(what_leaves_is_booked),
         cmocka_unit_test(a_fast_stream_leaves_as_it_came),
         cmocka_unit_test(axis_and_hoop_stress_are_booked),
