@@ -6,6 +6,7 @@
 #include "exact/gas_expansion.h"
 #include "exact/gas_riemann.h"
 #include "exact/impedance_match.h"
+#include "exact/long_rod.h"
 #include "exact/sedov.h"
 #include "exact/slab_detonation.h"
 #include "exact/temperature_jump.h"

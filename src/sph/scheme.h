@@ -122,9 +122,10 @@ struct sph_scheme {
 struct sph {
     struct sph_parameters parameters; /* with the defaults of the scheme filled in */
     const struct sph_scheme *scheme;
-    void *state;     /* the scheme's own */
-    unsigned traits; /* enum sph_trait */
-    double ahead;    /* of level n, by which the velocities of records lead, s */
+    void *state;            /* the scheme's own */
+    unsigned traits;        /* enum sph_trait */
+    double ahead;           /* of level n, by which the velocities of records lead, s */
+    double largest_support; /* over the diameter, where supports follow packing */
     struct neighbours neighbours;
     struct contact_groups groups;
     int64_t steps_since_build;

@@ -83,16 +83,16 @@ BOLIDE_INLINE double largest_stretch(const struct particles *p, const struct sph
  * apart along one axis and together along another, until they lose their neighbours along the first
  * axis: the velocity gradient then lacks that axis, and density drifts. So a support grows, some
  * per cent a step, where neighbours are more sparse than at the start (see write_packing), and
- * shrinks where they are not; at most to largest_stretch and to three times. SOUND is that of
- * level n. */
+ * shrinks where they are not; at most to largest_stretch and to LARGEST times. SOUND is that
+ * of level n. */
 BOLIDE_INLINE double support_ratio(const struct particles *p, const struct sph_fields *f,
-                                   double sound, double dt, int32_t i)
+                                   double sound, double largest, double dt, int32_t i)
 {
     const double *packing = f->packing[i];
     const double lack = minimum(packing[PACKING_THIN] / packing[PACKING_THIN_START] - 1.0, 1.0);
     const double ratio =
         f->support[i] / f->diameter[i] * (1.0 + 0.1 * lack * dt * sound / f->diameter[i]);
-    return ratio > 1.0 ? minimum(ratio, minimum(3.0, largest_stretch(p, f, i))) : 1.0;
+    return ratio > 1.0 ? minimum(ratio, minimum(largest, largest_stretch(p, f, i))) : 1.0;
 }
 
 /* A step of DT that ends at TIME; TOTAL: the power is that of E + U^2/2; FINITE: the velocity
@@ -101,7 +101,7 @@ struct advance {
     const struct sph_fields *fields;
     int dimension;
     bool total, finite;
-    double dt, time;
+    double largest_support, dt, time;
     const double *gravity;
 };
 
@@ -276,7 +276,9 @@ BOLIDE_INLINE void finish_point(struct particles *p, const struct advance *step,
 {
     const struct sph_fields *const f = step->fields;
     const int32_t i = passage->first + k;
-    const double ratio = f->support ? support_ratio(p, f, passage->sound[k], step->dt, i) : 1.0;
+    const double ratio =
+        f->support ? support_ratio(p, f, passage->sound[k], step->largest_support, step->dt, i)
+                   : 1.0;
     const double depth = f->thickness         ? f->thickness[i]
                          : f->rates.hoop_pull ? fabs(p->position[i][0])
                                               : 1.0;
@@ -364,6 +366,7 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation,
                                  .dimension = simulation->dimension,
                                  .total = sph_has(sph, SPH_TOTAL_ENERGY),
                                  .finite = sph_has(sph, SPH_FINITE_STRAIN),
+                                 .largest_support = sph->largest_support,
                                  .dt = dt,
                                  .time = simulation->time + dt,
                                  .gravity = simulation->gravity};

@@ -11,4 +11,13 @@ const struct parameter muscl_table[] = {
              "contact velocities, in 1-D only; none: nothing, heat is conducted and that is all; "
              "default contact in 1-D, particle in 2-D and 3-D"},
     SPH_ENERGY_ROW(struct muscl_options),
+    {.key = "support",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct muscl_options, support),
+     .standard = "3",
+     .above = 1.0,
+     .below = 3.0,
+     .closed = true,
+     .help = "how many times its diameter the support of a particle may grow to in 2-D and 3-D, "
+             "where plastic flow draws neighbours apart; 1: it does not grow"},
     PARAMETER_END};

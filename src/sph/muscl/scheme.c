@@ -153,6 +153,7 @@ static struct error *create(struct sph *sph, const struct simulation *simulation
         (struct muscl_kind){simulation->dimension, sph_has(sph, SPH_SHEAR), sph_deep(simulation)};
     sph->stride = (size_t)muscl_stride(state->kind);
     sph->places = true;
+    sph->largest_support = ((const struct muscl_options *)sph->parameters.method.value)->support;
     return sph_find_slopes(simulation, state->shock_slope);
 }
 
