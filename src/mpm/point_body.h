@@ -70,8 +70,10 @@ BOLIDE_INLINE void point_advance(const struct point_loop *loop, const struct mat
             loop->history[slot][i] = point.history[slot];
     loop->viscosity[i] = viscosity;
     if (loop->shock)
-        loop->shock[i] = point_shock(viscosity, point.density, loop->sound[i], divergence,
-                                     norm_of(motion.strain_rate, spin));
+        loop->shock[i] = maximum(
+            point_shock(viscosity, point.density, loop->sound[i], divergence,
+                        norm_of(motion.strain_rate, spin)),
+            point_overdrawn(solid && !material_burns(material), point.energy, loop->sound[i]));
     loop->sound[i] = r.sound_long;
     sym3_store(point.deviator, s);
 }
@@ -140,8 +142,9 @@ BOLIDE_INLINE void points_start(const struct point_loop *loop, bool solid, struc
     }
 }
 
-BOLIDE_INLINE bool points_keep(const struct point_loop *loop, const int32_t *list, int count,
-                               const struct batch *b, const double *viscosity, const double *shock)
+BOLIDE_INLINE bool points_keep(const struct point_loop *loop, bool solid, const int32_t *list,
+                               int count, const struct batch *b, const double *viscosity,
+                               const double *shock)
 {
     double *strain = loop->history[HISTORY_plastic_strain],
            *heating = loop->history[HISTORY_plastic_heating],
@@ -166,7 +169,8 @@ BOLIDE_INLINE bool points_keep(const struct point_loop *loop, const int32_t *lis
             heating[i] = b->plastic_heating[k];
         loop->viscosity[i] = viscosity[k];
         if (loop->shock)
-            loop->shock[i] = shock[k];
+            loop->shock[i] =
+                maximum(shock[k], point_overdrawn(solid, b->energy[k], b->sound_long[k]));
         loop->sound[i] = b->sound_long[k];
         zero += 0.0 * ((x[0] + x[1]) + (x[2] + u[0]) + (u[1] + u[2]));
     }

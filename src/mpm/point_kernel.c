@@ -15,7 +15,8 @@ ISA_KERNEL(bool, point_loop_run, const struct point_loop *loop, const struct mat
                      loop->rate + first + (size_t)RATE_UNRESOLVED * loop->rate_stride, viscosity,
                      shock);
         batch_step(material, &batch);
-        possible &= points_keep(loop, list + first, count, &batch, viscosity, shock);
+        possible &= points_keep(loop, material_has_strength(material), list + first, count, &batch,
+                                viscosity, shock);
     }
     return possible;
 }

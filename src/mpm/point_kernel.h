@@ -82,6 +82,15 @@ BOLIDE_INLINE double point_shock(double viscosity, double density, double sound,
     return square(part) * minimum(1.0, maximum(0.0, strength / soft - 1.0));
 }
 
+/* The same of a solid that has given more ENERGY than it had, as a particle may that shares nodes with
+ * much heavier ones: so that these give some back. From -0.01 c^2 on, all of it at twice that. What
+ * burns has less energy than at the start, and fluids may count theirs from elsewhere. */
+BOLIDE_INLINE double point_overdrawn(bool solid, double energy, double sound)
+{
+    const double soft = 1e-2;
+    return solid ? minimum(1.0, maximum(0.0, -energy / (soft * square(sound)) - 1.0)) : 0.0;
+}
+
 /* Brings particles BEGIN .. END - 1 of the bin at LIST, of MATERIAL, which batches must take, to the next level. False when
  * the new state of one is impossible. */
 bool point_loop_run(const struct point_loop *loop, const struct material *material,
