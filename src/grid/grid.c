@@ -147,15 +147,22 @@ struct error *grid_plan(struct grid *grid, const struct bins *bins)
     return NULL;
 }
 
+struct error *grid_patches_reserve(struct grid_field *field, const struct grid *grid)
+{
+    const int64_t patches = (int64_t)grid->bins * grid->patch;
+    const size_t bytes = (size_t)field->stride * sizeof(double);
+    return memory_reserve((void **)&field->patch, &field->patch_capacity, patches, 0, bytes)
+               ? NULL
+               : out_of_memory(grid);
+}
+
 struct error *grid_field_reserve(struct grid_field *field, const struct grid *grid)
 {
-    const int64_t nodes = (int64_t)grid->blocks * BLOCK_CELLS,
-                  patches = (int64_t)grid->bins * grid->patch;
+    const int64_t nodes = (int64_t)grid->blocks * BLOCK_CELLS;
     const size_t bytes = (size_t)field->stride * sizeof(double);
-    if (!memory_reserve((void **)&field->node, &field->node_capacity, nodes, 0, bytes) ||
-        !memory_reserve((void **)&field->patch, &field->patch_capacity, patches, 0, bytes))
-        return out_of_memory(grid);
-    return NULL;
+    return memory_reserve((void **)&field->node, &field->node_capacity, nodes, 0, bytes)
+               ? grid_patches_reserve(field, grid)
+               : out_of_memory(grid);
 }
 
 void grid_field_free(struct grid_field *field)

@@ -57,6 +57,8 @@ void grid_free(struct grid *grid);
 
 /* Room for the field on the blocks as planned; its numbers are left as they are. */
 struct error *grid_field_reserve(struct grid_field *field, const struct grid *grid);
+/* The same of one that has patches alone. */
+struct error *grid_patches_reserve(struct grid_field *field, const struct grid *grid);
 void grid_field_free(struct grid_field *field);
 
 /* The sums of nodes of block BLOCK over all patches. */

@@ -57,7 +57,7 @@ static struct parts parts_of(const struct mpm *mpm, const struct simulation *sim
     for (int32_t k = 0; k < count; k++) {
         const int32_t i = list[k];
         int part = 0;
-        for (int axis = 0; axis < simulation->dimension && centred; axis++)
+        for (int axis = 0; axis < 3 && axis < simulation->dimension && centred; axis++)
             part |= (p->position[i][axis] < (double)index[axis] * mpm->edge) << axis;
         solid[part] |= material_has_strength(&simulation->material[p->material[i]]);
         parts.strength[part] += factor * p->mass[i] * sound[i];

@@ -105,7 +105,7 @@ static void fold(const struct mpm *mpm, struct layer *layer, int numbers)
 }
 
 /* What particles of all layers fill of the faces of a node: one that bodies share is full when they
- * fill it together. The numbers stand in the stresses' nodes, which nothing else needs. */
+ * fill it together. The numbers stand at the nodes of the stresses, which need none. */
 static void join_layers(struct mpm *mpm, const struct simulation *simulation, struct layer *layer,
                         int numbers)
 {

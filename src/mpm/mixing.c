@@ -14,7 +14,7 @@
  * sum N m e/sum N m: nothing else smooths a mode that nodes do not see, one particle hot and the
  * next cold, or the heat that an impact leaves at a wall. At a node of several materials b = 0.
  * b is dt times the mean rate of the node's particles (mixing_rate of transfer_body.h), at most
- * 1, and a = b/10. Walls act as on all nodal sums. */
+ * 1, and a = 2b/3. Walls act as on all nodal sums. */
 #include "base/memory.h"
 #include "mpm/mpm_internal.h"
 

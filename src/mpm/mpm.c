@@ -180,8 +180,11 @@ static double mpm_bytes(const void *parameters, int dimension)
     /* Blocks full of cells of two particles an axis. */
     struct grid grid;
     grid_start(&grid, dimension, shape_window_of((enum grid_shape)of->shape, false));
-    const int stride = NODE_STRIDE + BACK_STRIDE + (of->order > 1 ? 2 * NODE_STRIDE : 0);
-    const double numbers = stride * (double)(BLOCK_CELLS + grid.patch);
+    const bool faces = of->quadrature == MPM_FACES && mpm_conserves(of) && of->shape != SHAPE_GIMP;
+    const int stride = NODE_STRIDE + BACK_STRIDE + (of->order > 1 ? 2 * NODE_STRIDE : 0) +
+                       (faces ? FILL_STRIDE : 0);
+    const double numbers = stride * (double)(BLOCK_CELLS + grid.patch) +
+                           (faces ? FACE_STRIDE * dimension * (double)grid.patch : 0.0);
     const double particles = BLOCK_CELLS * pow(2.0, dimension);
     return fields + (double)particles_sort_bytes() + sizeof(int32_t) + 2.0 +
            numbers * sizeof(double) / particles;

@@ -32,7 +32,7 @@ struct layer {
     struct grid_field main, back;
     struct grid_field
         normal; /* gradient of mass, and how it touches other layers; of several layers only */
-    struct grid_field stress, fill; /* by faces only; of the first patches, see transfer.h */
+    struct grid_field stress, fill; /* by faces only, see transfer.h and fill.c */
     double surface[SURFACES + 1];   /* mass per gradient of it, of a surface so far beyond a node */
     struct grid_field left, mapped; /* of velocities of higher order only, see order.c */
     struct wall_node *wall;

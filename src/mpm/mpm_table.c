@@ -76,8 +76,10 @@ const struct parameter mpm_table[] = {
      .standard = "faces",
      .names = quadrature_names,
      .help =
-         "of the stress that pushes nodes; faces: by its means on the faces between nodes, so "
-         "that a uniform stress pushes none; particles: of each in its volume, as in the source"},
+         "of the stress that pushes nodes; faces: by its means on the faces between nodes, so that "
+         "a "
+         "uniform stress pushes none, with `energy: conserved` and `shape: quadratic` or `cubic`; "
+         "particles: of each in its volume, as in the source"},
     {.key = "energy",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, energy),
@@ -85,8 +87,8 @@ const struct parameter mpm_table[] = {
      .names = energy_names,
      .help =
          "of particles; conserved: what forces take from the motion at nodes, with all of "
-         "`transfer: flip`, `order: 1`, a shape that is not linear, and no axis; work: that of the "
-         "stress in the strain of the particle, as in the source"},
+         "`transfer: flip`, `order: 1`, a shape that is not linear, and about an axis `quadrature: "
+         "faces`; work: that of the stress in the strain of the particle, as in the source"},
     {.key = "rotation",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, rotation),

@@ -170,7 +170,8 @@ static struct error *reserve_fields(struct mpm *mpm)
         if (mpm->layers > 1)
             TRY(grid_field_reserve(&layer->normal, &layer->grid));
         if (mpm_is_by_faces(&mpm->parameters)) {
-            TRY(grid_field_reserve(&layer->stress, &layer->grid));
+            TRY(mpm->layers > 1 ? grid_field_reserve(&layer->stress, &layer->grid)
+                                : grid_patches_reserve(&layer->stress, &layer->grid));
             TRY(grid_field_reserve(&layer->fill, &layer->grid));
         }
     }

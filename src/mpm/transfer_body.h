@@ -482,22 +482,4 @@ BOLIDE_INLINE void bin_gradient(const struct transfer *t, struct kind kind, int3
     }
 }
 
-BOLIDE_INLINE void bin_warm(const struct transfer *t, struct kind kind, int32_t bin)
-{
-    const double *patch = grid_patch(t->grid, t->back, bin);
-    const struct corner corner = corner_of(t, kind, bin);
-    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
-        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
-        struct chunk chunk;
-        ALIGNED double heat[1][LANES], weight[NODES_MAX][LANES];
-        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
-            weigh(t, kind, &walk, begin, &chunk);
-            find_weights(kind, &chunk, weight);
-            gather(t, kind, weight, window_of(patch + BACK_HEAT, BACK_STRIDE, walk.base), 1, heat);
-            for (int lane = 0; lane < chunk.count; lane++)
-                t->energy[chunk.index[lane]] += heat[0][lane];
-        }
-    }
-}
-
 #endif

@@ -1,4 +1,4 @@
-/* The loops of mixing in shocks (mixing.c) over the particles of a block. For the file that is
+/* The loops of mixing in shocks (mixing.c), and of heat, over the particles of a block. For the file that is
  * compiled once an instruction set (transfer_kernel.c). */
 #ifndef BOLIDE_MPM_TRANSFER_MIXING_H
 #define BOLIDE_MPM_TRANSFER_MIXING_H
@@ -88,6 +88,24 @@ BOLIDE_INLINE void bin_mix(const struct transfer *t, struct kind kind, int32_t b
             gather_heat(t, kind, &chunk, nodes, heats, gain);
             for (int lane = 0; lane < chunk.count; lane++)
                 t->energy[chunk.index[lane]] += gain[lane];
+        }
+    }
+}
+
+BOLIDE_INLINE void bin_warm(const struct transfer *t, struct kind kind, int32_t bin)
+{
+    const double *patch = grid_patch(t->grid, t->back, bin);
+    const struct corner corner = corner_of(t, kind, bin);
+    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
+        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
+        struct chunk chunk;
+        ALIGNED double heat[1][LANES], weight[NODES_MAX][LANES];
+        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
+            weigh(t, kind, &walk, begin, &chunk);
+            find_weights(kind, &chunk, weight);
+            gather(t, kind, weight, window_of(patch + BACK_HEAT, BACK_STRIDE, walk.base), 1, heat);
+            for (int lane = 0; lane < chunk.count; lane++)
+                t->energy[chunk.index[lane]] += heat[0][lane];
         }
     }
 }
