@@ -104,27 +104,34 @@ BOLIDE_INLINE void points_load(const struct point_loop *loop, const int32_t *lis
     }
 }
 
-/* What the rates do to density and viscosity; the new one goes to VISCOSITY. UNRESOLVED is what
- * nodes do not resolve of the divergence, SHOCK becomes that of the particles; SOLID: the material has strength. */
-BOLIDE_INLINE void points_start(const struct point_loop *loop, bool solid, struct batch *b,
-                                const double *unresolved, double *viscosity, double *shock)
+/* What a batch has beside its states: whether it has strength; the new viscosity, and how much of a
+ * shock a particle is in. */
+struct batch_flow {
+    bool solid;
+    double viscosity[BATCH], shock[BATCH];
+};
+
+/* What the rates do to density and viscosity. UNRESOLVED is what nodes do not resolve of the
+ * divergence. */
+BOLIDE_INLINE void points_start(const struct point_loop *loop, struct batch *b,
+                                const double *unresolved, struct batch_flow *of)
 {
     double before[BATCH], divergence[BATCH];
     for (int k = 0; k < b->count; k++) {
-        const double filtered = point_unresolved(loop, solid, unresolved[k], b->sound_long[k]);
+        const double filtered = point_unresolved(loop, of->solid, unresolved[k], b->sound_long[k]);
         divergence[k] =
             b->strain_rate[0][k] + b->strain_rate[1][k] + b->strain_rate[2][k] - filtered;
         b->new_density[k] = b->density[k] / (1.0 + b->dt * divergence[k]); /* (2-20) */
-        const struct point_flow flow = {solid, b->new_density[k], b->sound_long[k], divergence[k],
-                                        filtered};
-        viscosity[k] = point_viscosity(loop, &flow);
+        const struct point_flow flow = {of->solid, b->new_density[k], b->sound_long[k],
+                                        divergence[k], filtered};
+        of->viscosity[k] = point_viscosity(loop, &flow);
         before[k] = b->viscous_pressure[k];
-        b->viscous_pressure[k] = 0.5 * (before[k] + viscosity[k]);
+        b->viscous_pressure[k] = 0.5 * (before[k] + of->viscosity[k]);
     }
     for (int k = 0; k < b->count && loop->shock; k++) {
         const struct motion motion = batch_motion(b, k);
-        shock[k] = point_shock(viscosity[k], b->new_density[k], b->sound_long[k], divergence[k],
-                               norm_of(motion.strain_rate, motion.spin));
+        of->shock[k] = point_shock(of->viscosity[k], b->new_density[k], b->sound_long[k],
+                                   divergence[k], norm_of(motion.strain_rate, motion.spin));
     }
     for (int k = 0; k < b->count && loop->jaumann; k++) {
         const struct vec3 angle =
@@ -142,9 +149,8 @@ BOLIDE_INLINE void points_start(const struct point_loop *loop, bool solid, struc
     }
 }
 
-BOLIDE_INLINE bool points_keep(const struct point_loop *loop, bool solid, const int32_t *list,
-                               int count, const struct batch *b, const double *viscosity,
-                               const double *shock)
+BOLIDE_INLINE bool points_keep(const struct point_loop *loop, const int32_t *list, int count,
+                               const struct batch *b, const struct batch_flow *of)
 {
     double *strain = loop->history[HISTORY_plastic_strain],
            *heating = loop->history[HISTORY_plastic_heating],
@@ -167,10 +173,10 @@ BOLIDE_INLINE bool points_keep(const struct point_loop *loop, bool solid, const 
         strain[i] = b->plastic_strain[k];
         if (heating)
             heating[i] = b->plastic_heating[k];
-        loop->viscosity[i] = viscosity[k];
+        loop->viscosity[i] = of->viscosity[k];
         if (loop->shock)
             loop->shock[i] =
-                maximum(shock[k], point_overdrawn(solid, b->energy[k], b->sound_long[k]));
+                maximum(of->shock[k], point_overdrawn(of->solid, b->energy[k], b->sound_long[k]));
         loop->sound[i] = b->sound_long[k];
         zero += 0.0 * ((x[0] + x[1]) + (x[2] + u[0]) + (u[1] + u[2]));
     }

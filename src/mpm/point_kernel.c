@@ -9,14 +9,13 @@ ISA_KERNEL(bool, point_loop_run, const struct point_loop *loop, const struct mat
     for (int32_t first = begin; first < end; first += BATCH) {
         const int count = end - first < BATCH ? end - first : BATCH;
         struct batch batch;
-        double viscosity[BATCH], shock[BATCH];
+        struct batch_flow flow;
+        flow.solid = material_has_strength(material);
         points_load(loop, list + first, loop->rate + first, count, &batch);
-        points_start(loop, material_has_strength(material), &batch,
-                     loop->rate + first + (size_t)RATE_UNRESOLVED * loop->rate_stride, viscosity,
-                     shock);
+        points_start(loop, &batch, loop->rate + first + (size_t)RATE_UNRESOLVED * loop->rate_stride,
+                     &flow);
         batch_step(material, &batch);
-        possible &= points_keep(loop, material_has_strength(material), list + first, count, &batch,
-                                viscosity, shock);
+        possible &= points_keep(loop, list + first, count, &batch, &flow);
     }
     return possible;
 }

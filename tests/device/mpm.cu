@@ -2,11 +2,12 @@
  * particles, and with a particle. Dimension and shape functions are known at run time only. */
 #include "grid/cell_kernel.h"
 #include "mpm/point_body.h"
-#include "mpm/transfer_body.h"
+#include "mpm/transfer_mixing.h"
 
 __global__ void scatter(struct transfer transfer, struct kind kind)
 {
     bin_scatter(&transfer, kind, (int32_t)blockIdx.x);
+    bin_push(&transfer, kind, (int32_t)blockIdx.x);
     bin_slopes(&transfer, kind, (int32_t)blockIdx.x);
 }
 
@@ -29,14 +30,12 @@ __global__ void step_particles(struct point_loop loop, const struct material *ma
 }
 
 __global__ void step_batch(struct point_loop loop, const struct material *material,
-                           const int32_t *list, struct batch *batch, double *viscosity,
-                           double *shock)
+                           const int32_t *list, struct batch *batch, struct batch_flow *flow)
 {
     points_load(&loop, list, loop.rate, BATCH, batch);
-    points_start(&loop, material_has_strength(material), batch,
-                 loop.rate + (size_t)RATE_UNRESOLVED * loop.rate_stride, viscosity, shock);
+    points_start(&loop, batch, loop.rate + (size_t)RATE_UNRESOLVED * loop.rate_stride, flow);
     batch_step(material, batch);
-    points_keep(&loop, list, BATCH, batch, viscosity, shock);
+    points_keep(&loop, list, BATCH, batch, flow);
 }
 
 __global__ void find_cells(struct cell_loop loop, const double *corner, double *number)
