@@ -6,6 +6,7 @@
  * that of matter at rest behind it, which waves run out into (Lysmer and Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859),
  *   f_n = -(p - p0) A_n - rho c A_n v_n'
  * with v' at the end of the step, or else that of what leaves. */
+#include <assert.h>
 #include <string.h>
 
 #include "mpm/mpm_internal.h"
@@ -50,6 +51,7 @@ static void give(const struct mpm *mpm, const struct layer *layer, const struct 
     const int dimension = layer->grid.dimension, window = 1 + layer->grid.reach + layer->grid.after;
     double value[3][4], slope[3][4];
     int count[3] = {1, 1, 1};
+    assert(1 <= dimension && dimension <= 3);
     for (int axis = 0; axis < dimension; axis++) {
         count[axis] = window;
         for (int k = 0; k < window; k++) {

@@ -43,7 +43,7 @@ BOLIDE_INLINE void point_advance(const struct point_loop *loop, const struct mat
     const struct vec3 spin = vec3_make(rate[6], rate[7], rate[8]);
     motion.spin = spin;
     motion.density = loop->density[i] / (1.0 + loop->dt * divergence); /* (2-20) */
-    motion.energy = 0.0;
+    motion.energy = motion.compaction = 0.0;
     point.density = loop->density[i];
     point.energy = loop->energy[i];
     point.pressure = loop->pressure[i];

@@ -50,7 +50,7 @@ BOLIDE_INLINE void gather_heat(const struct transfer *t, struct kind kind,
                                const struct chunk *chunk, struct window nodes, struct window heats,
                                double *gain)
 {
-    ALIGNED double weight[NODES_MAX][LANES], energy[LANES];
+    ALIGNED double weight[NODES_MAX][LANES], energy[LANES] = {0.0};
     const double(*w)[LANES] = weight;
     find_weights(kind, chunk, weight);
     FOR_LANES(kind, lane)
