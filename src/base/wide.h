@@ -4,6 +4,8 @@
 #ifndef BOLIDE_WIDE_H
 #define BOLIDE_WIDE_H
 
+#include <string.h>
+
 #include "base/base.h"
 
 #if !defined(__cplusplus)
@@ -37,6 +39,22 @@ template <int N> BOLIDE_INLINE wide<N> operator*(double factor, const wide<N> &a
     return product;
 }
 
+template <int N> BOLIDE_INLINE wide<N> operator*(const wide<N> &a, const wide<N> &b)
+{
+    wide<N> product;
+    for (int k = 0; k < N; k++)
+        product.at[k] = a.at[k] * b.at[k];
+    return product;
+}
+
+template <int N> BOLIDE_INLINE wide<N> operator-(const wide<N> &a, const wide<N> &b)
+{
+    wide<N> difference;
+    for (int k = 0; k < N; k++)
+        difference.at[k] = a.at[k] - b.at[k];
+    return difference;
+}
+
 template <int N> BOLIDE_INLINE wide<N> operator+(const wide<N> &a, const wide<N> &b)
 {
     wide<N> sum;
@@ -57,6 +75,28 @@ BOLIDE_INLINE void keys16_count_below(keys16 *below, const keys16 *own, uint32_t
 }
 
 #endif
+
+/* As many numbers in memory, of any alignment, as one; and one that is added to them. */
+BOLIDE_INLINE vector4 vector4_load(const double *from)
+{
+    vector4 v;
+    memcpy(&v, from, sizeof v);
+    return v;
+}
+
+BOLIDE_INLINE void vector4_add_to(double *to, vector4 more)
+{
+    const vector4 sum = vector4_load(to) + more;
+    memcpy(to, &sum, sizeof sum);
+}
+
+BOLIDE_INLINE void vector8_add_to(double *to, vector8 more)
+{
+    vector8 sum;
+    memcpy(&sum, to, sizeof sum);
+    sum += more;
+    memcpy(to, &sum, sizeof sum);
+}
 
 BOLIDE_INLINE void vector8_clear(vector8 *sum, int count)
 {

@@ -105,17 +105,19 @@ BOLIDE_INLINE void add_node_record(const struct transfer *t, struct kind kind,
         }
 }
 
-/* Adds the sums of a cell to its nodes in the patch, STRIDE numbers each. */
-BOLIDE_INLINE void add_sums(const struct transfer *t, struct kind kind, size_t base,
-                            const void *sums, int stride, double *patch)
+/* Adds the sums of a cell to its nodes in the patch. */
+BOLIDE_INLINE void add_sums8(const struct transfer *t, struct kind kind, size_t base,
+                             const vector8 *sum, double *patch)
 {
-    const double *sum = (const double *)sums;
     FOR_NODES(kind, a, b, c)
-    {
-        double *node = patch + node_of(t, kind, base, a, b, c) * (size_t)stride;
-        for (int k = 0; k < stride; k++)
-            node[k] += *sum++;
-    }
+    vector8_add_to(patch + node_of(t, kind, base, a, b, c) * NODE_STRIDE, *sum++);
+}
+
+BOLIDE_INLINE void add_sums4(const struct transfer *t, struct kind kind, size_t base,
+                             const vector4 *sum, double *patch)
+{
+    FOR_NODES(kind, a, b, c)
+    vector4_add_to(patch + node_of(t, kind, base, a, b, c) * BACK_STRIDE, *sum++);
 }
 
 /* Adds what the lanes of a chunk have to the sums of their nodes; by faces without forces. */
@@ -163,8 +165,7 @@ BOLIDE_INLINE void bin_scatter(const struct transfer *t, struct kind kind, int32
         if (walk.count == 0)
             continue;
         vector8_clear(sum, nodes_of(kind));
-        if (stress)
-            clear_faces(kind, t->axisymmetric, &through);
+        clear_faces(kind, t->axisymmetric, &through);
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             if (stress) {
@@ -181,7 +182,7 @@ BOLIDE_INLINE void bin_scatter(const struct transfer *t, struct kind kind, int32
                     add_affine(t, kind, &chunk, lane, at, node + NODE_MOMENTUM);
                 }
         }
-        add_sums(t, kind, walk.base, sum, NODE_STRIDE, patch);
+        add_sums8(t, kind, walk.base, sum, patch);
         if (stress)
             keep_faces(t, kind, walk.base, &through, stress);
     }
@@ -365,7 +366,7 @@ BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int3
                 }
         }
         if (back)
-            add_sums(t, kind, walk.base, sum, BACK_STRIDE, back);
+            add_sums4(t, kind, walk.base, sum, back);
     }
 }
 
@@ -403,7 +404,7 @@ BOLIDE_INLINE void bin_again(const struct transfer *t, struct kind kind, int32_t
             }
         }
         if (walk.count)
-            add_sums(t, kind, walk.base, sum, NODE_STRIDE, to);
+            add_sums8(t, kind, walk.base, sum, to);
     }
 }
 

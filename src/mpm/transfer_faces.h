@@ -87,8 +87,9 @@ BOLIDE_INLINE void load_face_records(const struct transfer *t, struct kind kind,
         const double v = lane < chunk->count ? t->mass[i] / (t->density[i] * edge) : 0.0;
         const double p = t->pressure[i] + t->viscosity[i] - t->gauge[t->material[i]];
         const double *s = t->deviator[i];
-        const vector4 x = {v * (s[0] - p), v * s[3], v * s[5], v * full},
-                      y = {v * s[3], v * (s[1] - p), v * s[4], v * full},
+        const double to_z = kind.dimension > 2 ? v : 0.0; /* else numbers of the node stand there */
+        const vector4 x = {v * (s[0] - p), v * s[3], to_z * s[5], v * full},
+                      y = {v * s[3], v * (s[1] - p), to_z * s[4], v * full},
                       z = {v * s[5], v * s[4], v * (s[2] - p), v * full};
         records->of[0][lane] = x;
         records->of[1][lane] = y;
@@ -143,17 +144,12 @@ BOLIDE_INLINE void keep_faces(const struct transfer *t, struct kind kind, size_t
                               const struct face_sums *sums, double *stress)
 {
     for (int d = 0; d < kind.dimension; d++) {
-        const double *sum = (const double *)sums->of[d];
+        const vector4 *sum = sums->of[d];
         FOR_FACES(kind, d, a, b, c)
-        {
-            double *face =
-                stress + (node_of(t, kind, base, a, b, c) * (size_t)kind.dimension + (size_t)d) *
-                             FACE_STRIDE;
-            for (int k = 0; k < FACE_STRIDE; k++)
-                if (!(kind.dimension == 2 && k == FACE_RING))
-                    face[k] += sum[k];
-            sum += FACE_STRIDE;
-        }
+        vector4_add_to(stress +
+                           (node_of(t, kind, base, a, b, c) * (size_t)kind.dimension + (size_t)d) *
+                               FACE_STRIDE,
+                       *sum++);
     }
     if (!(kind.dimension == 2 && t->axisymmetric))
         return;
@@ -187,11 +183,19 @@ BOLIDE_INLINE int patch_step(const struct transfer *t, struct kind kind, int axi
     return step;
 }
 
-/* The factor of what pushes along COMPONENT through a face across AXIS. Shear goes as particles have
- * it: pairs of equal shear turn nothing, and with other factors they would. */
-BOLIDE_INLINE double face_factor(const double *fill, int axis, int component)
+/* The factors of what pushes along each axis through a face across AXIS of a node with FILL. Shear
+ * goes as particles have it: pairs of equal shear turn nothing, and with other factors they would. */
+BOLIDE_INLINE vector4 face_factors(struct kind kind, const double *fill, int axis)
 {
-    return axis == component ? fill[axis] : 1.0;
+    const vector4 factors = {axis == 0 ? fill[0] : 1.0,
+                             kind.dimension < 2 ? 0.0
+                             : axis == 1        ? fill[1]
+                                                : 1.0,
+                             kind.dimension < 3 ? 0.0
+                             : axis == 2        ? fill[2]
+                                                : 1.0,
+                             0.0};
+    return factors;
 }
 
 BOLIDE_INLINE void bin_push(const struct transfer *t, struct kind kind, int32_t bin)
@@ -202,13 +206,11 @@ BOLIDE_INLINE void bin_push(const struct transfer *t, struct kind kind, int32_t 
     for (int d = 0; d < kind.dimension; d++) {
         const int step = patch_step(t, kind, d);
         for (int n = 0; n + step < t->grid->patch; n++) {
-            const double *face = stress + (n * kind.dimension + d) * FACE_STRIDE;
-            double *low = patch + n * NODE_STRIDE + NODE_FORCE, *high = low + step * NODE_STRIDE;
-            for (int k = 0; k < kind.dimension; k++) {
-                const double push = face[k] * face_factor(fill + n * FILL_STRIDE, d, k);
-                low[k] += push;
-                high[k] -= push;
-            }
+            const vector4 push = vector4_load(stress + (n * kind.dimension + d) * FACE_STRIDE) *
+                                 face_factors(kind, fill + n * FILL_STRIDE, d);
+            double *low = patch + n * NODE_STRIDE + NODE_FORCE;
+            vector4_add_to(low, push);
+            vector4_add_to(low + step * NODE_STRIDE, -1.0 * push);
         }
     }
     for (int n = 0; n < t->grid->patch && kind.dimension == 2 && t->axisymmetric; n++)
@@ -228,13 +230,13 @@ BOLIDE_INLINE void bin_stretch(const struct transfer *t, struct kind kind, int32
         const int step = patch_step(t, kind, d);
         for (int n = 0; n + step < t->grid->patch; n++) {
             const double *low = patch + n * NODE_STRIDE, *high = low + step * NODE_STRIDE;
-            double *face = stretch + (n * kind.dimension + d) * FACE_STRIDE;
-            for (int k = 0; k < kind.dimension; k++) {
-                const double more = high[NODE_VELOCITY + k] - low[NODE_VELOCITY + k],
-                             push = high[NODE_ACCELERATION + k] - low[NODE_ACCELERATION + k];
-                face[k] = dt * per_edge * (more - 0.5 * dt * push) *
-                          face_factor(fill + n * FILL_STRIDE, d, k);
-            }
+            const vector4 more = vector4_load(high + NODE_VELOCITY) -
+                                 vector4_load(low + NODE_VELOCITY),
+                          push = vector4_load(high + NODE_ACCELERATION) -
+                                 vector4_load(low + NODE_ACCELERATION),
+                          mean = dt * per_edge * (more - 0.5 * dt * push) *
+                                 face_factors(kind, fill + n * FILL_STRIDE, d);
+            memcpy(stretch + (n * kind.dimension + d) * FACE_STRIDE, &mean, sizeof mean);
         }
     }
     for (int n = 0; n < t->grid->patch && kind.dimension == 2 && t->axisymmetric; n++) {

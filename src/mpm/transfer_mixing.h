@@ -30,7 +30,7 @@ BOLIDE_INLINE void bin_heat(const struct transfer *t, struct kind kind, int32_t 
             }
             add_records4(kind, nodes_of(kind), weight, record, sum);
         }
-        add_sums(t, kind, walk.base, sum, BACK_STRIDE, patch);
+        add_sums4(t, kind, walk.base, sum, patch);
     }
 }
 

@@ -128,18 +128,20 @@ BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
                                struct chunk *chunk)
 {
     const double per_edge = 1.0 / t->edge;
-    ALIGNED double xi[LANES], half[LANES];
+    ALIGNED double place[3][LANES], half[LANES];
     FOR_LANES(kind, lane)
     chunk->index[lane] = walk->list[begin + (lane < count ? lane : count - 1)];
     const bool sized = t->shape == SHAPE_GIMP || t->axisymmetric;
     for (int lane = 0; lane < kind.lanes && sized; lane++)
         half[lane] = t->half_size[t->body[chunk->index[lane]]];
+    for (int lane = 0; lane < kind.lanes; lane++)
+        for (int axis = 0; axis < kind.dimension; axis++)
+            place[axis][lane] = t->position[chunk->index[lane]][axis];
     for (int axis = 0; axis < kind.dimension; axis++) {
-        double(*value)[LANES] = chunk->value[axis], (*slope)[LANES] = chunk->slope[axis];
+        double(*value)[LANES] = chunk->value[axis], (*slope)[LANES] = chunk->slope[axis],
+        *xi = place[axis];
         FOR_LANES(kind, lane)
-        xi[lane] = t->position[chunk->index[lane]][axis];
-        FOR_LANES(kind, lane)
-        xi[lane] = xi[lane] / t->edge - (double)walk->index[axis];
+        xi[lane] = xi[lane] * per_edge - (double)walk->index[axis];
         if (kind.window == 2)
             FOR_LANES(kind, lane)
             {
