@@ -30,6 +30,7 @@ struct column {
     bool distributed; /* over the ranks, a row a particle; otherwise rank 0 knows all */
     void (*fill)(const void *context, int64_t begin, int64_t end, void *out);
     const void *context;
+    const char *unit; /* NULL or empty: none */
 };
 
 /* Where rows go. */
@@ -37,6 +38,20 @@ struct sink {
     hid_t dataset, space;
     const struct column *column;
 };
+
+/* Whether OBJECT got the attribute NAME with TEXT. */
+static bool put_text(hid_t object, const char *name, const char *text)
+{
+    hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, strlen(text));
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    const bool done = attribute >= 0 && H5Awrite(attribute, type, text) >= 0;
+    H5Aclose(attribute);
+    H5Sclose(space);
+    H5Tclose(type);
+    return done;
+}
 
 /* HDF5 forgets why a call failed at the next one: an error is made before anything is closed. */
 static struct error *put_rows(void *context, int64_t at, int64_t count, const void *rows)
@@ -68,6 +83,11 @@ static struct sink open_sink(const struct writing *w, const struct column *colum
     sink.dataset = H5Dcreate2(w->group, column->name, column->type, sink.space, H5P_DEFAULT,
                               creation, H5P_DEFAULT);
     H5Pclose(creation);
+    if (sink.dataset >= 0 && column->unit && *column->unit &&
+        !put_text(sink.dataset, "unit", column->unit)) {
+        H5Dclose(sink.dataset);
+        sink.dataset = H5I_INVALID_HID;
+    }
     return sink;
 }
 
@@ -141,63 +161,42 @@ static void fill_view(const void *context, int64_t begin, int64_t end, void *out
     }
 }
 
-/* "velocity [m s-1]" in fresh memory. HDF5 takes '/' in a name for a path, so that what stands
- * behind one gets a negative exponent, as in the CF conventions: "J/(kg*K)" is "J kg-1 K-1". */
-static char *field_name(const struct view *view)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out)
-        return NULL;
-    fputs(view->name, out);
-    const char *opening = " [";
-    bool below = false, group = false;
-    for (const char *at = view->unit ? view->unit : ""; *at;) {
-        if (*at == '/' || *at == '(' || *at == ')' || *at == '*') {
-            below = *at == '/' || (group && *at != ')') || (below && *at == '(');
-            group = *at == '(' || (group && *at != ')');
-            at++;
-            continue;
-        }
-        int length = (int)strcspn(at, "/*()^");
-        const char *symbol = at;
-        char *end = (char *)at + length;
-        long power = *end == '^' ? strtol(end + 1, &end, 10) : 1;
-        at = end;
-        if (length == 1 && *symbol == '1')
-            continue;
-        fprintf(out, "%s%.*s", opening, length, symbol);
-        if (below || power != 1)
-            fprintf(out, "%ld", below ? -power : power);
-        opening = " ";
-    }
-    if (opening[1] == '\0')
-        fputc(']', out);
-    return fclose(out) ? NULL : text;
-}
-
 static void write_view(struct writing *w, const struct view *view, int64_t count)
 {
-    char *name = field_name(view);
-    if (!name)
-        w->error = error_join(w->error, error_new(ERROR_SYSTEM, "out of memory"));
-    write_column(w, &(struct column){name ? name : view->name, H5T_NATIVE_FLOAT, count,
-                                     view->components, true, fill_view, view});
-    free(name);
+    write_column(w, &(struct column){view->name, H5T_NATIVE_FLOAT, count, view->components, true,
+                                     fill_view, view, view->unit});
+}
+
+/* Writes the NAMES that the numbers of a field stand for, as ASCII texts of any length: VTK 9.1 reads no
+ * others. */
+static void write_names(struct writing *w, const char *dataset, const struct named_map *names)
+{
+    if (!w->here || w->error || names->count == 0)
+        return;
+    hid_t type = H5Tcopy(H5T_C_S1), creation = hdf5_creation_list(H5P_DATASET_CREATE);
+    H5Tset_size(type, H5T_VARIABLE);
+    hid_t space = H5Screate_simple(1, (const hsize_t[]){(hsize_t)names->count}, NULL);
+    hid_t set = H5Dcreate2(w->group, dataset, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, names->names) < 0)
+        w->error = hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", dataset);
+    if (set >= 0)
+        H5Dclose(set);
+    H5Sclose(space);
+    H5Pclose(creation);
+    H5Tclose(type);
 }
 
 static void write_geometry(struct writing *w, int64_t count)
 {
     const struct particles *particles = &w->simulation->particles;
     const struct column columns[] = {
-        {"NumberOfPoints", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count},
-        {"NumberOfCells", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count},
-        {"NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count},
-        {"Points", H5T_NATIVE_DOUBLE, count, 3, true, fill_positions, particles},
-        {"Connectivity", H5T_NATIVE_INT64, count, 1, false, fill_counting, NULL},
-        {"Offsets", H5T_NATIVE_INT64, count + 1, 1, false, fill_counting, NULL},
-        {"Types", H5T_NATIVE_UINT8, count, 1, false, fill_types, NULL},
+        {"NumberOfPoints", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count, NULL},
+        {"NumberOfCells", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count, NULL},
+        {"NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count, NULL},
+        {"Points", H5T_NATIVE_DOUBLE, count, 3, true, fill_positions, particles, NULL},
+        {"Connectivity", H5T_NATIVE_INT64, count, 1, false, fill_counting, NULL, NULL},
+        {"Offsets", H5T_NATIVE_INT64, count + 1, 1, false, fill_counting, NULL, NULL},
+        {"Types", H5T_NATIVE_UINT8, count, 1, false, fill_types, NULL, NULL},
     };
     for (size_t i = 0; i < COUNT_OF(columns); i++)
         write_column(w, &columns[i]);
@@ -207,9 +206,9 @@ static void write_points(struct writing *w, const struct views *views, int64_t c
 {
     const struct particles *particles = &w->simulation->particles;
     const struct column columns[] = {
-        {"id", H5T_NATIVE_INT64, count, 1, true, fill_ids, particles},
-        {"material", H5T_NATIVE_UINT16, count, 1, true, fill_numbers, particles->material},
-        {"body", H5T_NATIVE_UINT16, count, 1, true, fill_numbers, particles->body},
+        {"id", H5T_NATIVE_INT64, count, 1, true, fill_ids, particles, NULL},
+        {"material", H5T_NATIVE_UINT16, count, 1, true, fill_numbers, particles->material, NULL},
+        {"body", H5T_NATIVE_UINT16, count, 1, true, fill_numbers, particles->body, NULL},
     };
     for (size_t i = 0; i < COUNT_OF(columns); i++)
         write_column(w, &columns[i]);
@@ -221,17 +220,21 @@ static void write_points(struct writing *w, const struct views *views, int64_t c
 static void write_moment(struct writing *w)
 {
     const struct column columns[] = {
-        {"time [s]", H5T_NATIVE_DOUBLE, 1, 1, false, fill_one, &w->simulation->time},
-        {"step", H5T_NATIVE_INT64, 1, 1, false, fill_one, &w->simulation->step},
+        {"time", H5T_NATIVE_DOUBLE, 1, 1, false, fill_one, &w->simulation->time, "s"},
+        {"step", H5T_NATIVE_INT64, 1, 1, false, fill_one, &w->simulation->step, NULL},
     };
+    const struct simulation_case *input = w->simulation->input;
     for (size_t i = 0; i < COUNT_OF(columns); i++)
         write_column(w, &columns[i]);
+    if (input) { /* else a program made the particles */
+        write_names(w, "bodies", &input->bodies);
+        write_names(w, "materials", &input->materials);
+    }
 }
 
 /* What makes the group /VTKHDF one: its version and the kind of data, a text of fixed length. */
 static bool mark_as_vtk(hid_t root)
 {
-    static const char kind[] = "UnstructuredGrid";
     const int64_t version[2] = {1, 0};
     hid_t space = H5Screate_simple(1, (const hsize_t[]){2}, NULL);
     hid_t attribute =
@@ -239,17 +242,7 @@ static bool mark_as_vtk(hid_t root)
     bool done = attribute >= 0 && H5Awrite(attribute, H5T_NATIVE_INT64, version) >= 0;
     H5Aclose(attribute);
     H5Sclose(space);
-
-    hid_t type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, strlen(kind));
-    H5Tset_strpad(type, H5T_STR_NULLPAD);
-    space = H5Screate(H5S_SCALAR);
-    attribute = H5Acreate2(root, "Type", type, space, H5P_DEFAULT, H5P_DEFAULT);
-    done = done && attribute >= 0 && H5Awrite(attribute, type, kind) >= 0;
-    H5Aclose(attribute);
-    H5Sclose(space);
-    H5Tclose(type);
-    return done;
+    return done && put_text(root, "Type", "UnstructuredGrid");
 }
 
 static void write_all(struct writing *w, hid_t file, const struct views *views)
