@@ -150,7 +150,8 @@ static struct error *find_places(const struct measurement *measurement, const do
                                  const double *field, double reach, struct places *places)
 {
     const struct ranks *ranks = measurement->simulation->ranks;
-    const struct particles *p = &measurement->simulation->particles;
+    const struct population population = simulation_population(measurement->simulation),
+                            *p = &population;
     const double cell = measurement->simulation->input->resolution;
     const int body = measure_body(measurement);
     bool done = true;
@@ -234,7 +235,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
 {
     const struct measure_asymmetry *parameters = measurement->check->measure.value;
     const struct simulation *simulation = measurement->simulation;
-    const int32_t count = simulation->particles.count;
+    const int32_t count = simulation_population(simulation).count;
     const struct view *view;
     int component;
     TRY(views_choose(measurement->views, parameters->field, NULL, 0, &view, &component));

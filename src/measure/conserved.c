@@ -27,7 +27,8 @@ static double change_of(const struct totals *now, const struct totals *booked,
 /* Largest distance of a particle from the origin of space. */
 static double reach(const struct simulation *simulation)
 {
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     double largest = 0.0;
     for (int32_t i = 0; i < particles->count; i++) {
         const double *x = particles->position[i];
@@ -42,7 +43,7 @@ static double relative(double change, double scale) { return change == 0.0 ? 0.0
 double conserved_change(const struct simulation *simulation, const struct totals *start,
                         enum conserved_total total)
 {
-    struct totals now = particles_totals(&simulation->particles, simulation->ranks, -1);
+    struct totals now = population_totals(simulation_population(simulation), simulation->ranks, -1);
     struct totals booked = ledger_totals(&simulation->ledger, simulation->ranks, LEDGER_CAUSES);
     double motion = maximum(now.momentum_scale, start->momentum_scale), scale;
     switch (total) {

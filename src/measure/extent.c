@@ -38,7 +38,7 @@ static struct error *unit(const struct measurement *measurement, const char **un
 static struct error *find_margins(const struct measurement *measurement, double **margin)
 {
     const struct measure_extent *parameters = measurement->check->measure.value;
-    const int32_t count = measurement->simulation->particles.count;
+    const int32_t count = simulation_population(measurement->simulation).count;
     int component = 0;
     const struct view *diameter =
         parameters->edges ? views_find(measurement->views, "diameter", &component) : NULL;
@@ -54,7 +54,8 @@ static struct error *find_margins(const struct measurement *measurement, double 
 
 static double width(const struct measurement *measurement, const double *margin, int body, int axis)
 {
-    const struct particles *particles = &measurement->simulation->particles;
+    const struct population population = simulation_population(measurement->simulation),
+                            *particles = &population;
     const struct ranks *ranks = measurement->simulation->ranks;
     double low = INFINITY, high = -INFINITY;
     for (int32_t i = 0; i < particles->count; i++)
@@ -67,7 +68,8 @@ static double width(const struct measurement *measurement, const double *margin,
 
 static double radius(const struct measurement *measurement, const double *margin, int body)
 {
-    const struct particles *particles = &measurement->simulation->particles;
+    const struct population population = simulation_population(measurement->simulation),
+                            *particles = &population;
     const struct vec3 center =
         measure_center(measurement, (const double(*)[3])particles->position, body);
     double largest = 0.0;

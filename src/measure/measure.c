@@ -127,7 +127,8 @@ static bool selects(const struct selection *selection, double at, int body)
 
 struct vec3 measure_center(const struct measurement *measurement, const double (*at)[3], int body)
 {
-    const struct particles *particles = &measurement->simulation->particles;
+    const struct population population = simulation_population(measurement->simulation),
+                            *particles = &population;
     struct exact_sum sums[4] = {{{0}, 0, false}};
     for (int32_t i = 0; i < particles->count; i++) {
         if (body >= 0 && particles->body[i] != body)
@@ -155,30 +156,30 @@ static double place_of(const struct selection *selection, const double x[3])
 bool measure_takes(const struct measurement *measurement, int body, int32_t i)
 {
     const struct check_input *check = measurement->check;
-    const struct particles *p = &measurement->simulation->particles;
+    const struct population population = simulation_population(measurement->simulation),
+                            *p = &population;
     const struct selection selection = {body, check->axis, check->between, check->about};
     return selects(&selection, place_of(&selection, p->position[i]), p->body[i]);
 }
 
-struct error *samples_select(const struct particles *particles, const struct view *view,
-                             int component, const struct selection *selection,
-                             struct samples *samples)
+struct error *samples_select(struct population population, const struct view *view, int component,
+                             const struct selection *selection, struct samples *samples)
 {
-    size_t room = (size_t)particles->count + 1;
+    size_t room = (size_t)population.count + 1;
     double *values = memory_allocate(room * sizeof *values);
     *samples = (struct samples){0, memory_allocate(room * sizeof *samples->at)};
     if (!values || !samples->at) {
         free(values);
         samples_free(samples);
         return error_new(ERROR_SYSTEM, "out of memory for the values of %d particles",
-                         (int)particles->count);
+                         (int)population.count);
     }
-    view_read_component(view, component, 0, particles->count, values);
-    for (int32_t i = 0; i < particles->count; i++) {
-        double at = place_of(selection, particles->position[i]);
-        if (selects(selection, at, particles->body[i]))
+    view_read_component(view, component, 0, population.count, values);
+    for (int32_t i = 0; i < population.count; i++) {
+        double at = place_of(selection, population.position[i]);
+        if (selects(selection, at, population.body[i]))
             samples->at[samples->count++] = (struct sample){
-                at, values[i], particles->mass[i] / particles->density[i], particles->body[i]};
+                at, values[i], population.mass[i] / population.density[i], population.body[i]};
     }
     free(values);
     return NULL;
@@ -195,7 +196,7 @@ struct error *samples_take(const struct measurement *measurement, struct samples
     *samples = (struct samples){0, NULL};
     TRY(find_field(measurement, &view, &component));
     struct error *error =
-        samples_select(&simulation->particles, view, component, &selection, samples);
+        samples_select(simulation_population(simulation), view, component, &selection, samples);
     error = ranks_agree(simulation->ranks, error);
     if (error)
         samples_free(samples);

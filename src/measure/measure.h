@@ -155,9 +155,8 @@ struct selection {
 };
 
 /* The owned particles of SELECTION with COMPONENT of VIEW. */
-struct error *samples_select(const struct particles *particles, const struct view *view,
-                             int component, const struct selection *selection,
-                             struct samples *samples);
+struct error *samples_select(struct population population, const struct view *view, int component,
+                             const struct selection *selection, struct samples *samples);
 /* The index of the body that the check is `of`, -1 for all. */
 int measure_body(const struct measurement *measurement);
 /* Whether the check speaks of particle I of BODY (-1: all), by `between`. */

@@ -64,7 +64,7 @@ static void search_free(struct search *search)
     free(search->parent);
 }
 
-static void take_points(struct search *search, const struct particles *p, const double *diameter,
+static void take_points(struct search *search, const struct population *p, const double *diameter,
                         double link, const struct remote *remote, int only)
 {
     for (int32_t i = 0; i < search->count; i++) {
@@ -156,7 +156,8 @@ static struct error *find_pieces(const struct measurement *measurement, const do
 {
     const struct measure_pieces *parameters = measurement->check->measure.value;
     const struct simulation *simulation = measurement->simulation;
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     struct search search = {0};
     struct error *error = NULL;
     bool made = search_allocate(&search, particles->count, ghosts->remotes);
@@ -182,7 +183,8 @@ static struct error *find_pieces(const struct measurement *measurement, const do
 static struct error *measure(const struct measurement *measurement, double *value)
 {
     const struct measure_pieces *parameters = measurement->check->measure.value;
-    const struct particles *particles = &measurement->simulation->particles;
+    const struct population population = simulation_population(measurement->simulation),
+                            *particles = &population;
     int component;
     const struct view *view = views_find(measurement->views, "diameter", &component);
     double *diameter = memory_allocate(((size_t)particles->count + 1) * sizeof *diameter);
@@ -195,8 +197,8 @@ static struct error *measure(const struct measurement *measurement, double *valu
     error = ranks_agree(measurement->simulation->ranks, error);
     if (!error) {
         view_read(view, 0, particles->count, diameter);
-        error =
-            halo_plan(particles, (struct reach){diameter, parameters->link}, 0.0, &ghosts, &halo);
+        error = halo_plan(&measurement->simulation->particles,
+                          (struct reach){diameter, parameters->link}, 0.0, &ghosts, &halo);
     }
     if (!error)
         error = find_pieces(measurement, diameter, &ghosts, value);

@@ -92,7 +92,8 @@ static struct vec3 vector_at(const double *at) { return vec3_make(at[0], at[1], 
 
 static void sum_whole(const struct simulation *simulation, int body, struct body_motion *motion)
 {
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     struct exact_sum sums[WHOLE_SUMS] = {0};
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (int32_t i = 0; i < particles->count; i++) {
@@ -137,7 +138,8 @@ static void add_inertia(struct exact_sum *sums, double mass, struct vec3 x)
 static void sum_about_centre(const struct simulation *simulation, int body,
                              struct body_motion *motion)
 {
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     struct exact_sum sums[CENTRE_SUMS] = {0};
     double inertia[6];
     for (int32_t i = 0; i < particles->count; i++) {

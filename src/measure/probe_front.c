@@ -28,8 +28,9 @@ static struct error *sample(struct probe *probe, const struct simulation *simula
 {
     const struct chosen_field *field = &probe->fields->field[0];
     struct samples samples = {0, NULL};
-    struct error *error = samples_select(&simulation->particles, &views->view[field->view],
-                                         field->component, &probe->selection, &samples);
+    struct error *error =
+        samples_select(simulation_population(simulation), &views->view[field->view],
+                       field->component, &probe->selection, &samples);
     error = ranks_agree(simulation->ranks, error);
     if (!error)
         error = front_place(simulation->ranks, &samples, probe->input->probe.value,

@@ -35,7 +35,8 @@ static struct error *prepare(struct probe *probe, const struct simulation *simul
 static void add_particle(const struct probe *probe, const struct simulation *simulation,
                          const struct views *views, int32_t index, struct exact_sum *sums)
 {
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     const int count = probe->fields->count;
     double volume = particles->mass[index] / particles->density[index];
     for (int i = 0; i < count; i++)
@@ -48,7 +49,8 @@ static struct error *sample(struct probe *probe, const struct simulation *simula
                             const struct views *views, double *row)
 {
     const struct probe_gauge *gauge = probe->input->probe.value;
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     const int count = probe->fields->count;
     double radius = isnan(gauge->radius) ? simulation->input->resolution : gauge->radius;
     struct exact_sum *sums = memory_allocate(((size_t)count + 2) * sizeof *sums);

@@ -37,7 +37,8 @@ static uint64_t smallest_id(const struct ranks *ranks, uint64_t id)
 static uint64_t nearest_particle(const struct probe *probe, const struct simulation *simulation)
 {
     const struct probe_tracer *tracer = probe->input->probe.value;
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     double nearest = INFINITY;
     uint64_t id = UINT64_MAX;
     for (int32_t i = 0; i < particles->count; i++) {
@@ -53,15 +54,15 @@ static uint64_t nearest_particle(const struct probe *probe, const struct simulat
 }
 
 /* Where the particle lies now on this rank; -1 when it is not here. */
-static int32_t find_particle(struct probe *probe, const struct particles *particles)
+static int32_t find_particle(struct probe *probe, struct population population)
 {
-    if (probe->order == particles->order && probe->index >= 0 && probe->index < particles->count &&
-        particles->id[probe->index] == probe->id)
+    if (probe->order == population.order && probe->index >= 0 && probe->index < population.count &&
+        population.id[probe->index] == probe->id)
         return probe->index;
-    probe->order = particles->order;
+    probe->order = population.order;
     probe->index = -1;
-    for (int32_t i = 0; i < particles->count && probe->index < 0; i++)
-        if (particles->id[i] == probe->id)
+    for (int32_t i = 0; i < population.count && probe->index < 0; i++)
+        if (population.id[i] == probe->id)
             probe->index = i;
     return probe->index;
 }
@@ -72,7 +73,7 @@ static struct error *sample(struct probe *probe, const struct simulation *simula
 {
     if (probe->rows == 0)
         probe->id = nearest_particle(probe, simulation);
-    int32_t index = find_particle(probe, &simulation->particles);
+    int32_t index = find_particle(probe, simulation_population(simulation));
     bool anywhere = ranks_maximum(simulation->ranks, index) >= 0.0;
     for (int i = 0; i < probe->fields->count; i++) {
         struct exact_sum sum = {0};

@@ -130,7 +130,8 @@ static bool is_seen(const struct profile *profile, const struct simulation *simu
                     int32_t index)
 {
     const struct profile_input *input = profile->input;
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     double at = particles->position[index][input->along];
     return (!input->of || particles->body[index] == profile->body) &&
            (input->between.count != 2 ||
@@ -142,7 +143,8 @@ static void lay_bins(const struct profile *profile, const struct simulation *sim
                      struct sorting *sorting)
 {
     const struct profile_input *input = profile->input;
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     double low = INFINITY, high = -INFINITY;
     for (int32_t i = 0; i < particles->count; i++)
         if (is_seen(profile, simulation, i)) {
@@ -164,7 +166,8 @@ static void lay_bins(const struct profile *profile, const struct simulation *sim
     sorting->width = isnan(input->width) ? (high - low) / bins : input->width;
 }
 
-static int group_of(const struct profile *profile, const struct particles *particles, int32_t index)
+static int group_of(const struct profile *profile, const struct population *particles,
+                    int32_t index)
 {
     return profile->input->by == PROFILE_BY_MATERIAL ? particles->material[index]
            : profile->input->by == PROFILE_BY_BODY   ? particles->body[index]
@@ -174,7 +177,8 @@ static int group_of(const struct profile *profile, const struct particles *parti
 static int64_t place_of(const struct profile *profile, const struct simulation *simulation,
                         const struct sorting *sorting, int32_t index)
 {
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     double from_low = particles->position[index][profile->input->along] - sorting->low;
     double bin = sorting->width > 0.0 ? floor(from_low / sorting->width) : 0.0;
     /* What stands on the high end belongs to the last bin. */
@@ -188,7 +192,8 @@ static int64_t place_of(const struct profile *profile, const struct simulation *
 static struct error *sort(const struct profile *profile, const struct simulation *simulation,
                           struct sorting *sorting)
 {
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     lay_bins(profile, simulation, sorting);
     sorting->groups = groups_of(profile, simulation->input);
     sorting->places = sorting->groups * sorting->bins;
@@ -214,7 +219,7 @@ static void sum_up(const struct simulation *simulation, const struct sorting *so
                    const double *value, const struct scatter *mean, struct exact_sum *sums)
 {
     memset(sums, 0, (size_t)sorting->places * sizeof *sums);
-    for (int32_t i = 0; i < simulation->particles.count; i++) {
+    for (int32_t i = 0; i < simulation_population(simulation).count; i++) {
         int64_t k = sorting->place[i];
         if (k >= 0)
             exact_sum_add(&sums[k], mean ? square(value[i] - mean[k].mean) : value[i]);
@@ -233,7 +238,7 @@ static void find_scatter(const struct simulation *simulation, const struct sorti
     for (int64_t k = 0; k < sorting->places; k++)
         scatter[k].mean = exact_sum_value(&sums[k]) / (double)sorting->count[k];
     sum_up(simulation, sorting, value, scatter, sums);
-    for (int32_t i = 0; i < simulation->particles.count; i++) {
+    for (int32_t i = 0; i < simulation_population(simulation).count; i++) {
         int64_t k = sorting->place[i];
         if (k < 0)
             continue;
@@ -254,7 +259,7 @@ static struct error *find_all(const struct profile *profile, const struct simula
                               const struct views *views, const struct sorting *sorting,
                               struct scatter *scatter)
 {
-    const int32_t count = simulation->particles.count;
+    const int32_t count = simulation_population(simulation).count;
     double *value = memory_allocate(((size_t)count + 1) * sizeof *value);
     struct exact_sum *sums = memory_allocate(((size_t)sorting->places + 1) * sizeof *sums);
     double *ends = memory_allocate((2 * (size_t)sorting->places + 1) * sizeof *ends);

@@ -60,7 +60,8 @@ static int64_t take_particles(const struct measurement *measurement, const doubl
 {
     const struct measure_shear_layer *parameters = measurement->check->measure.value;
     const struct vector_value *between = &measurement->check->between;
-    const struct particles *p = &measurement->simulation->particles;
+    const struct population population = simulation_population(measurement->simulation),
+                            *p = &population;
     const int body = measure_body(measurement);
     int64_t count = 0;
     for (int32_t i = 0; i < p->count; i++) {
@@ -76,7 +77,7 @@ static int64_t take_particles(const struct measurement *measurement, const doubl
 static struct error *find_rows(const struct measurement *measurement, struct bands *rows)
 {
     const struct simulation *simulation = measurement->simulation;
-    const int32_t count = simulation->particles.count;
+    const int32_t count = simulation_population(simulation).count;
     double(*start)[3] = memory_allocate(((size_t)count + 1) * sizeof *start);
     struct band *own = memory_allocate(((size_t)count + 1) * sizeof *own);
     struct error *error = NULL;

@@ -45,7 +45,7 @@ static struct error *total_unit(const struct measurement *measurement, const cha
 /* The sum is exact, so that it is the same for any order of the particles. */
 static double volume_of(const struct simulation *simulation, int body)
 {
-    const struct particles *p = &simulation->particles;
+    const struct population population = simulation_population(simulation), *p = &population;
     struct exact_sum sum = {0};
     for (int32_t i = 0; i < p->count; i++)
         if (body < 0 || p->body[i] == body)
@@ -58,8 +58,8 @@ static struct error *total(const struct measurement *measurement, double *value)
 {
     const struct measure_total *parameters = measurement->check->measure.value;
     const struct simulation *simulation = measurement->simulation;
-    const struct totals totals =
-        particles_totals(&simulation->particles, simulation->ranks, measure_body(measurement));
+    const struct totals totals = population_totals(simulation_population(simulation),
+                                                   simulation->ranks, measure_body(measurement));
     *value = parameters->quantity == TOTAL_KINETIC    ? totals.kinetic
              : parameters->quantity == TOTAL_INTERNAL ? totals.internal
              : parameters->quantity == TOTAL_VOLUME

@@ -34,7 +34,8 @@ static struct error *unit(const struct measurement *measurement, const char **un
 static double angle(const struct measurement *measurement, const double (*start)[3])
 {
     const struct measure_turn *parameters = measurement->check->measure.value;
-    const struct particles *p = &measurement->simulation->particles;
+    const struct population population = simulation_population(measurement->simulation),
+                            *p = &population;
     const int body = measure_body(measurement), k = parameters->axis;
     const int a = (k + 1) % 3, b = (k + 2) % 3;
     const struct vec3 now_center =
@@ -58,7 +59,7 @@ static double angle(const struct measurement *measurement, const double (*start)
 static struct error *measure(const struct measurement *measurement, double *value)
 {
     const struct simulation *simulation = measurement->simulation;
-    const int32_t count = simulation->particles.count;
+    const int32_t count = simulation_population(simulation).count;
     double(*start)[3] = memory_allocate(((size_t)count + 1) * sizeof *start);
     struct error *error = NULL;
     if (!start)

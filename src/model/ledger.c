@@ -8,7 +8,7 @@ static const char *const cause_names[LEDGER_CAUSES] = {
     [LEDGER_WALLS] = "walls",     [LEDGER_AXIS] = "axis",   [LEDGER_PISTONS] = "pistons",
     [LEDGER_GRAVITY] = "gravity", [LEDGER_LOADS] = "loads", [LEDGER_OUTFLOWS] = "outflows"};
 
-/* Behind the entries of the ledger, what else particles_totals sums. */
+/* Behind the entries of the ledger, what else population_totals sums. */
 enum { TOTAL_KINETIC = LEDGER_ENTRIES, TOTAL_INTERNAL, TOTAL_MOMENTUM_SCALE, TOTALS };
 
 const char *ledger_cause_name(enum ledger_cause cause) { return cause_names[cause]; }
@@ -74,10 +74,10 @@ struct totals ledger_totals(const struct ledger *ledger, const struct ranks *ran
 }
 
 /* Adds those of particle I. */
-static void add_particle(const struct particles *particles, int32_t i, struct exact_sum *sums)
+static void add_member(const struct population *population, int32_t i, struct exact_sum *sums)
 {
-    const double *x = particles->position[i], *u = particles->velocity[i];
-    const double mass = particles->mass[i];
+    const double *x = population->position[i], *u = population->velocity[i];
+    const double mass = population->mass[i];
     const struct vec3 velocity = vec3_make(u[0], u[1], u[2]);
     const struct vec3 momentum = vec3_scale(mass, velocity);
     const double speed_square = vec3_dot(velocity, velocity);
@@ -85,21 +85,20 @@ static void add_particle(const struct particles *particles, int32_t i, struct ex
     add_vector(&sums[LEDGER_MOMENTUM_X], momentum);
     add_vector(&sums[LEDGER_ANGULAR_X], vec3_cross(vec3_make(x[0], x[1], x[2]), momentum));
     exact_sum_add(&sums[TOTAL_KINETIC], 0.5 * mass * speed_square);
-    exact_sum_add(&sums[TOTAL_INTERNAL], mass * particles->energy[i]);
+    exact_sum_add(&sums[TOTAL_INTERNAL], mass * population->energy[i]);
     exact_sum_add(&sums[TOTAL_MOMENTUM_SCALE], mass * sqrt(speed_square));
 }
 
-struct totals particles_totals(const struct particles *particles, const struct ranks *ranks,
-                               int body)
+struct totals population_totals(struct population population, const struct ranks *ranks, int body)
 {
     struct exact_sum sums[TOTALS] = {0};
-#pragma omp parallel num_threads(particles->threads)
+#pragma omp parallel num_threads(population.threads)
     {
         struct exact_sum own[TOTALS] = {0};
 #pragma omp for schedule(static)
-        for (int32_t i = 0; i < particles->count; i++)
-            if (body < 0 || particles->body[i] == body)
-                add_particle(particles, i, own);
+        for (int32_t i = 0; i < population.count; i++)
+            if (body < 0 || population.body[i] == body)
+                add_member(&population, i, own);
 #pragma omp critical(bolide_totals)
         for (int entry = 0; entry < TOTALS; entry++)
             exact_sum_join(&sums[entry], &own[entry]);

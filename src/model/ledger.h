@@ -6,8 +6,8 @@
 #include "base/vector.h"
 #include "base/visitor.h"
 #include "case/case.h"
+#include "model/population.h"
 #include "parallel/ranks.h"
-#include "particle/particles.h"
 
 /* Walls that push; the axis of symmetry, whose hoop stress does; what holds bodies (`driven`, `stop`); gravity; what
  * pushes on surfaces; faces that particles leave through. */
@@ -63,9 +63,8 @@ void ledger_join(struct ledger *ledger, const struct ledger *other);
 struct totals ledger_totals(const struct ledger *ledger, const struct ranks *ranks,
                             enum ledger_cause cause);
 
-/* Collective: mass, momentum, angular momentum, energy of the particles of BODY, of all for -1. */
-struct totals particles_totals(const struct particles *particles, const struct ranks *ranks,
-                               int body);
+/* Collective: mass, momentum, angular momentum, energy of the members of BODY, of all for -1. */
+struct totals population_totals(struct population population, const struct ranks *ranks, int body);
 
 /* The energy that is neither in NOW nor BOOKED, against the largest energy of NOW and START (the total
  * alone may be next to nothing, a sum of opposites), and at least what the pressures at the start can

@@ -61,6 +61,12 @@ void simulation_destroy(struct simulation *simulation);
  * store. Returns how many. */
 int simulation_history(const struct simulation *simulation, struct field_declaration *fields);
 
+/* What watchers of the run see of it. */
+BOLIDE_INLINE struct population simulation_population(const struct simulation *simulation)
+{
+    return population_of_particles(&simulation->particles);
+}
+
 /* True when the case has gravity. */
 BOLIDE_INLINE bool simulation_has_gravity(const struct simulation *simulation)
 {

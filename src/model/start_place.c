@@ -6,7 +6,8 @@
 void start_places(const struct simulation *simulation, int64_t begin, int64_t end,
                   double (*place)[3])
 {
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     struct lattice lattice = {0};
     struct lattice_row row = {0};
     int lattice_body = -1;

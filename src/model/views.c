@@ -13,17 +13,17 @@ enum { CHUNK = 256, COMPONENTS_MAX = 6 };
 
 static void compute_stress(const void *context, int64_t begin, int64_t end, double *out)
 {
-    const struct particles *particles = context;
+    const struct population p = simulation_population(context);
     for (int64_t i = begin; i < end; i++, out += 6)
         for (int k = 0; k < 6; k++)
-            out[k] = particles->deviator[i][k] - (k < 3 ? particles->pressure[i] : 0.0);
+            out[k] = p.deviator[i][k] - (k < 3 ? p.pressure[i] : 0.0);
 }
 
 static void compute_equivalent_stress(const void *context, int64_t begin, int64_t end, double *out)
 {
-    const struct particles *particles = context;
+    const struct population p = simulation_population(context);
     for (int64_t i = begin; i < end; i++) {
-        const double *s = particles->deviator[i];
+        const double *s = p.deviator[i];
         const struct sym3 deviator = {s[0], s[1], s[2], s[3], s[4], s[5]};
         *out++ = sym3_mises(deviator);
     }
@@ -31,9 +31,9 @@ static void compute_equivalent_stress(const void *context, int64_t begin, int64_
 
 static void compute_speed(const void *context, int64_t begin, int64_t end, double *out)
 {
-    const struct particles *particles = context;
+    const struct population p = simulation_population(context);
     for (int64_t i = begin; i < end; i++) {
-        const double *u = particles->velocity[i];
+        const double *u = p.velocity[i];
         *out++ = sqrt(square(u[0]) + square(u[1]) + square(u[2]));
     }
 }
@@ -41,18 +41,19 @@ static void compute_speed(const void *context, int64_t begin, int64_t end, doubl
 static void compute_displacement(const void *context, int64_t begin, int64_t end, double *out)
 {
     const struct simulation *simulation = context;
+    const struct population p = simulation_population(simulation);
     double(*moved)[3] = (double(*)[3])out;
     start_places(simulation, begin, end, moved);
     for (int64_t i = begin; i < end; i++)
         for (int k = 0; k < 3; k++)
-            moved[i - begin][k] = simulation->particles.position[i][k] - moved[i - begin][k];
+            moved[i - begin][k] = p.position[i][k] - moved[i - begin][k];
 }
 
 /* (m/rho)^(1/dimension), of axisymmetry that of the section. */
 static void compute_diameter(const void *context, int64_t begin, int64_t end, double *out)
 {
     const struct simulation *simulation = context;
-    const struct particles *p = &simulation->particles;
+    const struct population population = simulation_population(simulation), *p = &population;
     const bool round = simulation->geometry == GEOMETRY_AXISYMMETRIC;
     for (int64_t i = begin; i < end; i++) {
         const double depth = round ? p->position[i][0] : 1.0;
@@ -63,11 +64,10 @@ static void compute_diameter(const void *context, int64_t begin, int64_t end, do
 static void compute_temperature(const void *context, int64_t begin, int64_t end, double *out)
 {
     const struct simulation *simulation = context;
-    const struct particles *particles = &simulation->particles;
+    const struct population p = simulation_population(simulation);
     for (int64_t i = begin; i < end; i++) {
-        const struct material *material = &simulation->material[particles->material[i]];
-        *out++ = heat_temperature(&material->heat, &material->eos, particles->density[i],
-                                  particles->energy[i]);
+        const struct material *material = &simulation->material[p.material[i]];
+        *out++ = heat_temperature(&material->heat, &material->eos, p.density[i], p.energy[i]);
     }
 }
 
@@ -126,7 +126,7 @@ void views_add(struct views *views, struct view view)
 void views_of_particles(struct views *views, const struct simulation *simulation)
 {
     const struct particles *particles = &simulation->particles;
-    views->particles = particles;
+    views->dimension = particles->dimension;
     for (int i = 0; i < particles->fields; i++) {
         const struct field_declaration *declaration = &particles->field[i].declaration;
         if (declaration->number != NUMBER_DOUBLE || !declaration->unit)
@@ -142,7 +142,7 @@ void views_of_particles(struct views *views, const struct simulation *simulation
     }
     for (size_t i = 0; i < COUNT_OF(computed_views); i++) {
         struct view view = computed_views[i];
-        view.context = particles;
+        view.context = simulation;
         views_add(views, view);
     }
     int component;
@@ -258,7 +258,7 @@ struct error *views_choose(const struct views *views, const char *field, const c
     if (!around)
         return no_such_field(views, field, more, count);
     if (around->components > 1 && (!*view || *component < 0))
-        return choose_component(around, views->particles->dimension);
+        return choose_component(around, views->dimension);
     if (!*view)
         return error_new(ERROR_INPUT, "\"%s\": %s has no components", field, whole);
     if (*component < 0)

@@ -18,7 +18,7 @@ struct view {
 
 /* Views hold until the next step. */
 struct views {
-    const struct particles *particles;
+    int dimension;
     int count;
     struct view view[VIEWS_MAX];
 };

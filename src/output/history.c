@@ -125,7 +125,8 @@ static struct range over_ranks(const struct ranks *ranks, struct range range)
 
 static void find_extremes(const struct simulation *simulation, struct row *row)
 {
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     struct range density = {INFINITY, -INFINITY}, pressure = density, speed = density;
     for (int32_t i = 0; i < particles->count; i++) {
         const double *u = particles->velocity[i];
@@ -142,8 +143,8 @@ static struct row find_row(const struct simulation *simulation, double dt,
                            const struct totals *start)
 {
     struct row row = {.simulation = simulation, .dt = dt};
-    row.count = ranks_sum(simulation->ranks, simulation->particles.count);
-    row.now = particles_totals(&simulation->particles, simulation->ranks, -1);
+    row.count = ranks_sum(simulation->ranks, simulation_population(simulation).count);
+    row.now = population_totals(simulation_population(simulation), simulation->ranks, -1);
     for (int i = 0; i < LEDGER_CAUSES; i++)
         row.booked[i] = ledger_totals(&simulation->ledger, simulation->ranks, (enum ledger_cause)i);
     struct totals all = ledger_totals(&simulation->ledger, simulation->ranks, LEDGER_CAUSES);

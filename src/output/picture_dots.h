@@ -35,7 +35,7 @@ struct dots {
 };
 
 /* The dots of this rank's particles. Free dots->dot also after an error. */
-struct error *dots_take(const struct particles *particles, const struct shown *shown,
+struct error *dots_take(struct population population, const struct shown *shown,
                         const struct plane *plane, struct dots *dots);
 
 /* What is painted upon: columns left .. right - 1 and rows top .. bottom - 1 of pixels, the middle of the extents at (x, y)

@@ -341,7 +341,8 @@ static struct error *draw_line_problem(const char *path, const struct simulation
                                        const struct shown *shown, const char *field,
                                        struct range fixed)
 {
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     struct scatter scatter;
     struct error *error = NULL;
     if (scatter_allocate(&scatter, particles->count)) {
@@ -367,13 +368,13 @@ struct error *picture_particles(const char *path, const struct simulation *simul
     struct shown shown;
     struct range fixed = {low, high};
     TRY(shown_find(simulation, views, field, &shown));
-    if (simulation->particles.dimension == 1)
+    if (simulation_population(simulation).dimension == 1)
         return draw_line_problem(path, simulation, &shown, field, fixed);
     struct plane plane = plane_find(simulation);
     struct dots dots;
     struct surroundings around = {
         .simulation = simulation, .plane = &plane, .shown = &shown, .field = field};
-    struct error *error = dots_take(&simulation->particles, &shown, &plane, &dots);
+    struct error *error = dots_take(simulation_population(simulation), &shown, &plane, &dots);
     error = ranks_agree(simulation->ranks, error);
     if (!error)
         error = draw_plane(path, &around, &dots, fixed);

@@ -5,12 +5,12 @@
 enum { SLICE = 4096 };
 
 /* The edge of the square or cube that a particle fills; of RINGS that of their section. */
-static double particle_diameter(const struct particles *particles, bool rings, int64_t i)
+static double particle_diameter(struct population population, bool rings, int64_t i)
 {
-    double volume = particles->mass[i] / particles->density[i];
+    double volume = population.mass[i] / population.density[i];
     if (rings) /* mass is that of a radian */
-        volume /= fabs(particles->position[i][0]);
-    return diameter_of_volume(volume, particles->dimension);
+        volume /= fabs(population.position[i][0]);
+    return diameter_of_volume(volume, population.dimension);
 }
 
 /* Where the matter lies on a wall, its extent ends there. */
@@ -27,16 +27,15 @@ static void end_at_walls(struct plane *plane, const struct mirrors *mirrors)
 }
 
 /* Collective: extents and mean diameter of the particles of all ranks, without their size. */
-static void measure(const struct particles *particles, const struct ranks *ranks,
-                    struct plane *plane)
+static void measure(struct population population, const struct ranks *ranks, struct plane *plane)
 {
     struct range *extent = plane->extent;
     struct exact_sum logarithms = {0};
     int64_t counted = 0;
-    for (int64_t i = 0; i < particles->count; ++i) {
+    for (int64_t i = 0; i < population.count; ++i) {
         for (int axis = 0; axis < 3; ++axis)
-            range_include(&extent[axis], particles->position[i][axis]);
-        double logarithm = log(particle_diameter(particles, plane->rings, i));
+            range_include(&extent[axis], population.position[i][axis]);
+        double logarithm = log(particle_diameter(population, plane->rings, i));
         if (isfinite(logarithm)) {
             exact_sum_add(&logarithms, logarithm);
             ++counted;
@@ -56,7 +55,7 @@ struct plane plane_find(const struct simulation *simulation)
                           .up = 1,
                           .normal = -1,
                           .extent = {range_empty(), range_empty(), range_empty()}};
-    measure(&simulation->particles, simulation->ranks, &plane);
+    measure(simulation_population(simulation), simulation->ranks, &plane);
     for (int axis = 0; axis < 3; ++axis) {
         struct range *extent = &plane.extent[axis];
         if (!(extent->low <= extent->high))
@@ -65,7 +64,7 @@ struct plane plane_find(const struct simulation *simulation)
         extent->high += 0.5 * plane.diameter;
     }
     end_at_walls(&plane, &simulation->mirrors);
-    if (simulation->particles.dimension == 3) {
+    if (simulation_population(simulation).dimension == 3) {
         /* Of equal axes the last, but for rounding, so that x and y are the picture's. */
         plane.normal = 2;
         for (int axis = 1; axis >= 0; --axis)
@@ -80,12 +79,12 @@ struct plane plane_find(const struct simulation *simulation)
 
 /* Adds particle I, unless it lies outside of the slab: its centre within 3/4 of its diameter of the middle,
  * so that a lattice shows one or two layers and never a gap. */
-static bool take_one(const struct particles *particles, const struct plane *plane, int64_t i,
+static bool take_one(struct population population, const struct plane *plane, int64_t i,
                      double value, struct dots *dots)
 {
-    const double *position = particles->position[i];
+    const double *position = population.position[i];
     double depth = plane->normal < 0 ? 0.0 : position[plane->normal] - plane->middle;
-    double diameter = particle_diameter(particles, plane->rings, i);
+    double diameter = particle_diameter(population, plane->rings, i);
     /* A particle blown to next to nothing would cover all others. */
     diameter = minimum(isfinite(diameter) ? diameter : plane->diameter, 4.0 * plane->diameter);
     if (!isfinite(position[plane->across]) || !isfinite(position[plane->up]) ||
@@ -101,25 +100,25 @@ static bool take_one(const struct particles *particles, const struct plane *plan
     dot->depth = (float)depth;
     dot->diameter = (float)diameter;
     dot->value = (float)value;
-    dot->id = particles->id[i];
+    dot->id = population.id[i];
     range_include(&dots->values, value);
     return true;
 }
 
-struct error *dots_take(const struct particles *particles, const struct shown *shown,
+struct error *dots_take(struct population population, const struct shown *shown,
                         const struct plane *plane, struct dots *dots)
 {
     double values[SLICE];
     *dots = (struct dots){.values = range_empty()};
     /* In a plane all are shown. */
-    if (plane->normal < 0 && !memory_reserve((void **)&dots->dot, &dots->capacity, particles->count,
+    if (plane->normal < 0 && !memory_reserve((void **)&dots->dot, &dots->capacity, population.count,
                                              0, sizeof *dots->dot))
         return error_new(ERROR_SYSTEM, "picture: out of memory");
-    for (int64_t begin = 0; begin < particles->count; begin += SLICE) {
-        int64_t end = begin + SLICE < particles->count ? begin + SLICE : particles->count;
+    for (int64_t begin = 0; begin < population.count; begin += SLICE) {
+        int64_t end = begin + SLICE < population.count ? begin + SLICE : population.count;
         shown_read(shown, begin, end, values);
         for (int64_t i = begin; i < end; ++i)
-            if (!take_one(particles, plane, i, values[i - begin], dots))
+            if (!take_one(population, plane, i, values[i - begin], dots))
                 return error_new(ERROR_SYSTEM, "picture: out of memory");
     }
     return NULL;

@@ -12,7 +12,8 @@ struct error *shown_find(const struct simulation *simulation, const struct views
     bool material = strcmp(field, categories[0]) == 0;
     if (material || strcmp(field, categories[1]) == 0) {
         const struct simulation_case *input = simulation->input;
-        shown->category = material ? simulation->particles.material : simulation->particles.body;
+        shown->category = material ? simulation_population(simulation).material
+                                   : simulation_population(simulation).body;
         shown->names = !input ? NULL : material ? &input->materials : &input->bodies;
         return NULL;
     }

@@ -95,7 +95,8 @@ static void write_column(struct writing *w, const struct column *column)
 {
     static const struct ranks alone = {0, 1, false};
     const size_t components = (size_t)column->components;
-    const struct rows rows = {column->distributed ? w->simulation->particles.count : column->rows,
+    const struct rows rows = {column->distributed ? simulation_population(w->simulation).count
+                                                  : column->rows,
                               components * H5Tget_size(column->type), components * sizeof(double),
                               column->fill, column->context};
     if (!column->distributed && !w->here)
@@ -124,13 +125,13 @@ static void fill_types(const void *context, int64_t begin, int64_t end, void *ou
 
 static void fill_positions(const void *context, int64_t begin, int64_t end, void *out)
 {
-    const struct particles *particles = context;
+    const struct population *particles = context;
     memcpy(out, particles->position[begin], (size_t)(end - begin) * sizeof *particles->position);
 }
 
 static void fill_ids(const void *context, int64_t begin, int64_t end, void *out)
 {
-    const struct particles *particles = context;
+    const struct population *particles = context;
     memcpy(out, particles->id + begin, (size_t)(end - begin) * sizeof *particles->id);
 }
 
@@ -188,7 +189,8 @@ static void write_names(struct writing *w, const char *dataset, const struct nam
 
 static void write_geometry(struct writing *w, int64_t count)
 {
-    const struct particles *particles = &w->simulation->particles;
+    const struct population population = simulation_population(w->simulation),
+                            *particles = &population;
     const struct column columns[] = {
         {"NumberOfPoints", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count, NULL},
         {"NumberOfCells", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count, NULL},
@@ -204,7 +206,8 @@ static void write_geometry(struct writing *w, int64_t count)
 
 static void write_points(struct writing *w, const struct views *views, int64_t count)
 {
-    const struct particles *particles = &w->simulation->particles;
+    const struct population population = simulation_population(w->simulation),
+                            *particles = &population;
     const struct column columns[] = {
         {"id", H5T_NATIVE_INT64, count, 1, true, fill_ids, particles, NULL},
         {"material", H5T_NATIVE_UINT16, count, 1, true, fill_numbers, particles->material, NULL},
@@ -250,7 +253,7 @@ static void write_all(struct writing *w, hid_t file, const struct views *views)
     enum { ROOT, POINTS, CELLS, FIELDS, GROUPS };
     static const char *const names[GROUPS] = {"/VTKHDF", "/VTKHDF/PointData", "/VTKHDF/CellData",
                                               "/VTKHDF/FieldData"};
-    int64_t count = ranks_sum(w->simulation->ranks, w->simulation->particles.count);
+    int64_t count = ranks_sum(w->simulation->ranks, simulation_population(w->simulation).count);
     hid_t group[GROUPS] = {H5I_INVALID_HID, H5I_INVALID_HID, H5I_INVALID_HID, H5I_INVALID_HID};
     bool made = true;
     hid_t creation = hdf5_creation_list(H5P_GROUP_CREATE);

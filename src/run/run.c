@@ -44,7 +44,7 @@ static int threads_for(const struct run *run)
 {
     int most = run->simulation.threads;
     int32_t each = run->options->threads > 0 ? PARTICLES_A_THREAD_AT_LEAST : PARTICLES_A_THREAD;
-    int32_t useful = 1 + run->simulation.particles.count / each;
+    int32_t useful = 1 + simulation_population(&run->simulation).count / each;
     return most < useful ? most : useful;
 }
 
@@ -102,7 +102,7 @@ static struct error *loop(struct run *run)
  * expands to no pressure, and the elastic energy m S:S/(4 G rho) of its deviator. */
 static double released_energy(const struct run *run)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct population population = simulation_population(&run->simulation), *p = &population;
     struct exact_sum sum = {0};
     for (int32_t i = 0; i < p->count; i++) {
         struct point point = {.density = p->density[i], .energy = p->energy[i]};
@@ -122,7 +122,8 @@ static double released_energy(const struct run *run)
 
 static struct totals totals_at_start(const struct run *run)
 {
-    struct totals totals = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    struct totals totals =
+        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
     totals.released = released_energy(run);
     return totals;
 }
@@ -151,7 +152,7 @@ static struct error *make_particles(struct run *run)
     if (!run->options->resume)
         run->start = totals_at_start(run);
     run->first_step = run->simulation.step;
-    run->particles = ranks_sum(&run->ranks, run->simulation.particles.count);
+    run->particles = ranks_sum(&run->ranks, simulation_population(&run->simulation).count);
     run->start_time = run->last_progress_time = run->simulation.time;
     return NULL;
 }
@@ -196,7 +197,7 @@ static void tell_beginning(struct run *run)
     run_say(run, "%s: %s", run->input->name ? run->input->name : "case",
             run->input->title ? run->input->title : "");
     run_say(run, "%lld particles, %d-D, %s, until %s, %d thread%s%s",
-            (long long)ranks_sum(&run->ranks, s->particles.count), s->dimension,
+            (long long)ranks_sum(&run->ranks, simulation_population(s).count), s->dimension,
             run->input->solver.choice->name, until, s->threads, s->threads == 1 ? "" : "s",
             run->options->resume ? ", resumed" : "");
     struct error *warnings = estimate_warnings(run->input);
@@ -236,7 +237,7 @@ static void measure_speed(struct run *run)
     const struct simulation *s = &run->simulation;
     result->steps = s->step;
     result->time = s->time;
-    result->particles = ranks_sum(&run->ranks, s->particles.count);
+    result->particles = ranks_sum(&run->ranks, simulation_population(s).count);
     result->seconds = clock_seconds() - run->began;
     double stepping = maximum(result->seconds - run->watching, 1e-9);
     result->updates_per_second = result->updates > 0 ? (double)result->updates / stepping : 0.0;

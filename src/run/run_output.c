@@ -234,7 +234,6 @@ struct error *run_close_files(struct run *run, struct error *error)
 void run_observe(struct run *run)
 {
     memset(&run->views, 0, sizeof run->views);
-    run->views.particles = &run->simulation.particles;
     run->method->observe(run->solver, &run->simulation, &run->views);
 }
 

@@ -16,7 +16,7 @@ double step_towards(double limit, double time, double until)
  * is not here. */
 static struct error *stop_at_particle(const struct run *run, const char *what, const char *advice)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct population population = simulation_population(&run->simulation), *p = &population;
     int32_t i = 0;
     while (i < p->count && p->id[i] != run->limit.id)
         i++;

@@ -82,12 +82,13 @@ static void put_table(FILE *file, const char *about, const char *name, const cha
 static void put_body(FILE *file, const struct run *run, int index)
 {
     const struct simulation_case *input = run->input;
-    const struct particles *particles = &run->simulation.particles;
+    const struct population population = simulation_population(&run->simulation),
+                            *particles = &population;
     const struct body_input *body = case_body(input, index);
     const char *name = input->bodies.names[index];
     const char *mass =
         ledger_unit(LEDGER_MASS, run->simulation.dimension, run->simulation.geometry);
-    struct totals totals = particles_totals(particles, &run->ranks, index);
+    struct totals totals = population_totals(population, &run->ranks, index);
     int64_t count = 0;
     for (int32_t i = 0; i < particles->count; i++)
         count += particles->body[i] == index;
@@ -147,7 +148,8 @@ static void put_run(FILE *file, const struct run *run, const char *status,
         put_text(file, "run", "", "title", input->title);
     put_number(file, "run", "", "dimension", (double)input->dimension, "");
     put_text(file, "run", "", "method", input->solver.choice->name);
-    put_number(file, "run", "", "particles", ranks_sum(&run->ranks, s->particles.count), "");
+    put_number(file, "run", "", "particles", ranks_sum(&run->ranks, simulation_population(s).count),
+               "");
     put_number(file, "run", "", "threads", s->threads, "");
     if (run->ranks.size > 1)
         put_number(file, "run", "", "ranks", run->ranks.size, "");

@@ -24,7 +24,7 @@ static void warn_of_drift(struct run *run, double drift)
 /* Energy that appears from nowhere is an impossible state. */
 static struct error *watch_energy(struct run *run)
 {
-    struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    struct totals now = population_totals(simulation_population(&run->simulation), &run->ranks, -1);
     struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
     double drift = fabs(energy_drift(&now, &booked, &run->start));
     double allowed = run->input->run.energy_drift;
@@ -49,7 +49,7 @@ static struct error *watch_energy(struct run *run)
 static void watch_range(struct run *run)
 {
     const struct simulation *simulation = &run->simulation;
-    const struct particles *p = &simulation->particles;
+    const struct population population = simulation_population(simulation), *p = &population;
     for (int m = 0; m < simulation->materials; m++) {
         const struct material *material = &simulation->material[m];
         const double limit =

@@ -194,9 +194,9 @@ static void mass_momentum_and_energy_are_kept(void **state)
     for (size_t k = 0; k < COUNT_OF(texts); k++) {
         struct running *run = begin_fresh(texts[k], &base);
         const struct particles *p = &run->simulation.particles;
-        struct totals start = particles_totals(p, &run->ranks, -1);
+        struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
         step(run, STEPS);
-        struct totals now = particles_totals(p, &run->ranks, -1);
+        struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);
         struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
         double drift[LEDGER_ENTRIES];
         for (int entry = 0; entry < LEDGER_ENTRIES; entry++)

@@ -77,9 +77,11 @@ static void energy_is_kept_in_every_geometry(void **state)
     for (size_t v = 0; v < COUNT_OF(variants); v++) {
         struct running *run = begin_fresh(strike, &variants[v]);
         const struct particles *p = &run->simulation.particles;
-        double start = particles_totals(p, &run->ranks, -1).entry[LEDGER_ENERGY];
+        double start =
+            population_totals(population_of_particles(p), &run->ranks, -1).entry[LEDGER_ENERGY];
         step(run, 60);
-        double now = particles_totals(p, &run->ranks, -1).entry[LEDGER_ENERGY];
+        double now =
+            population_totals(population_of_particles(p), &run->ranks, -1).entry[LEDGER_ENERGY];
         double booked =
             ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES).entry[LEDGER_ENERGY];
         assert_near(now - booked, start, 1e-13 * start);
@@ -124,11 +126,13 @@ static void a_cylinder_cools_about_its_axis(void **state)
     struct particles *p = &run->simulation.particles;
     for (int32_t i = 0; i < p->count; i++)
         p->energy[i] = 880.0 * (100.0 + 50.0 * j0(j * p->position[i][0] / radius));
-    double start = particles_totals(p, &run->ranks, -1).entry[LEDGER_ENERGY];
+    double start =
+        population_totals(population_of_particles(p), &run->ranks, -1).entry[LEDGER_ENERGY];
     double end_time = square(radius / j) / diffusivity;
     while (run->simulation.time < end_time)
         step_of(run, end_time - run->simulation.time);
-    double now = particles_totals(p, &run->ranks, -1).entry[LEDGER_ENERGY];
+    double now =
+        population_totals(population_of_particles(p), &run->ranks, -1).entry[LEDGER_ENERGY];
     assert_near(now, start, 1e-13 * start);
     for (int32_t i = 0; i < p->count; i++) {
         double mode = j0(j * p->position[i][0] / radius);

@@ -166,9 +166,9 @@ static struct drift drift_of(const char *text, const char *setting)
     const struct variant variant = {"", 1, 1.0, setting, false};
     struct running *run = begin_fresh(text, &variant);
     const struct particles *p = &run->simulation.particles;
-    struct totals start = particles_totals(p, &run->ranks, -1);
+    struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     step(run, STEPS);
-    struct totals now = particles_totals(p, &run->ranks, -1);
+    struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);
     struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
     struct drift drift = {0.0, 0.0, 0.0};
     for (int k = 0; k < LEDGER_ENTRIES; k++) {
@@ -218,9 +218,9 @@ static void a_frozen_body_keeps_its_state(void **state)
         const struct variant variant = {"", 1, 1.0, methods[k], false};
         struct running *run = begin_fresh(text, &variant);
         struct particles *p = &run->simulation.particles;
-        struct totals start = particles_totals(p, &run->ranks, 0);
+        struct totals start = population_totals(population_of_particles(p), &run->ranks, 0);
         step(run, STEPS);
-        struct totals now = particles_totals(p, &run->ranks, 0);
+        struct totals now = population_totals(population_of_particles(p), &run->ranks, 0);
         assert_true(now.kinetic == start.kinetic && now.internal == start.internal);
         for (int32_t i = 0; i < p->count; i++) {
             if (p->body[i] != 0)

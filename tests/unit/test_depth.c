@@ -111,9 +111,9 @@ static void a_burst_keeps_energy_and_momentum_along_the_axis(void **state)
     (void)state;
     struct running *run = begin_fresh(burst, &plain);
     const struct particles *p = &run->simulation.particles;
-    struct totals start = particles_totals(p, &run->ranks, -1);
+    struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     step(run, 60);
-    struct totals now = particles_totals(p, &run->ranks, -1);
+    struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);
     struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
     struct totals axis = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_AXIS);
     assert_near(now.entry[LEDGER_ENERGY], start.entry[LEDGER_ENERGY],
@@ -162,7 +162,8 @@ static void a_free_ring_breathes_at_its_frequency(void **state)
         dt = run->simulation.time;
         step(run, 1);
         dt = run->simulation.time - dt;
-        struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        struct totals now =
+            population_totals(simulation_population(&run->simulation), &run->ranks, -1);
         momentum = now.entry[LEDGER_MOMENTUM_X];
     }
     double quarter = run->simulation.time - dt * momentum / (momentum - before);
@@ -176,7 +177,8 @@ static void mass_is_that_of_a_radian(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(can, &plain);
-    struct totals totals = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    struct totals totals =
+        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
     double density = run->simulation.particles.density[0];
     assert_near(totals.entry[LEDGER_MASS], density * 0.5 * square(12e-3) * 9e-3,
                 1e-12 * totals.entry[LEDGER_MASS]);
@@ -219,18 +221,18 @@ static void a_particle_comes_out_of_a_wall_as_its_image(void **state)
     (void)state;
     struct running *run = begin_fresh(walled, &plain);
     struct particles *p = &run->simulation.particles;
-    struct totals before = particles_totals(p, &run->ranks, -1);
+    struct totals before = population_totals(population_of_particles(p), &run->ranks, -1);
     p->position[0][1] = -1e-4;
     p->velocity[0][0] = 30.0;
     p->velocity[0][1] = -50.0;
     p->deviator[0][0] = 3.0;
     p->deviator[0][3] = 7.0;
-    struct totals through = particles_totals(p, &run->ranks, -1);
+    struct totals through = population_totals(population_of_particles(p), &run->ranks, -1);
     sph_return_strays(&run->simulation);
     assert_true(p->position[0][1] == 1e-4);
     assert_true(p->velocity[0][0] == 30.0 && p->velocity[0][1] == 50.0);
     assert_true(p->deviator[0][0] == 3.0 && p->deviator[0][3] == -7.0);
-    struct totals after = particles_totals(p, &run->ranks, -1),
+    struct totals after = population_totals(population_of_particles(p), &run->ranks, -1),
                   walls = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_WALLS);
     const enum ledger_entry entries[] = {LEDGER_MOMENTUM_Y, LEDGER_ANGULAR_Z, LEDGER_ENERGY};
     for (int k = 0; k < 3; k++)

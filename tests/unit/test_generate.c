@@ -22,7 +22,8 @@ static void a_box_has_its_exact_mass_and_every_particle_its_start_state(void **s
     assert_made(&w, &alone, &simulation);
     const struct particles *p = &simulation.particles;
     assert_int_equal(p->count, 16 * 4 * 8);
-    assert_true(particles_totals(p, &alone, -1).entry[LEDGER_MASS] == 8.0);
+    assert_true(population_totals(population_of_particles(p), &alone, -1).entry[LEDGER_MASS] ==
+                8.0);
     for (int i = 0; i < p->count; i++) {
         assert_true(p->mass[i] == 8.0 / 512.0 && p->density[i] == 8.0 && p->energy[i] == 5.0);
         assert_true(p->pressure[i] == 7.0 && p->material[i] == 0 && p->body[i] == 0);
@@ -83,7 +84,8 @@ static void a_grain_that_replaces_its_matrix_cuts_a_hole_of_its_own_form(void **
     assert_null(generate_summary(&w.input, summary));
     for (int body = 0; body < 2; body++) {
         assert_int_equal(summary[body].particles, count_of_body(p, body));
-        const double mass = particles_totals(p, &alone, body).entry[LEDGER_MASS];
+        const double mass =
+            population_totals(population_of_particles(p), &alone, body).entry[LEDGER_MASS];
         assert_true(fabs(summary[body].mass - mass) <= 1e-12 * mass);
         assert_true(fabs(summary[body].diameter - 0.01) < 1e-15);
     }
@@ -200,7 +202,8 @@ static void a_ball_on_the_axis_is_cut_there_and_has_its_mass(void **state)
         const struct particles *p = &simulation.particles;
         for (int i = 0; i < p->count; i++)
             assert_true(p->position[i][0] >= 0.49 * w.input.resolution);
-        const double mass = particles_totals(p, &alone, -1).entry[LEDGER_MASS];
+        const double mass =
+            population_totals(population_of_particles(p), &alone, -1).entry[LEDGER_MASS];
         assert_float_equal(mass, 3.0 * 2.0 / 3.0, 0.002 * 2.0); /* rho 4/3 pi R^3 over 2 pi */
         simulation_destroy(&simulation);
     }
@@ -218,7 +221,8 @@ static void a_bar_on_the_axis_is_cut_there_and_has_its_exact_mass(void **state)
         w.input.geometry = GEOMETRY_AXISYMMETRIC;
         add_body(&w, "box", &box)->start.density = 8.0;
         assert_made(&w, &alone, &simulation);
-        const double mass = particles_totals(&simulation.particles, &alone, -1).entry[LEDGER_MASS];
+        const double mass =
+            population_totals(simulation_population(&simulation), &alone, -1).entry[LEDGER_MASS];
         assert_float_equal(mass, 8.0 * 3.0 * 0.5, 1e-12); /* rho pi R^2 L over 2 pi */
         simulation_destroy(&simulation);
     }
@@ -238,7 +242,8 @@ static void a_ring_lattice_is_cut_at_the_axis_too(void **state)
     body->lattice = lattice_of(LATTICE_RINGS, &rings);
     body->start.density = 3.0;
     assert_made(&w, &alone, &simulation);
-    const double mass = particles_totals(&simulation.particles, &alone, -1).entry[LEDGER_MASS];
+    const double mass =
+        population_totals(simulation_population(&simulation), &alone, -1).entry[LEDGER_MASS];
     assert_float_equal(mass, 2.0, 0.01);
     simulation_destroy(&simulation);
 }

@@ -40,7 +40,7 @@ static void check_fall(const struct variant *variant, double part)
     const double dt = 2e-8, t = FALL * dt, u[2] = {40.0, 90.0}, g[2] = {3e6, -5e7};
     struct running *run = begin_fresh(falling, variant);
     struct particles *p = &run->simulation.particles;
-    const struct totals start = particles_totals(p, &run->ranks, -1);
+    const struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     struct vec3 before = {0}, after = {0};
     for (int32_t i = 0; i < p->count; i++)
         before = vec3_add(before, vec3_make(p->position[i][0], p->position[i][1], 0.0));
@@ -55,7 +55,7 @@ static void check_fall(const struct variant *variant, double part)
     const double shift[2] = {(after.x - before.x) / p->count, (after.y - before.y) / p->count};
     for (int axis = 0; axis < 2; axis++)
         assert_near(shift[axis], u[axis] * t + 0.5 * g[axis] * t * (t + part * dt), 1e-15);
-    const struct totals now = particles_totals(p, &run->ranks, -1);
+    const struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);
     const struct totals booked =
         ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_GRAVITY);
     for (int e = 0; e < LEDGER_ENTRIES; e++) {
@@ -84,9 +84,9 @@ static void check_landing(const struct variant *variant, double energy)
 {
     struct running *run = begin_fresh(landing, variant);
     const struct particles *p = &run->simulation.particles;
-    const struct totals start = particles_totals(p, &run->ranks, -1);
+    const struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     step(run, 40);
-    const struct totals now = particles_totals(p, &run->ranks, -1);
+    const struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);
     const struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
     const struct totals walls = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_WALLS);
     assert_true(walls.entry[LEDGER_MOMENTUM_Y] > 0.0);

@@ -29,7 +29,7 @@ static const struct variant of_second_order = {"second order", 1, 1.0, "solver.s
 static void assert_closed(const struct running *run, const struct totals *start)
 {
     const struct particles *p = &run->simulation.particles;
-    struct totals now = particles_totals(p, &run->ranks, -1);
+    struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);
     struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
     for (int entry = LEDGER_MOMENTUM_X; entry <= LEDGER_MOMENTUM_Z; entry++)
         assert_near(now.entry[entry] - booked.entry[entry], start->entry[entry],
@@ -44,7 +44,8 @@ static void a_piston_keeps_its_velocity_until_it_stops(void **state)
     const struct variant *const variants[] = {&plain, &by_contact, &of_second_order};
     for (size_t k = 0; k < COUNT_OF(variants); k++) {
         struct running *run = begin_fresh(push, variants[k]);
-        struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        struct totals start =
+            population_totals(simulation_population(&run->simulation), &run->ranks, -1);
         while (run->simulation.time < 1.5e-6) {
             step_of(run, 1.5e-6 - run->simulation.time);
             assert_velocity(run, 0, 800.0, 30.0);
@@ -53,7 +54,8 @@ static void a_piston_keeps_its_velocity_until_it_stops(void **state)
         }
         struct totals moving = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_PISTONS);
         assert_true(moving.entry[LEDGER_ENERGY] > 0.0);
-        struct totals piston = particles_totals(&run->simulation.particles, &run->ranks, 0);
+        struct totals piston =
+            population_totals(simulation_population(&run->simulation), &run->ranks, 0);
         step(run, 1);
         assert_velocity(run, 0, 0.0, 0.0);
         assert_closed(run, &start);
@@ -139,7 +141,7 @@ static void a_driven_body_follows_the_time(void **state)
     for (size_t k = 0; k < COUNT_OF(variants); k++) {
         struct running *run = begin_fresh(text, variants[k]);
         const struct particles *p = &run->simulation.particles;
-        const struct totals start = particles_totals(p, &run->ranks, -1);
+        const struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
         double way = 0.0;
         while (run->simulation.time < 1.5e-6) {
             const double before = run->simulation.time;
@@ -153,7 +155,8 @@ static void a_driven_body_follows_the_time(void **state)
                                 0.0, 1e-12);
             if (k < 3)
                 assert_closed(run, &start);
-            const struct totals now = particles_totals(p, &run->ranks, -1);
+            const struct totals now =
+                population_totals(population_of_particles(p), &run->ranks, -1);
             const struct totals booked =
                 ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
             for (int e = LEDGER_MOMENTUM_X; e <= LEDGER_MOMENTUM_Z && k != 3; e++)

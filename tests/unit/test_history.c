@@ -32,7 +32,8 @@ static int remove_file(void **state)
 static void write_rows(int64_t keep, int first, int rows)
 {
     struct simulation *simulation = build_simulation(4);
-    const struct totals start = particles_totals(&simulation->particles, simulation->ranks, -1);
+    const struct totals start =
+        population_totals(simulation_population(simulation), simulation->ranks, -1);
     struct history *history;
     assert_null(history_open(path, keep, NULL, &history));
     for (int i = first; i < first + rows; i++) {
@@ -107,7 +108,8 @@ static void drift_counts_what_the_ledger_booked(void **state)
 {
     (void)state;
     struct simulation *simulation = build_simulation(4);
-    const struct totals start = particles_totals(&simulation->particles, simulation->ranks, -1);
+    const struct totals start =
+        population_totals(simulation_population(simulation), simulation->ranks, -1);
     simulation->particles.energy[0] += 47.0; /* of two kilograms: 94 J, half of what was there */
     struct history *history;
     assert_null(history_open(path, -1, NULL, &history));

@@ -136,7 +136,7 @@ static void totals_of_the_particles_are_sums_of_what_each_has(void **state)
         memcpy(particles.velocity[i], velocity[i], sizeof velocity[i]);
     }
     assert_null(particles_commit(&particles));
-    const struct totals totals = particles_totals(&particles, &alone, -1);
+    const struct totals totals = population_totals(population_of_particles(&particles), &alone, -1);
     const double wanted[LEDGER_ENTRIES] = {3.0,
                                            3.0,
                                            2.0,
@@ -149,7 +149,7 @@ static void totals_of_the_particles_are_sums_of_what_each_has(void **state)
         assert_true(totals.entry[i] == wanted[i]);
     assert_true(totals.kinetic == 13.5 && totals.internal == 50.0);
     assert_true(totals.momentum_scale == 5.0 + 2.0);
-    const struct totals second = particles_totals(&particles, &alone, 1);
+    const struct totals second = population_totals(population_of_particles(&particles), &alone, 1);
     assert_true(second.entry[LEDGER_MASS] == 2.0 && second.entry[LEDGER_ENERGY] == 41.0);
     particles_destroy(&particles);
 }
@@ -172,8 +172,8 @@ static void totals_do_not_depend_on_the_order_of_the_particles(void **state)
         }
         particles[run].count = COUNT;
     }
-    const struct totals a = particles_totals(&particles[0], &alone, -1);
-    const struct totals b = particles_totals(&particles[1], &alone, -1);
+    const struct totals a = population_totals(population_of_particles(&particles[0]), &alone, -1);
+    const struct totals b = population_totals(population_of_particles(&particles[1]), &alone, -1);
     assert_same_totals(&a, &b);
     particles_destroy(&particles[0]);
     particles_destroy(&particles[1]);

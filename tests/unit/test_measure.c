@@ -80,7 +80,7 @@ static int setup(void **state)
     b->simulation.dimension = 1;
     place_particles(b);
     views_of_particles(&b->views, &b->simulation);
-    b->start = particles_totals(&b->simulation.particles, &b->ranks, -1);
+    b->start = population_totals(simulation_population(&b->simulation), &b->ranks, -1);
     b->gas = (struct exact_gas_riemann){{{1.0, 0.0, 1.0, 1.4}, {0.125, 0.0, 0.1, 1.4}}, 0.5};
     *state = b;
     return 0;

@@ -72,8 +72,7 @@ static struct error *stage_open(struct stage *s, const char *checks)
     expect_success(generate_particles(&s->simulation));
     expect_success(method->start(s->solver, &s->simulation));
     method->observe(s->solver, &s->simulation, &s->views);
-    s->views.particles = &s->simulation.particles;
-    s->start = particles_totals(&s->simulation.particles, &s->ranks, -1);
+    s->start = population_totals(simulation_population(&s->simulation), &s->ranks, -1);
     return checks_prepare(&s->simulation, &s->views, NULL, &s->checks);
 }
 

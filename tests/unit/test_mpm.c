@@ -101,7 +101,8 @@ static void bits_do_not_depend_on_threads_storage_or_a_resume(void **state)
 /* Mass, momentum and angular momentum less what the ledger booked, against their scales. */
 static void check_kept(struct running *run, const struct totals *start, double tolerance)
 {
-    const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    const struct totals now =
+        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
     const struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
     for (int e = LEDGER_MASS; e <= LEDGER_MOMENTUM_Z; e++) {
         const double scale = e == LEDGER_MASS ? start->entry[e] : now.momentum_scale;
@@ -120,7 +121,8 @@ static void mass_and_momentum_stay_in_contacts(void **state)
         const struct variant variant = {"", 1, 1.0, settings[k], false};
         struct running *run = begin_fresh(contact_case, &variant);
         assert_int_equal(run->mpm.layers, 4);
-        const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        const struct totals start =
+            population_totals(simulation_population(&run->simulation), &run->ranks, -1);
         step(run, STEPS);
         check_kept(run, &start, 1e-13);
         end(run);
@@ -139,7 +141,8 @@ static void mass_and_momentum_stay_but_for_what_walls_push(void **state)
     for (size_t k = 0; k < COUNT_OF(settings); k++) {
         const struct variant variant = {"", 1, 1.0, settings[k], false};
         struct running *run = begin_fresh(plane_case, &variant);
-        const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        const struct totals start =
+            population_totals(simulation_population(&run->simulation), &run->ranks, -1);
         step(run, STEPS);
         check_kept(run, &start, 1e-13);
         end(run);
@@ -159,7 +162,8 @@ static void mixing_in_shocks_turns_motion_into_heat(void **state)
             step(run, STEPS);
             const struct particles *p = &run->simulation.particles;
             double *shock = mpm_fields_of(&run->mpm, &run->simulation).shock;
-            const struct totals before = particles_totals(p, &run->ranks, -1),
+            const struct totals before =
+                                    population_totals(population_of_particles(p), &run->ranks, -1),
                                 booked = ledger_totals(&run->simulation.ledger, &run->ranks,
                                                        LEDGER_CAUSES);
             for (int32_t i = 0; i < p->count; i++)
@@ -167,7 +171,7 @@ static void mixing_in_shocks_turns_motion_into_heat(void **state)
             step(run, 1);
             const struct totals more =
                 ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
-            after[shocked] = particles_totals(p, &run->ranks, -1);
+            after[shocked] = population_totals(population_of_particles(p), &run->ranks, -1);
             for (int e = LEDGER_MOMENTUM_X; e <= LEDGER_MOMENTUM_Z; e++)
                 assert_near(after[shocked].entry[e] - more.entry[e],
                             before.entry[e] - booked.entry[e], 1e-14 * before.momentum_scale);
@@ -206,10 +210,10 @@ static void mixing_in_shocks_does_not_heat_across_materials(void **state)
         double *shock = mpm_fields_of(&run->mpm, &run->simulation).shock;
         for (int32_t i = 0; i < p->count; i++)
             shock[i] = 1.0;
-        const struct totals before = particles_totals(p, &run->ranks, 0);
+        const struct totals before = population_totals(population_of_particles(p), &run->ranks, 0);
         assert_success(run->solver->prepare(&run->mpm, &run->simulation, &run->limit));
         mpm_mix_shocks(&run->mpm, &run->simulation, run->limit.dt);
-        const struct totals now = particles_totals(p, &run->ranks, 0);
+        const struct totals now = population_totals(population_of_particles(p), &run->ranks, 0);
         const double warmer = now.internal / before.internal - 1.0;
         assert_true(same ? warmer > 1e-3 : fabs(warmer) < 1e-14);
         end(run);
@@ -221,9 +225,11 @@ static double energy_after(const char *setting, int steps)
 {
     const struct variant variant = {"", 1, 1.0, setting, false};
     struct running *run = begin_fresh(line_case, &variant);
-    const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    const struct totals start =
+        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
     step(run, steps);
-    const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    const struct totals now =
+        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
     end(run);
     return now.entry[LEDGER_ENERGY] / start.entry[LEDGER_ENERGY];
 }
@@ -276,9 +282,10 @@ static void energy_is_conserved(void **state)
             const struct variant variant = {"", 2, 1.0, settings[s], false};
             struct running *run = begin_fresh(texts[k], &variant);
             const struct totals start =
-                particles_totals(&run->simulation.particles, &run->ranks, -1);
+                population_totals(simulation_population(&run->simulation), &run->ranks, -1);
             step(run, STEPS);
-            const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1),
+            const struct totals now = population_totals(simulation_population(&run->simulation),
+                                                        &run->ranks, -1),
                                 booked = ledger_totals(&run->simulation.ledger, &run->ranks,
                                                        LEDGER_CAUSES);
             const double drift =
@@ -321,9 +328,11 @@ static void a_node_of_next_to_no_mass_is_stable(void **state)
     for (size_t k = 0; k < COUNT_OF(settings); k++) {
         const struct variant variant = {"", 1, 1.0, settings[k], false};
         struct running *run = begin_fresh(sounding, &variant);
-        const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        const struct totals start =
+            population_totals(simulation_population(&run->simulation), &run->ranks, -1);
         step(run, 100);
-        const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        const struct totals now =
+            population_totals(simulation_population(&run->simulation), &run->ranks, -1);
         assert_true(now.entry[LEDGER_ENERGY] <= start.entry[LEDGER_ENERGY] * (1.0 + 1e-12));
         end(run);
     }
@@ -374,13 +383,13 @@ static void surfaces_that_do_not_meet_are_left_alone(void **state)
         struct running *run = begin_fresh(blocks, &variant);
         step(run, 2);
         const double moved =
-            particles_totals(&run->simulation.particles, &run->ranks, 1).entry[LEDGER_MOMENTUM_X];
+            population_totals(simulation_population(&run->simulation), &run->ranks, 1)
+                .entry[LEDGER_MOMENTUM_X];
         assert_true(k ? moved == 0.0 : moved > 0.0);
         while (run->simulation.time < 1.2e-5) /* past the time to meet, 1e-5 s */
             step(run, 1);
-        assert_true(
-            particles_totals(&run->simulation.particles, &run->ranks, 1).entry[LEDGER_MOMENTUM_X] >
-            0.0);
+        assert_true(population_totals(simulation_population(&run->simulation), &run->ranks, 1)
+                        .entry[LEDGER_MOMENTUM_X] > 0.0);
         end(run);
     }
 }
@@ -406,7 +415,7 @@ static void surfaces_meet_where_they_are_however_coarse_the_particles(void **sta
         double moved = 0.0;
         while (moved == 0.0) {
             step(run, 1);
-            moved = particles_totals(&run->simulation.particles, &run->ranks, 1)
+            moved = population_totals(simulation_population(&run->simulation), &run->ranks, 1)
                         .entry[LEDGER_MOMENTUM_X];
         }
         /* they touch at 1e-5 s; a twentieth of a cell takes 1e-6 s */
@@ -431,9 +440,11 @@ static void a_coarse_plate_pushes_along_its_normal(void **state)
         "run: {until: 1 s}\n";
     const struct variant variant = {"", 1, 1.0, NULL, false};
     struct running *run = begin_fresh(blocks, &variant);
-    const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, 0);
+    const struct totals start =
+        population_totals(simulation_population(&run->simulation), &run->ranks, 0);
     step(run, STEPS / 2);
-    const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, 0);
+    const struct totals now =
+        population_totals(simulation_population(&run->simulation), &run->ranks, 0);
     const double pushed = now.entry[LEDGER_MOMENTUM_X + 1] - start.entry[LEDGER_MOMENTUM_X + 1];
     assert_true(pushed > 0.0);
     for (int axis = 0; axis < 3; axis += 2)

@@ -46,7 +46,7 @@ static const struct variant plain = {"plain", 1, 1.0, NULL, false};
 static void assert_closed(const struct running *run, const struct totals *start)
 {
     const struct particles *p = &run->simulation.particles;
-    const struct totals now = particles_totals(p, &run->ranks, -1);
+    const struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);
     const struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
     for (int entry = LEDGER_MASS; entry <= LEDGER_MOMENTUM_Z; entry++)
         assert_near(now.entry[entry] - booked.entry[entry], start->entry[entry],
@@ -62,7 +62,8 @@ static void a_piston_keeps_its_velocity_until_it_stops(void **state)
     for (size_t k = 0; k < COUNT_OF(settings); k++) {
         const struct variant variant = {"", 1, 1.0, settings[k], false};
         struct running *run = begin_fresh(push, &variant);
-        const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        const struct totals start =
+            population_totals(simulation_population(&run->simulation), &run->ranks, -1);
         while (run->simulation.time < 1.5e-6) {
             step_of(run, 1.5e-6 - run->simulation.time);
             assert_velocity(run, 0, 800.0, 30.0);
@@ -71,7 +72,8 @@ static void a_piston_keeps_its_velocity_until_it_stops(void **state)
         }
         const struct totals moving =
             ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_PISTONS);
-        const struct totals piston = particles_totals(&run->simulation.particles, &run->ranks, 0);
+        const struct totals piston =
+            population_totals(simulation_population(&run->simulation), &run->ranks, 0);
         assert_true(moving.entry[LEDGER_ENERGY] > 0.0);
         step(run, 10);
         assert_velocity(run, 0, 0.0, 0.0);
@@ -130,7 +132,7 @@ static void frozen_bodies_keep_their_state(void **state)
     (void)state;
     struct running *run = begin_fresh(mixed, &plain);
     const struct particles *p = &run->simulation.particles;
-    const struct totals start = particles_totals(p, &run->ranks, -1);
+    const struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     for (int k = 0; k < 40; k++) {
         step_of(run, k == 39 ? 0.8e-6 : (double)INFINITY);
         assert_closed(run, &start);
@@ -161,10 +163,12 @@ static void waves_run_out_of_frozen_ends(void **state)
         "m], to: [1.02 m]}}\n"
         "run: {until: 1.5 s}\n";
     struct running *run = begin_fresh(tube, &plain);
-    const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, 0);
+    const struct totals start =
+        population_totals(simulation_population(&run->simulation), &run->ranks, 0);
     while (run->simulation.time < 1.5)
         step(run, 1);
-    const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, 0);
+    const struct totals now =
+        population_totals(simulation_population(&run->simulation), &run->ranks, 0);
     assert_true(now.kinetic < 3e-5 * start.kinetic);
     end(run);
 }

@@ -70,7 +70,8 @@ static void pressure_around_balances_pressure_within(void **state)
 
 static void check_kept(struct running *run, const struct totals *start)
 {
-    const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    const struct totals now =
+        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
     const struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
     for (int e = LEDGER_MASS; e <= LEDGER_MOMENTUM_Z; e++)
         assert_near(now.entry[e] - booked.entry[e], start->entry[e],
@@ -83,7 +84,8 @@ static void a_traction_gives_its_force_while_it_acts(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(pulled, &plain);
-    const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    const struct totals start =
+        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
     double acted = 0.0;
     while (run->simulation.time < 1.3e-6) {
         const double before = run->simulation.time;
@@ -114,7 +116,8 @@ static void a_load_follows_the_time(void **state)
     (void)state;
     const double area = 0.01, t = 0.8e-6, pi = acos(-1.0);
     struct running *run = begin_fresh(pulse, &plain);
-    const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    const struct totals start =
+        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
     double impulse = 0.0;
     while (run->simulation.time < t) {
         const double before = run->simulation.time;
@@ -158,7 +161,7 @@ static void what_leaves_is_booked(void **state)
     struct running *run = begin_fresh(leaving, &plain);
     const struct particles *p = &run->simulation.particles;
     const int32_t count = p->count;
-    const struct totals start = particles_totals(p, &run->ranks, -1);
+    const struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     for (int k = 0; k < 60; k++) {
         step_and_commit(run, 1);
         check_kept(run, &start);
@@ -214,7 +217,8 @@ static void axis_and_hoop_stress_are_booked(void **state)
     for (size_t k = 0; k < COUNT_OF(settings); k++) {
         const struct variant variant = {"", 1, 1.0, settings[k], false};
         struct running *run = begin_fresh(round_the_axis, &variant);
-        const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        const struct totals start =
+            population_totals(simulation_population(&run->simulation), &run->ranks, -1);
         for (int s = 0; s < 40; s++) {
             step(run, 1);
             check_kept(run, &start);
@@ -247,7 +251,8 @@ static void a_load_does_no_work_on_a_wall(void **state)
     struct running *run = begin_fresh(squeezed, &plain);
     while (run->simulation.time < 5e-6) {
         step(run, 1);
-        const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+        const struct totals now =
+            population_totals(simulation_population(&run->simulation), &run->ranks, -1);
         const struct totals loads =
             ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_LOADS);
         assert_near(now.entry[LEDGER_ENERGY], loads.entry[LEDGER_ENERGY],

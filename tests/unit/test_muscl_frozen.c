@@ -34,10 +34,12 @@ static void a_pulse_runs_out_of_a_gas_under_pressure(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(tube, &plain);
-    const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, 0);
+    const struct totals start =
+        population_totals(simulation_population(&run->simulation), &run->ranks, 0);
     while (run->simulation.time < 0.9)
         step(run, 1);
-    const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, 0);
+    const struct totals now =
+        population_totals(simulation_population(&run->simulation), &run->ranks, 0);
     assert_true(now.kinetic < 1e-5 * start.kinetic);
     end(run);
 }
@@ -58,9 +60,11 @@ static void what_frozen_ends_take_stands_in_the_ledger(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(moved, &plain);
-    const struct totals start = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    const struct totals start =
+        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
     step(run, 60);
-    const struct totals now = particles_totals(&run->simulation.particles, &run->ranks, -1);
+    const struct totals now =
+        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
     const struct totals taken = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
     for (int entry = LEDGER_MASS; entry <= LEDGER_MOMENTUM_Z; entry++)
         assert_near(now.entry[entry] - taken.entry[entry], start.entry[entry], 1e-14);

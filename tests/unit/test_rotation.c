@@ -104,9 +104,9 @@ static double angular_momentum_left(const char *text, const struct variant *vari
     struct running *run = begin_fresh(text, variant);
     const struct particles *p = &run->simulation.particles;
     turn(run, vec3_make(0.0, 0.0, 3e3), false);
-    struct totals start = particles_totals(p, &run->ranks, -1);
+    struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     step(run, 60);
-    struct totals now = particles_totals(p, &run->ranks, -1);
+    struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);
     assert_near(now.entry[LEDGER_ENERGY], start.entry[LEDGER_ENERGY],
                 1e-13 * start.entry[LEDGER_ENERGY]);
     assert_near(now.entry[LEDGER_MOMENTUM_X], 0.0, 1e-13 * now.momentum_scale);
