@@ -217,6 +217,7 @@ struct error *simulation_create(const struct simulation_case *input, const struc
 {
     *simulation = (struct simulation){.input = input,
                                       .ranks = ranks,
+                                      .partition = {.ranks = ranks},
                                       .threads = threads,
                                       .dimension = (int)input->dimension,
                                       .geometry = (enum case_geometry)input->geometry};
@@ -256,6 +257,7 @@ int simulation_history(const struct simulation *simulation, struct field_declara
 void simulation_destroy(struct simulation *simulation)
 {
     particles_destroy(&simulation->particles);
+    partition_free(&simulation->partition);
     free(simulation->group_of_body);
     simulation->group_of_body = NULL;
     free(simulation->material);

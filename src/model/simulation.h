@@ -38,6 +38,7 @@ struct simulation {
     uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS]; /* of the first towards the second */
     int surfaces;
     struct contact_surface surface[CONTACT_SURFACES];
+    struct partition partition; /* of the blocks among the ranks */
     struct particles particles;
     struct ledger ledger;
     double time;

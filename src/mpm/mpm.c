@@ -100,6 +100,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     if (mpm_window(mpm, simulation).centred)
         simulation->particles.shift = 0.5 * mpm->edge;
     simulation->particles.ranks = simulation->ranks;
+    simulation->particles.partition = &simulation->partition;
     simulation->particles.threads = simulation->threads;
     return NULL;
 }

@@ -125,7 +125,7 @@ static bool has_left(const struct mpm *mpm, const struct simulation *simulation)
 {
     bool away = false;
     for (int32_t b = 0; b < mpm->bins.count && !away; b++)
-        away = particles_owner(&simulation->particles, mpm->bins.bin[b].key) !=
+        away = partition_owner(&simulation->partition, mpm->bins.bin[b].key) !=
                simulation->ranks->rank;
     return away;
 }

@@ -1,5 +1,4 @@
-/* Which rank owns which blocks, and how particles get there: the curve that runs through all blocks in the order of
- * their keys is cut into as many parts as there are ranks. */
+/* How particles get to the rank that owns their block. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,83 +6,22 @@
 #include "parallel/exchange.h"
 #include "particle/particles.h"
 
-/* Blocks are divided anew when a rank has worked this much longer than the mean of all. */
-static const double imbalance_limit = 1.1;
-
-struct weight {
-    uint64_t key;
-    double work;
-};
-
 static struct error *out_of_memory(void)
 {
     return error_new(ERROR_SYSTEM, "out of memory while particles go to other ranks");
 }
 
-static int compare_weights(const void *a, const void *b)
-{
-    uint64_t x = ((const struct weight *)a)->key, y = ((const struct weight *)b)->key;
-    return x < y ? -1 : x > y;
-}
-
-/* A block goes to the part that its middle falls into. The blocks at one place of the curve may still belong to several
- * ranks. */
-static void cut_curve(uint64_t *cut, int parts, struct weight *weight, int64_t count)
-{
-    double total = 0.0, before = 0.0;
-    qsort(weight, (size_t)count, sizeof *weight, compare_weights);
-    for (int64_t k = 0; k < count; k++)
-        total += weight[k].work;
-    int part = 0;
-    cut[0] = 0;
-    for (int64_t k = 0, next; k < count; k = next) {
-        double work = 0.0;
-        for (next = k; next < count && weight[next].key == weight[k].key; next++)
-            work += weight[next].work;
-        while (part + 1 < parts && (before + 0.5 * work) * parts >= total * (part + 1))
-            cut[++part] = weight[k].key;
-        before += work;
-    }
-    while (part < parts)
-        cut[++part] = UINT64_MAX;
-}
-
-/* The work of the blocks as the particles lie now, from what the rank has spent on each of its own. */
+/* Divides the blocks as the particles lie now. */
 static struct error *divide(struct particles *p)
 {
-    const struct ranks *ranks = p->ranks;
-    double each = p->work > 0.0 && p->count ? p->work / p->count : 0.0;
-    bool measured = ranks_minimum(ranks, p->count && each <= 0.0 ? 0.0 : 1.0) > 0.0;
-    struct weight *own = memory_allocate((size_t)p->blocks * sizeof *own), *all = NULL;
-    int64_t count = 0;
-    if (!p->cut)
-        p->cut = memory_allocate(((size_t)ranks->size + 1) * sizeof *p->cut);
-    struct error *error = ranks_agree(ranks, own && p->cut ? NULL : out_of_memory());
+    struct block_weight *own = memory_allocate((size_t)p->blocks * sizeof *own);
+    struct error *error = ranks_agree(p->ranks, own ? NULL : out_of_memory());
     for (int32_t b = 0; b < p->blocks && !error; b++)
-        own[b] = (struct weight){p->block[b].key, p->block[b].count * (measured ? each : 1.0)};
+        own[b] = (struct block_weight){p->block[b].key, p->block[b].count};
     if (!error)
-        error = ranks_gather(ranks, -1, own, p->blocks, sizeof *own, (void **)&all, &count);
-    if (!error)
-        cut_curve(p->cut, ranks->size, all, count);
+        error = partition_divide(p->partition, own, p->blocks);
     free(own);
-    free(all);
-    p->work = 0.0;
     return error;
-}
-
-int particles_owner(const struct particles *p, uint64_t key)
-{
-    if (!p->cut)
-        return p->ranks->rank;
-    int low = 0, high = p->ranks->size; /* cut[low] <= key < cut[high] */
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (p->cut[middle] <= key)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
 }
 
 /* Nothing of what does not move. */
@@ -132,7 +70,7 @@ struct leaving {
 static struct error *find_leaving(struct particles *p, struct leaving *leaving)
 {
     for (int32_t i = 0; i < p->count; i++) {
-        int32_t owner = particles_owner(p, particles_block_key(p, p->position[i]));
+        int32_t owner = partition_owner(p->partition, particles_block_key(p, p->position[i]));
         if (owner == p->ranks->rank)
             continue;
         if (!memory_reserve((void **)&leaving->send, &leaving->capacity, leaving->count + 1,
@@ -195,23 +133,12 @@ static struct error *migrate(struct particles *p)
     return error ? error : ranks_agree(p->ranks, particles_commit(p));
 }
 
-/* The ranks' work since the cut differs by too much. */
-static bool unbalanced(const struct particles *p)
-{
-    double most = ranks_maximum(p->ranks, p->work), mean = 0.0;
-    struct exact_sum sum = {0};
-    exact_sum_add(&sum, p->work);
-    ranks_sum_exact(p->ranks, &sum, 1);
-    mean = exact_sum_value(&sum) / p->ranks->size;
-    return mean > 0.01 && most > imbalance_limit * mean;
-}
-
 struct error *particles_distribute(struct particles *particles, double seconds, bool recut)
 {
     if (!particles->ranks->joined)
         return particles_sort(particles);
-    particles->work += seconds;
-    if (!particles->cut || recut || unbalanced(particles)) {
+    particles->partition->work += seconds;
+    if (recut || partition_is_uneven(particles->partition)) {
         TRY(ranks_agree(particles->ranks, particles_sort(particles)));
         TRY(divide(particles));
     }

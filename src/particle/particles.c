@@ -63,7 +63,6 @@ void particles_destroy(struct particles *particles)
     for (int k = 0; k < particles->fields; k++)
         free(particles->field[k].data);
     free(particles->block);
-    free(particles->cut);
     free(particles->scratch.memory);
     *particles = (struct particles){0};
 }

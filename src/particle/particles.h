@@ -12,6 +12,7 @@
 #include "base/visitor.h"
 #include "material/history.h"
 #include "parallel/block.h"
+#include "parallel/partition.h"
 #include "parallel/ranks.h"
 
 enum field_kind {
@@ -43,9 +44,8 @@ struct particles {
     int64_t block_capacity;
     struct block *block;
     const struct ranks *ranks; /* that have particles of the run; this process alone unless told */
-    uint64_t *cut;             /* rank r owns the blocks of keys cut[r] .. cut[r + 1] - 1 */
-    double work;               /* seconds spent on the particles since the cut */
-    double cell;               /* edge of a cell of the global grid, m; fixed for a run */
+    struct partition *partition; /* of the run; NULL: this process has all blocks */
+    double cell;                 /* edge of a cell of the global grid, m; fixed for a run */
     double shift; /* of the grid: cell 0 begins at minus this along each axis, m; fixed likewise */
     int threads;  /* that sort */
     struct scratch
@@ -111,14 +111,11 @@ struct error *particles_arrange(struct particles *particles, const int32_t *list
 
 /* Collective: moves every particle to the rank that owns its block, then sorts. SECONDS are what the rank has worked
  * on its particles since the last call; where the ranks' work since the cut differs by too much, and with RECUT in
- * any case, the blocks are divided anew: the curve of their keys is cut into parts of equal work. */
+ * any case, the blocks are divided anew. */
 struct error *particles_distribute(struct particles *particles, double seconds, bool recut);
 
 /* The key of the block that X lies in. */
 uint64_t particles_block_key(const struct particles *particles, const double x[3]);
-
-/* The rank that owns the block of KEY, once the particles are distributed. */
-int particles_owner(const struct particles *particles, uint64_t key);
 
 /* Loads or saves: count first, then every STATE field, as "particles/NAME". */
 struct error *particles_visit(struct particles *particles, struct visitor *visitor);

@@ -146,6 +146,7 @@ static struct error *create_store(const struct sph *sph, struct simulation *simu
     double cell = growth_room * support * (1.0 + parameters->skin);
     TRY(particles_create(simulation->dimension, cell, fields, count, &simulation->particles));
     simulation->particles.ranks = simulation->ranks;
+    simulation->particles.partition = &simulation->partition;
     simulation->particles.threads = simulation->threads;
     return NULL;
 }
