@@ -1,6 +1,6 @@
-/* What a solver computes with, as everything that watches a run sees it: its members, each with an id,
- * a place, a mass, a density and a velocity. Measures, totals, histories and pictures know no more of
- * a solver than this and its views. */
+/* What a solver computes with, as everything that watches a run sees it: its members, each with
+ * an id, a place, a mass, a density and a velocity. Measures, totals, histories and pictures
+ * know no more of a solver than this and its views. */
 #ifndef BOLIDE_POPULATION_H
 #define BOLIDE_POPULATION_H
 

@@ -14,8 +14,8 @@ static int compare_weights(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* A block goes to the part that its middle falls into. The blocks at one place of the curve may still
- * belong to several ranks. */
+/* A block goes to the part that its middle falls into. The blocks at one place of the curve may
+ * still belong to several ranks. */
 static void cut_curve(uint64_t *cut, int parts, struct block_weight *block, int64_t count)
 {
     double total = 0.0, before = 0.0;

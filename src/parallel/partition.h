@@ -1,6 +1,6 @@
-/* The partition: which rank owns which blocks of the global grid, with all that is in them, particles,
- * nodes or cells. The curve that runs through all blocks in the order of their keys is cut into as many
- * parts as there are ranks, of equal work. */
+/* The partition: which rank owns which blocks of the global grid, with all that is in them,
+ * particles, nodes or cells. The curve that runs through all blocks in the order of their keys
+ * is cut into as many parts as there are ranks, of equal work. */
 #ifndef BOLIDE_PARTITION_H
 #define BOLIDE_PARTITION_H
 
@@ -25,12 +25,12 @@ void partition_free(struct partition *partition);
 /* The rank that owns the block of KEY. */
 int partition_owner(const struct partition *partition, uint64_t key);
 
-/* Collective: whether to divide the blocks, for the first time or because the ranks' work since the cut
- * differs by too much. */
+/* Collective: whether to divide the blocks, for the first time or because the ranks' work since
+ * the cut differs by too much. */
 bool partition_is_uneven(const struct partition *partition);
 
-/* Collective: divides the blocks of all ranks. OWN are the COUNT blocks that this rank holds something
- * of; what the rank has worked counts for them by their weight. */
+/* Collective: divides the blocks of all ranks. OWN are the COUNT blocks that this rank holds
+ * something of; what the rank has worked counts for them by their weight. */
 struct error *partition_divide(struct partition *partition, struct block_weight *own,
                                int32_t count);
 
