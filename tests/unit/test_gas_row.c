@@ -280,6 +280,7 @@ static void all_axes_are_alike(void **state)
     struct gas_numbers along_x, along_z;
     row_lax_wendroff(&x, &standard, 0.2, &along_x);
     row_lax_wendroff(&z, &standard, 0.2, &along_z);
+    close_tube(&tube);
     FOR_ROW(k, 0, x.cells - 1)
     {
         assert_near(x.u.of[GAS_MOMENTUM][k], z.u.of[GAS_MOMENTUM + 2][k], 1.0, 1e-14);
