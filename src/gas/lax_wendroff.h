@@ -37,7 +37,7 @@ BOLIDE_INLINE void row_theta(const struct gas_numbers *u, int first, int last, d
 }
 
 /* Smooths cells -1 .. cells of a row. SMOOTHED may not be its own numbers. What the viscosity
- * carries through the faces 0 .. cells, per area and r, goes to FLUX; nothing where it is that
+ * carries through the faces 0 .. cells, per area and time, goes to FLUX; nothing where it is that
  * of cells. */
 BOLIDE_INLINE void row_smooth(const struct gas_row *row, const struct lax_wendroff *scheme,
                               double r, struct gas_numbers *smoothed, struct gas_numbers *flux)
@@ -60,8 +60,8 @@ BOLIDE_INLINE void row_smooth(const struct gas_row *row, const struct lax_wendro
     }
 }
 
-/* Takes the cells of a row through a sweep of R = dt/h, and adds what flows through the faces 0
- * .. cells, per area and time, to FLUX. Cells -3 .. cells + 2 are known. */
+/* Takes the cells of a row through a sweep of R = dt/h, and gives what flows through the faces
+ * 0 .. cells, per area and time, in FLUX. Cells -3 .. cells + 2 are known. */
 BOLIDE_INLINE void row_lax_wendroff(struct gas_row *row, const struct lax_wendroff *scheme,
                                     double r, struct gas_numbers *flux)
 {

@@ -122,8 +122,8 @@ BOLIDE_INLINE struct gas_side gas_side_of(const struct row_states *states, int k
     return side;
 }
 
-/* What flows through a face normal to AXIS of SIDE, whose wave runs at SPEED, beside a contact
- * that moves at CONTACT. */
+/* What flows through a face normal to AXIS: that of SIDE, or, BEYOND the wave of SIDE that runs at
+ * SPEED, that between this wave and the contact that moves at CONTACT. */
 BOLIDE_INLINE void gas_flow(const struct gas_side *side, int axis, double speed, double contact,
                             bool beyond, double flow[GAS_NUMBERS])
 {
@@ -133,7 +133,7 @@ BOLIDE_INLINE void gas_flow(const struct gas_side *side, int axis, double speed,
                                            square(side->velocity[2]));
     const double star = density * (speed - u) / (speed - contact),
                  gain = (contact - u) * (contact + side->pressure / (density * (speed - u)));
-    const double jump = beyond ? speed : 0.0; /* 0: the face lies before the wave */
+    const double jump = beyond ? speed : 0.0;
     flow[GAS_DENSITY] = density * u + jump * (star - density);
     for (int n = 0; n < 3; n++) {
         const double behind = n == axis ? contact : side->velocity[n];

@@ -18,6 +18,24 @@ struct population {
     const double (*position)[3], (*velocity)[3], (*deviator)[6];
 };
 
-struct population population_of_particles(const struct particles *particles);
+BOLIDE_INLINE struct population population_of_particles(const struct particles *particles)
+{
+    struct population population;
+    population.dimension = particles->dimension;
+    population.threads = particles->threads;
+    population.count = particles->count;
+    population.order = particles->order;
+    population.id = particles->id;
+    population.material = particles->material;
+    population.body = particles->body;
+    population.mass = particles->mass;
+    population.density = particles->density;
+    population.energy = particles->energy;
+    population.pressure = particles->pressure;
+    population.position = (const double(*)[3])particles->position;
+    population.velocity = (const double(*)[3])particles->velocity;
+    population.deviator = (const double(*)[6])particles->deviator;
+    return population;
+}
 
 #endif
