@@ -85,9 +85,9 @@ static inline struct measured measured_of(const struct started *s, int steps, do
                                           const char *const *phases, int count)
 {
     const struct simulation *simulation = s->simulation;
-    struct measured m = {.particles = simulation->particles.count,
-                         .rate = simulation->particles.count * (double)steps / seconds,
-                         .hash = particles_hash(&simulation->particles)};
+    struct measured m = {.particles = particles_of(simulation)->count,
+                         .rate = particles_of(simulation)->count * (double)steps / seconds,
+                         .hash = particles_hash(particles_of(simulation))};
     for (int k = 0; k < simulation->phases; k++)
         for (int name = 0; name < count; name++)
             if (!strcmp(simulation->phase[k].name, phases[name]))

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "cli/cli.h"
 #include "material/material.h"
+#include "model/particle_population.h"
 #include "model/solver.h"
 
 static void print_commands(void)
@@ -176,8 +177,8 @@ static void print_solver_fields(const struct choice_list *solvers, int index, bo
 /* What all particles show: the core's fields, and views of them. */
 static struct error *print_common_fields(struct simulation *empty, struct views *views)
 {
-    TRY(particles_create(3, 1.0, NULL, 0, &empty->particles));
-    views_of_particles(views, empty);
+    TRY(particles_add(empty, 1.0, NULL, 0));
+    views_of_population(views, empty);
     printf("fields of the particles, for checks and output.pictures:\n");
     for (int i = 0; i < views->count; i++) {
         const struct view *view = &views->view[i];
@@ -201,6 +202,7 @@ static struct error *print_fields(void)
     if (!empty)
         return error_new(ERROR_SYSTEM, "out of memory");
     empty->input = &no_case;
+    empty->dimension = 3;
     empty->materials = 1;
     empty->material = &gas;
     struct error *error = print_common_fields(empty, &views);
@@ -217,7 +219,7 @@ static struct error *print_fields(void)
             print_solver_fields(solvers, i, true, "the solver ", &views);
         printf("pictures also take material and body\n");
     }
-    particles_destroy(&empty->particles);
+    simulation_depopulate(empty);
     free(empty);
     return error;
 }

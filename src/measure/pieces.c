@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "measure/measure.h"
 #include "measure/near_points.h"
+#include "model/particle_population.h"
 #include "particle/halo.h"
 
 const struct parameter measure_pieces_table[] = {
@@ -22,7 +23,8 @@ const struct parameter measure_pieces_table[] = {
 static struct error *unit(const struct measurement *measurement, const char **unit)
 {
     int component;
-    if (!views_find(measurement->views, "diameter", &component))
+    if (!views_find(measurement->views, "diameter", &component) ||
+        simulation_population(measurement->simulation).kind != POPULATION_OF_PARTICLES)
         return measure_error(measurement, "the particles of this solver have no diameter");
     *unit = "";
     return NULL;
@@ -197,7 +199,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     error = ranks_agree(measurement->simulation->ranks, error);
     if (!error) {
         view_read(view, 0, particles->count, diameter);
-        error = halo_plan(&measurement->simulation->particles,
+        error = halo_plan(particles_of(measurement->simulation),
                           (struct reach){diameter, parameters->link}, 0.0, &ghosts, &halo);
     }
     if (!error)

@@ -358,7 +358,7 @@ static struct error *fill_body(struct simulation *simulation, const struct overl
 {
     const struct simulation_case *input = simulation->input;
     const struct body_input *of = case_body(input, body);
-    struct particles *particles = &simulation->particles;
+    struct particles *particles = particles_of(simulation);
     struct walk walk;
     struct error *error = walk_begin(&walk, overlaps, body, simulation->ranks);
     int64_t site;
@@ -401,7 +401,7 @@ struct error *generate_particles(struct simulation *simulation)
     free(findings);
     int32_t next = 0;
     if (!error)
-        error = particles_append(&simulation->particles, (int32_t)total, &next);
+        error = particles_append(particles_of(simulation), (int32_t)total, &next);
     struct overlaps overlaps = {0};
     if (!error)
         error = overlaps_make(input, &overlaps);
@@ -409,8 +409,14 @@ struct error *generate_particles(struct simulation *simulation)
         error = fill_body(simulation, &overlaps, body, &next);
     overlaps_free(&overlaps);
     if (!error)
-        error = particles_commit(&simulation->particles);
+        error = particles_commit(particles_of(simulation));
     return ranks_agree(simulation->ranks, error);
+}
+
+struct error *particles_fill(void *solver, struct simulation *simulation)
+{
+    (void)solver;
+    return generate_particles(simulation);
 }
 
 struct error *generate_warnings(const struct simulation_case *input)

@@ -2,7 +2,7 @@
 #ifndef BOLIDE_GENERATE_H
 #define BOLIDE_GENERATE_H
 
-#include "model/simulation.h"
+#include "model/particle_population.h"
 #include "shape/lattice.h"
 
 struct range {
@@ -34,6 +34,9 @@ double largest_diameter(const struct simulation_case *input);
  * behind a wall. A particle's mass is rho times the volume of its site. In axisymmetry x is the radius:
  * bodies are cut at the axis. */
 struct error *generate_particles(struct simulation *simulation);
+
+/* The same as a solver's `fill`. */
+struct error *particles_fill(void *solver, struct simulation *simulation);
 
 /* What is no mistake but may be none of the user's wishes: a body so thin that one particle stands for its
  * thickness. NULL, or messages to show, each located as an error would be. */

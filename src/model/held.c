@@ -33,7 +33,7 @@ bool any_body(const struct simulation *simulation, bool (*is)(const struct simul
 void act_on_particles(struct simulation *simulation, bool (*is)(const struct simulation *, int),
                       particle_act *act, const void *of)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     if (is && !any_body(simulation, is))
         return;
 #pragma omp parallel num_threads(simulation->threads)
@@ -51,7 +51,7 @@ void act_on_particles(struct simulation *simulation, bool (*is)(const struct sim
 static void stop_particle(struct simulation *simulation, const void *of, int32_t i,
                           struct ledger *ledger)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const struct vec3 velocity = vector_at(p->velocity[i]);
     (void)of;
     ledger_book(ledger, LEDGER_PISTONS, 0.0, vec3_scale(-p->mass[i], velocity),
@@ -74,7 +74,7 @@ struct drive {
 static void drive_particle(struct simulation *simulation, const void *of, int32_t i,
                            struct ledger *ledger)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const struct drive *drive = of;
     const struct vec3 before = vector_at(p->velocity[i]), place = vector_at(p->position[i]);
     if (p->body[i] != drive->body)

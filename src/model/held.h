@@ -3,7 +3,7 @@
 #ifndef BOLIDE_HELD_H
 #define BOLIDE_HELD_H
 
-#include "model/simulation.h"
+#include "model/particle_population.h"
 
 /* Whether BODY has come to rest for good, keeps all of its state, or keeps its velocity for any of these reasons. */
 bool body_stands(const struct simulation *simulation, int body);

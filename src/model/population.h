@@ -1,13 +1,18 @@
 /* What a solver computes with, as everything that watches a run sees it: its members, each with
- * an id, a place, a mass, a density and a velocity. Measures, totals, histories and pictures
- * know no more of a solver than this and its views. */
+ * an id, a place, a mass, a density and a velocity. Members are particles, which move, or cells,
+ * which stay. Measures, totals, histories and pictures know no more of a solver than this and its
+ * views. */
 #ifndef BOLIDE_POPULATION_H
 #define BOLIDE_POPULATION_H
 
-#include "particle/particles.h"
+#include "base/error.h"
+#include "base/field.h"
+
+enum population_kind { POPULATION_OF_PARTICLES, POPULATION_OF_CELLS };
 
 /* The members that this rank owns. A handful of pointers, to be asked for again after each step. */
 struct population {
+    enum population_kind kind;
     int dimension;
     int threads; /* for loops over the members */
     int32_t count;
@@ -15,27 +20,27 @@ struct population {
     const uint64_t *id;
     const uint16_t *material, *body;
     const double *mass, *density, *energy, *pressure; /* energy in J/kg */
-    const double (*position)[3], (*velocity)[3], (*deviator)[6];
+    const double (*position)[3], (*velocity)[3];
+    const double (*deviator)[6]; /* of stress; NULL: no member bears shear */
+    double edge;                 /* of a cell, m */
+    int fields;                  /* that a store keeps by name, the above among them */
+    const struct field *field;
 };
 
-BOLIDE_INLINE struct population population_of_particles(const struct particles *particles)
-{
-    struct population population;
-    population.dimension = particles->dimension;
-    population.threads = particles->threads;
-    population.count = particles->count;
-    population.order = particles->order;
-    population.id = particles->id;
-    population.material = particles->material;
-    population.body = particles->body;
-    population.mass = particles->mass;
-    population.density = particles->density;
-    population.energy = particles->energy;
-    population.pressure = particles->pressure;
-    population.position = (const double(*)[3])particles->position;
-    population.velocity = (const double(*)[3])particles->velocity;
-    population.deviator = (const double(*)[6])particles->deviator;
-    return population;
-}
+/* What the run loop does with a store of members, whatever they are. */
+struct population_class {
+    size_t size; /* of the store, which is zero before the solver makes it */
+    struct population (*members)(const void *store);
+    /* Whether members are to be taken in or out, which commit then does. */
+    bool (*changed)(const void *store);
+    struct error *(*commit)(void *store);
+    /* Collective: every member goes to the rank that owns its block. */
+    struct error *(*distribute)(void *store);
+    /* Collective: loads or saves the state. */
+    struct error *(*visit)(void *store, struct visitor *visitor);
+    /* Collective: one number for the bits of the state, whatever the order of storage. */
+    uint64_t (*hash)(const void *store);
+    void (*destroy)(void *store);
+};
 
 #endif

@@ -254,9 +254,29 @@ int simulation_history(const struct simulation *simulation, struct field_declara
     return count;
 }
 
+struct error *simulation_populate(struct simulation *simulation,
+                                  const struct population_class *members)
+{
+    assert(!simulation->members);
+    simulation->store = memory_allocate(members->size);
+    if (!simulation->store)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    simulation->members = members;
+    return NULL;
+}
+
+void simulation_depopulate(struct simulation *simulation)
+{
+    if (simulation->members)
+        simulation->members->destroy(simulation->store);
+    free(simulation->store);
+    simulation->members = NULL;
+    simulation->store = NULL;
+}
+
 void simulation_destroy(struct simulation *simulation)
 {
-    particles_destroy(&simulation->particles);
+    simulation_depopulate(simulation);
     partition_free(&simulation->partition);
     free(simulation->group_of_body);
     simulation->group_of_body = NULL;
@@ -277,16 +297,18 @@ void simulation_spend(struct simulation *simulation, const char *name, double se
 
 struct error *simulation_impossible(const struct simulation *simulation, int32_t i)
 {
-    const struct particles *p = &simulation->particles;
+    const struct population population = simulation_population(simulation), *p = &population;
+    const bool cell = p->kind == POPULATION_OF_CELLS;
     return error_new(
         ERROR_STATE,
-        "step %lld, t = %.6g s: the state of particle %llu (body %s, site %llu) at "
+        "step %lld, t = %.6g s: the state of %s %llu (body %s, site %llu) at "
         "(%.6g, %.6g, %.6g) m became impossible: density %.6g kg/m^3, energy %.6g J/kg, "
         "pressure %.6g Pa, velocity (%.6g, %.6g, %.6g) m/s",
-        (long long)simulation->step + 1, simulation->time, (unsigned long long)p->id[i],
-        simulation->input->bodies.names[p->body[i]], (unsigned long long)(p->id[i] & PARTICLE_SITE),
-        p->position[i][0], p->position[i][1], p->position[i][2], p->density[i], p->energy[i],
-        p->pressure[i], p->velocity[i][0], p->velocity[i][1], p->velocity[i][2]);
+        (long long)simulation->step + 1, simulation->time, cell ? "cell" : "particle",
+        (unsigned long long)p->id[i], simulation->input->bodies.names[p->body[i]],
+        (unsigned long long)(p->id[i] & PARTICLE_SITE), p->position[i][0], p->position[i][1],
+        p->position[i][2], p->density[i], p->energy[i], p->pressure[i], p->velocity[i][0],
+        p->velocity[i][1], p->velocity[i][2]);
 }
 
 struct error *simulation_value_at(const struct simulation *simulation, double time,
@@ -306,7 +328,7 @@ struct error *simulation_visit(struct simulation *simulation, struct visitor *vi
     TRY(visitor->visit(visitor, "time", NUMBER_DOUBLE, &simulation->time, 1, 1));
     TRY(visitor->visit(visitor, "step", NUMBER_INT64, &simulation->step, 1, 1));
     TRY(ledger_visit(&simulation->ledger, simulation->ranks, visitor));
-    return particles_visit(&simulation->particles, visitor);
+    return simulation->members->visit(simulation->store, visitor);
 }
 
 bool interval_is_due(double time, double interval, int64_t *due)

@@ -5,8 +5,8 @@
 #include "case/case.h"
 #include "model/ledger.h"
 #include "parallel/ghosts.h"
+#include "parallel/partition.h"
 #include "particle/contact_law.h"
-#include "particle/particles.h"
 
 enum { CONTACT_GROUPS = 16, MATERIALS_MAX = 256, PHASES_MAX = 16 };
 
@@ -38,8 +38,9 @@ struct simulation {
     uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS]; /* of the first towards the second */
     int surfaces;
     struct contact_surface surface[CONTACT_SURFACES];
-    struct partition partition; /* of the blocks among the ranks */
-    struct particles particles;
+    struct partition partition;             /* of the blocks among the ranks */
+    const struct population_class *members; /* what it computes with; NULL: nothing yet */
+    void *store;                            /* of them, owned */
     struct ledger ledger;
     double time;
     int64_t step;
@@ -52,11 +53,16 @@ struct simulation {
 struct error *input_error(const struct simulation_case *input, const char *section,
                           const char *name, const char *format, ...) BOLIDE_PRINTF(4, 5);
 
-/* Prepares a run of INPUT without particles: materials, walls, contact laws. The solver's create makes
- * the store, since it knows the fields; generate_particles fills it. */
+/* Prepares a run of INPUT without members: materials, walls, contact laws. The solver's create adds
+ * their store, since it knows the fields; its fill puts the bodies into it. */
 struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
                                 int threads, struct simulation *simulation);
 void simulation_destroy(struct simulation *simulation);
+
+/* Gives SIMULATION members of a class, none yet: an empty store that the caller makes ready. */
+struct error *simulation_populate(struct simulation *simulation,
+                                  const struct population_class *members);
+void simulation_depopulate(struct simulation *simulation);
 
 /* The fields for what the case's materials remember beyond the core's, POINT_HISTORY at most: the solver adds them to its
  * store. Returns how many. */
@@ -65,7 +71,8 @@ int simulation_history(const struct simulation *simulation, struct field_declara
 /* What watchers of the run see of it. */
 BOLIDE_INLINE struct population simulation_population(const struct simulation *simulation)
 {
-    return population_of_particles(&simulation->particles);
+    assert(simulation->members);
+    return simulation->members->members(simulation->store);
 }
 
 /* True when the case has gravity. */
@@ -78,7 +85,7 @@ BOLIDE_INLINE bool simulation_has_gravity(const struct simulation *simulation)
 /* Adds SECONDS to phase NAME. */
 void simulation_spend(struct simulation *simulation, const char *name, double seconds);
 
-/* The error that names particle INDEX, whose new state is impossible. */
+/* The error that names member INDEX, whose new state is impossible. */
 struct error *simulation_impossible(const struct simulation *simulation, int32_t index);
 
 /* The value at TIME of a FIELD of the time, KEY of NAME in the case; ERROR_STATE where it is not finite. */
@@ -86,7 +93,7 @@ struct error *simulation_value_at(const struct simulation *simulation, double ti
                                   const struct field_value *field, const char *name,
                                   const char *key, double *value);
 
-/* Time, step, ledger and particles. */
+/* Time, step, ledger and members. */
 struct error *simulation_visit(struct simulation *simulation, struct visitor *visitor);
 
 /* True when TIME has reached the next multiple of INTERVAL, of which DUE have been, and counts it. An

@@ -6,14 +6,14 @@
 #include "model/views.h"
 #include "particle/field_rows.h"
 
-/* The largest step, what limits it, and the id of the particle where. */
+/* The largest step, what limits it, and the id of the member where. */
 struct limit {
     double dt;
     const char *why;
     uint64_t id;
 };
 
-/* Collective: the limit of the particle that comes first of all ranks (ranked_before); what OWN says
+/* Collective: the limit of the member that comes first of all ranks (ranked_before); what OWN says
  * of the rank's own first one is an index of REASONS. */
 BOLIDE_INLINE struct limit limit_of_ranks(const struct ranks *ranks, struct ranked own,
                                           const char *const *reasons)
@@ -25,9 +25,12 @@ BOLIDE_INLINE struct limit limit_of_ranks(const struct ranks *ranks, struct rank
 
 struct solver_class {
     size_t size; /* bytes of the solver's own state, zeroed before create */
-    /* Makes the store (particles_create) with its fields, from the case's parameters PARAMETERS. The
-     * particles come after; `start` is called once they are there (fresh or loaded). */
+    /* Gives the simulation a population (simulation_populate), with fields by the case's parameters
+     * PARAMETERS. Members come after, from `fill` or from a checkpoint; `start` is called once they
+     * are there. */
     struct error *(*create)(void *solver, struct simulation *simulation, const void *parameters);
+    /* Collective: what the bodies of the case put into the population. */
+    struct error *(*fill)(void *solver, struct simulation *simulation);
     struct error *(*start)(void *solver, struct simulation *simulation);
     /* Collective: everything that level n determines: lists, ghosts, rates; returns the largest step. */
     struct error *(*prepare)(void *solver, struct simulation *simulation, struct limit *limit);

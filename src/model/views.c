@@ -7,6 +7,7 @@
 
 #include "material/material.h"
 #include "model/start_place.h"
+#include "particle/particles.h"
 
 /* Particles that are computed at once when one component of them is wanted. */
 enum { CHUNK = 256, COMPONENTS_MAX = 6 };
@@ -16,14 +17,15 @@ static void compute_stress(const void *context, int64_t begin, int64_t end, doub
     const struct population p = simulation_population(context);
     for (int64_t i = begin; i < end; i++, out += 6)
         for (int k = 0; k < 6; k++)
-            out[k] = p.deviator[i][k] - (k < 3 ? p.pressure[i] : 0.0);
+            out[k] = (p.deviator ? p.deviator[i][k] : 0.0) - (k < 3 ? p.pressure[i] : 0.0);
 }
 
 static void compute_equivalent_stress(const void *context, int64_t begin, int64_t end, double *out)
 {
     const struct population p = simulation_population(context);
+    static const double none[6] = {0.0};
     for (int64_t i = begin; i < end; i++) {
-        const double *s = p.deviator[i];
+        const double *s = p.deviator ? p.deviator[i] : none;
         const struct sym3 deviator = {s[0], s[1], s[2], s[3], s[4], s[5]};
         *out++ = sym3_mises(deviator);
     }
@@ -123,9 +125,10 @@ void views_add(struct views *views, struct view view)
     views->view[views->count++] = view;
 }
 
-void views_of_particles(struct views *views, const struct simulation *simulation)
+void views_of_population(struct views *views, const struct simulation *simulation)
 {
-    const struct particles *particles = &simulation->particles;
+    const struct population population = simulation_population(simulation),
+                            *particles = &population;
     views->dimension = particles->dimension;
     for (int i = 0; i < particles->fields; i++) {
         const struct field_declaration *declaration = &particles->field[i].declaration;
@@ -146,7 +149,8 @@ void views_of_particles(struct views *views, const struct simulation *simulation
         views_add(views, view);
     }
     int component;
-    if (simulation->input && !views_find(views, "diameter", &component)) {
+    const bool moving = simulation->input && particles->kind == POPULATION_OF_PARTICLES;
+    if (moving && !views_find(views, "diameter", &component)) {
         struct view view = diameter_view;
         view.context = simulation;
         views_add(views, view);
@@ -156,7 +160,7 @@ void views_of_particles(struct views *views, const struct simulation *simulation
         view.context = simulation;
         views_add(views, view);
     }
-    if (simulation->input) {
+    if (moving) {
         struct view view = displacement_view;
         view.context = simulation;
         views_add(views, view);

@@ -72,7 +72,7 @@ void mpm_stop_bodies(struct mpm *mpm, struct simulation *simulation)
 
 void mpm_move_held(struct simulation *simulation, double dt)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     if (!any_body(simulation, body_is_held))
         return;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
@@ -137,7 +137,7 @@ struct weight {
 static void book_weight(struct simulation *simulation, const void *of, int32_t i,
                         struct ledger *ledger)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const struct weight *weight = of;
     const struct vec3 impulse = vec3_scale(weight->dt * p->mass[i], vector_at(simulation->gravity));
     ledger_book(ledger, LEDGER_GRAVITY, 0.0, weight->begin ? impulse : vec3_make(0.0, 0.0, 0.0),
@@ -164,7 +164,7 @@ static bool is_free(const struct simulation *simulation, int body)
 static void book_hoop(struct simulation *simulation, const void *of, int32_t i,
                       struct ledger *ledger)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const struct hoop *hoop = of;
     const double stress =
         p->deviator[i][2] - p->pressure[i] - hoop->viscosity[i] + hoop->gauge[p->material[i]];
@@ -176,7 +176,7 @@ static void book_hoop(struct simulation *simulation, const void *of, int32_t i,
 static void book_ambient(struct simulation *simulation, const void *of, int32_t i,
                          struct ledger *ledger)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const struct vec3 none = vec3_make(0.0, 0.0, 0.0);
     ledger_book(ledger, LEDGER_LOADS, 0.0, none, none, p->mass[i] * ((const double *)of)[i]);
 }
@@ -253,7 +253,7 @@ void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double 
 
 void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulation)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     double(*gradient)[9] = mpm_fields_of(mpm, simulation).velocity_gradient;
     assert(simulation->dimension <= 3);
     for (int32_t i = 0; i < p->count; i++) {

@@ -66,7 +66,7 @@ struct mpm_fields mpm_fields_of(const struct mpm *mpm, const struct simulation *
 {
     const struct field_needs needs = needs_of(&mpm->parameters);
     struct mpm_fields fields;
-    field_rows_bind(field_rows, &needs, &simulation->particles, &fields);
+    field_rows_bind(field_rows, &needs, particles_of(simulation), &fields);
     return fields;
 }
 
@@ -96,12 +96,9 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     const struct field_needs needs = needs_of(&mpm->parameters);
     int count = simulation_history(simulation, fields);
     count += field_rows_declare(field_rows, &needs, fields + count);
-    TRY(particles_create(simulation->dimension, mpm->edge, fields, count, &simulation->particles));
+    TRY(particles_add(simulation, mpm->edge, fields, count));
     if (mpm_window(mpm, simulation).centred)
-        simulation->particles.shift = 0.5 * mpm->edge;
-    simulation->particles.ranks = simulation->ranks;
-    simulation->particles.partition = &simulation->partition;
-    simulation->particles.threads = simulation->threads;
+        particles_of(simulation)->shift = 0.5 * mpm->edge;
     return NULL;
 }
 
@@ -112,14 +109,14 @@ static struct error *mpm_start(void *solver, struct simulation *simulation)
     mpm->rate = memory_allocate((size_t)mpm->threads * sizeof *mpm->rate);
     if (!mpm->rate)
         return error_new(ERROR_SYSTEM, "out of memory");
-    if (!simulation->particles.blocks) /* as they are when loaded */
-        TRY(particles_sort(&simulation->particles));
+    if (!particles_of(simulation)->blocks) /* as they are when loaded */
+        TRY(particles_sort(particles_of(simulation)));
     if (mpm_is_affine(mpm) && simulation->step == 0)
         mpm_start_gradients(mpm, simulation);
     const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
     if (fields.at_state && simulation->step == 0)
-        memcpy(fields.at_state, simulation->particles.energy,
-               (size_t)simulation->particles.count * sizeof *fields.at_state);
+        memcpy(fields.at_state, particles_of(simulation)->energy,
+               (size_t)particles_of(simulation)->count * sizeof *fields.at_state);
     mpm_evaluate(mpm, simulation);
     return NULL;
 }
@@ -134,7 +131,7 @@ static void mpm_observe(const void *solver, const struct simulation *simulation,
                         struct views *views)
 {
     (void)solver;
-    views_of_particles(views, simulation);
+    views_of_population(views, simulation);
 }
 
 static void mpm_destroy(void *solver)
@@ -208,6 +205,7 @@ static const struct field_row *const field_tables[] = {field_rows, NULL};
 
 const struct solver_class mpm_class = {.size = sizeof(struct mpm),
                                        .create = mpm_create,
+                                       .fill = particles_fill,
                                        .start = mpm_start,
                                        .prepare = mpm_prepare,
                                        .advance = mpm_advance,

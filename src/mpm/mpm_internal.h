@@ -2,6 +2,7 @@
 #ifndef BOLIDE_MPM_INTERNAL_H
 #define BOLIDE_MPM_INTERNAL_H
 
+#include "model/generate.h"
 #include "mpm/mpm.h"
 #include "mpm/transfer.h"
 #include "parallel/exchange.h"

@@ -9,7 +9,7 @@
 
 void mpm_evaluate(const struct mpm *mpm, struct simulation *simulation)
 {
-    struct particles *p = &simulation->particles;
+    struct particles *p = particles_of(simulation);
     const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
     const double *energy = fields.at_state ? fields.at_state : p->energy;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
@@ -36,7 +36,7 @@ void mpm_keep_before_walls(const struct simulation *simulation, double x[3])
 static struct point_loop loop_of(const struct mpm *mpm, const struct simulation *simulation,
                                  double dt, const double *rate)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
     const double linear = mpm->parameters.viscosity_linear;
     struct point_loop loop = {.density = p->density,
@@ -78,7 +78,7 @@ static void let_go_on(struct simulation *simulation, const struct point_loop *lo
 {
     const double little = 0.1, least = 1e-3, *u = loop->velocity[i];
     const double motion = 0.5 * (square(u[0]) + square(u[1]) + square(u[2]));
-    struct particles *p = &simulation->particles;
+    struct particles *p = particles_of(simulation);
     if (!loop->at_state || !(loop->at_state[i] < 0.0 && -loop->at_state[i] < little * motion))
         return;
     struct point point = {.density = p->density[i], .energy = -least * loop->at_state[i]};
@@ -94,7 +94,7 @@ static bool update_run(const struct mpm *mpm, const struct simulation *simulatio
                        const struct point_loop *loop, const int32_t *list, int32_t begin,
                        int32_t end)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const struct material *material = &simulation->material[p->material[list[begin]]];
     if (batch_takes(material))
         return point_loop_run(loop, material, list, begin, end);
@@ -110,7 +110,7 @@ static bool update_run(const struct mpm *mpm, const struct simulation *simulatio
 int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
                           const struct layer *layer, int32_t bin, double dt, const double *rate)
 {
-    struct particles *p = &simulation->particles;
+    struct particles *p = particles_of(simulation);
     const struct point_loop loop = loop_of(mpm, simulation, dt, rate);
     const int32_t *list = layer->bins.list + layer->bins.bin[bin].first;
     const int32_t count = layer->bins.bin[bin].cell[BLOCK_CELLS];

@@ -15,7 +15,7 @@ static const double moved_limit = 0.25;
 struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *simulation,
                                 struct layer *layer)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
     return (struct transfer){.dimension = simulation->dimension,
                              .shape = (enum grid_shape)mpm->parameters.shape,
@@ -56,7 +56,7 @@ struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *
 
 static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     struct binned binned = {.dimension = simulation->dimension,
                             .edge = mpm->edge,
                             .shift = p->shift,
@@ -103,7 +103,7 @@ static struct error *reserve_rates(struct mpm *mpm)
 /* Stores the particles as bins have them. */
 static struct error *store_by_bins(struct mpm *mpm, struct simulation *simulation)
 {
-    struct particles *p = &simulation->particles;
+    struct particles *p = particles_of(simulation);
     const struct bins *bins = &mpm->bins;
     if (mpm->layers > 1) { /* blocks have a bin for each layer */
         TRY(particles_sort(p));
@@ -134,7 +134,7 @@ static bool has_left(const struct mpm *mpm, const struct simulation *simulation)
  * is done here. */
 static struct error *place_particles(struct mpm *mpm, struct simulation *simulation)
 {
-    struct particles *p = &simulation->particles;
+    struct particles *p = particles_of(simulation);
     const int64_t every = simulation->input->run.rebalance;
     const bool several = simulation->ranks->size > 1,
                recut = several && every > 0 && simulation->step % every == 0;
@@ -238,7 +238,7 @@ static const double first_way = 0.1, step_growth = 1.2;
 /* Collective: dt = K min h/(c + max |u_i|), of equal ones that of the smallest id. */
 static struct limit limit_step(const struct mpm *mpm, const struct simulation *simulation)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const double *sound = mpm_fields_of(mpm, simulation).sound_long;
     struct ranked first = {(double)INFINITY, UINT64_MAX, LIMIT_SOUND};
 #pragma omp parallel num_threads(simulation->threads)
@@ -263,7 +263,7 @@ static struct limit limit_step(const struct mpm *mpm, const struct simulation *s
 /* Collective: of all particles; not zero. */
 static double largest_speed(const struct simulation *simulation)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     double most = 1e-300;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads) reduction(max : most)
     for (int32_t i = 0; i < p->count; i++)
@@ -325,7 +325,7 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
                         struct transfer_step step, bool of_main, int32_t *failed)
 {
     const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     if (layer->held) /* nothing strains it; held bodies that meet would strain each other */
         return;
 #pragma omp parallel num_threads(simulation->threads)

@@ -23,11 +23,6 @@ static const struct field_declaration core_fields[] = {
 /* A particle of no body waits for its deletion. */
 enum { BODY_DELETED = 0xffff };
 
-static size_t field_bytes(const struct field *field)
-{
-    return number_size(field->declaration.number) * (size_t)field->declaration.components;
-}
-
 /* Points the core's members at their fields, after any of them has moved. */
 static void bind_core(struct particles *p)
 {

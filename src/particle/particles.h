@@ -7,31 +7,13 @@
 #ifndef BOLIDE_PARTICLES_H
 #define BOLIDE_PARTICLES_H
 
+#include "base/field.h"
 #include "base/memory.h"
 #include "base/vector.h"
-#include "base/visitor.h"
 #include "material/history.h"
 #include "parallel/block.h"
 #include "parallel/partition.h"
 #include "parallel/ranks.h"
-
-enum field_kind {
-    FIELD_STATE = 1,   /* saved, migrated */
-    FIELD_DERIVED = 2, /* found again from the state */
-    FIELD_PASSING = 4, /* holds nothing from before to after a sort: not moved with the particle */
-};
-
-struct field_declaration {
-    const char *name, *unit, *help;
-    enum number number;
-    int components;
-    unsigned kind;
-};
-
-struct field {
-    struct field_declaration declaration;
-    void *data;
-};
 
 enum { PARTICLES_FIELDS = 48 };
 
@@ -125,14 +107,6 @@ uint64_t particles_hash(const struct particles *particles);
 
 /* Bytes that the store holds for each particle. */
 size_t particles_bytes(const struct particles *particles);
-
-/* An id tells what made the particle: a body and the index of its lattice site. */
-enum { PARTICLE_SITE_BITS = 48 };
-#define PARTICLE_SITE (((uint64_t)1 << PARTICLE_SITE_BITS) - 1)
-BOLIDE_INLINE uint64_t particle_id(int body, int64_t site)
-{
-    return (uint64_t)body << PARTICLE_SITE_BITS | (uint64_t)site;
-}
 
 /* D = V^(1/dimension): the edge of a cube, the side of a square, a length (1.70). */
 BOLIDE_INLINE double diameter_of_volume(double volume, int dimension)

@@ -106,7 +106,8 @@ static double released_energy(const struct run *run)
     struct exact_sum sum = {0};
     for (int32_t i = 0; i < p->count; i++) {
         struct point point = {.density = p->density[i], .energy = p->energy[i]};
-        memcpy(&point.deviator, p->deviator[i], sizeof point.deviator);
+        if (p->deviator)
+            memcpy(&point.deviator, p->deviator[i], sizeof point.deviator);
         point.history[HISTORY_burnt] = 1.0; /* what explosives set free when they burn */
         struct response response =
             any_material_evaluate(&run->simulation.material[p->material[i]], &point);
@@ -144,9 +145,9 @@ static struct error *make_solver(struct run *run)
 /* The particles, fresh or loaded. */
 static struct error *make_particles(struct run *run)
 {
-    TRY(run->options->resume ? run_load(run) : generate_particles(&run->simulation));
+    TRY(run->options->resume ? run_load(run) : run->method->fill(run->solver, &run->simulation));
     if (run->ranks.joined)
-        TRY(particles_distribute(&run->simulation.particles, 0.0, true));
+        TRY(run->simulation.members->distribute(run->simulation.store));
     run->simulation.threads = threads_for(run);
     TRY(ranks_agree(&run->ranks, run->method->start(run->solver, &run->simulation)));
     if (!run->options->resume)
@@ -293,7 +294,7 @@ static struct error *run_through(struct run *run)
     if (!error)
         error = conclude(run);
     if (!error) {
-        run->result->hash = particles_hash(&run->simulation.particles);
+        run->result->hash = run->simulation.members->hash(run->simulation.store);
         tell_end(run);
     } else
         for (int i = 0; run->log && i < error_count(error); i++)

@@ -117,10 +117,11 @@ static double next_event(const struct run *run)
 struct error *run_hear_ranks(struct run *run, struct error *error)
 {
     const struct run_options *options = run->options;
-    struct particles *particles = &run->simulation.particles;
+    const struct population_class *members = run->simulation.members;
+    void *store = run->simulation.store;
     const sig_atomic_t wanted = options->checkpoints ? *options->checkpoints : 0;
     enum { CHANGED, STOP, CHECKPOINT, WANTED, SAID };
-    double said[SAID] = {[CHANGED] = particles->pending > 0 || particles->deleted > 0,
+    double said[SAID] = {[CHANGED] = members->changed(store),
                          [STOP] = options->stop && *options->stop,
                          [CHECKPOINT] = run_checkpoint_is_due(run),
                          [WANTED] = wanted != run->checkpoints_heard};
@@ -130,8 +131,8 @@ struct error *run_hear_ranks(struct run *run, struct error *error)
     run->checkpoint_is_due = said[CHECKPOINT] > 0.0;
     run->checkpoint_is_wanted = run->checkpoint_is_wanted || said[WANTED] > 0.0;
     if (said[CHANGED] > 0.0) {
-        TRY(ranks_agree(&run->ranks, particles_commit(particles)));
-        run->particles = ranks_sum(&run->ranks, particles->count);
+        TRY(ranks_agree(&run->ranks, members->commit(store)));
+        run->particles = ranks_sum(&run->ranks, simulation_population(&run->simulation).count);
     }
     return NULL;
 }

@@ -85,7 +85,7 @@ void sph_bind_fields(const struct sph *sph, const struct simulation *simulation,
 {
     int size[SPH_SIZES];
     const struct field_needs needs = needs_of(sph->traits, simulation->dimension, size);
-    field_rows_bind(rows, &needs, &simulation->particles, fields);
+    field_rows_bind(rows, &needs, particles_of(simulation), fields);
 }
 
 struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *simulation)

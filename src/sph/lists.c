@@ -17,8 +17,8 @@ double sph_near_skin(const struct sph_parameters *parameters, unsigned traits)
 /* Records are in the scratch of the store until particles are sorted again. */
 static struct error *reserve_records(struct sph *sph, struct simulation *simulation)
 {
-    struct scratch *scratch = &simulation->particles.scratch;
-    int64_t count = (int64_t)simulation->particles.count + sph->neighbours.ghosts.count + 1;
+    struct scratch *scratch = &particles_of(simulation)->scratch;
+    int64_t count = (int64_t)particles_of(simulation)->count + sph->neighbours.ghosts.count + 1;
     const size_t bytes = (size_t)count * sph->stride * sizeof(double);
     if (!scratch_begin(scratch, bytes) ||
         (sph->places && !memory_reserve((void **)&sph->place, &sph->place_capacity, count, 0,
@@ -57,7 +57,7 @@ static struct reach reach_of(const struct sph *sph, const struct simulation *sim
 
 struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, bool *rebuilt)
 {
-    struct particles *p = &simulation->particles;
+    struct particles *p = particles_of(simulation);
     int64_t most = sph->parameters.rebuild;
     double begin = clock_seconds();
     bool recut = recuts(sph, simulation);

@@ -49,7 +49,7 @@ struct act {
 static void book_of_axis(const struct simulation *simulation, const struct act *act,
                          struct ledger *ledger, int32_t i, struct vec3 *push)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     double radius = p->position[i][0], gap = simulation->mirrors.high[0] - radius;
     double pull = act->fields->rates.hoop_pull[i];
     if (!(gap < radius)) {
@@ -65,7 +65,7 @@ static void book_of_axis(const struct simulation *simulation, const struct act *
 static void book_images(struct simulation *simulation, const void *of, int32_t i,
                         struct ledger *ledger)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const struct act *act = of;
     struct vec3 push = vector_at(act->fields->rates.wall[i]);
     if (act->fields->rates.hoop_pull)
@@ -96,7 +96,7 @@ static void reflect_particle(struct particles *p, int32_t i, int axis, double pl
 static void return_stray(struct simulation *simulation, const void *of, int32_t i,
                          struct ledger *ledger)
 {
-    struct particles *p = &simulation->particles;
+    struct particles *p = particles_of(simulation);
     (void)of;
     if (body_is_frozen(simulation, p->body[i]) || body_is_held(simulation, p->body[i]))
         return;
@@ -124,7 +124,7 @@ void sph_return_strays(struct simulation *simulation)
 static void freeze_particle(struct simulation *simulation, const void *of, int32_t i,
                             struct ledger *ledger)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const struct act *act = of;
     const struct sph_fields *f = act->fields;
     const double dt = act->dt;
@@ -153,7 +153,7 @@ static void freeze_particle(struct simulation *simulation, const void *of, int32
 static void hold_particle(struct simulation *simulation, const void *of, int32_t i,
                           struct ledger *ledger)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const struct act *act = of;
     const struct pair_rates *rates = &act->fields->rates;
     double *a = rates->acceleration[i];
@@ -179,7 +179,7 @@ void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, 
 static void pull_particle(struct simulation *simulation, const void *of, int32_t i,
                           struct ledger *ledger)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     const struct act *act = of;
     double *a = act->fields->rates.acceleration[i];
     for (int axis = 0; axis < 3; axis++)

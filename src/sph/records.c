@@ -26,7 +26,7 @@ void sph_reflect_motion(const struct simulation *simulation, image_code image, d
 static void copy_places(const struct simulation *simulation, const struct sph_records *records,
                         int32_t begin, int32_t end)
 {
-    const size_t count = (size_t)simulation->particles.count, stride = records->stride;
+    const size_t count = (size_t)particles_of(simulation)->count, stride = records->stride;
     const size_t bytes = (size_t)(simulation->dimension + 1) * sizeof(double);
     if (!records->place)
         return;
@@ -41,7 +41,7 @@ static void make_images(struct sph *sph, const struct simulation *simulation,
                         const struct sph_records *records, int32_t begin, int32_t end)
 {
     const struct ghosts *ghosts = &sph->neighbours.ghosts;
-    const size_t count = (size_t)simulation->particles.count, stride = records->stride;
+    const size_t count = (size_t)particles_of(simulation)->count, stride = records->stride;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t g = begin; g < end; g++) {
         double *record = records->first + (count + (size_t)g) * stride;
@@ -56,7 +56,7 @@ double *sph_records_start(struct sph *sph, const struct simulation *simulation,
                           const struct sph_records *records)
 {
     struct ghosts *ghosts = &sph->neighbours.ghosts;
-    const int32_t count = simulation->particles.count;
+    const int32_t count = particles_of(simulation)->count;
     ghosts_start(ghosts, records->first, count, records->stride * sizeof(double));
     make_images(sph, simulation, records, ghosts->remotes, ghosts->early);
     double *empty = records->first + (size_t)(count + ghosts->count) * records->stride;

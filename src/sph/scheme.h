@@ -179,7 +179,7 @@ BOLIDE_INLINE double sph_depth(const struct simulation *simulation, const struct
 {
     if (f->thickness)
         return f->thickness[i];
-    return sph_axisymmetric(simulation) ? simulation->particles.position[i][0] : 1.0;
+    return sph_axisymmetric(simulation) ? particles_of(simulation)->position[i][0] : 1.0;
 }
 
 /* The diameter that sets the support of particle I. */
@@ -192,7 +192,7 @@ BOLIDE_INLINE double sph_support(const struct sph_fields *f, int32_t i)
 BOLIDE_INLINE double sph_volume(const struct simulation *simulation, const struct sph_fields *f,
                                 int32_t i)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     return p->mass[i] / (p->density[i] * sph_depth(simulation, f, i));
 }
 

@@ -144,10 +144,7 @@ static struct error *create_store(const struct sph *sph, struct simulation *simu
     double support = 2.0 * parameters->smoothing * diameter;
     TRY(check_walls(simulation, support - (1.0 + 1e-9) * diameter));
     double cell = growth_room * support * (1.0 + parameters->skin);
-    TRY(particles_create(simulation->dimension, cell, fields, count, &simulation->particles));
-    simulation->particles.ranks = simulation->ranks;
-    simulation->particles.partition = &simulation->partition;
-    simulation->particles.threads = simulation->threads;
+    TRY(particles_add(simulation, cell, fields, count));
     return NULL;
 }
 
@@ -221,7 +218,7 @@ static void sph_observe(const void *solver, const struct simulation *simulation,
                         struct views *views)
 {
     (void)solver;
-    views_of_particles(views, simulation);
+    views_of_population(views, simulation);
 }
 
 static void sph_destroy(void *solver)
@@ -288,6 +285,7 @@ static double sph_largest_jump(const void *parameters)
 
 const struct solver_class sph_class = {.size = sizeof(struct sph),
                                        .create = sph_create,
+                                       .fill = particles_fill,
                                        .start = sph_start,
                                        .prepare = sph_prepare,
                                        .advance = sph_advance,

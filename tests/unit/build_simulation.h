@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "model/simulation.h"
+#include "model/particle_population.h"
 
 /* COUNT particles on a line of spacing 1 mm, each with values of its own. Free with
  * drop_simulation. */
@@ -17,10 +17,11 @@ static inline struct simulation *build_simulation(int32_t count)
     simulation->dimension = 3;
     simulation->time = 1.5e-6;
     simulation->step = 42;
-    struct particles *particles = &simulation->particles;
     int32_t first;
-    if (particles_create(3, 0.004, NULL, 0, particles) ||
-        (count && (particles_append(particles, count, &first) || particles_commit(particles))))
+    if (particles_add(simulation, 0.004, NULL, 0))
+        abort();
+    struct particles *particles = particles_of(simulation);
+    if ((count && (particles_append(particles, count, &first) || particles_commit(particles))))
         abort();
     for (int32_t i = 0; i < count; i++) {
         particles->id[i] = particle_id(i % 2, i);
@@ -42,7 +43,7 @@ static inline struct simulation *build_simulation(int32_t count)
 
 static inline void drop_simulation(struct simulation *simulation)
 {
-    particles_destroy(&simulation->particles);
+    simulation_depopulate(simulation);
     free(simulation);
 }
 

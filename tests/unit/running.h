@@ -76,7 +76,7 @@ static inline struct running *begin(const char *text, const struct variant *vari
 {
     struct running *run = open_case(text, variant);
     assert_success(run->solver->create(&run->sph, &run->simulation, run->input->solver.value));
-    run->simulation.particles.cell *= variant->cell;
+    particles_of(&run->simulation)->cell *= variant->cell;
     return run;
 }
 
@@ -120,13 +120,13 @@ static inline struct running *resume(struct running *run, const char *text,
     struct checkpoint checkpoint = {&run->simulation, run->solver, &run->sph,
                                     nothing_more,     NULL,        text};
     assert_success(checkpoint_write(path, &checkpoint));
-    uint64_t hash = particles_hash(&run->simulation.particles);
+    uint64_t hash = particles_hash(particles_of(&run->simulation));
     end(run);
     run = begin(text, variant);
     checkpoint.simulation = &run->simulation;
     checkpoint.solver = &run->sph;
     assert_success(checkpoint_read(path, &checkpoint));
-    assert_true(particles_hash(&run->simulation.particles) == hash);
+    assert_true(particles_hash(particles_of(&run->simulation)) == hash);
     assert_success(run->solver->start(&run->sph, &run->simulation));
     return run;
 }
@@ -149,7 +149,7 @@ static inline uint64_t hash_after(const char *text, const struct variant *first,
     if (variant->resumed)
         run = resume(run, text, variant);
     step(run, steps - steps / 2);
-    uint64_t hash = particles_hash(&run->simulation.particles);
+    uint64_t hash = particles_hash(particles_of(&run->simulation));
     end(run);
     return hash;
 }
@@ -157,7 +157,7 @@ static inline uint64_t hash_after(const char *text, const struct variant *first,
 /* Every particle of BODY has the velocity (X, Y). */
 static inline void assert_velocity(const struct running *run, int body, double x, double y)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     for (int32_t i = 0; i < p->count; i++)
         if (p->body[i] == body)
             assert_true(p->velocity[i][0] == x && p->velocity[i][1] == y);

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/particle_population.h"
 #include "particle/neighbours.h"
 #include "sph/prune.h"
 

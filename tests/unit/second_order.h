@@ -2,6 +2,7 @@
 #ifndef BOLIDE_TEST_SECOND_ORDER_H
 #define BOLIDE_TEST_SECOND_ORDER_H
 
+#include "model/particle_population.h"
 #include "running.h"
 
 #define METAL                                                                                \
@@ -27,7 +28,7 @@ static inline void prepare(struct running *run)
 /* The loop over RUN's records as they are packed, into the store's fields. */
 static inline struct muscl_loop loop_of(const struct running *run)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const struct muscl_fields f = muscl_fields_of(&run->sph, &run->simulation);
     return (struct muscl_loop){.kind = muscl_kind_of(&run->sph),
                                .record = run->sph.record,

@@ -1,5 +1,6 @@
 /* The same bits for any number of threads, order of storage, skin, age of rows, and after a resume: one hash
  * of the state after many steps. And what the steps must keep: mass, momentum and energy. */
+#include "model/particle_population.h"
 #include "running.h"
 
 #if defined(BOLIDE_SANITIZE)
@@ -123,7 +124,7 @@ static struct outcome outcome_of(const char *text, const struct variant *variant
     step(run, STEPS - STEPS / 2);
     struct outcome outcome;
     memset(&outcome, 0, sizeof outcome); /* compared as bytes */
-    outcome.hash = particles_hash(&run->simulation.particles);
+    outcome.hash = particles_hash(particles_of(&run->simulation));
     outcome.time = run->simulation.time;
     outcome.walls = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
     *builds = run->sph.neighbours.builds;
@@ -193,7 +194,7 @@ static void mass_momentum_and_energy_are_kept(void **state)
     const char *const texts[] = {plane_case, thin_case, round_case, space_case};
     for (size_t k = 0; k < COUNT_OF(texts); k++) {
         struct running *run = begin_fresh(texts[k], &base);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
         step(run, STEPS);
         struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);

@@ -16,6 +16,7 @@
 #include <hdf5.h>
 
 #include "build_simulation.h"
+#include "model/particle_population.h"
 #include "output/checkpoint.h"
 
 static const char case_text[] = "format: 1\ntitle: test\nrun:\n  until: 5e-06 s\n";
@@ -95,9 +96,9 @@ static struct run an_empty_run(void)
 
 static void assert_same(const struct run *a, const struct run *b)
 {
-    assert_int_equal(a->simulation->particles.count, b->simulation->particles.count);
-    assert_true(particles_hash(&a->simulation->particles) ==
-                particles_hash(&b->simulation->particles));
+    assert_int_equal(particles_of(a->simulation)->count, particles_of(b->simulation)->count);
+    assert_true(particles_hash(particles_of(a->simulation)) ==
+                particles_hash(particles_of(b->simulation)));
     assert_memory_equal(&a->simulation->ledger, &b->simulation->ledger, sizeof(struct ledger));
     assert_true(a->simulation->time == b->simulation->time);
     assert_true(a->simulation->step == b->simulation->step);

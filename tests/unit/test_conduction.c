@@ -2,6 +2,7 @@
  * after a resume, energy that is kept, a cylinder that cools about its axis, and what a case without the constants
  * is told. */
 #include "material/material.h"
+#include "model/particle_population.h"
 #include "running.h"
 
 #include "run/estimate.h"
@@ -76,7 +77,7 @@ static void energy_is_kept_in_every_geometry(void **state)
         {"rate of energy", 1, 1.0, "solver.sph.method.contact.motion=contact", false}};
     for (size_t v = 0; v < COUNT_OF(variants); v++) {
         struct running *run = begin_fresh(strike, &variants[v]);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         double start =
             population_totals(population_of_particles(p), &run->ranks, -1).entry[LEDGER_ENERGY];
         step(run, 60);
@@ -123,7 +124,7 @@ static void a_cylinder_cools_about_its_axis(void **state)
     (void)state;
     const double j = 3.83170597020751, radius = 0.04, diffusivity = 200.0 / (2700.0 * 880.0);
     struct running *run = begin_fresh(cylinder, &plain);
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     for (int32_t i = 0; i < p->count; i++)
         p->energy[i] = 880.0 * (100.0 + 50.0 * j0(j * p->position[i][0] / radius));
     double start =

@@ -1,5 +1,6 @@
 /* A corner of two mirror walls stands for the whole: particle by particle, a quarter between walls moves
  * as the same quarter of the whole body without them. So does one half of a body of revolution. */
+#include "model/particle_population.h"
 #include "running.h"
 
 enum { STEPS = 60 };
@@ -109,7 +110,8 @@ static uint64_t *partners(const struct particles *whole, const struct particles 
 static void assert_stands_for(const char *whole_text, const char *part_text, int share)
 {
     struct running *whole = begin_block(whole_text), *part = begin_block(part_text);
-    const struct particles *w = &whole->simulation.particles, *p = &part->simulation.particles;
+    const struct particles *w = particles_of(&whole->simulation),
+                           *p = particles_of(&part->simulation);
     assert_int_equal(w->count, share * p->count);
     uint64_t *id = partners(w, p);
     for (int k = 0; k < STEPS; k++)

@@ -1,5 +1,6 @@
 /* SPH with corrected kernel gradients, `hllc` and `monaghan`: the same bits for any threads, storage, rows and after a
  * resume; what corrected gradients must do exactly; what is conserved; frozen ends. */
+#include "model/particle_population.h"
 #include "running.h"
 
 #if defined(BOLIDE_SANITIZE)
@@ -121,7 +122,7 @@ static void linear_velocities_have_their_gradient_exactly(void **state)
     const char *const texts[] = {line_case, PLANE("method: hllc"), space_case};
     for (int dimension = 1; dimension <= 3; dimension++) {
         struct running *run = begin_fresh(texts[dimension - 1], &base);
-        struct particles *p = &run->simulation.particles;
+        struct particles *p = particles_of(&run->simulation);
         struct dice dice = {7};
         double gradient[3][3];
         for (int a = 0; a < dimension; a++)
@@ -165,7 +166,7 @@ static struct drift drift_of(const char *text, const char *setting)
 {
     const struct variant variant = {"", 1, 1.0, setting, false};
     struct running *run = begin_fresh(text, &variant);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     step(run, STEPS);
     struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);
@@ -217,7 +218,7 @@ static void a_frozen_body_keeps_its_state(void **state)
     for (size_t k = 0; k < COUNT_OF(methods); k++) {
         const struct variant variant = {"", 1, 1.0, methods[k], false};
         struct running *run = begin_fresh(text, &variant);
-        struct particles *p = &run->simulation.particles;
+        struct particles *p = particles_of(&run->simulation);
         struct totals start = population_totals(population_of_particles(p), &run->ranks, 0);
         step(run, STEPS);
         struct totals now = population_totals(population_of_particles(p), &run->ranks, 0);

@@ -1,4 +1,5 @@
 /* Particles with a depth: what axisymmetry and plane stress must keep. */
+#include "model/particle_population.h"
 #include "running.h"
 
 static const struct variant plain = {"plain", 1, 1.0, NULL, false};
@@ -30,7 +31,7 @@ static const char *const smoothings[] = {"solver.sph.smoothing=1", "solver.sph.s
 /* A stress that is alike along the radius and round the axis, and another along it: no force either. */
 static void press(struct running *run)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     for (int32_t i = 0; i < p->count; i++) {
         p->deviator[i][0] = p->deviator[i][2] = 0.5e9;
         p->deviator[i][1] = -1e9;
@@ -43,7 +44,7 @@ static void a_uniform_state_between_axis_and_walls_stays_uniform(void **state)
     for (size_t k = 0; k < COUNT_OF(smoothings); k++) {
         const struct variant variant = {"", 1, 1.0, smoothings[k], false};
         struct running *run = begin_fresh(can, &variant);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         press(run);
         const double density = p->density[0], pressure = p->pressure[0];
         double worst = 0.0;
@@ -68,7 +69,7 @@ static void a_uniform_expansion_from_the_axis_has_no_shear(void **state)
     for (size_t k = 0; k < COUNT_OF(smoothings); k++) {
         const struct variant variant = {"", 1, 1.0, smoothings[k], false};
         struct running *run = begin_fresh(can, &variant);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         const double speed = 2e4;
         for (int32_t i = 0; i < p->count; i++)
             p->velocity[i][0] = speed * p->position[i][0];
@@ -110,7 +111,7 @@ static void a_burst_keeps_energy_and_momentum_along_the_axis(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(burst, &plain);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     step(run, 60);
     struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);
@@ -179,7 +180,7 @@ static void mass_is_that_of_a_radian(void **state)
     struct running *run = begin_fresh(can, &plain);
     struct totals totals =
         population_totals(simulation_population(&run->simulation), &run->ranks, -1);
-    double density = run->simulation.particles.density[0];
+    double density = particles_of(&run->simulation)->density[0];
     assert_near(totals.entry[LEDGER_MASS], density * 0.5 * square(12e-3) * 9e-3,
                 1e-12 * totals.entry[LEDGER_MASS]);
     end(run);
@@ -203,7 +204,7 @@ static void a_particle_comes_out_on_the_other_side_of_the_axis(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(can, &plain);
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     p->position[0][0] = -2e-3;
     p->velocity[0][0] = -50.0;
     p->deviator[0][3] = 7.0;
@@ -220,7 +221,7 @@ static void a_particle_comes_out_of_a_wall_as_its_image(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(walled, &plain);
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     struct totals before = population_totals(population_of_particles(p), &run->ranks, -1);
     p->position[0][1] = -1e-4;
     p->velocity[0][0] = 30.0;
@@ -264,7 +265,7 @@ static void a_thin_plate_has_the_stiffness_of_plane_stress(void **state)
     const double modulus = 9.0 * bulk * shear / (3.0 * bulk + shear);
     const double nu = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear));
     struct running *run = begin_fresh(sheet, &plain);
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     for (int32_t i = 0; i < p->count; i++) {
         p->velocity[i][0] = 3.0 * p->position[i][0];
         p->velocity[i][1] = -1.0 * p->position[i][1];
@@ -288,7 +289,7 @@ static void a_plate_that_flows_bears_nothing_across(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(sheet, &plain);
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     for (int32_t i = 0; i < p->count; i++)
         p->velocity[i][0] = 3e4 * p->position[i][0];
     step(run, 40);

@@ -156,7 +156,7 @@ static double bytes_taken(const char *method, double *foreseen)
     assert_null(generate_particles(&simulation));
     assert_null(class->start(&sph, &simulation));
     assert_null(class->prepare(&sph, &simulation, &limit));
-    const struct particles *p = &simulation.particles;
+    const struct particles *p = particles_of(&simulation);
     const double taken =
         (double)particles_bytes(p) +
         ((double)p->scratch.size + (double)sph.place_capacity * PLACE_STRIDE * sizeof(double) +

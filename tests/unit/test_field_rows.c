@@ -1,6 +1,7 @@
 /* The rows of a solver's fields: which are declared, with how many components, and where their pointers go. */
 #include "dice.h"
 
+#include "model/particle_population.h"
 #include "particle/field_rows.h"
 
 enum { WARM = 1, FLAT = 2 };

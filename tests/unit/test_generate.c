@@ -6,6 +6,7 @@
 
 #include <cmocka.h>
 
+#include "model/particle_population.h"
 #include "workshop.h"
 
 static void a_box_has_its_exact_mass_and_every_particle_its_start_state(void **state)
@@ -20,7 +21,7 @@ static void a_box_has_its_exact_mass_and_every_particle_its_start_state(void **s
     body->velocity = (struct field_list){3, {{1.0, NULL}, {-2.0, NULL}, {3.0, NULL}}};
     body->start = (struct point){.density = 8.0, .energy = 5.0, .pressure = 7.0};
     assert_made(&w, &alone, &simulation);
-    const struct particles *p = &simulation.particles;
+    const struct particles *p = particles_of(&simulation);
     assert_int_equal(p->count, 16 * 4 * 8);
     assert_true(population_totals(population_of_particles(p), &alone, -1).entry[LEDGER_MASS] ==
                 8.0);
@@ -47,7 +48,7 @@ static void the_spacing_is_adjusted_to_fill_the_bounds(void **state)
     open_workshop(&w, 1, 0.3);
     add_body(&w, "box", &box);
     assert_made(&w, &alone, &simulation);
-    const struct particles *p = &simulation.particles;
+    const struct particles *p = particles_of(&simulation);
     assert_int_equal(p->count, 3);
     assert_true(largest_diameter(&w.input) == 1.0 / 3.0);
     for (int i = 0; i < p->count; i++)
@@ -71,7 +72,7 @@ static void a_grain_that_replaces_its_matrix_cuts_a_hole_of_its_own_form(void **
     add_body(&w, "box", &box);
     add_body(&w, "ball", &ball)->replaces = (struct name_list){1, (char *[]){"matrix"}};
     assert_made(&w, &alone, &simulation);
-    const struct particles *p = &simulation.particles;
+    const struct particles *p = particles_of(&simulation);
     const double disc = M_PI * square(0.25) * 1e4;
     assert_true(fabs(count_of_body(p, 0) - (1e4 - disc)) < 0.01 * disc);
     assert_true(fabs(count_of_body(p, 1) - disc) < 0.01 * disc);
@@ -119,8 +120,8 @@ static void bodies_that_touch_do_not_overlap(void **state)
     add_body(&w, "box", &left);
     add_body(&w, "box", &right);
     assert_made(&w, &alone, &simulation);
-    assert_int_equal(count_of_body(&simulation.particles, 0), 100);
-    assert_int_equal(count_of_body(&simulation.particles, 1), 600);
+    assert_int_equal(count_of_body(particles_of(&simulation), 0), 100);
+    assert_int_equal(count_of_body(particles_of(&simulation), 1), 600);
     simulation_destroy(&simulation);
 }
 
@@ -199,7 +200,7 @@ static void a_ball_on_the_axis_is_cut_there_and_has_its_mass(void **state)
         w.input.geometry = GEOMETRY_AXISYMMETRIC;
         add_body(&w, "ball", &ball)->start.density = 3.0;
         assert_made(&w, &alone, &simulation);
-        const struct particles *p = &simulation.particles;
+        const struct particles *p = particles_of(&simulation);
         for (int i = 0; i < p->count; i++)
             assert_true(p->position[i][0] >= 0.49 * w.input.resolution);
         const double mass =

@@ -1,4 +1,5 @@
 /* Gravity by both solvers: free fall, and what the ledger says of it. */
+#include "model/particle_population.h"
 #include "running.h"
 
 #define MATERIALS                                                                            \
@@ -39,7 +40,7 @@ static void check_fall(const struct variant *variant, double part)
     enum { FALL = 12 };
     const double dt = 2e-8, t = FALL * dt, u[2] = {40.0, 90.0}, g[2] = {3e6, -5e7};
     struct running *run = begin_fresh(falling, variant);
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     const struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     struct vec3 before = {0}, after = {0};
     for (int32_t i = 0; i < p->count; i++)
@@ -83,7 +84,7 @@ static void a_stone_falls_as_the_integrator_has_it(void **state)
 static void check_landing(const struct variant *variant, double energy)
 {
     struct running *run = begin_fresh(landing, variant);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     step(run, 40);
     const struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);

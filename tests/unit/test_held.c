@@ -1,4 +1,5 @@
 /* Bodies that something outside holds: pistons that are driven and strikers that stop, and what the ledger says. */
+#include "model/particle_population.h"
 #include "running.h"
 
 static const char push[] =
@@ -28,7 +29,7 @@ static const struct variant of_second_order = {"second order", 1, 1.0, "solver.s
 
 static void assert_closed(const struct running *run, const struct totals *start)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);
     struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
     for (int entry = LEDGER_MOMENTUM_X; entry <= LEDGER_MOMENTUM_Z; entry++)
@@ -76,7 +77,7 @@ static void a_driven_body_moves_by_its_velocity(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(push, &plain);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     double from = 0.0, to = 0.0;
     for (int32_t i = 0; i < p->count; i++)
         from += p->body[i] == 0 ? p->position[i][0] : 0.0;
@@ -104,7 +105,7 @@ static void the_thickness_of_a_driven_body_does_not_matter(void **state)
         char *text =
             text_format("%.*s%s%s", (int)(at - push), push, k ? "-24 mm" : "-6 mm", at + 5);
         struct running *run = begin_fresh(text, &variants[k]);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         free(text);
         while (run->simulation.time < 1.4e-6)
             step_of(run, 1.4e-6 - run->simulation.time);
@@ -140,7 +141,7 @@ static void a_driven_body_follows_the_time(void **state)
     char *text = swung();
     for (size_t k = 0; k < COUNT_OF(variants); k++) {
         struct running *run = begin_fresh(text, variants[k]);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         const struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
         double way = 0.0;
         while (run->simulation.time < 1.5e-6) {

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "build_simulation.h"
+#include "model/particle_population.h"
 #include "output/history.h"
 
 static char path[] = "/tmp/bolide-test-XXXXXX";
@@ -110,7 +111,8 @@ static void drift_counts_what_the_ledger_booked(void **state)
     struct simulation *simulation = build_simulation(4);
     const struct totals start =
         population_totals(simulation_population(simulation), simulation->ranks, -1);
-    simulation->particles.energy[0] += 47.0; /* of two kilograms: 94 J, half of what was there */
+    particles_of(simulation)->energy[0] +=
+        47.0; /* of two kilograms: 94 J, half of what was there */
     struct history *history;
     assert_null(history_open(path, -1, NULL, &history));
     assert_null(history_row(history, simulation, 1e-7, &start));

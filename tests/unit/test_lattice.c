@@ -6,6 +6,7 @@
 
 #include <cmocka.h>
 
+#include "model/particle_population.h"
 #include "workshop.h"
 
 static const double density = 8.0; /* of every body of the workshop */
@@ -47,7 +48,7 @@ static void a_particle_of_a_hexagonal_lattice_has_six_neighbours(void **state)
     struct simulation simulation;
     struct shape_box box = {VECTOR(0.0, 0.0), VECTOR(12.0, 20.0 * sqrt(0.75))};
     make_body(&w, &simulation, "box", &box, LATTICE_HEXAGONAL, NULL, 1.0);
-    const struct particles *p = &simulation.particles;
+    const struct particles *p = particles_of(&simulation);
     assert_int_equal(p->count, 12 * 20);
     int interior = 0;
     for (int i = 0; i < p->count; i++) {
@@ -74,7 +75,7 @@ static void a_hexagonal_lattice_fills_any_box(void **state)
     struct simulation simulation;
     struct shape_box box = {VECTOR(-1.0, 3.0), VECTOR(0.37, 4.1)};
     make_body(&w, &simulation, "box", &box, LATTICE_HEXAGONAL, NULL, 0.0213);
-    assert_near(total_mass(&simulation.particles), density * 1.37 * 1.1, 1e-12);
+    assert_near(total_mass(particles_of(&simulation)), density * 1.37 * 1.1, 1e-12);
     simulation_destroy(&simulation);
 }
 
@@ -90,7 +91,7 @@ static void rings_have_the_count_and_the_mass_of_their_shell(void **state)
         struct workshop w;
         struct simulation simulation;
         make_body(&w, &simulation, "shell", &shell, LATTICE_RINGS, &rings, resolution[i]);
-        const struct particles *p = &simulation.particles;
+        const struct particles *p = particles_of(&simulation);
         assert_int_equal(p->count, count[i]);
         assert_near(total_mass(p), density * M_PI * 3600.0, 1e-12);
         for (int k = 0; k < p->count; k++)
@@ -107,7 +108,7 @@ static void rings_fill_a_disc_to_its_middle(void **state)
     struct shape_ball disc = {VECTOR(0.0, 0.0), 0.1};
     struct lattice_rings rings = {.count = 0};
     make_body(&w, &simulation, "ball", &disc, LATTICE_RINGS, &rings, 2.55e-3);
-    const struct particles *p = &simulation.particles;
+    const struct particles *p = particles_of(&simulation);
     assert_int_equal(p->count, 4804);
     assert_near(total_mass(p), density * M_PI * 0.01, 1e-12);
     double moment[2] = {0.0}, inertia = 0.0;
@@ -123,8 +124,8 @@ static void rings_fill_a_disc_to_its_middle(void **state)
 
     struct shape_ball speck = {VECTOR(2.0, 3.0), 0.2};
     make_body(&w, &simulation, "ball", &speck, LATTICE_RINGS, &rings, 1.0);
-    assert_int_equal(simulation.particles.count, 1);
-    assert_true(simulation.particles.position[0][0] == 2.0);
+    assert_int_equal(particles_of(&simulation)->count, 1);
+    assert_true(particles_of(&simulation)->position[0][0] == 2.0);
     simulation_destroy(&simulation);
 }
 
@@ -139,7 +140,7 @@ static void rings_of_one_count_have_particles_of_one_mass(void **state)
         struct simulation simulation;
         rings.count = 45 * finer;
         make_body(&w, &simulation, "shell", &shell, LATTICE_RINGS, &rings, 4.94 / finer);
-        const struct particles *p = &simulation.particles;
+        const struct particles *p = particles_of(&simulation);
         assert_int_equal(p->count, 135 * finer * finer);
         for (int i = 0; i < p->count; i++)
             assert_near(p->mass[i], density * M_PI * 1050.0 / p->count, 1e-12);
@@ -156,7 +157,7 @@ static void rings_are_mirror_images_about_their_start(void **state)
     struct workshop w;
     struct simulation simulation;
     make_body(&w, &simulation, "shell", &shell, LATTICE_RINGS, &rings, 4.94);
-    const struct particles *p = &simulation.particles;
+    const struct particles *p = particles_of(&simulation);
     const double c = cos(2.0 * rings.start), s = sin(2.0 * rings.start);
     for (int i = 0; i < p->count; i++) {
         const double x = p->position[i][0] - 1.0, y = p->position[i][1];
@@ -177,7 +178,7 @@ static void rings_may_stand_about_any_point(void **state)
     struct shape_box plate = {VECTOR(0.0, 0.0), VECTOR(1.0, 1.0)};
     struct lattice_rings rings = {.center = VECTOR(0.3, 1.2)};
     make_body(&w, &simulation, "box", &plate, LATTICE_RINGS, &rings, 0.02);
-    const struct particles *p = &simulation.particles;
+    const struct particles *p = particles_of(&simulation);
     assert_near(total_mass(p), density, 0.01);
     for (int i = 0; i < p->count; i++) {
         const double r = hypot(p->position[i][0] - 0.3, p->position[i][1] - 1.2) / 0.02;
@@ -199,7 +200,7 @@ static void rings_follow_a_shell_that_is_cut(void **state)
     struct shape_intersection upper = {{2, items}};
     struct lattice_rings rings = {.count = 0};
     make_body(&w, &simulation, "intersection", &upper, LATTICE_RINGS, &rings, 0.25);
-    const struct particles *p = &simulation.particles;
+    const struct particles *p = particles_of(&simulation);
     assert_near(total_mass(p), 0.5 * density * M_PI * 36.0, 0.01);
     double low = INFINITY, high = 0.0;
     for (int i = 0; i < p->count; i++) {
@@ -242,7 +243,7 @@ static void rivals_are_found_from_every_lattice(void **state)
         add_body(&w, "ball", &disc)->lattice = lattice_of((enum lattice_kind)kind, &rings);
         add_body(&w, "ball", &hole)->replaces = (struct name_list){1, (char *[]){"matrix"}};
         assert_made(&w, &alone, &simulation);
-        const struct particles *p = &simulation.particles;
+        const struct particles *p = particles_of(&simulation);
         for (int i = 0; i < p->count; i++)
             if (p->body[i] == 0)
                 assert_false(shape_inside(&w.bodies[1].shape,

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "model/ledger.h"
+#include "model/particle_population.h"
 
 enum { COUNT = 1000 };
 

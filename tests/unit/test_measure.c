@@ -9,6 +9,7 @@
 
 #include "exact/choices.h"
 #include "exact/gas_riemann.h"
+#include "model/particle_population.h"
 #include "run/checks.h"
 #include "shape/kinds.h"
 
@@ -41,9 +42,9 @@ static const struct choice *choice_of(const struct choice *choices, int count, c
 
 static void place_particles(struct bench *bench)
 {
-    struct particles *p = &bench->simulation.particles;
     int32_t first;
-    assert_null(particles_create(1, 0.1, NULL, 0, p));
+    assert_null(particles_add(&bench->simulation, 0.1, NULL, 0));
+    struct particles *p = particles_of(&bench->simulation);
     assert_null(particles_append(p, ALL, &first));
     for (int i = 0; i < ALL; i++) {
         p->id[i] = particle_id(i / EACH, i % EACH);
@@ -79,7 +80,7 @@ static int setup(void **state)
     b->simulation.ranks = &b->ranks;
     b->simulation.dimension = 1;
     place_particles(b);
-    views_of_particles(&b->views, &b->simulation);
+    views_of_population(&b->views, &b->simulation);
     b->start = population_totals(simulation_population(&b->simulation), &b->ranks, -1);
     b->gas = (struct exact_gas_riemann){{{1.0, 0.0, 1.0, 1.4}, {0.125, 0.0, 0.1, 1.4}}, 0.5};
     *state = b;
@@ -89,7 +90,7 @@ static int setup(void **state)
 static int teardown(void **state)
 {
     struct bench *b = *state;
-    particles_destroy(&b->simulation.particles);
+    simulation_depopulate(&b->simulation);
     free(b);
     return 0;
 }
@@ -141,7 +142,7 @@ static void mean_counts_every_particle_of_the_window_once(void **state)
     struct bench *b = *state;
     limit_dimension(b, pascal);
     for (int i = 0; i < ALL; i++)
-        b->simulation.particles.pressure[i] = i;
+        particles_of(&b->simulation)->pressure[i] = i;
     assert_float_equal(value_of(b, "mean", &pressure), (ALL - 1) / 2.0, 1e-13);
     b->check.of = b->names[1];
     assert_float_equal(value_of(b, "mean", &pressure), EACH + (EACH - 1) / 2.0, 1e-13);
@@ -155,7 +156,7 @@ static void mean_counts_every_particle_of_the_window_once(void **state)
 static void extremes_are_found_and_nonsense_is_not_hidden(void **state)
 {
     struct bench *b = *state;
-    double *p = b->simulation.particles.pressure;
+    double *p = particles_of(&b->simulation)->pressure;
     limit_dimension(b, pascal);
     p[3] = -7.0;
     p[30] = 9.0;
@@ -175,9 +176,9 @@ static void front_lies_between_the_particles_that_straddle_the_value(void **stat
         .field = (char[]){"pressure"}, .value = {2.5, pascal}, .from = FRONT_FROM_HIGH};
     limit_dimension(b, metre);
     for (int i = 0; i < 10; i++)
-        b->simulation.particles.pressure[i] = 10.0;
+        particles_of(&b->simulation)->pressure[i] = 10.0;
     assert_float_equal(value_of(b, "front", &front), (9.5 + 0.75) / ALL, 1e-14);
-    b->simulation.particles.pressure[30] = 10.0;
+    particles_of(&b->simulation)->pressure[30] = 10.0;
     assert_float_equal(value_of(b, "front", &front), (30.5 + 0.75) / ALL, 1e-14);
     front.from = FRONT_FROM_LOW;
     assert_float_equal(value_of(b, "front", &front), (9.5 + 0.75) / ALL, 1e-14);
@@ -193,11 +194,11 @@ static void width_counts_the_particles_between_a_tenth_and_nine_tenths(void **st
     const double front[] = {11.0, 10.5, 9.9, 6.0, 2.1, 1.9, 1.0};
     limit_dimension(b, one);
     for (int i = 0; i < ALL; i++)
-        b->simulation.particles.pressure[i] = i < 10 ? 11.0 : i < 17 ? front[i - 10] : 1.0;
+        particles_of(&b->simulation)->pressure[i] = i < 10 ? 11.0 : i < 17 ? front[i - 10] : 1.0;
     assert_float_equal(value_of(b, "width", &width), 3.0, 0.0);
     b->check.between = (struct vector_value){2, {0.0, 13.0 / ALL}};
     assert_float_equal(value_of(b, "width", &width), 1.0, 0.0);
-    b->simulation.particles.pressure[3] = NAN;
+    particles_of(&b->simulation)->pressure[3] = NAN;
     assert_true(isnan(value_of(b, "width", &width)));
 }
 
@@ -210,7 +211,7 @@ static void slabs_average_a_ragged_front(void **state)
                                   .slab = 0.1};
     limit_dimension(b, metre);
     for (int i = 0; i < ALL; i += 2) /* alternately 10 and 0 up to the middle: mean 5 */
-        b->simulation.particles.pressure[i] = i < EACH ? 10.0 : 0.0;
+        particles_of(&b->simulation)->pressure[i] = i < EACH ? 10.0 : 0.0;
     assert_float_equal(value_of(b, "front", &front), 0.5, 1e-12);
 }
 
@@ -223,7 +224,7 @@ static void a_front_is_told_in_the_frame_of_the_matter_ahead(void **state)
                                   .frame = -0.5};
     limit_dimension(b, metre);
     for (int i = 0; i < 10; i++)
-        b->simulation.particles.pressure[i] = 10.0;
+        particles_of(&b->simulation)->pressure[i] = 10.0;
     b->simulation.time = 0.25;
     assert_float_equal(value_of(b, "front", &front), (9.5 + 0.75) / ALL + 0.125, 1e-14);
 }
@@ -243,7 +244,7 @@ static void about_a_point_places_are_distances(void **state)
     b->check.about = (struct vector_value){1, {0.5}};
     limit_dimension(b, pascal);
     for (int i = 0; i < ALL; i++) /* 10 within 0.25 of the middle */
-        b->simulation.particles.pressure[i] = i >= 10 && i < 30 ? 10.0 : 0.0;
+        particles_of(&b->simulation)->pressure[i] = i >= 10 && i < 30 ? 10.0 : 0.0;
     b->check.between = (struct vector_value){2, {0.0, 0.2}};
     assert_float_equal(value_of(b, "mean", &pressure), 10.0, 0.0);
     b->check.between = (struct vector_value){2, {0.3, 1.0}};
@@ -259,9 +260,9 @@ static void error_norms_measure_the_distance_from_the_exact_solution(void **stat
     struct bench *b = *state;
     use_gas(b);
     for (int i = 0; i < ALL; i++)
-        b->simulation.particles.pressure[i] = i < EACH ? 1.0 : 0.1;
+        particles_of(&b->simulation)->pressure[i] = i < EACH ? 1.0 : 0.1;
     assert_float_equal(value_of(b, "l1", &pressure), 0.0, 1e-15);
-    b->simulation.particles.pressure[5] += 0.8;
+    particles_of(&b->simulation)->pressure[5] += 0.8;
     b->check.scale = (struct quantity){2.0, pascal};
     assert_float_equal(value_of(b, "l1", &pressure), 0.8 / ALL / 2.0, 1e-15);
     assert_float_equal(value_of(b, "rms", &pressure), sqrt(0.64 / ALL) / 2.0, 1e-15);
@@ -276,8 +277,8 @@ static void a_particle_is_judged_by_the_side_on_which_its_body_started(void **st
     use_gas(b);
     b->check.scale = (struct quantity){1.0, pascal};
     for (int i = 0; i < ALL; i++)
-        b->simulation.particles.pressure[i] = i < EACH ? 1.0 : 0.1;
-    b->simulation.particles.position[EACH - 1][0] = 0.51; /* strayed over the contact */
+        particles_of(&b->simulation)->pressure[i] = i < EACH ? 1.0 : 0.1;
+    particles_of(&b->simulation)->position[EACH - 1][0] = 0.51; /* strayed over the contact */
     assert_float_equal(value_of(b, "max_error", &pressure), 0.0, 1e-15);
 }
 
@@ -287,7 +288,7 @@ static void contact_norms_take_ten_particles_a_side(void **state)
     use_gas(b);
     b->simulation.time = 0.1;
     const double star = 0.30313017805064707; /* Sod's problem, Toro's book, test 1 */
-    double *p = b->simulation.particles.pressure;
+    double *p = particles_of(&b->simulation)->pressure;
     for (int i = 0; i < ALL; i++)
         p[i] = i >= EACH - 10 && i < EACH + 10 ? star : 1e6;
     assert_float_equal(value_of(b, "contact_max", &pressure), 0.0, 1e-9);
@@ -300,7 +301,7 @@ static void what_the_ledger_booked_is_conserved(void **state)
 {
     struct bench *b = *state;
     struct measure_conserved momentum = {CONSERVED_MOMENTUM}, energy = {CONSERVED_ENERGY};
-    struct particles *p = &b->simulation.particles;
+    struct particles *p = particles_of(&b->simulation);
     limit_dimension(b, one);
     p->velocity[4][0] = 40.0;
     assert_float_equal(value_of(b, "conserved", &momentum), 1.0, 1e-15);
@@ -317,7 +318,7 @@ static void within_is_a_fraction_of_what_is_wanted_or_a_quantity(void **state)
     struct check_result result = {0};
     choose(b, "mean", &pressure);
     for (int i = 0; i < ALL; i++)
-        b->simulation.particles.pressure[i] = -103.0;
+        particles_of(&b->simulation)->pressure[i] = -103.0;
     b->check.at_most.value = NAN;
     b->check.is = (struct quantity){-100.0, pascal};
     b->check.within = (struct quantity){0.02, one};
@@ -328,7 +329,7 @@ static void within_is_a_fraction_of_what_is_wanted_or_a_quantity(void **state)
     b->check.within = (struct quantity){5.0, pascal};
     assert_null(evaluate(b, &result));
     assert_int_equal(result.verdict, CHECK_PASSED);
-    b->simulation.particles.pressure[0] = NAN;
+    particles_of(&b->simulation)->pressure[0] = NAN;
     assert_null(evaluate(b, &result));
     assert_int_equal(result.verdict, CHECK_FAILED);
 }

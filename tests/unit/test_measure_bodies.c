@@ -125,8 +125,8 @@ static struct vec3 start_of(const struct stage *s, int32_t i)
 
 static void move_to(struct stage *s, int32_t i, double x, double y)
 {
-    s->simulation.particles.position[i][0] = x;
-    s->simulation.particles.position[i][1] = y;
+    particles_of(&s->simulation)->position[i][0] = x;
+    particles_of(&s->simulation)->position[i][1] = y;
 }
 
 static void places_at_the_start_are_those_of_the_lattice(void **state)
@@ -134,7 +134,7 @@ static void places_at_the_start_are_those_of_the_lattice(void **state)
     (void)state;
     struct stage s;
     stage_begin(&s, "  it: {minimum: displacement.x, at_least: -1 m}");
-    struct particles *p = &s.simulation.particles;
+    struct particles *p = particles_of(&s.simulation);
     double(*place)[3] = calloc((size_t)p->count, sizeof *place);
     start_places(&s.simulation, 0, p->count, place);
     assert_memory_equal(place, p->position, (size_t)p->count * sizeof *place);
@@ -152,7 +152,7 @@ static void a_total_is_that_of_a_body(void **state)
     stage_begin(&s, "  push: {total: momentum.y, of: right, at_most: 1 kg/s}\n"
                     "  spin: {total: angular_momentum.z, at_most: 1 kg*m/s}\n"
                     "  motion: {total: kinetic_energy, of: left, at_most: 1 J/m}\n");
-    struct particles *p = &s.simulation.particles;
+    struct particles *p = particles_of(&s.simulation);
     for (int32_t i = 0; i < p->count; i++)
         p->velocity[i][1] = p->body[i] == 1 ? 3.0 : p->body[i] == 0 ? -2.0 : 0.0;
     assert_float_equal(stage_value(&s, 0), 3.0 * 2e-4, 1e-16);
@@ -167,7 +167,7 @@ static void turn_is_the_angle_of_a_rigid_rotation(void **state)
     static const double angles[] = {0.0, 0.3, -3.0, 3.1};
     struct stage s;
     stage_begin(&s, "  it: {turn: z, of: left, at_most: 1}");
-    struct particles *p = &s.simulation.particles;
+    struct particles *p = particles_of(&s.simulation);
     for (size_t k = 0; k < COUNT_OF(angles); k++) {
         for (int32_t i = 0; i < p->count; i++) {
             const struct vec3 x = start_of(&s, i);
@@ -221,7 +221,7 @@ static void radius_follows_a_surface_that_no_particle_stands_on(void **state)
     assert_true(stage_value(&s, 2) < 1e-16);
     assert_true(isnan(stage_value(&s, 3)));
     /* A flow of constant area: r^2 - R^2 is the same everywhere. */
-    struct particles *p = &s.simulation.particles;
+    struct particles *p = particles_of(&s.simulation);
     for (int32_t i = 0; i < p->count; i++) {
         const struct vec3 x = start_of(&s, i);
         const double then = hypot(x.x, x.y - 40e-3);
@@ -258,7 +258,7 @@ static void spread_is_the_standard_deviation(void **state)
     (void)state;
     struct stage s;
     stage_begin(&s, "  it: {spread: pressure, of: left, at_most: 1 GPa}");
-    struct particles *p = &s.simulation.particles;
+    struct particles *p = particles_of(&s.simulation);
     for (int32_t i = 0; i < p->count; i++)
         p->pressure[i] = 1e9 + (p->id[i] % 2 ? 3.0 : -3.0);
     assert_float_equal(stage_value(&s, 0), 3.0, 1e-12);
@@ -297,7 +297,7 @@ static void pieces_are_what_hangs_together(void **state)
     struct stage s;
     stage_begin(&s, "  all: {pieces: {link: 0.8}, at_most: 1}\n"
                     "  one: {pieces: 0.8, of: right, at_most: 1}\n");
-    struct particles *p = &s.simulation.particles;
+    struct particles *p = particles_of(&s.simulation);
     const double *diameter = particles_field(p, "diameter");
     assert_float_equal(stage_value(&s, 0), 3.0, 0.0); /* the squares do not hang together */
     assert_float_equal(stage_value(&s, 1), 1.0, 0.0);
@@ -328,7 +328,7 @@ static void asymmetry_compares_with_the_particle_that_stood_at_the_image(void **
                     "  ring: {asymmetry: {field: velocity.x, across: xy, center: [0 mm, 40 mm]}, "
                     "of: ring, at_most: 1}\n"
                     "  none: {asymmetry: {field: velocity.x, across: y}, of: ring, at_most: 1}\n");
-    struct particles *p = &s.simulation.particles;
+    struct particles *p = particles_of(&s.simulation);
     for (int32_t i = 0; i < p->count; i++) {
         const struct vec3 x = start_of(&s, i);
         p->velocity[i][0] = p->body[i] < 2 ? x.x * (1.0 + x.y * x.y) : x.x * (x.y - 40e-3);
@@ -372,7 +372,7 @@ static void shear_layer_finds_the_viscosity_that_moved_the_rows(void **state)
                     "of: left, between: [-8 mm, -3 mm], at_most: 1 m}\n"
                     "  velocity: {shear_layer: {value: velocity, speed: 2 m/s, plane: 1 mm}, "
                     "of: left, between: [-8 mm, -3 mm], at_most: 1 m/s}\n");
-    struct particles *p = &s.simulation.particles;
+    struct particles *p = particles_of(&s.simulation);
     static const double viscosity = 0.031;
     s.simulation.time = 3e-4;
     for (int32_t i = 0; i < p->count; i++) {
@@ -395,7 +395,7 @@ static void a_check_is_measured_at_its_time_and_remembered(void **state)
     struct stage s;
     stage_begin(&s, "  early: {mean: velocity.x, of: left, at: 0.2 s, at_most: 4 m/s}\n"
                     "  last: {mean: velocity.x, of: left, at_most: 4 m/s}\n");
-    struct particles *p = &s.simulation.particles;
+    struct particles *p = particles_of(&s.simulation);
     for (int step = 0; step <= 10; step++) {
         for (int32_t i = 0; i < p->count; i++)
             p->velocity[i][0] = step;
@@ -421,8 +421,8 @@ static void a_known_deviation_is_no_failure_until_it_passes(void **state)
             "  there: {mean: velocity.x, at_most: -1 m/s, known_deviation: it creeps, "
             "known_deviation_if: -2}\n"
             "  never: {mean: velocity.x, at: 0.9 s, at_most: 4 m/s, known_deviation: it creeps}\n");
-    for (int32_t i = 0; i < s.simulation.particles.count; i++)
-        s.simulation.particles.velocity[i][0] = 0.0;
+    for (int32_t i = 0; i < particles_of(&s.simulation)->count; i++)
+        particles_of(&s.simulation)->velocity[i][0] = 0.0;
     stage_watch(&s, 0.1);
     stage_value(&s, 0);
     const enum check_verdict wanted[] = {CHECK_KNOWN_DEVIATION, CHECK_PASSES_NOW, CHECK_PASSED,
@@ -459,7 +459,7 @@ static void a_value_is_divided_by_that_at_the_start_or_of_another_check(void **s
                     "  slope: {mean: position.y, of: left, relative: way, is: 3, within: 1 %}\n"
                     "  way: {mean: position.x, of: left, at_most: 1 m}\n"
                     "  rate: {decay: mass, of: left, at_most: 1 s^-1}\n");
-    struct particles *p = &s.simulation.particles;
+    struct particles *p = particles_of(&s.simulation);
     for (int32_t i = 0; i < p->count; i++) {
         const struct vec3 x = start_of(&s, i);
         move_to(&s, i, 2.0 * x.x, 6.0 * x.x);

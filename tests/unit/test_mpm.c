@@ -1,5 +1,6 @@
 /* The material point method step by step: the same bits whatever the threads, the storage, and after a resume; what the
  * steps keep; and what it refuses. */
+#include "model/particle_population.h"
 #include "running.h"
 
 #if defined(BOLIDE_SANITIZE)
@@ -160,7 +161,7 @@ static void mixing_in_shocks_turns_motion_into_heat(void **state)
             const struct variant variant = {"", 2, 1.0, NULL, false};
             struct running *run = begin_fresh(texts[k], &variant);
             step(run, STEPS);
-            const struct particles *p = &run->simulation.particles;
+            const struct particles *p = particles_of(&run->simulation);
             double *shock = mpm_fields_of(&run->mpm, &run->simulation).shock;
             const struct totals before =
                                     population_totals(population_of_particles(p), &run->ranks, -1),
@@ -206,7 +207,7 @@ static void mixing_in_shocks_does_not_heat_across_materials(void **state)
                  at + strlen("MATERIAL"));
         const struct variant variant = {"", 1, 1.0, NULL, false};
         struct running *run = begin_fresh(with, &variant);
-        struct particles *p = &run->simulation.particles;
+        struct particles *p = particles_of(&run->simulation);
         double *shock = mpm_fields_of(&run->mpm, &run->simulation).shock;
         for (int32_t i = 0; i < p->count; i++)
             shock[i] = 1.0;

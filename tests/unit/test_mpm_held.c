@@ -1,5 +1,6 @@
 /* Bodies that something outside holds, by the material point method: pistons that are driven, strikers that stop, ends that
  * keep all of their state; and what the ledger says. */
+#include "model/particle_population.h"
 #include "running.h"
 
 #define METAL                                                                                \
@@ -45,7 +46,7 @@ static const struct variant plain = {"plain", 1, 1.0, NULL, false};
 
 static void assert_closed(const struct running *run, const struct totals *start)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const struct totals now = population_totals(population_of_particles(p), &run->ranks, -1);
     const struct totals booked = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_CAUSES);
     for (int entry = LEDGER_MASS; entry <= LEDGER_MOMENTUM_Z; entry++)
@@ -90,7 +91,7 @@ static void a_driven_body_moves_by_its_velocity(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(push, &plain);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     double from = 0.0, to = 0.0;
     int count = 0;
     for (int32_t i = 0; i < p->count; i++)
@@ -116,7 +117,7 @@ static void held_bodies_that_meet_do_not_strain_each_other(void **state)
         "walls: {end: {mirror: x, at: 12 mm, side: high}}\n"
         "run: {until: 1 s}\n";
     struct running *run = begin_fresh(die, &plain);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     while (run->simulation.time < 20e-6) /* the piston has come to the wall */
         step(run, 1);
     for (int32_t i = 0; i < p->count; i++) {
@@ -131,7 +132,7 @@ static void frozen_bodies_keep_their_state(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(mixed, &plain);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     for (int k = 0; k < 40; k++) {
         step_of(run, k == 39 ? 0.8e-6 : (double)INFINITY);

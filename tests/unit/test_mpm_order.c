@@ -1,5 +1,6 @@
 /* Velocities of nodes by the inverse of the full mass matrix to some order, in a bar at rest in which no force acts yet: so
  * one step shows what nodes make of the velocities of particles. */
+#include "model/particle_population.h"
 #include "running.h"
 
 static const char bar_case[] =
@@ -30,7 +31,7 @@ static double kept(double (*velocity)(double), const char *shape, int order, dou
     snprintf(setting, sizeof setting, "solver.mpm.shape=%s", shape);
     const struct variant variant = {"", 1, 1.0, setting, false};
     struct running *run = begin_fresh(bar_case, &variant);
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     run->mpm.parameters.order = order;
     run->mpm.parameters.flip = flip;
     for (int32_t i = 0; i < p->count; i++)

@@ -1,4 +1,5 @@
 /* Loads on surfaces and faces of outflow by the material point method. */
+#include "model/particle_population.h"
 #include "running.h"
 
 #define MATERIALS                                                                            \
@@ -47,8 +48,8 @@ static void step_and_commit(struct running *run, int steps)
 {
     for (int k = 0; k < steps; k++) {
         step(run, 1);
-        if (run->simulation.particles.deleted)
-            assert_success(particles_commit(&run->simulation.particles));
+        if (particles_of(&run->simulation)->deleted)
+            assert_success(particles_commit(particles_of(&run->simulation)));
     }
 }
 
@@ -60,7 +61,7 @@ static void pressure_around_balances_pressure_within(void **state)
     for (size_t k = 0; k < COUNT_OF(settings); k++) {
         const struct variant variant = {"", 1, 1.0, settings[k], false};
         struct running *run = begin_fresh(balanced, &variant);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         step(run, 5);
         for (int32_t i = 0; i < p->count; i++)
             assert_near(fabs(p->velocity[i][0]) + fabs(p->velocity[i][1]), 0.0, 1e-8);
@@ -159,7 +160,7 @@ static void what_leaves_is_booked(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(leaving, &plain);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const int32_t count = p->count;
     const struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     for (int k = 0; k < 60; k++) {
@@ -184,7 +185,7 @@ static void a_fast_stream_leaves_as_it_came(void **state)
         "outflows: {right: {across: x, at: 0.2 m, side: high}}\n"
         "run: {until: 1 s}\n";
     struct running *run = begin_fresh(stream, &plain);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     while (run->simulation.time < 0.03)
         step_and_commit(run, 1);
     assert_near(0.001 * p->count, 0.2 - 3.0 * run->simulation.time, 0.0011);
@@ -268,7 +269,7 @@ static uint64_t hash_of(const char *text, const struct variant *variant)
     if (variant->resumed)
         run = resume(run, text, variant);
     step_and_commit(run, 30);
-    const uint64_t hash = particles_hash(&run->simulation.particles);
+    const uint64_t hash = particles_hash(particles_of(&run->simulation));
     end(run);
     return hash;
 }

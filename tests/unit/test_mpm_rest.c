@@ -1,4 +1,5 @@
 /* The material point method with a gas at rest: what a uniform pressure does to nodes. */
+#include "model/particle_population.h"
 #include "running.h"
 
 /* Between walls, with particles of 1 mm; the low side of x is a wall or the axis. */
@@ -21,7 +22,7 @@ static double stirred(const char *text, const char *setting)
     const struct variant variant = {"", 1, 1.0, setting, false};
     struct running *run = begin_fresh(text, &variant);
     step(run, 10);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     double most = 0.0;
     for (int32_t i = 0; i < p->count; i++)
         for (int a = 0; a < 2; a++)

@@ -1,5 +1,6 @@
 /* The second-order contact method: what its gradients must give exactly, and what its sums must keep. */
 #include "material/material.h"
+#include "model/particle_population.h"
 #include "second_order.h"
 
 #define LINE "{from: [-8 mm], to: [8 mm]}"
@@ -25,7 +26,7 @@ static const char layer[] =
 /* Moves particles off their sites by up to SHIFT metres, and takes up to a tenth from their mass or adds it. */
 static void distort(struct running *run, double shift, struct dice *dice)
 {
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     for (int32_t i = 0; i < p->count; i++) {
         p->mass[i] *= dice_between(dice, 0.9, 1.1);
         for (int axis = 0; axis < p->dimension; axis++)
@@ -37,7 +38,7 @@ static void distort(struct running *run, double shift, struct dice *dice)
 /* U = A x in the dimensions of the run. */
 static void set_velocity(struct running *run, const double a[3][3])
 {
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     for (int32_t i = 0; i < p->count; i++)
         for (int row = 0; row < p->dimension; row++) {
             p->velocity[i][row] = 0.0;
@@ -58,7 +59,7 @@ static void random_gradient(struct dice *dice, bool turning, double a[3][3])
 /* The invariants of A, by which volumes follow places. Contacts are ahead of nothing. */
 static void assert_volume_rates(const struct running *run, const double a[3][3])
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const double(*volume)[VOLUME_NUMBERS] = particles_field(p, "volume_rate");
     const bool space = p->dimension > 2;
     const double minors[3] = {a[0][0] * a[1][1] - a[0][1] * a[1][0],
@@ -82,7 +83,7 @@ static void assert_volume_rates(const struct running *run, const double a[3][3])
 /* All that the second pass says of velocity, A. */
 static void assert_velocity_gradient(const struct running *run, const double a[3][3])
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const double(*rate)[6] = particles_field(p, "strain_rate");
     const double(*spin)[3] = particles_field(p, "spin");
     const double *gradient = particles_field(p, "velocity_gradient"), tolerance = 1e-10 * 1e4;
@@ -141,7 +142,7 @@ static struct linear_stress random_stress(struct dice *dice)
 /* The solid's deviator takes the stress less its mean. */
 static void set_stress(struct running *run, const struct linear_stress *stress, bool solid)
 {
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     for (int32_t i = 0; i < p->count; i++) {
         double s[6];
         for (int c = 0; c < 6; c++) {
@@ -159,7 +160,7 @@ static void set_stress(struct running *run, const struct linear_stress *stress, 
 static void assert_stress_gradient(const struct running *run, const struct linear_stress *stress,
                                    int stresses)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const double *slope = particles_field(p, "stress_gradient");
     for (int32_t i = 0; i < p->count; i++)
         for (int axis = 0; axis < p->dimension; axis++)
@@ -204,7 +205,7 @@ static void the_force_expected_inside_a_lattice_is_the_divergence_of_stress(void
     struct dice dice = {12};
     for (size_t k = 0; k < COUNT_OF(bodies); k++) {
         struct running *run = begin_fresh(bodies[k].text, &plain);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         const bool tensor = bodies[k].stresses > 1;
         const struct linear_stress stress = random_stress(&dice);
         double a[3][3];
@@ -242,8 +243,8 @@ static void a_line_of_like_particles_has_a_correction_of_one_up_to_its_ends(void
     const struct variant narrow = {"", 1, 1.0, "solver.sph.smoothing=1", false};
     struct running *run = begin_fresh(bodies[0].text, &narrow);
     prepare(run);
-    const double *correction = particles_field(&run->simulation.particles, "correction");
-    for (int32_t i = 0; i < run->simulation.particles.count; i++)
+    const double *correction = particles_field(particles_of(&run->simulation), "correction");
+    for (int32_t i = 0; i < particles_of(&run->simulation)->count; i++)
         assert_near(correction[i], 1.0, 1e-13);
     end(run);
 }
@@ -253,7 +254,7 @@ static void a_single_layer_in_space_is_not_corrected(void **state)
     (void)state;
     static const double one[6] = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
     struct running *run = begin_fresh(layer, &plain);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     struct dice dice = {11};
     for (int32_t i = 0; i < p->count; i++)
         for (int axis = 0; axis < 3; axis++)
@@ -279,7 +280,7 @@ static void a_free_body_that_turns_as_a_whole_is_not_braked(void **state)
         if (bodies[k].dimension == 1)
             continue;
         struct running *run = begin_fresh(bodies[k].text, &plain);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         distort(run, bodies[k].shift, &dice);
         for (int32_t i = 0; i < p->count; i++)
             p->pressure[i] = 0.0; /* to the last digit */
@@ -316,7 +317,7 @@ static const char *const clouds[] = {
 
 static void randomise(struct running *run, struct dice *dice)
 {
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     for (int32_t i = 0; i < p->count; i++)
         p->density[i] *= dice_between(dice, 0.95, 1.05);
     distort(run, 0.6e-3, dice);
@@ -338,7 +339,7 @@ static void a_random_cloud_keeps_momentum_and_energy(void **state)
     struct dice dice = {4};
     for (size_t k = 0; k < COUNT_OF(clouds); k++) {
         struct running *run = begin_fresh(clouds[k], &plain);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         randomise(run, &dice);
         prepare(run);
         const double(*acceleration)[3] = particles_field(p, "acceleration");
@@ -382,7 +383,7 @@ static const char round_half[] =
 /* A state in motion that both mirrors leave as it is. */
 static void set_symmetric_state(struct running *run)
 {
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     for (int32_t i = 0; i < p->count; i++) {
         const double x = p->position[i][0] / 1e-2, y = p->position[i][1] / 1e-2;
         bool solid = run->simulation.material[p->material[i]].strength.kind != STRENGTH_NONE;
@@ -402,7 +403,8 @@ static void set_symmetric_state(struct running *run)
 static void assert_same_field(const struct running *whole, const struct running *part,
                               const char *name, int components)
 {
-    const struct particles *w = &whole->simulation.particles, *p = &part->simulation.particles;
+    const struct particles *w = particles_of(&whole->simulation),
+                           *p = particles_of(&part->simulation);
     const double *of_whole = particles_field(w, name), *of_part = particles_field(p, name);
     double size = 0.0;
     for (int32_t k = 0; k < p->count * components; k++)
@@ -422,7 +424,8 @@ static void assert_same_field(const struct running *whole, const struct running 
 static void assert_stands_for(const char *whole_text, const char *part_text, int share)
 {
     struct running *whole = begin_fresh(whole_text, &plain), *part = begin_fresh(part_text, &plain);
-    assert_int_equal(whole->simulation.particles.count, share * part->simulation.particles.count);
+    assert_int_equal(particles_of(&whole->simulation)->count,
+                     share * particles_of(&part->simulation)->count);
     set_symmetric_state(whole);
     set_symmetric_state(part);
     for (int k = 0; k < 3; k++) {

@@ -1,5 +1,6 @@
 /* What frozen ends do by the second-order contact method: waves run out of them, whatever the pressure of the matter at rest;
  * nothing happens without waves; and the ledger has what they take. */
+#include "model/particle_population.h"
 #include "second_order.h"
 
 #define GAS                                                                   \
@@ -48,7 +49,7 @@ static void matter_at_rest_stays_at_rest(void **state)
 {
     (void)state;
     struct running *run = begin_fresh(still, &plain);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     step(run, 20);
     for (int32_t i = 0; i < p->count; i++)
         for (int axis = 0; axis < 2; axis++)

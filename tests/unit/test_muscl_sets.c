@@ -1,5 +1,6 @@
 /* Nothing but the state decides the bits of the second-order method: not the instruction set, the threads, the rows, nor a
  * resume. */
+#include "model/particle_population.h"
 #include "second_order.h"
 
 #include "base/isa.h"
@@ -41,7 +42,7 @@ static const char *const cases[] = {CASE("1", SOLID, LINE),    CASE("2", FLUID, 
 static struct running *begin_random(const char *text, struct dice *dice)
 {
     struct running *run = begin_fresh(text, &plain);
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     for (int32_t i = 0; i < p->count; i++)
         for (int axis = 0; axis < p->dimension; axis++) {
             p->position[i][axis] += dice_between(dice, -2e-4, 2e-4);
@@ -55,7 +56,7 @@ static struct running *begin_random(const char *text, struct dice *dice)
 /* The rates of all particles by SET, one array behind the other; *BYTES of them. */
 static double *rates_by(muscl_loop_isa *set, struct running *run, size_t *bytes)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const struct muscl_fields f = muscl_fields_of(&run->sph, &run->simulation);
     const struct muscl_kind kind = muscl_kind_of(&run->sph);
     const struct muscl_loop loop = loop_of(run);
@@ -176,7 +177,7 @@ static void expected_forces_packing_and_supports_belong_to_the_state(void **stat
     const uint64_t wanted = hash_after(plane_gap, &plain, &plain, 20);
     for (size_t k = 0; k < COUNT_OF(names); k++) {
         struct running *run = begin_fresh(plane_gap, &plain);
-        struct particles *p = &run->simulation.particles;
+        struct particles *p = particles_of(&run->simulation);
         step(run, 10);
         const uint64_t before = particles_hash(p);
         double *value = particles_field(p, names[k]);
@@ -185,7 +186,7 @@ static void expected_forces_packing_and_supports_belong_to_the_state(void **stat
         assert_true(particles_hash(p) != before);
         value[0] = kept;
         run = resume(run, plane_gap, &plain);
-        p = &run->simulation.particles;
+        p = particles_of(&run->simulation);
         assert_true(((double *)particles_field(p, names[k]))[0] == kept);
         memset(particles_field(p, names[k]), 0, (size_t)p->count * components[k] * sizeof kept);
         step(run, 10);

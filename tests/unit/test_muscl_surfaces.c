@@ -1,12 +1,13 @@
 /* What the second-order contact method does where matter ends and where it meets again: the force that is expected at free
  * surfaces, thin plates that ring out, and density that follows the packing of particles. */
+#include "model/particle_population.h"
 #include "second_order.h"
 #include "sph/kernel.h"
 
 /* Uniform stress, and particles that know no slopes and stand still: a loop over records of this very moment. */
 static void sum_uniform_stress(struct running *run, const double stress[6])
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const struct muscl_fields f = muscl_fields_of(&run->sph, &run->simulation);
     const struct muscl_kind kind = muscl_kind_of(&run->sph);
     const double mean = (stress[0] + stress[1] + stress[2]) / 3.0;
@@ -50,7 +51,7 @@ static void the_force_expected_at_a_free_plane_is_its_traction_over_a_layer(void
         snprintf(setting, sizeof setting, "solver.sph.smoothing=%s", faces[k].smoothing);
         const struct variant variant = {"", 1, 1.0, setting, false};
         struct running *run = begin_fresh(faces[k].text, &variant);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         sum_uniform_stress(run, stress);
         const struct muscl_fields f = muscl_fields_of(&run->sph, &run->simulation);
         const double traction[3] = {stress[0], stress[3], stress[5]};
@@ -112,7 +113,7 @@ static void a_plate_of_three_layers_that_is_shaken_in_its_thickness_comes_to_res
         for (size_t c = 0; c < COUNT_OF(courants); c++) {
             const struct variant variant = {"", 1, 1.0, courants[c], false};
             struct running *run = begin_fresh(plates[k], &variant);
-            struct particles *p = &run->simulation.particles;
+            struct particles *p = particles_of(&run->simulation);
             for (int32_t i = 0; i < p->count; i++)
                 p->velocity[i][1] = fabs(p->position[i][1] - 7.5e-3) < 2e-3 ? -2.0 : 1.0;
             const double start = kinetic_energy(p);
@@ -130,7 +131,7 @@ static const char *const lattices[] = {
 /* Volumes stay, the space that they stand in becomes SPACE of what it was. */
 static void put_into(struct running *run, double space)
 {
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     const double by = pow(space, 1.0 / p->dimension);
     for (int32_t i = 0; i < p->count; i++)
         for (int axis = 0; axis < p->dimension; axis++)
@@ -141,7 +142,7 @@ static void put_into(struct running *run, double space)
 static struct running *begin_lattice(const char *text)
 {
     struct running *run = begin_fresh(text, &plain);
-    struct particles *p = &run->simulation.particles;
+    struct particles *p = particles_of(&run->simulation);
     memset(p->pressure, 0, (size_t)p->count * sizeof *p->pressure);
     return run;
 }
@@ -149,7 +150,7 @@ static struct running *begin_lattice(const char *text)
 /* What the volumes about particle I fill of its space: the trace of its second moment over that of a complete lattice. */
 static double packing_of(const struct running *run, int32_t i)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const double *diameter = particles_field(p, "diameter");
     double sum = 0.0;
     for (int32_t j = 0; j < p->count; j++) {
@@ -167,7 +168,7 @@ static double packing_of(const struct running *run, int32_t i)
 /* The mean of what packing exceeds START by over the neighbours of one size and density. */
 static double mean_excess_of(const struct running *run, int32_t i)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const struct sph_fields f = sph_fields_of(&run->sph, &run->simulation);
     double sum = 0.0, weight = 0.0;
     for (int32_t j = 0; j < p->count; j++) {
@@ -187,7 +188,7 @@ static double mean_excess_of(const struct running *run, int32_t i)
  * particles have an excess. */
 static int32_t assert_squeeze(const struct running *run, const double *start)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const struct sph_fields f = sph_fields_of(&run->sph, &run->simulation);
     int32_t squeezed = 0;
     for (int32_t i = 0; i < p->count; i++) {
@@ -203,7 +204,7 @@ static int32_t assert_squeeze(const struct running *run, const double *start)
 
 static double *packing_of_all(const struct running *run)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     double *packing = malloc((size_t)p->count * sizeof *packing);
     for (int32_t i = 0; i < p->count; i++)
         packing[i] = packing_of(run, i);
@@ -230,7 +231,7 @@ static void volumes_that_overlap_are_squeezed_and_volumes_apart_are_not(void **s
     (void)state;
     for (size_t k = 0; k < COUNT_OF(lattices); k++) {
         struct running *run = begin_lattice(lattices[k]);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         double *start = packing_of_all(run);
         prepare(run);
         run->simulation.step++;
@@ -294,7 +295,7 @@ static void packing_counts_from_that_of_the_start(void **state)
     (void)state;
     for (size_t k = 0; k < COUNT_OF(lattices); k++) {
         struct running *run = begin_lattice(lattices[k]);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         const double(*kept)[PACKING_NUMBERS] = particles_field(p, "packing");
         put_into(run, 0.95);
         double *start = packing_of_all(run);
@@ -324,7 +325,7 @@ static void what_flow_draws_out_keeps_its_neighbours_and_its_density(void **stat
         "", 1, 1.0, "materials.metal.strength.perfect-plastic.yield=1 MPa", false};
     for (int strong = 0; strong < 2; strong++) {
         struct running *run = begin_fresh(block, strong ? &plain : &soft);
-        const struct particles *p = &run->simulation.particles;
+        const struct particles *p = particles_of(&run->simulation);
         double widest = 1.0;
         while (run->simulation.time < (strong ? 2e-6 : 24e-6)) {
             step(run, 1);

@@ -1,5 +1,6 @@
 /* Noble and Abel's stiffened gas: values worked out by hand, the ideal gas as a limit, and shocks.
  * */
+#include "model/particle_population.h"
 #include "running.h"
 
 #include "material/heat.h"
@@ -115,7 +116,7 @@ static uint64_t blast(const char *const settings[2], int count)
     const double until = run->input->run.until;
     while (run->simulation.time < until * (1.0 - 1e-12))
         step_of(run, until - run->simulation.time);
-    const uint64_t hash = particles_hash(&run->simulation.particles);
+    const uint64_t hash = particles_hash(particles_of(&run->simulation));
     end(run);
     return hash;
 }

@@ -14,6 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "model/particle_population.h"
 #include "output/picture.h"
 #include "output/picture_scale.h"
 
@@ -24,12 +25,12 @@ static struct simulation *lattice(int dimension, int nx, int ny, int nz, double 
 {
     static const struct ranks alone = {0, 1, false};
     struct simulation *simulation = calloc(1, sizeof *simulation);
-    struct particles *p = &simulation->particles;
     int32_t count = nx * ny * nz, first;
     simulation->ranks = &alone;
     simulation->dimension = dimension;
     simulation->time = 3.1e-6;
-    assert_null(particles_create(dimension, 4.0 * spacing, NULL, 0, p));
+    assert_null(particles_add(simulation, 4.0 * spacing, NULL, 0));
+    struct particles *p = particles_of(simulation);
     assert_null(particles_append(p, count, &first));
     p->count = count;
     for (int32_t i = 0; i < count; ++i) {
@@ -47,7 +48,7 @@ static struct simulation *lattice(int dimension, int nx, int ny, int nz, double 
 
 static void drop(struct simulation *simulation)
 {
-    particles_destroy(&simulation->particles);
+    simulation_depopulate(simulation);
     free(simulation);
 }
 
@@ -55,7 +56,7 @@ static struct error *draw_in(const struct simulation *simulation, const char *fi
                              double high)
 {
     struct views views = {0};
-    views_of_particles(&views, simulation);
+    views_of_population(&views, simulation);
     return picture_particles(path, simulation, &views, field, low, high);
 }
 
@@ -277,11 +278,11 @@ static void a_picture_is_the_same_in_any_order_of_storage(void **state)
         struct simulation *simulation =
             lattice(dimension, 30, dimension > 1 ? 20 : 1, dimension > 2 ? 10 : 1, 1e-3);
         /* Dense enough that discs lie on each other. */
-        for (int32_t i = 0; i < simulation->particles.count; ++i)
-            simulation->particles.mass[i] *= 8.0;
+        for (int32_t i = 0; i < particles_of(simulation)->count; ++i)
+            particles_of(simulation)->mass[i] *= 8.0;
         assert_null(draw_in(simulation, "pressure", NAN, NAN));
         cairo_surface_t *first = read_picture();
-        turn_round(&simulation->particles);
+        turn_round(particles_of(simulation));
         assert_null(draw_in(simulation, "pressure", NAN, NAN));
         cairo_surface_t *second = read_picture();
         const size_t bytes = (size_t)cairo_image_surface_get_stride(first) *
@@ -315,7 +316,7 @@ static void extreme_values_are_drawn(void **state)
     for (int dimension = 1; dimension <= 3; ++dimension) {
         struct simulation *simulation =
             lattice(dimension, 5, dimension > 1 ? 5 : 1, dimension > 2 ? 5 : 1, 1e-3);
-        struct particles *p = &simulation->particles;
+        struct particles *p = particles_of(simulation);
         assert_draws(simulation, "density", NAN, NAN);    /* constant */
         assert_draws(simulation, "velocity.x", NAN, NAN); /* zero */
         assert_draws(simulation, "pressure", 2e9, 3e9);

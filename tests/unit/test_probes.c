@@ -13,6 +13,7 @@
 #include "build_case.h"
 #include "measure/probes.h"
 #include "measure/profiles.h"
+#include "model/particle_population.h"
 #include "run/catalogue.h"
 #include "run/checks.h"
 #include "shape/kinds.h"
@@ -39,10 +40,10 @@ static char it[] = "it", left[] = "left", right[] = "right", pressure[] = "press
 
 static void place_particles(struct bench *b, int dimension)
 {
-    struct particles *p = &b->simulation.particles;
     int each = dimension == 3 ? EACH * EACH * EACH : EACH * EACH;
     int32_t first;
-    assert_null(particles_create(dimension, 1.0, NULL, 0, p));
+    assert_null(particles_add(&b->simulation, 1.0, NULL, 0));
+    struct particles *p = particles_of(&b->simulation);
     assert_null(particles_append(p, BODIES * each, &first));
     for (int i = 0; i < BODIES * each; i++) {
         int site = i % each;
@@ -90,7 +91,7 @@ static struct bench *make_bench(int dimension)
     b->simulation.ranks = &b->ranks;
     b->simulation.dimension = dimension;
     place_particles(b, dimension);
-    views_of_particles(&b->views, &b->simulation);
+    views_of_population(&b->views, &b->simulation);
     strcpy(b->folder, "/tmp/bolide-test-XXXXXX");
     assert_non_null(mkdtemp(b->folder));
     return b;
@@ -102,7 +103,7 @@ static void drop_bench(struct bench *b)
     snprintf(command, sizeof command, "rm -r '%s'", b->folder);
     assert_int_equal(system(command), 0);
     probes_free(&b->probes);
-    particles_destroy(&b->simulation.particles);
+    simulation_depopulate(&b->simulation);
     free(b);
 }
 
@@ -142,7 +143,7 @@ static double last_of(const struct probe *probe, const char *column)
 
 static void spin(struct bench *b, struct vec3 velocity, struct vec3 turn)
 {
-    struct particles *p = &b->simulation.particles;
+    struct particles *p = particles_of(&b->simulation);
     for (int32_t i = 0; i < p->count; i++) {
         struct vec3 x = vec3_make(p->position[i][0], p->position[i][1], p->position[i][2]);
         struct vec3 u = vec3_add(velocity, vec3_cross(turn, x));
@@ -195,7 +196,7 @@ static void a_tracer_follows_its_particle_wherever_it_is_stored(void **state)
     watch(b, false);
     assert_int_equal(probe->id, particle_id(0, 0));
     assert_float_equal(last_of(probe, "position.x"), 0.0, 0.0);
-    struct particles *p = &b->simulation.particles;
+    struct particles *p = particles_of(&b->simulation);
     for (int32_t i = 0; i < p->count; i++) /* far away, so that it is stored elsewhere */
         if (p->id[i] == probe->id) {
             p->position[i][0] = 50.0;
@@ -250,7 +251,7 @@ static void half_the_jump_is_found_whatever_lies_behind(void **state)
 {
     (void)state;
     struct bench *b = make_bench(2);
-    struct particles *p = &b->simulation.particles;
+    struct particles *p = particles_of(&b->simulation);
     /* A shock of 8 over 1 up to x = 1.1 with one peak of 40, and nothing at x = 0. */
     for (int32_t i = 0; i < p->count; i++) {
         double x = p->position[i][0], y = p->position[i][1];

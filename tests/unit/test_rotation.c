@@ -1,4 +1,5 @@
 /* Velocities corrected to the contact point (`rotation: corrected`): a body that turns as a whole feels nothing of it. */
+#include "model/particle_population.h"
 #include "running.h"
 
 #define HEAD(dimension)                                                          \
@@ -25,7 +26,7 @@ static const struct variant faithful = {"faithful", 1, 1.0,
 /* Turns all particles about OMEGA through the origin; SPIN: the spins say so. */
 static void turn(struct running *run, struct vec3 omega, bool spin)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     double(*spins)[3] = particles_field(p, "spin");
     for (int32_t i = 0; i < p->count; i++) {
         const double *x = p->position[i];
@@ -38,7 +39,7 @@ static void turn(struct running *run, struct vec3 omega, bool spin)
 
 static double largest_acceleration(const struct running *run)
 {
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const double(*a)[3] = particles_field(p, "acceleration");
     double largest = 0.0;
     for (int32_t i = 0; i < p->count; i++)
@@ -49,7 +50,7 @@ static double largest_acceleration(const struct running *run)
 static void judge_rates(const char *text, struct vec3 omega)
 {
     struct running *run = begin_fresh(text, &corrected);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     const double size = sqrt(vec3_dot(omega, omega));
     turn(run, omega, true);
     assert_success(run->solver->prepare(&run->sph, &run->simulation, &run->limit));
@@ -102,7 +103,7 @@ static void without_the_correction_couples_brake_it(void **state)
 static double angular_momentum_left(const char *text, const struct variant *variant)
 {
     struct running *run = begin_fresh(text, variant);
-    const struct particles *p = &run->simulation.particles;
+    const struct particles *p = particles_of(&run->simulation);
     turn(run, vec3_make(0.0, 0.0, 3e3), false);
     struct totals start = population_totals(population_of_particles(p), &run->ranks, -1);
     step(run, 60);

@@ -54,7 +54,7 @@ static struct error *flight_create(void *solver, struct simulation *simulation,
                                    const void *parameters)
 {
     *(struct flight_parameters *)solver = *(const struct flight_parameters *)parameters;
-    return particles_create(simulation->dimension, 1.0, NULL, 0, &simulation->particles);
+    return particles_add(simulation, 1.0, NULL, 0);
 }
 
 static struct error *flight_start(void *solver, struct simulation *simulation)
@@ -69,14 +69,14 @@ static struct error *flight_prepare(void *solver, struct simulation *simulation,
 {
     const struct flight_parameters *flight = solver;
     *limit = (struct limit){simulation->step ? flight->later : flight->step, "wish",
-                            simulation->particles.id[0]};
+                            particles_of(simulation)->id[0]};
     return NULL;
 }
 
 static struct error *flight_advance(void *solver, struct simulation *simulation, double dt)
 {
     const struct flight_parameters *flight = solver;
-    struct particles *p = &simulation->particles;
+    struct particles *p = particles_of(simulation);
     if (simulation->step + 1 == flight->fail_at)
         return error_new(ERROR_STATE, "the wings came off");
     for (int32_t i = 0; i < p->count; i++) {
@@ -97,7 +97,7 @@ static void flight_observe(const void *solver, const struct simulation *simulati
                            struct views *views)
 {
     (void)solver;
-    views_of_particles(views, simulation);
+    views_of_population(views, simulation);
 }
 
 static void flight_destroy(void *solver) { (void)solver; }
@@ -120,6 +120,7 @@ static double flight_step(const void *parameters, int dimension, const struct ma
 
 static const struct solver_class flight_class = {sizeof(struct flight_parameters),
                                                  flight_create,
+                                                 particles_fill,
                                                  flight_start,
                                                  flight_prepare,
                                                  flight_advance,

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "build_case.h"
-#include "model/simulation.h"
+#include "model/particle_population.h"
 
 enum { BODIES = 30, CONTACTS = 30 };
 

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "build_simulation.h"
+#include "model/particle_population.h"
 #include "output/snapshot.h"
 
 static char folder[64];
@@ -48,7 +49,7 @@ static void compute_lever(const void *context, int64_t begin, int64_t end, doubl
 static struct error *write_snapshot(const struct simulation *simulation)
 {
     struct views views = {0};
-    views_of_particles(&views, simulation);
+    views_of_population(&views, simulation);
     views_add(&views,
               (struct view){
                   .name = "lever", .unit = "J/(kg*K)", .components = 1, .compute = compute_lever});
@@ -101,7 +102,7 @@ static void a_snapshot_is_a_grid_of_vertices(void **state)
     read_numbers("/VTKHDF/NumberOfCells", 1, 1, numbers);
     assert_true(numbers[0] == 5.0);
     read_numbers("/VTKHDF/Points", 5, 3, numbers);
-    assert_true(numbers[3] == simulation->particles.position[1][0] && numbers[4] == 0.1);
+    assert_true(numbers[3] == particles_of(simulation)->position[1][0] && numbers[4] == 0.1);
     read_numbers("/VTKHDF/Offsets", 6, 1, numbers);
     assert_true(numbers[0] == 0.0 && numbers[5] == 5.0);
     read_numbers("/VTKHDF/Connectivity", 5, 1, numbers);

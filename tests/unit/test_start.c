@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "case/internal.h"
+#include "model/particle_population.h"
 #include "workshop.h"
 
 static const struct start_given nothing = {
@@ -119,7 +120,7 @@ static void every_particle_has_the_state_of_its_place(void **state)
     struct body_input *body = add_varied(&w, &box);
     const struct material *material = &w.iron;
     assert_made(&w, &alone, &simulation);
-    const struct particles *p = &simulation.particles;
+    const struct particles *p = particles_of(&simulation);
     assert_int_equal(p->count, 64);
     for (int i = 0; i < p->count; i++) {
         const double *x = p->position[i];

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 #include <string.h>
 
+#include "model/particle_population.h"
 #include "model/views.h"
 
 enum { COUNT = 700 };
@@ -20,9 +21,9 @@ static void set_up(struct simulation *simulation, struct views *views)
 {
     *simulation = (struct simulation){.dimension = 3};
     *views = (struct views){0};
-    struct particles *p = &simulation->particles;
     int32_t first;
-    assert_null(particles_create(3, 1.0, solver_fields, (int)COUNT_OF(solver_fields), p));
+    assert_null(particles_add(simulation, 1.0, solver_fields, (int)COUNT_OF(solver_fields)));
+    struct particles *p = particles_of(simulation);
     assert_null(particles_append(p, COUNT, &first));
     double *sound_speed = particles_field(p, "sound_speed");
     for (int i = 0; i < COUNT; i++) {
@@ -34,7 +35,7 @@ static void set_up(struct simulation *simulation, struct views *views)
             p->deviator[i][k] = i * (k + 1);
     }
     p->count = COUNT;
-    views_of_particles(views, simulation);
+    views_of_population(views, simulation);
 }
 
 static void every_double_field_with_a_unit_is_a_view(void **state)
@@ -53,9 +54,9 @@ static void every_double_field_with_a_unit_is_a_view(void **state)
     }
     assert_int_equal(views.count, (int)COUNT_OF(shown));
     assert_ptr_equal(views_find(&views, "pressure", &component)->data,
-                     simulation.particles.pressure);
+                     particles_of(&simulation)->pressure);
     assert_string_equal(views_find(&views, "sound_speed", &component)->unit, "m/s");
-    particles_destroy(&simulation.particles);
+    simulation_depopulate(&simulation);
 }
 
 static void names_that_are_no_view_are_not_found(void **state)
@@ -70,7 +71,7 @@ static void names_that_are_no_view_are_not_found(void **state)
     int component;
     for (size_t i = 0; i < COUNT_OF(unknown); i++)
         assert_null(views_find(&views, unknown[i], &component));
-    particles_destroy(&simulation.particles);
+    simulation_depopulate(&simulation);
 }
 
 static void a_component_reads_as_a_column_of_the_whole(void **state)
@@ -92,7 +93,7 @@ static void a_component_reads_as_a_column_of_the_whole(void **state)
         for (int64_t i = 0; i < end - begin; i++)
             assert_true(column[i] == whole[i * view->components + (component < 0 ? 0 : component)]);
     }
-    particles_destroy(&simulation.particles);
+    simulation_depopulate(&simulation);
 }
 
 static void stress_and_speed_follow_from_the_fields(void **state)
@@ -112,7 +113,7 @@ static void stress_and_speed_follow_from_the_fields(void **state)
     const double square_sum = 4.0 + 16.0 + 36.0 + 2.0 * (64.0 + 100.0 + 144.0);
     assert_true(fabs(mises - sqrt(1.5 * square_sum)) < 1e-12);
     assert_true(fabs(speed - 3.0 * sqrt(14.0)) < 1e-12);
-    particles_destroy(&simulation.particles);
+    simulation_depopulate(&simulation);
 }
 
 static void a_field_that_cannot_be_chosen_is_told_with_what_could(void **state)
@@ -149,7 +150,7 @@ static void a_field_that_cannot_be_chosen_is_told_with_what_could(void **state)
     assert_int_equal(component, 0);
     assert_null(views_choose(&views, "stress.zx", NULL, 0, &view, &component));
     assert_int_equal(component, 5);
-    particles_destroy(&simulation.particles);
+    simulation_depopulate(&simulation);
 }
 
 static void only_components_that_a_case_has_are_offered(void **state)
@@ -173,13 +174,13 @@ static void only_components_that_a_case_has_are_offered(void **state)
         struct views views = {0};
         const struct view *view;
         int component;
-        assert_null(particles_create(cases[i].dimension, 1.0, NULL, 0, &simulation.particles));
-        views_of_particles(&views, &simulation);
+        assert_null(particles_add(&simulation, 1.0, NULL, 0));
+        views_of_population(&views, &simulation);
         struct error *error = views_choose(&views, cases[i].field, NULL, 0, &view, &component);
         assert_non_null(error);
         assert_string_equal(error_message(error, 0), cases[i].told);
         error_free(error);
-        particles_destroy(&simulation.particles);
+        simulation_depopulate(&simulation);
     }
 }
 
@@ -199,10 +200,10 @@ static void a_particle_has_a_mass_in_the_unit_of_the_totals(void **state)
                                         .geometry = cases[i].geometry};
         struct views views = {0};
         int component;
-        assert_null(particles_create(cases[i].dimension, 1.0, NULL, 0, &simulation.particles));
-        views_of_particles(&views, &simulation);
+        assert_null(particles_add(&simulation, 1.0, NULL, 0));
+        views_of_population(&views, &simulation);
         assert_string_equal(views_find(&views, "mass", &component)->unit, cases[i].unit);
-        particles_destroy(&simulation.particles);
+        simulation_depopulate(&simulation);
     }
 }
 

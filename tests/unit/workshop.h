@@ -53,8 +53,7 @@ static inline struct error *generate(const struct workshop *w, const struct rank
                                      struct simulation *simulation)
 {
     assert_null(simulation_create(&w->input, ranks, 1, simulation));
-    assert_null(particles_create(simulation->dimension, 4.0 * largest_diameter(&w->input), NULL, 0,
-                                 &simulation->particles));
+    assert_null(particles_add(simulation, 4.0 * largest_diameter(&w->input), NULL, 0));
     return generate_particles(simulation);
 }
 
@@ -80,7 +79,7 @@ static inline void assert_refused(const struct workshop *w, int count, const cha
         found = found || strstr(error_message(error, i), words);
     if (!found)
         fail_msg("\"%s\" does not tell of \"%s\"", error_message(error, 0), words);
-    assert_int_equal(simulation.particles.count, 0);
+    assert_int_equal(particles_of(&simulation)->count, 0);
     error_free(error);
     simulation_destroy(&simulation);
 }
@@ -112,9 +111,9 @@ static inline void assert_slices_agree(const struct workshop *w)
             const struct ranks ranks = {rank, sizes[run], false};
             struct simulation simulation;
             assert_made(w, &ranks, &simulation);
-            assert_true(counts[run] + simulation.particles.count <= MOST);
-            for (int i = 0; i < simulation.particles.count; i++)
-                ids[run][counts[run]++] = simulation.particles.id[i];
+            assert_true(counts[run] + particles_of(&simulation)->count <= MOST);
+            for (int i = 0; i < particles_of(&simulation)->count; i++)
+                ids[run][counts[run]++] = particles_of(&simulation)->id[i];
             simulation_destroy(&simulation);
         }
         qsort(ids[run], (size_t)counts[run], sizeof ids[run][0], compare_ids);

@@ -91,7 +91,7 @@ void hllc_find_rates(struct sph *sph, struct simulation *simulation, const struc
 /* The section of particle I, which a stage may have taken through the axis. */
 BOLIDE_INLINE double hllc_volume(const struct simulation *simulation, int32_t i)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     double depth = sph_axisymmetric(simulation) ? fabs(p->position[i][0]) : 1.0;
     return p->mass[i] / (p->density[i] * depth);
 }

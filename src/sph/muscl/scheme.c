@@ -50,7 +50,7 @@ static void rates_of_block(const void *of, const struct block *blocks, int32_t b
 static void sum_pairs(struct sph *sph, struct simulation *simulation,
                       const struct muscl_fields *fields, double step)
 {
-    const struct particles *p = &simulation->particles;
+    const struct particles *p = particles_of(simulation);
     double begin = clock_seconds();
     sph->ahead = 0.5 * step;
     muscl_pack(sph, simulation);
@@ -116,12 +116,12 @@ static void start(const struct sph *sph, struct simulation *simulation)
 {
     const struct muscl_fields f = muscl_fields_of(sph, simulation);
     int dimension = simulation->dimension, tensors = tensor_components(dimension);
-    for (int32_t i = 0; i < simulation->particles.count; i++) {
+    for (int32_t i = 0; i < particles_of(simulation)->count; i++) {
         double *l = f.own.correction + (size_t)i * (size_t)tensors;
         for (int a = 0; a < dimension && l[0] == 0.0; a++) /* fresh */
             l[dimension - 1 - a] = 1.0;
         if (f.sph.density_start && f.sph.density_start[i] == 0.0) /* fresh */
-            f.sph.density_start[i] = simulation->particles.density[i];
+            f.sph.density_start[i] = particles_of(simulation)->density[i];
     }
     sph_evaluate(sph, simulation);
 }

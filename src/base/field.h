@@ -1,0 +1,40 @@
+/* The members that a run computes with, particles or cells: their fields, what these are and where
+ * their numbers lie, and their ids. */
+#ifndef BOLIDE_FIELD_H
+#define BOLIDE_FIELD_H
+
+#include "base/visitor.h"
+
+enum field_kind {
+    FIELD_STATE = 1,   /* saved, migrated */
+    FIELD_DERIVED = 2, /* found again from the state */
+    FIELD_PASSING = 4, /* holds nothing from before to after a sort: not moved with the particle */
+};
+
+struct field_declaration {
+    const char *name, *unit, *help;
+    enum number number;
+    int components;
+    unsigned kind;
+};
+
+struct field {
+    struct field_declaration declaration;
+    void *data;
+};
+
+/* Bytes of one member's numbers. */
+BOLIDE_INLINE size_t field_bytes(const struct field *field)
+{
+    return number_size(field->declaration.number) * (size_t)field->declaration.components;
+}
+
+/* An id tells what made the particle: a body and the index of its lattice site. */
+enum { PARTICLE_SITE_BITS = 48 };
+#define PARTICLE_SITE (((uint64_t)1 << PARTICLE_SITE_BITS) - 1)
+BOLIDE_INLINE uint64_t particle_id(int body, int64_t site)
+{
+    return (uint64_t)body << PARTICLE_SITE_BITS | (uint64_t)site;
+}
+
+#endif
