@@ -209,7 +209,7 @@ BOLIDE_INLINE struct pair_contact pair_across(const struct pair_side *left,
         c.sliding = pair_sliding(*across, difference->sliding, difference->shear);
     }
     if (law.cuts) {
-        const bool free = opened > 0.0 || limits.slip > 0.0;
+        const bool free = maximum(opened, limits.slip) > 0.0;
         c.shear = vec3_scale(free ? 0.0 : 1.0, c.shear);
         c.sliding = pair_free_sliding(free, left->shear_impedance, left->shear, c.sliding);
     }

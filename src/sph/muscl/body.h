@@ -180,79 +180,89 @@ BOLIDE_INLINE void add_slopes(struct muscl_kind kind, const double *own, const s
     }
 }
 
-/* What lies between the two of a pair, along n and across, and which shares of it their slopes
- * carry: none but between two particles of the material MATTER. */
-BOLIDE_INLINE void find_changes(struct muscl_kind kind, double matter, const double *own,
-                                const struct lanes *lanes, struct pairs *pairs)
+/* The next two loops are written as a function of one lane. A local whose address is taken inside a
+ * simd loop becomes an array of lanes, and the compiler then leaves the loop scalar; the locals of
+ * an inlined function stay in registers. Conditions are selects without && and ||, for the same
+ * reason. */
+
+/* The differences between the two particles of a pair, along n and across, and the fractions of
+ * them that limited slopes carry: zero unless both are of the material MATTER. */
+BOLIDE_INLINE void find_change(struct muscl_kind kind, double matter, const double *own,
+                               const struct lanes *lanes, struct pairs *pairs, int k)
 {
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
     const int u = record_velocity(dimension), s = record_stress(dimension);
     const int z = muscl_impedance(kind), q = muscl_shock_slope(kind), other = muscl_material(kind);
-#pragma omp simd simdlen(8)
-    for (int k = 0; k < LANES; k++) {
-        const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
-        const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
-        const struct vec3 du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
-                                        vector_from(dimension, own + u, 1));
-        const double along_u = vec3_dot(du, n), speed = fabs(along_u);
-        const bool smooth = matter == muscl_index(lanes->field[other][k]) &&
-                            speed * own[q] < own[z] &&
-                            speed * lanes->field[q][k] < lanes->field[z][k];
-        const double near = pairs->near[k], near_i = smooth ? near : 0.0,
-                     near_j = smooth ? 2.0 - near : 0.0;
-        const struct slopes here = {own, NULL, 1};
-        const struct slopes there = {&lanes->field[0][k], &pairs->wide[0][k], LANES};
-        const struct vec3 ui = change_of_velocity(kind, here, x);
-        const struct vec3 uj = change_of_velocity(kind, there, x);
-        const struct sym3 hi = change_of_stress(kind, here, x);
-        const struct sym3 hj = change_of_stress(kind, there, x);
-        struct vec3 ti = {0.0, 0.0, 0.0}, tj = ti, dti = ti, dtj = ti;
-        double along_i = own[s], along_j = lanes->field[s][k], si_n = hi.xx, sj_n = hj.xx;
-        if (shear) {
-            ti = traction_of(dimension, stress_from(dimension, own + s, 1), n);
-            tj = traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), n);
-            dti = traction_of(dimension, hi, n);
-            dtj = traction_of(dimension, hj, n);
-            along_i = vec3_dot(ti, n);
-            along_j = vec3_dot(tj, n);
-            si_n = vec3_dot(dti, n);
-            sj_n = vec3_dot(dtj, n);
-        }
-        const double along_s = along_j - along_i;
-        const double twice_u = 2.0 * along_u, twice_s = 2.0 * along_s;
-        const struct change change_u = {square(along_u), twice_u * vec3_dot(ui, n),
-                                        twice_u * vec3_dot(uj, n)};
-        const struct change change_s = {square(along_s), twice_s * si_n, twice_s * sj_n};
-        struct shares of_u, of_s, of_v = {0.0, 0.0}, of_a = of_v;
-        limited_shares(change_u, change_s, &of_u, &of_s);
-        pairs->along_u[k] = along_u;
-        pairs->along_i[k] = along_i;
-        pairs->along_j[k] = along_j;
-        pairs->share[0][k] = near_i * of_u.own;
-        pairs->share[1][k] = near_j * of_u.other;
-        pairs->share[2][k] = near_i * of_s.own;
-        pairs->share[3][k] = near_j * of_s.other;
-        if (dimension > 1) {
-            const struct vec3 across_u = vec3_sub(du, vec3_scale(along_u, n));
-            const struct vec3 across_s =
-                shear ? vec3_sub(vec3_sub(tj, ti), vec3_scale(along_s, n)) : ti;
-            const struct vec3 twice_v = vec3_scale(2.0, across_u),
-                              twice_a = vec3_scale(2.0, across_s);
-            const struct change change_v = {vec3_dot(across_u, across_u), vec3_dot(twice_v, ui),
-                                            vec3_dot(twice_v, uj)};
-            const struct change change_a = {vec3_dot(across_s, across_s), vec3_dot(twice_a, dti),
-                                            vec3_dot(twice_a, dtj)};
-            limited_shares(change_v, change_a, &of_v, &of_a);
-            put_vector(dimension, pairs->across_u, k, across_u);
-            put_vector(dimension, pairs->across_s, k, across_s);
-            put_vector(dimension, pairs->traction, k, ti);
-            pairs->share[4][k] = near_i * of_v.own;
-            pairs->share[5][k] = near_j * of_v.other;
-            pairs->share[6][k] = near_i * of_a.own;
-            pairs->share[7][k] = near_j * of_a.other;
-        }
+    const double own_z = own[z], own_q = own[q];
+    const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
+    const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
+    const struct vec3 du = vec3_sub(vector_from(dimension, &lanes->field[u][k], LANES),
+                                    vector_from(dimension, own + u, 1));
+    const double along_u = vec3_dot(du, n), speed = fabs(along_u);
+    const double other_z = lanes->field[z][k], other_q = lanes->field[q][k];
+    const bool smooth = (matter == muscl_index(lanes->field[other][k])) & (speed * own_q < own_z) &
+                        (speed * other_q < other_z);
+    const double near = pairs->near[k], near_i = smooth ? near : 0.0,
+                 near_j = smooth ? 2.0 - near : 0.0;
+    const struct slopes here = {own, NULL, 1};
+    const struct slopes there = {&lanes->field[0][k], &pairs->wide[0][k], LANES};
+    const struct vec3 ui = change_of_velocity(kind, here, x);
+    const struct vec3 uj = change_of_velocity(kind, there, x);
+    const struct sym3 hi = change_of_stress(kind, here, x);
+    const struct sym3 hj = change_of_stress(kind, there, x);
+    struct vec3 ti = {0.0, 0.0, 0.0}, tj = ti, dti = ti, dtj = ti;
+    double along_i = own[s], along_j = lanes->field[s][k], si_n = hi.xx, sj_n = hj.xx;
+    if (shear) {
+        ti = traction_of(dimension, stress_from(dimension, own + s, 1), n);
+        tj = traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), n);
+        dti = traction_of(dimension, hi, n);
+        dtj = traction_of(dimension, hj, n);
+        along_i = vec3_dot(ti, n);
+        along_j = vec3_dot(tj, n);
+        si_n = vec3_dot(dti, n);
+        sj_n = vec3_dot(dtj, n);
     }
+    const double along_s = along_j - along_i;
+    const double twice_u = 2.0 * along_u, twice_s = 2.0 * along_s;
+    const struct change change_u = {square(along_u), twice_u * vec3_dot(ui, n),
+                                    twice_u * vec3_dot(uj, n)};
+    const struct change change_s = {square(along_s), twice_s * si_n, twice_s * sj_n};
+    struct shares of_u, of_s, of_v = {0.0, 0.0}, of_a = of_v;
+    limited_shares(change_u, change_s, &of_u, &of_s);
+    pairs->along_u[k] = along_u;
+    pairs->along_i[k] = along_i;
+    pairs->along_j[k] = along_j;
+    pairs->share[0][k] = near_i * of_u.own;
+    pairs->share[1][k] = near_j * of_u.other;
+    pairs->share[2][k] = near_i * of_s.own;
+    pairs->share[3][k] = near_j * of_s.other;
+    if (dimension > 1) {
+        const struct vec3 across_u = vec3_sub(du, vec3_scale(along_u, n));
+        const struct vec3 across_s =
+            shear ? vec3_sub(vec3_sub(tj, ti), vec3_scale(along_s, n)) : ti;
+        const struct vec3 twice_v = vec3_scale(2.0, across_u), twice_a = vec3_scale(2.0, across_s);
+        const struct change change_v = {vec3_dot(across_u, across_u), vec3_dot(twice_v, ui),
+                                        vec3_dot(twice_v, uj)};
+        const struct change change_a = {vec3_dot(across_s, across_s), vec3_dot(twice_a, dti),
+                                        vec3_dot(twice_a, dtj)};
+        limited_shares(change_v, change_a, &of_v, &of_a);
+        put_vector(dimension, pairs->across_u, k, across_u);
+        put_vector(dimension, pairs->across_s, k, across_s);
+        put_vector(dimension, pairs->traction, k, ti);
+        pairs->share[4][k] = near_i * of_v.own;
+        pairs->share[5][k] = near_j * of_v.other;
+        pairs->share[6][k] = near_i * of_a.own;
+        pairs->share[7][k] = near_j * of_a.other;
+    }
+}
+
+BOLIDE_INLINE void find_changes(struct muscl_kind kind, double matter, const double *own,
+                                const struct lanes *lanes, struct pairs *pairs)
+{
+#pragma omp simd simdlen(8)
+    for (int k = 0; k < LANES; k++)
+        find_change(kind, matter, own, lanes, pairs, k);
 }
 
 /* What the volumes of a pair follow from: whether it counts, 0 or 1; how far its packing does, 1 in
@@ -283,10 +293,10 @@ BOLIDE_INLINE void add_volume(struct muscl_kind kind, const struct pairs *pairs,
     sums[at.exchange][k] += 0.5 * (1.0 + pair->compression) * weight * lead;
 }
 
-/* Solves the contact problems and adds up what they give. */
-BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const double *own,
-                                const struct lanes *lanes, const struct pairs *pairs,
-                                double (*sums)[LANES])
+/* Solves the contact problem of lane K and adds it to the sums. */
+BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const double *own,
+                               const struct lanes *lanes, const struct pairs *pairs,
+                               double (*sums)[LANES], int k)
 {
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
@@ -294,85 +304,89 @@ BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const dou
     const int compression = muscl_compression(kind);
     const struct layout at = layout_of(kind);
     const struct pair_law law = {STAR_SHOCK, shear, true, with_law};
-    const double per_own = dimension > 1 ? 1.0 / own[compression] : 1.0;
-#pragma omp simd simdlen(8)
-    for (int k = 0; k < LANES; k++) {
-        const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
-        struct pair_side left = {.impedance = own[z],
-                                 .shock_slope = own[q],
-                                 .stress = pairs->along_i[k],
-                                 .carried = {pairs->share[0][k], pairs->share[2][k], 0.0, 0.0}};
-        struct pair_side right = {.impedance = lanes->field[z][k],
-                                  .shock_slope = lanes->field[q][k],
-                                  .stress = pairs->along_j[k],
-                                  .carried = {pairs->share[1][k], pairs->share[3][k], 0.0, 0.0}};
-        struct pair_difference difference = {.velocity = pairs->along_u[k]};
-        struct pair_limits limits = {with_law ? lanes->slip[k] : 0.0,
-                                     with_law ? lanes->open[k] : 0.0, 1.0};
-        if (dimension > 1) {
-            /* fluids that shear past each other are not braked as if they met */
-            const double own_share = -own[z + 1], other_share = -lanes->field[z + 1][k];
-            limits.brake =
-                minimum(own_share, other_share) > 0.0 ? maximum(own_share, other_share) : 1.0;
-            difference.sliding = vector_from(dimension, &pairs->across_u[0][k], LANES);
-            left.carried.sliding = pairs->share[4][k];
-            right.carried.sliding = pairs->share[5][k];
-        }
-        if (shear) {
-            const struct vec3 ti = vector_from(dimension, &pairs->traction[0][k], LANES);
-            left.shear_impedance = maximum(own[z + 1], 0.0);
-            right.shear_impedance = maximum(lanes->field[z + 1][k], 0.0);
-            left.shear = vec3_sub(ti, vec3_scale(left.stress, n));
-            difference.shear = vector_from(dimension, &pairs->across_s[0][k], LANES);
-            left.carried.shear = pairs->share[6][k];
-            right.carried.shear = pairs->share[7][k];
-        }
-        const struct pair_contact star = contact_pair(&left, &right, &difference, limits, law);
-        struct vec3 t = vec3_scale(star.stress, n), w = vec3_scale(star.velocity, n);
-        if (shear)
-            t = vec3_add(t, star.shear);
-        if (dimension > 1)
-            w = vec3_add(w, star.sliding);
-        /* Particles with prescribed motion do not deform each other: no wave runs between them. */
-        if (muscl_driven(own[m]) && muscl_driven(lanes->field[m][k])) {
-            w = vec3_scale(0.5 * pairs->along_u[k], n);
-            if (dimension > 1)
-                w = vec3_add(w, vec3_scale(0.5, difference.sliding));
-        }
-        const double weight = pairs->weight[k];
-        double force_weight = weight * pairs->area[k];
-        if (kind.depth) {
-            const int depth = muscl_depth(kind);
-            double pair_depth = 0.5 * fabs(own[depth] + lanes->field[depth][k]);
-            sums[at.hoop][k] += force_weight * (pair_depth - own[depth]) * n.x;
-            sums[at.hoop + 1][k] += force_weight * pairs->x[0][k] * n.x;
-            force_weight *= pair_depth;
-        }
-        t = vec3_scale(force_weight, t);
-        sums[at.power][k] += vec3_dot(t, w);
-        add_vector(dimension, sums, at.traction, k, t);
-        if (dimension == 1)
-            sums[at.drift][k] += weight * w.x;
-        add_product(dimension, sums, at.gradient, k, w,
-                    vec3_scale(weight, vector_from(dimension, &pairs->e[0][k], LANES)));
-        if (dimension > 1) {
-            /* Bodies keep their volumes where they part, and where they slide past each other. */
-            const bool apart = with_law && limits.open > 0.0 && star.stress == 0.0;
-            const bool slips = with_law && limits.slip > 0.0;
-            const struct vec3 moved = vec3_add(vec3_scale(pairs->along_u[k], n),
-                                               vec3_scale(slips ? 0.0 : 1.0, difference.sliding));
-            const double counts = apart ? 0.0 : 1.0;
-            const double ratio = per_own * lanes->field[compression][k], by = square(ratio);
-            const double like = counts * minimum(by, 1.0) / maximum(by, 1.0);
-            const struct volume_pair volume = {.counts = counts,
-                                               .like = own[m] == lanes->field[m][k] ? like : 0.0,
-                                               .contact = vec3_dot(w, n),
-                                               .compression = ratio,
-                                               .packing = lanes->field[muscl_packing(kind)][k],
-                                               .moved = moved};
-            add_volume(kind, pairs, k, &volume, sums);
-        }
+    const double per_own = dimension > 1 ? 1.0 / own[compression] : 1.0, own_m = own[m];
+    const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
+    struct pair_side left = {.impedance = own[z],
+                             .shock_slope = own[q],
+                             .stress = pairs->along_i[k],
+                             .carried = {pairs->share[0][k], pairs->share[2][k], 0.0, 0.0}};
+    struct pair_side right = {.impedance = lanes->field[z][k],
+                              .shock_slope = lanes->field[q][k],
+                              .stress = pairs->along_j[k],
+                              .carried = {pairs->share[1][k], pairs->share[3][k], 0.0, 0.0}};
+    struct pair_difference difference = {.velocity = pairs->along_u[k]};
+    struct pair_limits limits = {with_law ? lanes->slip[k] : 0.0, with_law ? lanes->open[k] : 0.0,
+                                 1.0};
+    if (dimension > 1) {
+        /* fluids that shear past each other are not braked as if they met */
+        const double own_share = -own[z + 1], other_share = -lanes->field[z + 1][k];
+        limits.brake =
+            minimum(own_share, other_share) > 0.0 ? maximum(own_share, other_share) : 1.0;
+        difference.sliding = vector_from(dimension, &pairs->across_u[0][k], LANES);
+        left.carried.sliding = pairs->share[4][k];
+        right.carried.sliding = pairs->share[5][k];
     }
+    if (shear) {
+        const struct vec3 ti = vector_from(dimension, &pairs->traction[0][k], LANES);
+        left.shear_impedance = maximum(own[z + 1], 0.0);
+        right.shear_impedance = maximum(lanes->field[z + 1][k], 0.0);
+        left.shear = vec3_sub(ti, vec3_scale(left.stress, n));
+        difference.shear = vector_from(dimension, &pairs->across_s[0][k], LANES);
+        left.carried.shear = pairs->share[6][k];
+        right.carried.shear = pairs->share[7][k];
+    }
+    const struct pair_contact star = contact_pair(&left, &right, &difference, limits, law);
+    struct vec3 t = vec3_scale(star.stress, n), w = vec3_scale(star.velocity, n);
+    if (shear)
+        t = vec3_add(t, star.shear);
+    if (dimension > 1)
+        w = vec3_add(w, star.sliding);
+    /* Particles with prescribed motion do not deform each other: no wave runs between them. */
+    const bool driven = muscl_driven(maximum(own_m, lanes->field[m][k]));
+    const struct vec3 middle = vec3_scale(0.5 * pairs->along_u[k], n);
+    const struct vec3 halfway =
+        dimension > 1 ? vec3_add(middle, vec3_scale(0.5, difference.sliding)) : middle;
+    w = vec3_make(driven ? halfway.x : w.x, driven ? halfway.y : w.y, driven ? halfway.z : w.z);
+    const double weight = pairs->weight[k];
+    double force_weight = weight * pairs->area[k];
+    if (kind.depth) {
+        const int depth = muscl_depth(kind);
+        double pair_depth = 0.5 * fabs(own[depth] + lanes->field[depth][k]);
+        sums[at.hoop][k] += force_weight * (pair_depth - own[depth]) * n.x;
+        sums[at.hoop + 1][k] += force_weight * pairs->x[0][k] * n.x;
+        force_weight *= pair_depth;
+    }
+    t = vec3_scale(force_weight, t);
+    sums[at.power][k] += vec3_dot(t, w);
+    add_vector(dimension, sums, at.traction, k, t);
+    if (dimension == 1)
+        sums[at.drift][k] += weight * w.x;
+    add_product(dimension, sums, at.gradient, k, w,
+                vec3_scale(weight, vector_from(dimension, &pairs->e[0][k], LANES)));
+    if (dimension > 1) {
+        /* Bodies keep their volumes where they part, and where they slide past each other. */
+        const double counts = star.stress == 0.0 ? 1.0 - limits.open : 1.0;
+        const struct vec3 moved = vec3_add(vec3_scale(pairs->along_u[k], n),
+                                           vec3_scale(1.0 - limits.slip, difference.sliding));
+        const double ratio = per_own * lanes->field[compression][k], by = square(ratio);
+        const double like = counts * minimum(by, 1.0) / maximum(by, 1.0);
+        const struct volume_pair volume = {.counts = counts,
+                                           .like = own_m == lanes->field[m][k] ? like : 0.0,
+                                           .contact = vec3_dot(w, n),
+                                           .compression = ratio,
+                                           .packing = lanes->field[muscl_packing(kind)][k],
+                                           .moved = moved};
+        add_volume(kind, pairs, k, &volume, sums);
+    }
+}
+
+BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const double *own,
+                                const struct lanes *lanes, const struct pairs *pairs,
+                                double (*sums)[LANES])
+{
+#pragma omp simd simdlen(8)
+    for (int k = 0; k < LANES; k++)
+        add_contact(kind, with_law, own, lanes, pairs, sums, k);
 }
 
 #endif
