@@ -163,8 +163,10 @@ struct error *case_read(const char *path, const struct case_options *options,
                               ? document_open(path, options->settings, options->setting_count,
                                               options->form, &input->document)
                               : out_of_memory();
-    if (!error)
+    if (!error) {
+        input->form = input->document->overlay ? input->document->overlay : "normal";
         error = read_document(input, options);
+    }
     if (error)
         case_free(input);
     else

@@ -215,6 +215,8 @@ struct simulation_case {
     int sweep_values; /* of this run of it; 0: the case itself */
     struct sweep_value *sweep;
     char *name; /* filled by case_read: the name of the case's folder or file */
+    const char *
+        form; /* filled by case_read: "normal", or "short" or "long" where it has what was asked for */
     const struct catalogue *catalogue;
     struct document *document; /* for located messages; owned */
 };

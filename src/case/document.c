@@ -229,8 +229,10 @@ static struct error *merge_overlay(struct document *document, const char *wanted
         if (overlay[i] && overlay[i]->kind != NODE_MAP)
             error = error_join(
                 error, place_error(overlay[i]->place, overlay_keys[i], "a map is wanted here"));
-        else if (overlay[i] && wanted && !strcmp(overlay_keys[i], wanted))
+        else if (overlay[i] && wanted && !strcmp(overlay_keys[i], wanted)) {
             error = error_join(error, node_merge(document->root, overlay[i]));
+            document->overlay = overlay_keys[i];
+        }
         node_free(overlay[i]);
     }
     return error;

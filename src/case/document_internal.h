@@ -28,6 +28,7 @@ struct node {
 
 struct document {
     struct node *root;
+    const char *overlay; /* static: the key of what was laid over it; NULL: nothing was */
     int origin_count;
     char **origins; /* what the places point to */
     int wrong_count, wrong_room;

@@ -19,7 +19,7 @@ struct text_list {
 struct cli_options {
     const char *output;
     int64_t threads, points;
-    bool overwrite, resume, quick, thorough, all, convergence, curves;
+    bool overwrite, resume, quick, thorough, all, convergence, curves, record;
     const char *time, *template_name;
     struct text_list settings, names;
     char **located;            /* the paths of cases that names gives by their folders */

@@ -95,6 +95,7 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
     struct verify_options verifying = {
         .reading = case_reading(options, folders),
         .catalogue = &bolide_catalogue,
+        .record = options->record,
         .running = {.output = options->output,
                     .overwrite = options->overwrite,
                     .ranks = options->ranks,

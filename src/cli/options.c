@@ -41,6 +41,11 @@ static const struct option option_table[] = {
      "study the errors of each case on several resolutions, into results/<its name>; with --all "
      "those that have `convergence`",
      OPTION_FLAG, AT(convergence), COMMAND_VERIFY},
+    {"--record", NULL,
+     "store what the checks measured beside each case, in results.csv; other forms and settings "
+     "keep "
+     "theirs",
+     OPTION_FLAG, AT(record), COMMAND_VERIFY},
     {"--time", "T", "the time of the solution, with its unit: 5us (CASE: its end)", OPTION_TEXT,
      AT(time), COMMAND_EXACT},
     {"--points", "N", "print the profile at the time in N points, as CSV", OPTION_COUNT, AT(points),
@@ -175,6 +180,8 @@ struct error *options_read(const struct command *command, int count, char **word
         error = error_new(ERROR_INPUT, "--overwrite and --resume exclude each other");
     if (!error && options->quick && options->thorough)
         error = error_new(ERROR_INPUT, "--short and --long exclude each other");
+    if (!error && options->record && options->convergence)
+        error = error_new(ERROR_INPUT, "--record and --convergence exclude each other");
     if (!error && !options->threads && command->bit & (COMMAND_RUN | COMMAND_VERIFY))
         error = check_environment();
     if (!error && options->output)

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "base/results.h"
 #include "run/fits.h"
+#include "run/record.h"
 #include "run/sweep.h"
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
@@ -101,6 +102,7 @@ static void run_input(const struct simulation_case *input, const char *folder,
 {
     struct run_options running = *options;
     running.output = folder;
+    verified->form = input->form;
     verified->error = run_case(input, &running, &verified->result);
     verified->passed = !verified->error && verified->result.finished &&
                        !(judged && verified->result.checks.failed);
@@ -211,6 +213,7 @@ static struct error *add_fits(struct verify_result *result, const char *path, co
         return out_of_memory();
     }
     item->fits = true;
+    item->form = item > result->item ? item[-1].form : NULL;
     item->result.checks = *fits;
     item->passed = fits->failed == 0;
     return NULL;
@@ -364,6 +367,24 @@ struct error *verify_case(const char *path, const char *name, const char *folder
     return sum_up(result);
 }
 
+/* Runs the case at PATH, and records what it measured where that is wanted. */
+static struct error *run_and_record(const char *path, const char *name, const char *folder,
+                                    const struct verify_options *options,
+                                    struct verify_result *result)
+{
+    const int first = result->count;
+    const bool writes = options->record && ranks_of(options)->rank == 0;
+    if (options->record)
+        TRY(ranks_agree(ranks_of(options), writes ? record_check(path) : NULL));
+    TRY(run_or_note(path, name, folder, options, result));
+    if (!options->record || verify_told_to_stop(options))
+        return NULL;
+    return ranks_agree(ranks_of(options),
+                       writes ? record_store(path, name, &options->reading, result->item + first,
+                                             result->count - first)
+                              : NULL);
+}
+
 struct error *verify_cases(const char *const *paths, int count,
                            const struct verify_options *options, struct verify_result *result)
 {
@@ -373,7 +394,7 @@ struct error *verify_cases(const char *const *paths, int count,
         char *name = verify_name(paths[i]);
         char *folder = name && output ? path_join(output, name) : NULL;
         struct error *error = name && (folder || !output)
-                                  ? run_or_note(paths[i], name, folder, options, result)
+                                  ? run_and_record(paths[i], name, folder, options, result)
                                   : out_of_memory();
         free(folder);
         free(name);

@@ -10,6 +10,7 @@ struct verify_case {
     char *
         name; /* topic/name: the last two folders of its path; of a sweep with the run's folder behind */
     const char *path;
+    const char *form;    /* static: "normal", "short" or "long" */
     struct error *error; /* NULL: it ran; owned */
     struct run_result result;
     bool passed;       /* a run of a convergence study: came to its end, whatever its checks say */
@@ -24,6 +25,7 @@ struct verify_options {
     const struct catalogue *catalogue;
     /* How each is run. Output is the folder in which each case gets one of its name. */
     struct run_options running;
+    bool record; /* store what each measured beside it */
     /* Called when a case or a run of a sweep has ended, may be NULL. */
     void (*ended)(void *context, const struct verify_case *verified);
     void *context;
