@@ -80,6 +80,8 @@ bool help_search(const char *text);
 struct error *options_read(const struct command *command, int count, char **words,
                            struct cli_options *options);
 void options_free(struct cli_options *options);
+/* True when the user wants all threads all the time: OMP_DYNAMIC=false. */
+bool options_fix_threads(void);
 /* Name, help and takers (bits of commands) of option INDEX; false after the last. */
 bool options_at(int index, const char **name, const char **help, unsigned *takers);
 /* Prints the options of COMMAND. */

@@ -14,6 +14,7 @@ static struct run_options running_of(const struct cli_options *options, const ch
         .resume = options->resume,
         .ranks = options->ranks,
         .threads = (int)options->threads,
+        .fixed_threads = options_fix_threads(),
         .stop = signals_catch(),
         .checkpoints = signals_checkpoints(),
         .listener = listener,

@@ -101,6 +101,7 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
                     .ranks = options->ranks,
                     .alarm = terminal_alarm,
                     .threads = (int)options->threads,
+                    .fixed_threads = options_fix_threads(),
                     .stop = signals_catch(),
                     .checkpoints = signals_checkpoints(),
                     .listener = draws_over ? &listener : NULL,

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/memory.h"
 #include "cli/cli.h"
@@ -28,7 +29,7 @@ static const struct option option_table[] = {
      COMMAND_RUN | COMMAND_VERIFY},
     {"--resume", NULL, "continue from the folder's checkpoint (restart)", OPTION_FLAG, AT(resume),
      COMMAND_RUN},
-    {"--threads", "N", "number of threads (all processors)", OPTION_THREADS, AT(threads),
+    {"--threads", "N", "number of threads, at most (all processors)", OPTION_THREADS, AT(threads),
      COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY},
     {"--set", "PATH=VALUE", "replace a value of the case: run.until=3us; may be repeated",
      OPTION_LIST, AT(settings), COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
@@ -156,6 +157,12 @@ static struct error *check_environment(void)
         return NULL;
     return error_new(ERROR_INPUT, "OMP_NUM_THREADS: \"%s\" is more than %d threads", text,
                      THREADS_MOST);
+}
+
+bool options_fix_threads(void)
+{
+    const char *text = getenv("OMP_DYNAMIC");
+    return text && !strcasecmp(text, "false");
 }
 
 struct error *options_read(const struct command *command, int count, char **words,

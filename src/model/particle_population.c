@@ -5,7 +5,7 @@ struct population population_of_particles(const struct particles *particles)
 {
     return (struct population){.kind = POPULATION_OF_PARTICLES,
                                .dimension = particles->dimension,
-                               .threads = particles->threads,
+                               .threads = *particles->threads,
                                .count = particles->count,
                                .order = particles->order,
                                .id = particles->id,
@@ -62,6 +62,6 @@ struct error *particles_add(struct simulation *simulation, double cell,
         return NULL;
     particles->ranks = simulation->ranks;
     particles->partition = &simulation->partition;
-    particles->threads = simulation->threads;
+    particles->threads = &simulation->threads;
     return NULL;
 }

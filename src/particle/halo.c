@@ -55,7 +55,7 @@ static struct region *own_regions(const struct particles *p, struct reach reach,
     *whole = empty_region();
     if (!region)
         return NULL;
-#pragma omp parallel for schedule(dynamic) num_threads(p->threads)
+#pragma omp parallel for schedule(dynamic) num_threads(*p->threads)
     for (int32_t b = 0; b < p->blocks; b++) {
         region[b] = empty_region();
         region[b].key = p->block[b].key;

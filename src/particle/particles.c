@@ -44,8 +44,9 @@ struct error *particles_create(int dimension, double cell, const struct field_de
 {
     assert(COUNT_OF(core_fields) + (size_t)count <= PARTICLES_FIELDS);
     static const struct ranks alone = {0, 1, false};
+    static const int one = 1;
     *particles =
-        (struct particles){.dimension = dimension, .cell = cell, .ranks = &alone, .threads = 1};
+        (struct particles){.dimension = dimension, .cell = cell, .ranks = &alone, .threads = &one};
     for (size_t k = 0; k < COUNT_OF(core_fields); k++)
         particles->field[particles->fields++].declaration = core_fields[k];
     for (int k = 0; k < count; k++)

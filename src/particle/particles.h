@@ -29,7 +29,7 @@ struct particles {
     struct partition *partition; /* of the run; NULL: this process has all blocks */
     double cell;                 /* edge of a cell of the global grid, m; fixed for a run */
     double shift; /* of the grid: cell 0 begins at minus this along each axis, m; fixed likewise */
-    int threads;  /* that sort */
+    const int *threads; /* how many sort: the run's; 1 unless told */
     struct scratch
         scratch; /* for sorting, and for who has no need of what it holds when particles are sorted */
     uint64_t order; /* grows with every sort: an index means the same particle while it stays */

@@ -46,14 +46,14 @@ uint64_t particles_block_key(const struct particles *particles, const double x[3
  * runs of equal keys to sort. */
 static struct error *find_blocks(struct particles *p, struct sorting *s)
 {
-#pragma omp parallel for schedule(static) num_threads(p->threads)
+#pragma omp parallel for schedule(static) num_threads(*p->threads)
     for (int32_t i = 0; i < p->count; i++)
         s->entry[i] = (struct keyed){particles_block_key(p, p->position[i]), i};
-    int32_t runs = radix_runs(s->entry, p->count, p->threads, s->room.run);
+    int32_t runs = radix_runs(s->entry, p->count, *p->threads, s->room.run);
     for (int32_t r = 0; r < runs; r++)
         s->entry[r] = (struct keyed){s->room.run[r].key, r};
-    radix_sort(s->entry, s->spare, runs, p->threads);
-    runs = radix_runs(s->entry, runs, p->threads, s->room.run);
+    radix_sort(s->entry, s->spare, runs, *p->threads);
+    runs = radix_runs(s->entry, runs, *p->threads, s->room.run);
     if (!memory_reserve((void **)&p->block, &p->block_capacity, runs, 0, sizeof *p->block))
         return error_new(ERROR_SYSTEM, "out of memory for %d blocks", runs);
     for (int32_t b = 0; b < runs; b++)
@@ -79,7 +79,7 @@ static int32_t find_block(const struct particles *p, uint64_t key)
 /* Entries by block, material and cell. */
 static void enter(const struct particles *p, struct keyed *entry)
 {
-#pragma omp parallel num_threads(p->threads)
+#pragma omp parallel num_threads(*p->threads)
     {
         int32_t block = 0;
 #pragma omp for schedule(static)
@@ -127,10 +127,10 @@ static void order_by_id(struct keyed *entry, int64_t count, const uint64_t *id)
 static bool fill_blocks(struct particles *p, struct keyed *entry)
 {
     bool moved = false;
-#pragma omp parallel for schedule(static) num_threads(p->threads)
+#pragma omp parallel for schedule(static) num_threads(*p->threads)
     for (int32_t b = 0; b < p->blocks; b++)
         p->block[b].first = first_of_block(entry, p->count, b);
-#pragma omp parallel for schedule(dynamic) num_threads(p->threads) reduction(|| : moved)
+#pragma omp parallel for schedule(dynamic) num_threads(*p->threads) reduction(|| : moved)
     for (int32_t b = 0; b < p->blocks; b++) {
         const int32_t first = p->block[b].first;
         const int32_t end = b + 1 < p->blocks ? p->block[b + 1].first : p->count;
@@ -196,7 +196,7 @@ static void move_slice(const struct particles *p, const struct sorting *s, char 
 /* All threads walk through all fields, each with its part of the particles. */
 static void move_fields(struct particles *p, const struct sorting *s)
 {
-#pragma omp parallel num_threads(p->threads)
+#pragma omp parallel num_threads(*p->threads)
     for (int k = 0; k < p->fields; k++) {
         const struct field_declaration *field = &p->field[k].declaration;
         const size_t stride = number_size(field->number) * (size_t)field->components;
@@ -221,7 +221,7 @@ struct error *particles_sort(struct particles *particles)
     s.room.slice = scratch_part(&particles->scratch, count * SLICE);
     TRY(find_blocks(particles, &s));
     enter(particles, s.entry);
-    radix_sort(s.entry, s.spare, particles->count, particles->threads);
+    radix_sort(s.entry, s.spare, particles->count, *particles->threads);
     if (fill_blocks(particles, s.entry))
         move_fields(particles, &s);
     return NULL;
@@ -238,7 +238,7 @@ struct error *particles_arrange(struct particles *particles, const int32_t *list
         return error_new(ERROR_SYSTEM, "out of memory while sorting %d particles", p->count);
     s.entry = scratch_part(&p->scratch, count * sizeof *s.entry);
     s.room.slice = scratch_part(&p->scratch, count * SLICE);
-#pragma omp parallel for schedule(static) num_threads(p->threads)
+#pragma omp parallel for schedule(static) num_threads(*p->threads)
     for (int32_t i = 0; i < p->count; i++)
         s.entry[i].index = list[i];
     move_fields(p, &s);

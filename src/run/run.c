@@ -11,6 +11,7 @@
 #endif
 
 #include "base/clock.h"
+#include "base/delay.h"
 #include "base/memory.h"
 #include "material/any.h"
 #include "material/material.h"
@@ -46,6 +47,24 @@ static int threads_for(const struct run *run)
     int32_t each = run->options->threads > 0 ? PARTICLES_A_THREAD_AT_LEAST : PARTICLES_A_THREAD;
     int32_t useful = 1 + simulation_population(&run->simulation).count / each;
     return most < useful ? most : useful;
+}
+
+static void start_threads(struct run *run)
+{
+    const int most = threads_for(run);
+    const bool fixed = run->options->fixed_threads || most == 1;
+    run->threads = threads_start(most, clock_seconds(), fixed ? -1.0 : delay_seconds());
+    run->simulation.threads = most;
+}
+
+/* Threads that wait for a processor keep the others waiting: then fewer are faster. */
+static void adapt_threads(struct run *run)
+{
+    const double now = clock_seconds();
+    if (!threads_are_due(&run->threads, now))
+        return;
+    threads_adapt(&run->threads, now, delay_seconds());
+    run->simulation.threads = run->threads.now;
 }
 
 /* True at the end of the run as the case says it. */
@@ -85,6 +104,7 @@ static struct error *loop(struct run *run)
     TRY(run_hear_ranks(run, NULL));
     while (!at_stop(run)) {
         TRY(run_take_step(run));
+        adapt_threads(run);
         run_observe(run);
         TRY(run_watch(run, at_end(run)));
         TRY(watch_checks(run));
@@ -148,7 +168,7 @@ static struct error *make_particles(struct run *run)
     TRY(run->options->resume ? run_load(run) : run->method->fill(run->solver, &run->simulation));
     if (run->ranks.joined)
         TRY(run->simulation.members->distribute(run->simulation.store));
-    run->simulation.threads = threads_for(run);
+    start_threads(run);
     TRY(ranks_agree(&run->ranks, run->method->start(run->solver, &run->simulation)));
     if (!run->options->resume)
         run->start = totals_at_start(run);
@@ -244,6 +264,15 @@ static void measure_speed(struct run *run)
     result->updates_per_second = result->updates > 0 ? (double)result->updates / stepping : 0.0;
 }
 
+/* For the log alone: it is no concern of the results. */
+static void tell_threads(const struct run *run)
+{
+    const double mean = threads_mean(&run->threads, clock_seconds());
+    if (run->log && mean < 0.95 * run->threads.most)
+        run_log_line(run->log, "%.1f of %d threads on average: others kept the processors busy",
+                     mean, run->threads.most);
+}
+
 static void tell_end(struct run *run)
 {
     const struct run_result *result = run->result;
@@ -256,6 +285,7 @@ static void tell_end(struct run *run)
     for (int i = 0; i < s->phases; i++)
         run_say(run, "  %-16s %8.2f s  %4.1f %%", s->phase[i].name, s->phase[i].seconds,
                 100.0 * s->phase[i].seconds / maximum(result->seconds, 1e-9));
+    tell_threads(run);
     for (int i = 0; i < result->checks.count; i++) {
         char measured[96], allowed[96];
         const struct check_result *check = &result->checks.item[i];

@@ -22,7 +22,8 @@ struct run_options {
     bool overwrite;            /* results that are there already give way */
     bool resume;               /* go on from the folder's checkpoint */
     const struct ranks *ranks; /* that run it together; NULL: this process alone */
-    int threads;               /* 0: as many as OpenMP would take */
+    int threads;               /* at most; 0: as many as OpenMP would take */
+    bool fixed_threads;        /* never fewer than there is work for, however busy the machine is */
     int64_t max_steps;         /* of this call, which then stops as if told to; 0: no limit */
     const volatile sig_atomic_t *stop; /* not zero: write a checkpoint and stop; may be NULL */
     /* How many times a checkpoint was asked for; the run then continues. May be NULL. */

@@ -8,6 +8,7 @@
 #include "output/checkpoint.h"
 #include "output/history.h"
 #include "run/run.h"
+#include "run/threads.h"
 
 struct run {
     const struct simulation_case *input;
@@ -15,6 +16,7 @@ struct run {
     struct run_result *result;
     struct ranks ranks;
     struct simulation simulation;
+    struct threads threads; /* of this rank */
     const struct solver_class *method;
     void *solver;
     struct views views;

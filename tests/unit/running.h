@@ -17,7 +17,7 @@
 /* How a case is run. */
 struct variant {
     const char *name;
-    int threads;
+    int threads; /* -3: three, two and one, by turns */
     double cell; /* factor of the store's cells */
     const char *setting;
     bool resumed; /* in the middle, by another simulation */
@@ -50,6 +50,7 @@ struct running {
         struct mpm mpm;
     };
     struct limit limit;
+    int most_threads; /* 0: their number stays */
 };
 
 /* The case and its simulation, before the solver is created. */
@@ -66,7 +67,9 @@ static inline struct running *open_case(const char *text, const struct variant *
     struct running *run = calloc(1, sizeof *run);
     run->ranks = ranks_alone();
     assert_success(case_read(path, &options, &bolide_catalogue, &run->input));
-    assert_success(simulation_create(run->input, &run->ranks, variant->threads, &run->simulation));
+    assert_success(
+        simulation_create(run->input, &run->ranks, abs(variant->threads), &run->simulation));
+    run->most_threads = variant->threads < 0 ? -variant->threads : 0;
     run->solver = run->input->solver.choice->thing;
     assert_true(run->solver->size == sizeof run->sph || run->solver->size == sizeof run->mpm);
     return run;
@@ -91,6 +94,9 @@ static inline void end(struct running *run)
 /* One step of at most LONGEST. */
 static inline void step_of(struct running *run, double longest)
 {
+    if (run->most_threads)
+        run->simulation.threads =
+            run->most_threads - (int)(run->simulation.step % run->most_threads);
     assert_success(run->solver->prepare(&run->sph, &run->simulation, &run->limit));
     double dt = minimum(run->limit.dt, longest);
     assert_success(run->solver->advance(&run->sph, &run->simulation, dt));

@@ -97,6 +97,7 @@ static const struct variant variants[] = {
     {"2 threads", 2, 1.0, NULL, false},
     {"3 threads", 3, 1.0, NULL, false},
     {"4 threads", 4, 1.0, NULL, false},
+    {"3, 2 and 1 threads by turns", -3, 1.0, NULL, false},
     {"small cells", 1, 0.37, NULL, false},
     {"large cells", 2, 3.0, NULL, false},
     {"thin skin", 1, 1.0, "solver.sph.skin=0.02", false},

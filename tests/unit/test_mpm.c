@@ -77,6 +77,7 @@ static void check_bits(const char *text, const char *const *settings, int count)
     for (int k = 0; k < count; k++) {
         const struct variant variants[] = {{"one thread", 1, 1.0, settings[k], false},
                                            {"three threads", 3, 1.0, settings[k], false},
+                                           {"by turns", -3, 1.0, settings[k], false},
                                            {"other storage", 2, 1.7, settings[k], false},
                                            {"resumed", 1, 1.0, settings[k], true}};
         const uint64_t hash = hash_after(text, &variants[0], &variants[0], STEPS);

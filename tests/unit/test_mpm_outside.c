@@ -280,6 +280,7 @@ static void bits_do_not_depend_on_threads_storage_or_a_resume(void **state)
     const char *const texts[] = {pulled, leaving, pulse, round_the_axis};
     for (size_t k = 0; k < COUNT_OF(texts); k++) {
         const struct variant others[] = {{"three threads", 3, 1.0, NULL, false},
+                                         {"by turns", -3, 1.0, NULL, false},
                                          {"other storage", 2, 1.7, NULL, false},
                                          {"resumed", 1, 1.0, NULL, true}};
         const uint64_t hash = hash_of(texts[k], &plain);

@@ -151,6 +151,7 @@ static void threads_rows_and_a_resume_do_not_change_a_bit(void **state)
     (void)state;
     static const struct variant variants[] = {
         {"2 threads", 2, 1.0, NULL, false},
+        {"3, 2 and 1 threads by turns", -3, 1.0, NULL, false},
         {"small cells and a thin skin", 1, 0.37, "solver.sph.skin=0.02", false},
         {"rows of every step", 1, 1.0, "solver.sph.rebuild=1", false},
         {"resumed", 1, 1.0, NULL, true},
