@@ -1,6 +1,7 @@
 /* Device code of second-order contact SPH: what the body of its pair loop does with a particle and eight
  * neighbours. The kind is known at run time only. */
 #include "sph/muscl/body.h"
+#include "sph/muscl/rates.h"
 
 __global__ void add_pairs(struct muscl_kind kind, double smoothing, double material,
                           const double *record, const struct lanes *lanes, struct sums *sums)
@@ -14,11 +15,12 @@ __global__ void add_pairs(struct muscl_kind kind, double smoothing, double mater
     add_slopes(kind, record, &lanes[i], &pairs, sums[i].lane);
 }
 
-__global__ void write_sums(struct muscl_loop loop, struct muscl_kind kind, double factor,
-                           struct sums *sums)
+__global__ void write_sums(struct muscl_loop loop, struct muscl_kind kind, struct sums *sums,
+                           struct batch *batch)
 {
     const int i = (int)blockIdx.x;
-    double all[TOTALS];
+    double *all = batch[i].total[0];
     sums_totals(kind, &sums[i], all);
-    write_rates(&loop, kind, i, factor, all, all);
+    batch_add(&loop, kind, i, all, &batch[i]);
+    batch_finish(&loop, kind, &batch[i]);
 }

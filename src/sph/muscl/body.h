@@ -155,29 +155,34 @@ BOLIDE_INLINE void walk_rows(struct muscl_kind kind, const double *own, const st
 }
 
 /* Adds to the sums what the next step's slopes follow from. */
-BOLIDE_INLINE void add_slopes(struct muscl_kind kind, const double *own, const struct lanes *lanes,
-                              const struct pairs *pairs, double (*sums)[LANES])
+BOLIDE_INLINE void add_slope(struct muscl_kind kind, const double *own, const struct lanes *lanes,
+                             const struct pairs *pairs, double (*sums)[LANES], int k)
 {
     const int dimension = kind.dimension, values = muscl_values(kind), narrow = muscl_narrow(kind);
     const struct layout at = layout_of(kind);
-#pragma omp simd simdlen(8)
-    for (int k = 0; k < LANES; k++) {
-        const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
-        const struct vec3 c = vector_from(dimension, &pairs->c[0][k], LANES);
-        const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
-        struct vec3 m = vec3_scale(vec3_dot(x, e), c);
-        add_vector(dimension, sums, at.offset, k, m);
-        add_symmetric(dimension, sums, at.moment, k, m, e);
-        for (int f = values - narrow; f < values; f++) {
-            const int from = muscl_next(kind, f), to = at.narrow + f - (values - narrow);
-            double dq = lanes->field[from][k] - own[from];
-            sums[to][k] += dq * c.x;
-            if (dimension > 1)
-                sums[to + narrow][k] += dq * c.y;
-            if (dimension > 2)
-                sums[to + 2 * narrow][k] += dq * c.z;
-        }
+    const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
+    const struct vec3 c = vector_from(dimension, &pairs->c[0][k], LANES);
+    const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
+    struct vec3 m = vec3_scale(vec3_dot(x, e), c);
+    add_vector(dimension, sums, at.offset, k, m);
+    add_symmetric(dimension, sums, at.moment, k, m, e);
+    for (int f = values - narrow; f < values; f++) {
+        const int from = muscl_next(kind, f), to = at.narrow + f - (values - narrow);
+        double dq = lanes->field[from][k] - own[from];
+        sums[to][k] += dq * c.x;
+        if (dimension > 1)
+            sums[to + narrow][k] += dq * c.y;
+        if (dimension > 2)
+            sums[to + 2 * narrow][k] += dq * c.z;
     }
+}
+
+BOLIDE_INLINE void add_slopes(struct muscl_kind kind, const double *own, const struct lanes *lanes,
+                              const struct pairs *pairs, double (*sums)[LANES])
+{
+#pragma omp simd simdlen(8)
+    for (int k = 0; k < LANES; k++)
+        add_slope(kind, own, lanes, pairs, sums, k);
 }
 
 /* The next two loops are written as a function of one lane. A local whose address is taken inside a

@@ -10,7 +10,7 @@
 #include "riemann/acoustic.h"
 #include "sph/kernel.h"
 #include "sph/muscl/muscl.h"
-#include "sph/muscl/sums.h"
+#include "sph/muscl/rates.h"
 
 /* The body of what ENTRY names. */
 static uint16_t body_of(const struct neighbours *n, const struct particles *p, uint32_t entry)
@@ -270,8 +270,8 @@ static void push(struct sph *sph, const struct simulation *simulation,
     end->power = 0.0;
     if (!(vec3_dot(n, n) > 0.0))
         return;
-    write_tensor(dimension, correction_of(dimension, moment_of_forces(s.moment, s.offset)),
-                 fields->own.correction + (size_t)i * (size_t)tensor_components(dimension));
+    put_tensor(dimension, fields->own.correction + (size_t)i * (size_t)tensor_components(dimension),
+               1, correction_of(dimension, moment_of_forces(s.moment, s.offset)));
     if (fields->sph.rates.hoop_pull)
         s.open.x += fields->sph.rates.hoop_pull[i] / p->position[i][0];
     const double area = vec3_dot(s.open, n), ns[3] = {n.x, n.y, n.z};

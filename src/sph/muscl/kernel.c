@@ -5,6 +5,7 @@
 
 #include "base/isa.h"
 #include "sph/muscl/body.h"
+#include "sph/muscl/rates.h"
 
 /* Neighbours of one part of a row, and whether contact laws act. */
 struct part {
@@ -77,20 +78,17 @@ static void add_next(const struct muscl_loop *loop, add_apart *add, int32_t i, s
     rest->begin = end;
 }
 
-/* Most rows have but the first part, which nothing stands in the way of. */
-BOLIDE_INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind kind, add_apart *add,
-                             int32_t i)
+/* Sums up one neighbour list into the next lane of BATCH. Most have but the first part. */
+BOLIDE_INLINE void sum_up(const struct muscl_loop *loop, struct muscl_kind kind, add_apart *add,
+                          int32_t i, struct batch *batch)
 {
     const struct layout at = layout_of(kind);
     struct rest rest = {0};
     rest.entry = neighbours_walk(loop->neighbours, i, &rest.count);
-    const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
-    double factor =
-        -2.0 / (kind.depth ? loop->density[i] * own[muscl_depth(kind)] : loop->density[i]);
     static const double none[TOTALS];
     static const struct sums nothing;
     struct sums sums = nothing;
-    double all[TOTALS], images[TOTALS];
+    double images[TOTALS], *all = batch->total[batch->count];
     const double *of_images = none;
     rest.begin = lanes_part(rest.entry, 0, rest.count, 0);
     if (rest.begin > 0)
@@ -107,7 +105,21 @@ BOLIDE_INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind ki
             all[a] += images[a];
         of_images = images;
     }
-    write_rates(loop, kind, i, factor, all, of_images);
+    batch_add(loop, kind, i, of_images, batch);
+}
+
+/* Particles BEGIN .. END - 1. */
+BOLIDE_INLINE void all_rates(const struct muscl_loop *loop, struct muscl_kind kind, add_apart *add,
+                             int32_t begin, int32_t end)
+{
+    static const struct batch nothing;
+    struct batch batch = nothing; /* lanes that no particle takes are computed too */
+    batch.first = begin;
+    for (int32_t i = begin; i < end; i++) {
+        sum_up(loop, kind, add, i, &batch);
+        if (batch.count == LANES || i == end - 1)
+            batch_finish(loop, kind, &batch);
+    }
 }
 
 /* Each body of the rows' loop is an instance; its name says of which kind. */
@@ -121,8 +133,7 @@ BOLIDE_INLINE void row_rates(const struct muscl_loop *loop, struct muscl_kind ki
     }                                                                                  \
     static void name(const struct muscl_loop *loop, int32_t begin, int32_t end)        \
     {                                                                                  \
-        for (int32_t i = begin; i < end; i++)                                          \
-            row_rates(loop, (struct muscl_kind){__VA_ARGS__}, name##_part, i);         \
+        all_rates(loop, (struct muscl_kind){__VA_ARGS__}, name##_part, begin, end);    \
     }
 
 INSTANCE(line, 1, false, false)
