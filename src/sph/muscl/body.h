@@ -212,30 +212,50 @@ BOLIDE_INLINE void find_change(struct muscl_kind kind, double matter, const doub
                  near_j = smooth ? 2.0 - near : 0.0;
     const struct slopes here = {own, NULL, 1};
     const struct slopes there = {&lanes->field[0][k], &pairs->wide[0][k], LANES};
+    /* First all that velocities give, then one side's stress after the other's: that many values
+     * stay in registers. */
     const struct vec3 ui = change_of_velocity(kind, here, x);
     const struct vec3 uj = change_of_velocity(kind, there, x);
-    const struct sym3 hi = change_of_stress(kind, here, x);
-    const struct sym3 hj = change_of_stress(kind, there, x);
-    struct vec3 ti = {0.0, 0.0, 0.0}, tj = ti, dti = ti, dtj = ti;
-    double along_i = own[s], along_j = lanes->field[s][k], si_n = hi.xx, sj_n = hj.xx;
-    if (shear) {
-        ti = traction_of(dimension, stress_from(dimension, own + s, 1), n);
-        tj = traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), n);
-        dti = traction_of(dimension, hi, n);
-        dtj = traction_of(dimension, hj, n);
-        along_i = vec3_dot(ti, n);
-        along_j = vec3_dot(tj, n);
-        si_n = vec3_dot(dti, n);
-        sj_n = vec3_dot(dtj, n);
-    }
-    const double along_s = along_j - along_i;
-    const double twice_u = 2.0 * along_u, twice_s = 2.0 * along_s;
+    const double twice_u = 2.0 * along_u;
     const struct change change_u = {square(along_u), twice_u * vec3_dot(ui, n),
                                     twice_u * vec3_dot(uj, n)};
-    const struct change change_s = {square(along_s), twice_s * si_n, twice_s * sj_n};
-    struct shares of_u, of_s, of_v = {0.0, 0.0}, of_a = of_v;
-    limited_shares(change_u, change_s, &of_u, &of_s);
+    struct change change_v = {0.0, 0.0, 0.0}, change_a = change_v;
     pairs->along_u[k] = along_u;
+    if (dimension > 1) {
+        const struct vec3 across_u = vec3_sub(du, vec3_scale(along_u, n));
+        const struct vec3 twice_v = vec3_scale(2.0, across_u);
+        change_v.square = vec3_dot(across_u, across_u);
+        change_v.own = vec3_dot(twice_v, ui);
+        change_v.other = vec3_dot(twice_v, uj);
+        put_vector(dimension, pairs->across_u, k, across_u);
+    }
+    double along_i = own[s], along_j = lanes->field[s][k], si_n, sj_n;
+    if (shear) {
+        const struct vec3 ti = traction_of(dimension, stress_from(dimension, own + s, 1), n);
+        const struct vec3 tj =
+            traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), n);
+        along_i = vec3_dot(ti, n);
+        along_j = vec3_dot(tj, n);
+        const struct vec3 across_s =
+            vec3_sub(vec3_sub(tj, ti), vec3_scale(along_j - along_i, n));
+        const struct vec3 twice_a = vec3_scale(2.0, across_s);
+        change_a.square = vec3_dot(across_s, across_s);
+        put_vector(dimension, pairs->across_s, k, across_s);
+        put_vector(dimension, pairs->traction, k, ti);
+        const struct vec3 dti = traction_of(dimension, change_of_stress(kind, here, x), n);
+        si_n = vec3_dot(dti, n);
+        change_a.own = vec3_dot(twice_a, dti);
+        const struct vec3 dtj = traction_of(dimension, change_of_stress(kind, there, x), n);
+        sj_n = vec3_dot(dtj, n);
+        change_a.other = vec3_dot(twice_a, dtj);
+    } else {
+        si_n = change_of_stress(kind, here, x).xx;
+        sj_n = change_of_stress(kind, there, x).xx;
+    }
+    const double along_s = along_j - along_i, twice_s = 2.0 * along_s;
+    const struct change change_s = {square(along_s), twice_s * si_n, twice_s * sj_n};
+    struct shares of_u, of_s, of_v, of_a = {0.0, 0.0};
+    limited_shares(change_u, change_s, &of_u, &of_s);
     pairs->along_i[k] = along_i;
     pairs->along_j[k] = along_j;
     pairs->share[0][k] = near_i * of_u.own;
@@ -243,20 +263,11 @@ BOLIDE_INLINE void find_change(struct muscl_kind kind, double matter, const doub
     pairs->share[2][k] = near_i * of_s.own;
     pairs->share[3][k] = near_j * of_s.other;
     if (dimension > 1) {
-        const struct vec3 across_u = vec3_sub(du, vec3_scale(along_u, n));
-        const struct vec3 across_s =
-            shear ? vec3_sub(vec3_sub(tj, ti), vec3_scale(along_s, n)) : ti;
-        const struct vec3 twice_v = vec3_scale(2.0, across_u), twice_a = vec3_scale(2.0, across_s);
-        const struct change change_v = {vec3_dot(across_u, across_u), vec3_dot(twice_v, ui),
-                                        vec3_dot(twice_v, uj)};
-        const struct change change_a = {vec3_dot(across_s, across_s), vec3_dot(twice_a, dti),
-                                        vec3_dot(twice_a, dtj)};
         limited_shares(change_v, change_a, &of_v, &of_a);
-        put_vector(dimension, pairs->across_u, k, across_u);
-        put_vector(dimension, pairs->across_s, k, across_s);
-        put_vector(dimension, pairs->traction, k, ti);
         pairs->share[4][k] = near_i * of_v.own;
         pairs->share[5][k] = near_j * of_v.other;
+    }
+    if (shear) {
         pairs->share[6][k] = near_i * of_a.own;
         pairs->share[7][k] = near_j * of_a.other;
     }
