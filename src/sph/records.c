@@ -36,18 +36,48 @@ static void copy_places(const struct simulation *simulation, const struct sph_re
                records->first + (count + (size_t)g) * stride, bytes);
 }
 
+/* What the fields of a record are multiplied by, 1 or -1, in an image of each kind; the position,
+ * which is not, follows from image_position. */
+struct reflections {
+    double sign[IMAGE_CODES][SPH_STRIDE_MAX];
+};
+
+static void find_reflections(struct sph *sph, const struct simulation *simulation,
+                             const struct sph_records *records, struct reflections *reflections)
+{
+    assert(records->stride <= SPH_STRIDE_MAX);
+    for (int image = 0; image < IMAGE_CODES; image++) {
+        double *sign = reflections->sign[image];
+        for (size_t f = 0; f < records->stride; f++)
+            sign[f] = 1.0;
+        records->reflect(sph, simulation, (image_code)image, sign);
+    }
+}
+
 /* The records of ghosts BEGIN .. END - 1, which are images. */
 static void make_images(struct sph *sph, const struct simulation *simulation,
                         const struct sph_records *records, int32_t begin, int32_t end)
 {
     const struct ghosts *ghosts = &sph->neighbours.ghosts;
     const size_t count = (size_t)particles_of(simulation)->count, stride = records->stride;
+    const int dimension = simulation->dimension;
+    struct reflections reflections;
+    if (begin == end)
+        return;
+    find_reflections(sph, simulation, records, &reflections);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t g = begin; g < end; g++) {
+        const double *from = records->first + (size_t)ghosts->source[g] * stride;
+        const double *sign = reflections.sign[ghosts->image[g]];
         double *record = records->first + (count + (size_t)g) * stride;
-        memcpy(record, records->first + (size_t)ghosts->source[g] * stride,
-               stride * sizeof *record);
-        records->reflect(sph, simulation, ghosts->image[g], record);
+        const struct vec3 x =
+            vec3_make(from[0], dimension > 1 ? from[1] : 0.0, dimension > 2 ? from[2] : 0.0);
+        const struct vec3 place = image_position(&simulation->mirrors, ghosts->image[g], x);
+        const double at[3] = {place.x, place.y, place.z};
+        for (size_t f = 0; f < stride; f++)
+            record[f] = sign[f] * from[f];
+        for (int axis = 0; axis < dimension; axis++)
+            record[axis] = at[axis];
     }
     copy_places(simulation, records, begin, end);
 }

@@ -208,10 +208,12 @@ struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, 
  * moves particles between two walks or nothing moves. */
 double sph_near_skin(const struct sph_parameters *parameters, unsigned traits);
 
-/* records.c. One kind of record: REFLECT turns that of a particle into that of its image. */
+/* records.c. One kind of record: REFLECT turns that of a particle into that of its image. But for
+ * the position it multiplies fields by 1 or -1. */
+enum { SPH_STRIDE_MAX = 64 };
 struct sph_records {
     double *first;
-    size_t stride; /* in doubles */
+    size_t stride; /* in doubles, SPH_STRIDE_MAX at most */
     void (*reflect)(const struct sph *sph, const struct simulation *simulation, image_code image,
                     double *record);
     double *place; /* copies of position and diameter, as lanes.h has them; may be NULL */

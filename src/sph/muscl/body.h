@@ -236,8 +236,7 @@ BOLIDE_INLINE void find_change(struct muscl_kind kind, double matter, const doub
             traction_of(dimension, stress_from(dimension, &lanes->field[s][k], LANES), n);
         along_i = vec3_dot(ti, n);
         along_j = vec3_dot(tj, n);
-        const struct vec3 across_s =
-            vec3_sub(vec3_sub(tj, ti), vec3_scale(along_j - along_i, n));
+        const struct vec3 across_s = vec3_sub(vec3_sub(tj, ti), vec3_scale(along_j - along_i, n));
         const struct vec3 twice_a = vec3_scale(2.0, across_s);
         change_a.square = vec3_dot(across_s, across_s);
         put_vector(dimension, pairs->across_s, k, across_s);
