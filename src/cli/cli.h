@@ -18,7 +18,7 @@ struct text_list {
 /* All options of all commands, and the arguments that are none. */
 struct cli_options {
     const char *output;
-    int64_t threads, points;
+    int64_t threads, points, ranks_wanted;
     bool overwrite, resume, quick, thorough, all, convergence, curves, record;
     const char *time, *template_name;
     struct text_list settings, names;
@@ -103,7 +103,7 @@ struct listener terminal_listener(void);
 struct progress_pace terminal_pace(void);
 void terminal_clear_line(void);
 
-/* Escape sequences for stdout, "" where it is no terminal. */
+/* Escape sequences for stdout, "" where it is no terminal, or with NO_COLOR in the environment. */
 enum colour { COLOUR_NONE, COLOUR_GOOD, COLOUR_BAD, COLOUR_FAINT, COLOUR_STRONG, COLOUR_WARN };
 const char *colour(enum colour which);
 
@@ -112,9 +112,21 @@ const char *colour(enum colour which);
  * else. */
 void terminal_open_closed_streams(void);
 
+/* launch.c */
+
+/* Starts this program, called with the COUNT WORDS, as RANKS ranks by mpirun, waits for them, and gives their exit
+ * status. */
+int launch_ranks(int count, char **words, int64_t ranks);
+/* True in a rank that was started so. */
+bool launch_has_made_us(void);
+/* In such a rank: tells STATUS to the process that started it; what is left to tell mpirun. */
+int launch_tell_status(const struct ranks *ranks, int status);
+/* What is wrong with WANTED ranks here. */
+struct error *launch_check(const struct ranks *ranks, int64_t wanted);
+
 /* signals.c */
 
-/* Catches the signals that stop a run, and SIGUSR1, which asks for a checkpoint; the flag that the
+/* Catches the signals that stop a run, in a rank that launch_ranks made SIGUSR2 among them, and SIGUSR1, which asks for a checkpoint; the flag that the
  * former set, and how often the latter came. */
 const volatile sig_atomic_t *signals_catch(void);
 const volatile sig_atomic_t *signals_checkpoints(void);

@@ -82,6 +82,12 @@ static int run_command(int count, char **words, const struct ranks *ranks)
     struct cli_options options;
     struct error *error = options_read(command, count - 2, words + 2, &options);
     options.ranks = ranks;
+    if (!error && options.ranks_wanted > 1)
+        error = ranks_agree(ranks, launch_check(ranks, options.ranks_wanted));
+    if (!error && options.ranks_wanted > 1 && !ranks->joined) {
+        options_free(&options);
+        return launch_ranks(count, words, options.ranks_wanted);
+    }
     if (!error && command->bit & (COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY))
         error = ranks_agree(ranks, cases_locate(&options));
     int status = EXIT_OK;
@@ -103,7 +109,9 @@ int main(int count, char **words)
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     const struct ranks ranks = ranks_join();
     terminal_silence(&ranks);
-    int status = run_command(count, words, &ranks);
+    if (launch_has_made_us()) /* before a request to stop may come, which would end it */
+        signals_catch();
+    int status = launch_tell_status(&ranks, run_command(count, words, &ranks));
     ranks_leave(&ranks);
     return status;
 }

@@ -31,6 +31,8 @@ static const struct option option_table[] = {
      COMMAND_RUN},
     {"--threads", "N", "number of threads, at most (all processors)", OPTION_THREADS, AT(threads),
      COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY},
+    {"--ranks", "N", "number of processes that compute a case together, started by mpirun (1)",
+     OPTION_COUNT, AT(ranks_wanted), COMMAND_RUN | COMMAND_VERIFY},
     {"--set", "PATH=VALUE", "replace a value of the case: run.until=3us; may be repeated",
      OPTION_LIST, AT(settings), COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
     {"--short", NULL, "use the short form of cases that have one", OPTION_FLAG, AT(quick),

@@ -50,6 +50,8 @@ const volatile sig_atomic_t *signals_catch(void)
 {
     for (size_t i = 0; i < COUNT_OF(stopping); i++)
         handle(stopping[i], on_stop);
+    if (launch_has_made_us())
+        handle(SIGUSR2, on_stop);
     handle(SIGUSR1, on_checkpoint);
     signal(SIGXFSZ, SIG_IGN); /* the write fails instead, and that is reported */
     return &stop_signal;

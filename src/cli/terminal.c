@@ -48,9 +48,10 @@ void terminal_clear_line(void)
 
 const char *colour(enum colour which)
 {
+    const char *never = getenv("NO_COLOR");
     static const char *const sequences[] = {"\033[0m", "\033[32m", "\033[1;31m",
                                             "\033[2m", "\033[1m",  "\033[33m"};
-    return isatty(STDOUT_FILENO) ? sequences[which] : "";
+    return isatty(STDOUT_FILENO) && !(never && *never) ? sequences[which] : "";
 }
 
 int report_error(struct error *error)

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 /* Spins of 20 to 45 ns: time enough for a thread that has a processor. scripts/bench sets the same. */
-static const char spins[] = "2000";
+static const char spins[] = "5000";
 /* Milliseconds, the unit of clang's OpenMP. */
 static const char block_time[] = "0";
 

@@ -213,13 +213,16 @@ static struct error *begin(struct run *run)
 static void tell_beginning(struct run *run)
 {
     const struct simulation *s = &run->simulation;
-    char until[48];
+    const int threads = (int)ranks_maximum(&run->ranks, s->threads);
+    char until[48], workers[64] = "";
+    if (run->ranks.size > 1)
+        snprintf(workers, sizeof workers, "%d ranks, each ", run->ranks.size);
     readable(run->input->run.until, "s", until, sizeof until);
     run_say(run, "%s: %s", run->input->name ? run->input->name : "case",
             run->input->title ? run->input->title : "");
-    run_say(run, "%lld particles, %d-D, %s, until %s, %d thread%s%s",
+    run_say(run, "%lld particles, %d-D, %s, until %s, %s%d thread%s%s",
             (long long)ranks_sum(&run->ranks, simulation_population(s).count), s->dimension,
-            run->input->solver.choice->name, until, s->threads, s->threads == 1 ? "" : "s",
+            run->input->solver.choice->name, until, workers, threads, threads == 1 ? "" : "s",
             run->options->resume ? ", resumed" : "");
     struct error *warnings = estimate_warnings(run->input);
     for (int i = 0; warnings && i < error_count(warnings); i++)

@@ -55,6 +55,8 @@ expect 2 "did you mean \"verify\"" "$BOLIDE" verfy
 expect 2 "did you mean --overwrite" "$BOLIDE" run case.yaml --overwite
 expect 2 "usage: bolide run CASE" "$BOLIDE" run
 expect 2 "--threads" "$BOLIDE" run case.yaml --threads many
+expect 2 "--ranks" "$BOLIDE" run case.yaml --ranks 0
+expect 2 "unknown option --ranks" "$BOLIDE" check case.yaml --ranks 2
 expect 2 "--set wants PATH=VALUE" "$BOLIDE" run case.yaml --set
 expect 2 "exclude each other" "$BOLIDE" run case.yaml --resume --overwrite
 expect 2 "No such file" "$BOLIDE" run missing.yaml

@@ -68,4 +68,33 @@ on 2 run "$everything" --set "bodies.bar.material=cheese" --output wrong >wrong.
 [ "$(grep -c cheese wrong.log)" = 1 ] || fail "a mistake must be told once: $(cat wrong.log)"
 on 2 run "$everything" --set "bodies.end.frozen=no" --set "run.energy_drift=1e-30" --output wrong --overwrite >wrong.log 2>&1
 [ "$(grep -c 'total energy has drifted' wrong.log)" = 1 ] || fail "a failure must be told once: $(cat wrong.log)"
+
+# --ranks starts mpirun itself: the same bits, and Bolide's own verdict and exit status.
+export BOLIDE_MPIRUN
+rm -rf asked failing stopped
+"$BOLIDE" run "$everything" --ranks 2 --threads 1 --output asked >asked.log 2>&1 || fail "--ranks 2: $(cat asked.log)"
+same_but_for_order whole asked || fail "--ranks 2 computes something else"
+grep -q "2 ranks, each 1 thread" asked/run.log || fail "run.log names the ranks: $(head -n 2 asked/run.log)"
+plate=$BOLIDE_SOURCE_DIR/examples/elastic-plastic/aluminium/case.yaml
+"$BOLIDE" verify "$plate" --ranks 2 --short --set run.max_steps=2 --output failing >failing.log 2>&1
+[ $? = 1 ] || fail "a failed check on ranks must end with 1: $(cat failing.log)"
+grep -q "0 of 1 cases passed" failing.log || fail "no verdict of a failed check: $(cat failing.log)"
+grep -qi "abort" failing.log && fail "mpirun had the last word: $(cat failing.log)"
+"$BOLIDE" run "$everything" --ranks 2 --set "bodies.bar.material=cheese" >wrong.log 2>&1
+[ $? = 2 ] && [ "$(wc -l <wrong.log)" = 1 ] || fail "a mistake on ranks must end with 2: $(cat wrong.log)"
+BOLIDE_MPIRUN=/nowhere/mpirun "$BOLIDE" run "$everything" --ranks 2 >wrong.log 2>&1
+[ $? = 4 ] && grep -q "/nowhere/mpirun" wrong.log || fail "mpirun is missing: $(cat wrong.log)"
+on 2 run "$everything" --ranks 3 >wrong.log 2>&1
+grep -q "mpirun has started 2 ranks already" wrong.log || fail "--ranks among ranks: $(cat wrong.log)"
+
+# A request to stop reaches the ranks, which leave a checkpoint, and what started them tells of the signal.
+"$BOLIDE" run "$everything" --ranks 2 --threads 1 --output stopped >stopped.log 2>&1 &
+runner=$!
+while [ ! -e stopped/checkpoint.h5 ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+kill -TERM $runner
+wait $runner
+[ $? = 143 ] || fail "SIGTERM to ranks: $(cat stopped.log)"
+grep -q "go on with --resume" stopped.log || fail "nothing to go on with: $(cat stopped.log)"
+"$BOLIDE" run "$everything" --output stopped --resume >resumed.log 2>&1 || fail "resuming: $(cat resumed.log)"
+same_but_for_order whole stopped || fail "stopped on 2 ranks and resumed alone"
 exit $status
