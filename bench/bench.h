@@ -45,26 +45,31 @@ static inline void stop_on(struct error *error)
         exit(error_kind(error));
 }
 
-static inline struct started start(const struct run *run)
+/* The case at PATH with COUNT SETTINGS, as of --set, ready for its first step. */
+static inline struct started start_with(const char *path, const char *const *settings, int count,
+                                        int threads)
 {
     const char *const library[] = {BOLIDE_SOURCE_DIR "/materials"};
-    const struct case_options options = {.settings = &run->setting,
-                                         .setting_count = run->setting != NULL,
-                                         .library_paths = library,
-                                         .library_count = 1};
+    const struct case_options options = {
+        .settings = settings, .setting_count = count, .library_paths = library, .library_count = 1};
     const struct ranks alone = ranks_alone();
     struct started s = {.simulation = calloc(1, sizeof *s.simulation)};
-    stop_on(case_read(run->path, &options, &bolide_catalogue, &s.input));
+    stop_on(case_read(path, &options, &bolide_catalogue, &s.input));
     s.class = s.input->solver.choice->thing;
     s.solver = calloc(1, s.class->size);
     if (!s.simulation || !s.solver)
         exit(ERROR_SYSTEM);
-    stop_on(simulation_create(s.input, &alone, run->threads, s.simulation));
+    stop_on(simulation_create(s.input, &alone, threads, s.simulation));
     stop_on(s.class->create(s.solver, s.simulation, s.input->solver.value));
     stop_on(generate_particles(s.simulation));
     stop_on(s.class->start(s.solver, s.simulation));
     stop_on(s.class->prepare(s.solver, s.simulation, &s.limit));
     return s;
+}
+
+static inline struct started start(const struct run *run)
+{
+    return start_with(run->path, &run->setting, run->setting != NULL, run->threads);
 }
 
 /* Returns how many seconds so many steps took. */
