@@ -6,7 +6,19 @@ named without options: what is tested is what a user gets by writing nothing. An
 which a body, its motion and its loads are rotated against the lattice."""
 import math
 
-from entry import Entry, Measure, conserved, largest, metres, rotated, speeds, start, unit
+from entry import (
+    DIMENSION,
+    Entry,
+    Measure,
+    conserved,
+    largest,
+    metres,
+    rotated,
+    speeds,
+    start,
+    unit,
+)
+from frame import Frame, walls
 from materials import MATERIALS
 
 
@@ -185,3 +197,222 @@ def patch(solver, material="fluid", lattice="square", pull=1e9, until=100e-6):
         ]
         + conserved(False),
     )
+
+
+def rest(
+    solver, material="elastic", geometry="plane-strain", lattice="square", angle=0, boundary="walls"
+):
+    """A body in a uniform state stays in it: between mirror walls, within a frozen body of the same
+    state and lattice, or with free surfaces and no pressure."""
+    m, f = MATERIALS[material], Frame(geometry, angle)
+    d, n = 1e-3, DIMENSION[geometry]
+    size = (4 if geometry == "3d" else 6) * d
+    wide = size + 6 * d  # of what is frozen: support and that of its own neighbours
+    case = start(geometry, solver, d, 20 * size / m.sound)
+    low = 0.0 if geometry == "axisymmetric" else -1.0
+
+    def box(half):
+        return {"box": {"from": metres(low * half, *[-half] * (n - 1)), "to": metres(*[half] * n)}}
+
+    p, state = m.pressure, dict(m.state)
+    if boundary == "free":
+        p, state = 0.0, {}
+    elif not state:
+        p = 0.004 * m.bulk
+        state = {"pressure": unit(p, "Pa")}
+        if geometry == "plane-stress":  # the third stress is nothing, and p the mean of three
+            state = {"stress": [unit(-1.5 * p, "Pa")] * 2 + ["0 Pa", "0 Pa"]}
+    body = {"material": "m", **state}
+    bodies = {"b": {**body, **rotated(box(size), angle)}}
+    if boundary == "frozen":
+        whole = rotated(box(wide), angle)
+        bodies["b"] = {**body, "intersection": [whole, rotated(box(size), angle)]}
+        hole = {"difference": [whole, rotated(box(size), angle)]}
+        bodies["frame"] = {**body, **hole, "frozen": "yes"}
+    for what in bodies.values():
+        what.update({} if lattice == "square" else {"lattice": lattice})
+    case.update(materials={"m": m.case}, bodies=bodies)
+    if boundary == "walls":
+        sides = {f"low_{x}": -size for x in "xyz"[:n] if x != "x" or low}
+        case["walls"] = walls(**sides, **{f"high_{x}": size for x in "xyz"[:n]})
+    cut = lattice != "square" and boundary == "walls"
+    still = 0.01 * p / (m.density * m.sound) if cut else 1e-9 * m.sound
+    kind = "limit" if cut else "exact"
+    why = "uniform pressure has no force: rounding"
+    if cut:
+        why = "uniform pressure has no force; own limit where walls cut a lattice: 1 % of p/(rho c)"
+    near = (0.01 if cut else 1e-6) * p + 1e-9 * m.bulk
+    of = {"of": "b"}
+    return Entry(
+        f"rest/{solver}/{material}/{f.name}/{lattice}/{boundary}",
+        case,
+        [
+            Measure("speed", {"maximum": "speed", **of}, why, 0, None, still, "m/s", kind),
+            Measure("lowest", {"minimum": "pressure", **of}, why, p, p - near, None, "Pa", kind),
+            Measure("highest", {"maximum": "pressure", **of}, why, p, None, p + near, "Pa", kind),
+        ],
+    )
+
+
+def pull(solver, material="elastic", geometry="plane-strain", lattice="square", angle=0, sign=1):
+    """A bar between driven ends is drawn out (SIGN 1) or pressed together (-1) evenly, slowly
+    against sound, with free sides. The velocity is linear at the start, along and across, so that
+    no wave runs.
+    """
+    m, f = MATERIALS[material], Frame(geometry, angle)
+    d = 1e-3
+    half = (4 if geometry == "3d" else 6) * d
+    length, grip = 3 * half, 3 * d
+    strain = sign * {"ductile": 0.02, "plastic": 0.02, "rubber": 0.05}.get(material, 0.004)
+    until = 20 * length / m.sound
+    v = (math.exp(strain) - 1) * length / until
+    case = start(geometry, solver, d, until)
+    whole = f.bar(-length - grip, length + grip, half)
+    cut = {
+        "low": {"difference": [whole, f.beyond(-length, 1)]},
+        "mid": {"difference": [whole, f.beyond(-length, -1), f.beyond(length, 1)]},
+        "high": {"difference": [whole, f.beyond(length, -1)]},
+    }
+    if geometry == "1d":
+        cut = {
+            "low": f.bar(-length - grip, -length, 0),
+            "mid": f.bar(-length, length, 0),
+            "high": f.bar(length, length + grip, 0),
+        }
+    nu = 0.5 if m.yield_stress else m.across(geometry)
+    if m.yield_stress and geometry == "plane-strain":
+        nu = 1.0
+    rate = v / length
+    inward = f"{-nu * rate:.12g} 1/s*"
+    bodies = {
+        "low": {"material": "m", **cut["low"], "velocity": f.vector(-v), "driven": "yes"},
+        "mid": {
+            "material": "m",
+            **cut["mid"],
+            "velocity": f.vector(
+                f"{rate:.12g} 1/s*{f.s()}",
+                None if geometry == "1d" else inward + f.t(),
+                inward + "z" if geometry == "3d" else None,
+            ),
+        },
+        "high": {"material": "m", **cut["high"], "velocity": f.vector(v), "driven": "yes"},
+    }
+    if lattice != "square":
+        for body in bodies.values():
+            body["lattice"] = lattice
+    case.update(materials={"m": m.case}, bodies=bodies)
+    case["checks"] = f.stress_checks(of="mid", **f.middle(half))
+    case["checks"].update(f.strain_checks(half, of="mid"))
+
+    def exact(e):
+        """The stress at the logarithmic strain E of the middle."""
+        if not m.yield_stress:
+            return m.thin(geometry) * e
+        factor = 2 / math.sqrt(3) if geometry == "plane-strain" else 1.0
+        b, n = m.hardening or (0.0, 1.0)
+        plastic = abs(e) * factor
+        for _ in range(50):
+            flow = m.yield_stress + b * max(plastic, 0.0) ** n
+            elastic = flow / (3 * m.shear) if geometry == "plane-strain" else flow / m.young
+            plastic = abs(e) * factor - elastic
+        if geometry == "1d":
+            return m.bulk * (math.exp(e) - 1) + sign * 2 / 3 * flow
+        return sign * factor * flow
+
+    why = "E e, E/(1 - nu^2) e in plane strain, (K + 4 G/3) e on a line"
+    if m.yield_stress:
+        why = (
+            "Y of the plastic strain, 2 Y/sqrt(3) in plane strain; K (exp e - 1) + 2 Y/3 on a line"
+        )
+    measures = [
+        Measure(
+            "stress/exact",
+            lambda run: f.stress(run.checks) / exact(f.strain(run.checks)),
+            why + ", at the strain of the middle; within 5 %",
+            1,
+            0.95,
+            1.05,
+        ),
+        Measure("pieces", {"pieces": {}, "of": "mid"}, "it holds", 1, 1, 1),
+    ]
+    if not m.yield_stress:  # what hardens little may strain where it likes
+        why = "even; own limit: driven ends hold what is beside them, with MPM a cell before it"
+        strained = Measure(
+            "strain/given", lambda run: f.strain(run.checks) / strain, why, 1, 0.75, 1.3
+        )
+        strained.kind = "limit"
+        measures.append(strained)
+    which = "pull" if sign > 0 else "press"
+    return Entry(f"{which}/{solver}/{material}/{f.name}/{lattice}", case, measures)
+
+
+def squeeze(solver, material="gas", geometry="plane-strain", lattice="square", ratio=1.25):
+    """A fluid between a wall and a piston, 2 % of the sound speed, is pressed together or expands
+    evenly: the velocity is linear and stays, pressure and energy follow the isentrope."""
+    m = MATERIALS[material]
+    d = 1e-3
+    length, side = 60 * d, (4 if geometry == "3d" else 6) * d
+    v = 0.02 * m.sound * (1 if ratio > 1 else -1)
+    until = length * (1 - 1 / ratio) / v
+    case = start(geometry, solver, d, until)
+    about = geometry == "axisymmetric"
+    x = "y" if about else "x"
+    dimension = DIMENSION[geometry]
+
+    def box(low, high):
+        if about:
+            return {"box": {"from": metres(0, low), "to": metres(side, high)}}
+        more = [0] * (dimension - 1), [side] * (dimension - 1)
+        return {"box": {"from": metres(low, *more[0]), "to": metres(high, *more[1])}}
+
+    def along(speed):
+        return ["0 m/s", speed] if about else [speed] + ["0 m/s"] * (dimension - 1)
+
+    bodies = {
+        "b": {
+            "material": "m",
+            **box(0, length),
+            "velocity": along(f"{-v / length:.12g} 1/s*{x}"),
+            **m.state,
+        },
+        "piston": {
+            "material": "m",
+            **box(length, length + 3 * d),
+            "velocity": along(unit(-v, "m/s")),
+            "driven": "yes",
+            **m.state,
+        },
+    }
+    if lattice != "square":
+        for body in bodies.values():
+            body["lattice"] = lattice
+    sides = {f"low_{x}": 0}
+    if about:
+        sides["high_x"] = side
+    else:
+        for other in "xyz"[1:dimension]:
+            sides.update({f"low_{other}": 0, f"high_{other}": side})
+    case.update(materials={"m": m.case}, bodies=bodies, walls=walls(**sides))
+    now = {"of": "b", "axis": x, "between": metres(0.25 * length / ratio, 0.75 * length / ratio)}
+    case["checks"] = {"p": {"mean": "pressure", **now, "at_most": "1e300 Pa"}}
+    pressure, energy = m.isentrope(ratio)
+
+    def over_exact(run):
+        return run.checks["p"] / m.isentrope(run.checks["density"] / m.density)[0]
+
+    r, why = m.density * ratio, "isentrope from rest, integrated; within 2 %"
+    scatter = "uniform; own limit 2 %"
+    measures = [
+        Measure("density", {"mean": "density", **now}, "mass over volume; own limit 2 %", r),
+        Measure("p/exact", over_exact, why + ", at the density of the middle", 1, 0.98, 1.02),
+        Measure(
+            "scatter", {"spread": "pressure", **now}, scatter, 0, None, 0.02 * abs(pressure), "Pa"
+        ),
+    ]
+    measures[0].low, measures[0].high, measures[0].unit = 0.98 * r, 1.02 * r, "kg/m^3"
+    measures[2].kind = "limit"
+    if m.energy:
+        heat = Measure("heat", {"mean": "energy", **now}, why, energy, 0.98 * energy, 1.02 * energy)
+        heat.unit = "J/kg"
+        measures.append(heat)
+    return Entry(f"squeeze/{solver}/{material}/{geometry}/{lattice}/{ratio:g}", case, measures)
