@@ -218,7 +218,7 @@ def rest(
     if boundary == "free":
         p, state = 0.0, {}
     elif not state:
-        p = 0.004 * m.bulk
+        p = 0.003 * m.bulk
         state = {"pressure": unit(p, "Pa")}
         if geometry == "plane-stress":  # the third stress is nothing, and p the mean of three
             state = {"stress": [unit(-1.5 * p, "Pa")] * 2 + ["0 Pa", "0 Pa"]}
@@ -235,12 +235,12 @@ def rest(
     if boundary == "walls":
         sides = {f"low_{x}": -size for x in "xyz"[:n] if x != "x" or low}
         case["walls"] = walls(**sides, **{f"high_{x}": size for x in "xyz"[:n]})
-    cut = lattice != "square" and boundary == "walls"
+    cut = boundary != "free" and bool(lattice != "square" or angle)
     still = 0.01 * p / (m.density * m.sound) if cut else 1e-9 * m.sound
     kind = "limit" if cut else "exact"
     why = "uniform pressure has no force: rounding"
     if cut:
-        why = "uniform pressure has no force; own limit where walls cut a lattice: 1 % of p/(rho c)"
+        why = "uniform pressure has no force; own limit where a lattice is cut: 1 % of p/(rho c)"
     near = (0.01 if cut else 1e-6) * p + 1e-9 * m.bulk
     of = {"of": "b"}
     return Entry(

@@ -73,7 +73,7 @@ AXES = {
     "move along": (
         move,
         {
-            "geometry": GEOMETRIES,
+            "geometry": GEOMETRIES[:4],
             "lattice": LATTICES,
             "angle": ANGLES,
             "material": ("gas", "products"),
