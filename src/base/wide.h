@@ -12,12 +12,24 @@
 
 typedef double vector8 __attribute__((vector_size(64)));
 typedef double vector4 __attribute__((vector_size(32)));
-typedef uint32_t keys16 __attribute__((vector_size(64)));
+
+/* Keys are compared in pieces that the instruction set has: wider ones go key by key. */
+#if defined(__AVX512F__)
+typedef uint32_t keys_piece __attribute__((vector_size(64)));
+#elif defined(__AVX2__)
+typedef uint32_t keys_piece __attribute__((vector_size(32)));
+#else
+typedef uint32_t keys_piece __attribute__((vector_size(16)));
+#endif
+typedef struct {
+    keys_piece at[16 * sizeof(uint32_t) / sizeof(keys_piece)];
+} keys16;
 
 /* Adds one to each element of BELOW where KEY is smaller than that of OWN. */
 BOLIDE_INLINE void keys16_count_below(keys16 *below, const keys16 *own, uint32_t key)
 {
-    *below -= (keys16)(*own > key);
+    for (size_t k = 0; k < COUNT_OF(own->at); k++)
+        below->at[k] -= (keys_piece)(own->at[k] > key);
 }
 
 #else
