@@ -1,5 +1,5 @@
 /* Sums from particles to nodes and back: the loops of the material point method. A block of cells at a time; particles in
- * the order of bins. Compiled once an instruction set (transfer_kernel.c). */
+ * the order of bins. Compiled once an instruction set (transfer_kernel.h). */
 #ifndef BOLIDE_MPM_TRANSFER_H
 #define BOLIDE_MPM_TRANSFER_H
 

@@ -1,5 +1,5 @@
 /* Stresses that push through the faces between nodes, in lanes. For the file that is compiled once an
- * instruction set (transfer_kernel.c).
+ * instruction set (transfer_kernel.h).
  *
  * The slope of a shape function is a difference of functions M of the two faces of its node: along
  * an axis N_I' = (M_(I-1/2) - M_(I+1/2))/h, M the B-spline of the next lower degree. So the sum of

@@ -1,30 +1,48 @@
-/* Chooses the loops of transfer.h for the processor that they run on. */
+/* Chooses the loops of transfer.h for the processor that they run on, and for the nodes that a
+ * particle reaches. */
 #include "base/isa.h"
 #include "mpm/transfer.h"
 
-ISA_CHOOSE(void, transfer_scatter, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+#define CHOOSE_FOR(name, window, parameters, arguments) \
+    void name##_##window parameters;                    \
+    ISA_CHOOSE(void, name##_##window, parameters, arguments)
 
-ISA_CHOOSE(void, transfer_push, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+#define CHOOSE(name, parameters, arguments)    \
+    CHOOSE_FOR(name, 2, parameters, arguments) \
+    CHOOSE_FOR(name, 3, parameters, arguments) \
+    CHOOSE_FOR(name, 4, parameters, arguments) \
+    void name parameters                       \
+    {                                          \
+        if (transfer->window == 2)             \
+            name##_2 arguments;                \
+        else if (transfer->window == 3)        \
+            name##_3 arguments;                \
+        else                                   \
+            name##_4 arguments;                \
+    }
 
-ISA_CHOOSE(void, transfer_slopes, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+CHOOSE(transfer_scatter, (const struct transfer *transfer, int32_t bin), (transfer, bin))
 
-ISA_CHOOSE(void, transfer_velocity,
-           (const struct transfer *transfer, int32_t bin, struct transfer_step step, bool scatter),
-           (transfer, bin, step, scatter))
+CHOOSE(transfer_push, (const struct transfer *transfer, int32_t bin), (transfer, bin))
 
-ISA_CHOOSE(void, transfer_again,
-           (const struct transfer *transfer, int32_t bin, const double *from, bool accelerations,
-            double *to),
-           (transfer, bin, from, accelerations, to))
+CHOOSE(transfer_slopes, (const struct transfer *transfer, int32_t bin), (transfer, bin))
 
-ISA_CHOOSE(void, transfer_heat, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+CHOOSE(transfer_velocity,
+       (const struct transfer *transfer, int32_t bin, struct transfer_step step, bool scatter),
+       (transfer, bin, step, scatter))
 
-ISA_CHOOSE(void, transfer_mix, (const struct transfer *transfer, int32_t bin, double dt),
-           (transfer, bin, dt))
+CHOOSE(transfer_again,
+       (const struct transfer *transfer, int32_t bin, const double *from, bool accelerations,
+        double *to),
+       (transfer, bin, from, accelerations, to))
 
-ISA_CHOOSE(void, transfer_warm, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+CHOOSE(transfer_heat, (const struct transfer *transfer, int32_t bin), (transfer, bin))
 
-ISA_CHOOSE(void, transfer_gradient,
-           (const struct transfer *transfer, int32_t bin, struct transfer_step step,
-            struct nodal velocity, struct rates rates),
-           (transfer, bin, step, velocity, rates))
+CHOOSE(transfer_mix, (const struct transfer *transfer, int32_t bin, double dt), (transfer, bin, dt))
+
+CHOOSE(transfer_warm, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+
+CHOOSE(transfer_gradient,
+       (const struct transfer *transfer, int32_t bin, struct transfer_step step,
+        struct nodal velocity, struct rates rates),
+       (transfer, bin, step, velocity, rates))

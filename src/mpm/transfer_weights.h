@@ -1,5 +1,5 @@
 /* The particles of a cell and the shape functions at the nodes that they reach, some at once in
- * lanes. For the file that is compiled once an instruction set (transfer_kernel.c). */
+ * lanes. For the file that is compiled once an instruction set (transfer_kernel.h). */
 #ifndef BOLIDE_MPM_TRANSFER_WEIGHTS_H
 #define BOLIDE_MPM_TRANSFER_WEIGHTS_H
 

@@ -1,6 +1,6 @@
 /* What the step of velocities does to the energies of particles, in lanes: the work of their stresses,
  * what their nodes take from the motion, and mixing in shocks. For the file that is compiled once an
- * instruction set (transfer_kernel.c). */
+ * instruction set (transfer_kernel.h). */
 #ifndef BOLIDE_MPM_TRANSFER_WORK_H
 #define BOLIDE_MPM_TRANSFER_WORK_H
 
