@@ -1,11 +1,12 @@
 # Thin front doors to scripts/ and CMake.
 prefix ?= /usr/local
 
-.PHONY: help demo build test bench docs install package format lint fuzz check-device clean
+.PHONY: help demo build check test bench docs install package format lint fuzz check-device clean
 
 help:
 	@echo "make demo     install what is missing, build, run a case worth looking at"
 	@echo "make build    install what is missing, build build/release/bolide"
+	@echo "make check    for every edit: build for one instruction set, run unit tests, rules, short cases"
 	@echo "make test     install what is missing, build twice, run the whole suite"
 	@echo "make bench    measure the speed of steps and of this machine; quick=1 takes a few minutes"
 	@echo "make docs     make the manual as a site: build/docs/index.html"
@@ -23,6 +24,9 @@ demo:
 build:
 	@scripts/setup run
 	@scripts/build release bolide
+
+check:
+	@scripts/check
 
 test:
 	@scripts/test

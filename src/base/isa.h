@@ -1,9 +1,13 @@
-/* Instruction sets that the kernels are compiled for; all give the same bits. A kernel's file is compiled once for each,
- * with BOLIDE_ISA as its name; the file beside it chooses. */
+/* Instruction sets that the kernels are compiled for; all give the same bits. A kernel's file is
+ * compiled once for each, with BOLIDE_ISA as its name; the file beside it chooses. */
 #ifndef BOLIDE_ISA_H
 #define BOLIDE_ISA_H
 
-enum isa { ISA_V2, ISA_V3, ISA_V4 }; /* of x86-64; V2 stands for the compiler's own elsewhere */
+enum isa {
+    ISA_V2,
+    ISA_V3,
+    ISA_V4
+}; /* of x86-64; elsewhere V2 is what the compiler takes by default */
 
 /* The best that this processor knows. */
 static inline enum isa isa_best(void)
@@ -26,9 +30,19 @@ static inline enum isa isa_best(void)
     result ISA_JOIN(name, BOLIDE_ISA)(__VA_ARGS__); \
     result ISA_JOIN(name, BOLIDE_ISA)(__VA_ARGS__)
 
-/* Beside it: defines NAME as the one for this processor. PARAMETERS and ARGUMENTS are those of the function, each in
- * parentheses. */
-#if defined(__x86_64__)
+/* Beside it: ISA_CHOOSE defines NAME as the one for this processor. PARAMETERS and ARGUMENTS are
+ * those of the function, each in parentheses. ISA_DECLARE declares those of all sets, as functions
+ * of one TYPE, and ISA_LIST lists them, the least first. A build for a single set names it
+ * BOLIDE_ONLY_ISA. */
+#if defined(BOLIDE_ONLY_ISA)
+enum { ISA_COMPILED = 1 };
+#define ISA_CHOOSE(result, name, parameters, arguments) \
+    result ISA_JOIN(name, BOLIDE_ONLY_ISA) parameters;  \
+    result name parameters { return ISA_JOIN(name, BOLIDE_ONLY_ISA) arguments; }
+#define ISA_DECLARE(type, name) type ISA_JOIN(name, BOLIDE_ONLY_ISA)
+#define ISA_LIST(name) ISA_JOIN(name, BOLIDE_ONLY_ISA)
+#else
+enum { ISA_COMPILED = 3 };
 #define ISA_CHOOSE(result, name, parameters, arguments)                      \
     result name##_v2 parameters, name##_v3 parameters, name##_v4 parameters; \
     result name parameters                                                   \
@@ -38,10 +52,15 @@ static inline enum isa isa_best(void)
                : isa == ISA_V3 ? name##_v3 arguments                         \
                                : name##_v2 arguments;                        \
     }
-#else
-#define ISA_CHOOSE(result, name, parameters, arguments) \
-    result name##_v2 parameters;                        \
-    result name parameters { return name##_v2 arguments; }
+#define ISA_DECLARE(type, name) type name##_v2, name##_v3, name##_v4
+#define ISA_LIST(name) name##_v2, name##_v3, name##_v4
 #endif
+
+/* How many functions of ISA_LIST this processor can run. */
+static inline int isa_count(void)
+{
+    const int known = (int)isa_best() + 1;
+    return known < ISA_COMPILED ? known : ISA_COMPILED;
+}
 
 #endif

@@ -11,10 +11,11 @@
 #include "case/case.h"
 #include "run/catalogue.h"
 #include "run/run.h"
+#include "source_folder.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-static const char *const library_paths[] = {BOLIDE_SOURCE_DIR "/materials"};
+static const char *const library_paths[] = {materials_folder};
 
 static void insist(bool holds, const char *what)
 {

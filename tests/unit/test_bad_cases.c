@@ -13,8 +13,9 @@
 #include "messages.h"
 #include "run/catalogue.h"
 #include "run/run.h"
+#include "source_folder.h"
 
-static const char *const library_paths[] = {"library", BOLIDE_SOURCE_DIR "/materials"};
+static const char *const library_paths[] = {"library", materials_folder};
 
 static char *expected_messages(const char *case_name, size_t length)
 {
@@ -56,7 +57,7 @@ static void bad_cases_give_their_messages(void **state)
     (void)state;
     char home[4096];
     assert_non_null(getcwd(home, sizeof home));
-    assert_int_equal(chdir(BOLIDE_SOURCE_DIR "/tests/data/bad"), 0);
+    assert_int_equal(chdir(bad_cases_folder), 0);
     struct dirent **entries;
     int count = scandir(".", &entries, NULL, alphasort), cases = 0, wrong = 0;
     for (int i = 0; i < count; i++) {

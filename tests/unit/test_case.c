@@ -11,8 +11,9 @@
 #include "material/material.h"
 #include "messages.h"
 #include "small_catalogue.h"
+#include "source_folder.h"
 
-static const char *const library_paths[] = {"library", BOLIDE_SOURCE_DIR "/materials"};
+static const char *const library_paths[] = {"library", materials_folder};
 
 static struct error *read_case(const char *path, const char *const *settings, int count, bool quick,
                                struct simulation_case **input)
@@ -254,7 +255,7 @@ static void a_library_that_is_not_there_is_told(void **state)
     assert_non_null(error);
     assert_non_null(strstr(error_message(error, 0), "the library was not found; set BOLIDE_SHARE"));
     error_free(error);
-    static const char *const folders[] = {BOLIDE_SOURCE_DIR "/materials"};
+    static const char *const folders[] = {materials_folder};
     const struct case_options here = {.library_paths = folders, .library_count = 1};
     static const char text[] = "format: 1\nmaterials: {a: {library: unobtainium}}\n";
     write_file("input.yaml", text, strlen(text));
@@ -404,7 +405,7 @@ static void every_material_of_the_library_can_be_used(void **state)
 {
     (void)state;
     struct dirent **entries;
-    int count = scandir(BOLIDE_SOURCE_DIR "/materials", &entries, NULL, alphasort), materials = 0;
+    int count = scandir(materials_folder, &entries, NULL, alphasort), materials = 0;
     for (int i = 0; i < count; i++) {
         char *dot = strstr(entries[i]->d_name, ".yaml");
         if (dot) {

@@ -15,6 +15,7 @@
 #include "every_eos.h"
 #include "material/material.h"
 #include "small_catalogue.h"
+#include "source_folder.h"
 
 static const double none[POINT_HISTORY] = {0.0};
 static const double shock_energy = 0.5 * 15e3 * 15e3;
@@ -111,7 +112,7 @@ static void every_sample_holds(void **state)
 static void every_material_of_the_library_holds(void **state)
 {
     (void)state;
-    const char *const folder = BOLIDE_SOURCE_DIR "/materials";
+    const char *const folder = materials_folder;
     struct name_list names;
     assert_null(library_names(folder, &names));
     int scanned = 0;

@@ -11,6 +11,7 @@
 #include "model/generate.h"
 #include "run/catalogue.h"
 #include "run/estimate.h"
+#include "source_folder.h"
 #include "sph/lanes.h"
 #include "sph/scheme.h"
 
@@ -35,7 +36,7 @@ static const char strip[] =
 /* Reads TEXT and what stands behind it. */
 static struct error *read_text(const char *text, const char *more, struct simulation_case **input)
 {
-    static const char *const library[] = {BOLIDE_SOURCE_DIR "/materials"};
+    static const char *const library[] = {materials_folder};
     const struct case_options options = {.library_paths = library, .library_count = 1};
     FILE *file = fopen("estimate.yaml", "w");
     assert_non_null(file);

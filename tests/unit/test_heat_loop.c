@@ -2,13 +2,11 @@
  * instruction sets, and what it must keep. */
 #include "scene.h"
 
+#include "base/isa.h"
 #include "sph/conduction/kernel.h"
 
 typedef void heat_loop_isa(const struct heat_loop *, int32_t, int32_t);
-heat_loop_isa heat_loop_run_v2;
-#if defined(__x86_64__)
-heat_loop_isa heat_loop_run_v3, heat_loop_run_v4;
-#endif
+ISA_DECLARE(heat_loop_isa, heat_loop_run);
 
 /* A scene whose store keeps temperature, conductivity and sqrt(diffusivity) in `energy`, `pressure` and
  * `plastic_strain`, a depth in the velocity; and the loop over it. */
@@ -177,20 +175,13 @@ static void the_fast_loop_agrees_with_the_fluxes(void **state)
 static void all_instruction_sets_give_the_same_bits(void **state)
 {
     (void)state;
-    heat_loop_isa *set[3] = {heat_loop_run_v2};
-    int sets = 1;
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2"))
-        set[sets++] = heat_loop_run_v3;
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
-        set[sets++] = heat_loop_run_v4;
-#endif
+    heat_loop_isa *const set[] = {ISA_LIST(heat_loop_run)};
     for (unsigned k = 0; k < KINDS; k++) {
         struct trial t;
         trial_of(&t, k, 200, 0.15);
         double *first = t.loop.rate;
         set[0](&t.loop, 0, 200);
-        for (int s = 1; s < sets; s++) {
+        for (int s = 1; s < isa_count(); s++) {
             t.loop.rate = calloc(200, sizeof(double));
             set[s](&t.loop, 0, 200);
             assert_memory_equal(t.loop.rate, first, 200 * sizeof *first);

@@ -11,6 +11,7 @@
 
 #include "base/memory.h"
 #include "small_catalogue.h"
+#include "source_folder.h"
 
 static const char common[] = "format: 1\n"
                              "title: the common part\n"
@@ -33,7 +34,7 @@ static void write_file(const char *path, const char *text)
 
 static struct error *read_with(const char *path, bool quick, struct simulation_case **input)
 {
-    static const char *const folders[] = {BOLIDE_SOURCE_DIR "/materials"};
+    static const char *const folders[] = {materials_folder};
     const struct case_options options = {
         .form = quick ? "short" : NULL, .library_paths = folders, .library_count = 1};
     return case_read(path, &options, &small_catalogue, input);

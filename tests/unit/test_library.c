@@ -12,11 +12,11 @@
 #include "case/library.h"
 #include "material/material.h"
 #include "small_catalogue.h"
+#include "source_folder.h"
 
 enum { MATERIALS = 256 };
 
-static const char folder[] = BOLIDE_SOURCE_DIR "/materials";
-static const char *const folders[] = {folder};
+static const char *const folders[] = {materials_folder};
 
 struct library {
     struct name_list names;
@@ -27,7 +27,7 @@ static int open_library(void **state)
 {
     struct library *library = calloc(1, sizeof *library);
     assert_non_null(library);
-    assert_null(library_names(folder, &library->names));
+    assert_null(library_names(materials_folder, &library->names));
     assert_in_range(library->names.count, 38, MATERIALS);
     for (int i = 0; i < library->names.count; i++) {
         char *path = library_file(folders, 1, library->names.names[i]);
@@ -193,8 +193,7 @@ static void mistakes_of_a_file_are_told_where_they_stand(void **state)
 {
     (void)state;
     struct material_input input;
-    static const char path[] = BOLIDE_SOURCE_DIR "/tests/data/bad/library/mistaken.yaml";
-    struct error *error = library_read(path, &small_catalogue, &input);
+    struct error *error = library_read(mistaken_material, &small_catalogue, &input);
     assert_int_equal(error_kind(error), ERROR_INPUT);
     assert_int_equal(error_count(error), 3);
     assert_non_null(strstr(error_message(error, 0), "mistaken.yaml:5:14: eos.barotropic.density"));

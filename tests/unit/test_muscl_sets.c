@@ -6,10 +6,7 @@
 #include "base/isa.h"
 
 typedef void muscl_loop_isa(const struct muscl_loop *, int32_t, int32_t);
-muscl_loop_isa muscl_loop_run_v2;
-#if defined(__x86_64__)
-muscl_loop_isa muscl_loop_run_v3, muscl_loop_run_v4;
-#endif
+ISA_DECLARE(muscl_loop_isa, muscl_loop_run);
 
 /* Each kind of record, before a wall and under a contact law. */
 #define BODIES(first, second)                       \
@@ -92,15 +89,9 @@ static double *rates_by(muscl_loop_isa *set, struct running *run, size_t *bytes)
 static void all_instruction_sets_give_the_same_bits(void **state)
 {
     (void)state;
-    muscl_loop_isa *const set[] = {
-        muscl_loop_run_v2,
-#if defined(__x86_64__)
-        muscl_loop_run_v3,
-        muscl_loop_run_v4
-#endif
-    };
+    muscl_loop_isa *const set[] = {ISA_LIST(muscl_loop_run)};
     struct dice dice = {1};
-    const int sets = (int)isa_best() + 1;
+    const int sets = isa_count();
     print_message("%d instruction sets\n", sets);
     for (size_t k = 0; k < COUNT_OF(cases); k++) {
         struct running *run = begin_random(cases[k], &dice);

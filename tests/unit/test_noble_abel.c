@@ -2,6 +2,7 @@
  * */
 #include "model/particle_population.h"
 #include "running.h"
+#include "source_folder.h"
 
 #include "material/heat.h"
 #include "riemann/shock_slope.h"
@@ -106,8 +107,7 @@ static uint64_t blast(const char *const settings[2], int count)
     struct case_options options = {.settings = settings, .setting_count = count};
     struct running *run = calloc(1, sizeof *run);
     run->ranks = ranks_alone();
-    assert_success(case_read(BOLIDE_SOURCE_DIR "/examples/riemann/blast-wave-dukowicz/case.yaml",
-                             &options, &bolide_catalogue, &run->input));
+    assert_success(case_read(blast_wave_case, &options, &bolide_catalogue, &run->input));
     assert_success(simulation_create(run->input, &run->ranks, 1, &run->simulation));
     run->solver = run->input->solver.choice->thing;
     assert_success(run->solver->create(&run->sph, &run->simulation, run->input->solver.value));

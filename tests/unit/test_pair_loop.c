@@ -1,11 +1,10 @@
 /* The fast pair loop: against the naive one, against itself on other instruction sets, and what it must keep. */
 #include "trial.h"
 
+#include "base/isa.h"
+
 typedef void pair_loop_isa(const struct pair_loop *, int32_t, int32_t);
-pair_loop_isa pair_loop_run_v2;
-#if defined(__x86_64__)
-pair_loop_isa pair_loop_run_v3, pair_loop_run_v4;
-#endif
+ISA_DECLARE(pair_loop_isa, pair_loop_run);
 
 #define KIND(...)                 \
     {                             \
@@ -73,22 +72,6 @@ static void long_rows_agree_too(void **state)
     }
 }
 
-/* COUNT_OF the instruction sets of this processor, the least first. */
-static int instruction_sets(pair_loop_isa *set[3])
-{
-    int count = 0;
-    set[count++] = pair_loop_run_v2;
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-        __builtin_cpu_supports("bmi2"))
-        set[count++] = pair_loop_run_v3;
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
-        set[count++] = pair_loop_run_v4;
-#endif
-    return count;
-}
-
 static void assert_same_rates(const struct pair_rates *a, const struct pair_rates *b, int32_t count)
 {
     size_t n = (size_t)count * sizeof(double);
@@ -104,8 +87,8 @@ static void assert_same_rates(const struct pair_rates *a, const struct pair_rate
 static void all_instruction_sets_give_the_same_bits(void **state)
 {
     (void)state;
-    pair_loop_isa *set[3];
-    int sets = instruction_sets(set);
+    pair_loop_isa *const set[] = {ISA_LIST(pair_loop_run)};
+    const int sets = isa_count();
     print_message("%d instruction sets\n", sets);
     for (size_t k = 0; k < COUNT_OF(kinds); k++)
         for (unsigned with = 0; with < 4; with++) {

@@ -13,6 +13,7 @@
 #include "base/memory.h"
 #include "run/catalogue.h"
 #include "run/sweep.h"
+#include "source_folder.h"
 
 #define BODIES                                                                                     \
     "format: 1\ndimension: 1\nresolution: 1 mm\nsolver: sph\n"                                     \
@@ -56,7 +57,7 @@ static int leave_folder(void **state)
     return system(command);
 }
 
-static const char *const folders[] = {BOLIDE_SOURCE_DIR "/materials"};
+static const char *const folders[] = {materials_folder};
 
 static struct error *read_run(int run, bool quick, struct simulation_case **input)
 {
