@@ -101,7 +101,7 @@ fi
 home=$(mktemp -d)
 trap 'rm -rf "$home"' EXIT
 browse() {
-    timeout 60 /usr/bin/chromium --headless --no-sandbox --disable-gpu --disable-background-networking \
+    timeout 600 /usr/bin/chromium --headless --no-sandbox --disable-gpu --disable-background-networking \
         --disable-component-update --disable-sync --no-first-run --user-data-dir="$home" "$@" 2>browser.log
 }
 cat >probe.txt <<'HTML'

@@ -104,11 +104,11 @@ refused "--threads" "$BOLIDE" run run/plate.yaml --threads 99999
 refused "OMP_NUM_THREADS" env OMP_NUM_THREADS=99999 \
     "$BOLIDE" run run/plate.yaml --output results/threads
 for threads in 1000 1024; do
-    timeout 60 "$BOLIDE" run run/plate.yaml --threads $threads --output results/threads --overwrite \
+    timeout 600 "$BOLIDE" run run/plate.yaml --threads $threads --output results/threads --overwrite \
         >threads.log 2>&1 ||
         fail "$threads threads ended with $?: $(cat threads.log)"
 done
-OMP_NUM_THREADS=1000 timeout 60 "$BOLIDE" run run/plate.yaml --output results/threads --overwrite \
+OMP_NUM_THREADS=1000 timeout 600 "$BOLIDE" run run/plate.yaml --output results/threads --overwrite \
     >threads.log 2>&1 ||
     fail "1000 threads from the environment: $(cat threads.log)"
 grep -q "1 thread$" threads.log || fail "600 particles take one thread: $(cat threads.log)"
