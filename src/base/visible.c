@@ -79,3 +79,11 @@ void text_put_visible(FILE *file, const char *text)
         fputs(piece, file);
     }
 }
+
+void text_make_file_name(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < 128 &&
+            !strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.+-=,", *text))
+            *text = '_';
+}

@@ -22,4 +22,8 @@ char *text_visible(const char *text);
 /* Writes TEXT to FILE in that way. */
 void text_put_visible(FILE *file, const char *text);
 
+/* Makes TEXT a name of a file in place: what has a meaning to a shell or a file system becomes
+ * "_". */
+void text_make_file_name(char *text);
+
 #endif

@@ -150,6 +150,14 @@ static struct error *read_document(struct simulation_case *input,
     return error;
 }
 
+/* PATH is that of the case, for the record beside it. */
+static struct error *read_all(struct simulation_case *input, const char *path,
+                              const struct case_options *options)
+{
+    TRY(read_document(input, options));
+    return options->recording || options->convergence ? NULL : case_take_record(input, path);
+}
+
 struct error *case_read(const char *path, const struct case_options *options,
                         const struct catalogue *catalogue, struct simulation_case **result)
 {
@@ -165,7 +173,7 @@ struct error *case_read(const char *path, const struct case_options *options,
                               : out_of_memory();
     if (!error) {
         input->form = input->document->overlay ? input->document->overlay : "normal";
-        error = read_document(input, options);
+        error = read_all(input, path, options);
     }
     if (error)
         case_free(input);

@@ -149,7 +149,10 @@ struct check_input {
     char *source;              /* where the wanted value comes from, shown in the table */
     char *known_deviation;     /* why the limit is not met; NULL: it must be */
     double known_deviation_if; /* above 0: `known_deviation` holds */
-    bool regression_bound;
+    /* How much worse than `recorded` it may be: a fraction of the error, or a quantity; NAN: no
+     * bound. */
+    struct quantity regression_bound;
+    struct quantity recorded; /* filled by case_read from the record; NAN: none */
 };
 
 /* fits: NAME: {of: CHECK, over: KEY, take: slope, is: ..., within: ...}: a line or a power law
@@ -227,6 +230,7 @@ struct case_options {
     int setting_count;
     const char *form; /* "short" or "long": that form of it; NULL: neither */
     int sweep_run;    /* the run of the case's sweep, from 1; 0: the case itself */
+    bool recording;   /* the record is being made: nothing is read from it */
     bool convergence; /* the runs of its convergence study take the place of those of its sweep */
     const char *const *library_paths; /* folders with material files */
     int library_count;
@@ -242,6 +246,11 @@ extern const struct parameter case_shaping_table[];
  * every mistake comes in one ERROR_INPUT. */
 struct error *case_read(const char *path, const struct case_options *options,
                         const struct catalogue *catalogue, struct simulation_case **result);
+
+/* "U0=500_m_s": the folder of the run of a sweep that takes these COUNT values, and its name in the
+ * record; of keys that change together the first alone, where the name would be long. NULL when
+ * memory is out; free it. */
+char *sweep_run_name(const struct sweep_value *values, int count);
 
 void case_free(struct simulation_case *input);
 void sweep_values_free(struct sweep_value *values, int count);

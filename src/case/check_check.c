@@ -16,10 +16,18 @@ static bool is_number(const struct quantity *quantity)
 static void check_limits(struct checking *checking, const struct check_input *check)
 {
     const struct quantity *is = &check->is, *within = &check->within;
-    if (is_given(is) && !is_given(within))
-        case_wrong(checking, "is", "this needs `within` beside it");
-    else if (!is_given(within) && !is_given(&check->at_most) && !is_given(&check->at_least))
-        case_wrong(checking, "", "a limit is missing: `is` and `within`, `at_most` or `at_least`");
+    const bool bounded = is_given(&check->regression_bound);
+    if (is_given(is) && !is_given(within) && !bounded)
+        case_wrong(checking, "is", "this needs `within` or `regression_bound` beside it");
+    else if (!is_given(within) && !is_given(&check->at_most) && !is_given(&check->at_least) &&
+             !bounded)
+        case_wrong(checking, "",
+                   "a limit is missing: `is` and `within`, `at_most`, `at_least` or "
+                   "`regression_bound`");
+    if (check->regression_bound.value < 0.0)
+        case_wrong(checking, "regression_bound", "this cannot be negative");
+    if (is_given(&check->recorded) && !bounded)
+        case_wrong(checking, "recorded_value", "this needs `regression_bound` beside it");
     if (check->at_least.value > check->at_most.value &&
         dimension_equal(check->at_least.dimension, check->at_most.dimension))
         case_wrong(checking, "at_least", "this lies above `at_most`");

@@ -67,6 +67,10 @@ const char *body_start_at(const struct body_input *body, const struct material *
                           struct vec3 place, struct point *point, double velocity[3],
                           const char **key);
 
+/* Fills `recorded` of the checks and fits that have a regression bound from the record of the case
+ * at PATH; ERROR_INPUT where it has no such value. */
+struct error *case_take_record(struct simulation_case *input, const char *path);
+
 /* The rows of what a check allows, in a table of TYPE whose struct check_input is MEMBER (with a
  * dot after it, or nothing). */
 #define CASE_LIMITS(type, member)                                                                  \
@@ -110,12 +114,19 @@ const char *body_start_at(const struct body_input *body, const struct material *
          .below = INFINITY,                                                                        \
          .help =                                                                                   \
              "`known_deviation` applies only where this is above 0, as in some runs of a sweep"},  \
+        {.key = "recorded_value",                                                                  \
+         .kind = PARAMETER_QUANTITY,                                                               \
+         .offset = offsetof(type, member recorded),                                                \
+         .standard = PARAMETER_OPTIONAL,                                                           \
+         .help = "the earlier result that `regression_bound` compares with; default: that of the " \
+                 "record beside the case, which `bolide verify --record` makes"},                  \
     {                                                                                              \
-        .key = "regression_bound", .kind = PARAMETER_FLAG,                                         \
-        .offset = offsetof(type, member regression_bound), .standard = "no",                       \
-        .help = "the limit bounds the change from an earlier result of Bolide and proves nothing " \
-                "more: "                                                                           \
-                "counted separately"                                                               \
+        .key = "regression_bound", .kind = PARAMETER_QUANTITY,                                     \
+        .offset = offsetof(type, member regression_bound), .standard = PARAMETER_OPTIONAL,         \
+        .help = "how much larger than recorded the error may be, as a fraction of it or a "        \
+                "quantity: the "                                                                   \
+                "distance from `is` or the exact solution, else the change of the value; proves "  \
+                "nothing more: counted separately"                                                 \
     }
 
 #endif

@@ -7,9 +7,10 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "case/internal.h"
 
 /* Other columns than these are not read here: scripts/figures shows them. */
-enum { FORM, SETTINGS, RUN, CHECK, MEASURED, COLUMNS = 11 };
+enum { FORM, SETTINGS, RUN, CHECK, MEASURED, UNIT, COLUMNS = 11 };
 static const char *const heads[COLUMNS] = {"form",     "settings", "run",    "check",
                                            "measured", "unit",     "wanted", "low",
                                            "high",     "verdict",  "note"};
@@ -45,13 +46,13 @@ bool record_is_of(const struct csv *record, int64_t row, const struct record_key
            !strcmp(csv_field(record, row, SETTINGS), key->settings);
 }
 
-double record_find(const struct csv *record, const struct record_key *key, const char *check)
+int64_t record_find(const struct csv *record, const struct record_key *key, const char *check)
 {
     for (int64_t row = 0; row < record->rows; row++)
         if (record_is_of(record, row, key) && !strcmp(csv_field(record, row, RUN), key->run) &&
             !strcmp(csv_field(record, row, CHECK), check))
-            return csv_number(record, row, MEASURED);
-    return NAN;
+            return row;
+    return -1;
 }
 
 struct error *record_begin(const char *file, FILE **stream)
@@ -76,4 +77,91 @@ void record_copy(FILE *stream, const struct csv *record, int64_t row)
         put_field(stream, csv_field(record, row, i));
         putc(i < record->columns - 1 ? ',' : '\n', stream);
     }
+}
+
+/* What a record is asked for, and by whom. */
+struct lookup {
+    const struct simulation_case *input;
+    const char *path, *map; /* of the case; "checks" or "fits" */
+    struct csv record;
+    struct record_key key;
+};
+
+static struct error *no_record(const struct lookup *lookup, const char *name)
+{
+    const char *form = lookup->key.form;
+    char *at = text_format("%s.%s.regression_bound", lookup->map, name);
+    const bool normal = !strcmp(form, "normal");
+    struct error *error =
+        at ? document_error(lookup->input->document, at,
+                            "there is no record of this value%s%s%s: `bolide verify --record%s%s "
+                            "%s` makes it",
+                            normal ? "" : " in the ", normal ? "" : form, normal ? "" : " form",
+                            normal ? "" : " --", normal ? "" : form, lookup->path)
+           : error_new(ERROR_SYSTEM, "out of memory for a record");
+    free(at);
+    return error;
+}
+
+/* Fills what CHECK, called NAME, compares with. */
+static struct error *take_recorded(const struct lookup *lookup, const char *name,
+                                   struct check_input *check)
+{
+    struct unit unit;
+    if (isnan(check->regression_bound.value) || !isnan(check->recorded.value))
+        return NULL;
+    const int64_t row = record_find(&lookup->record, &lookup->key, name);
+    const double value = row < 0 ? NAN : csv_number(&lookup->record, row, MEASURED);
+    if (isnan(value))
+        return no_record(lookup, name);
+    TRY(unit_parse(csv_field(&lookup->record, row, UNIT), &unit));
+    check->recorded = (struct quantity){.value = value, .dimension = unit.dimension};
+    return NULL;
+}
+
+static struct error *take_all(struct simulation_case *input, struct lookup *lookup, char *run)
+{
+    struct error *error = NULL;
+    lookup->map = "checks";
+    lookup->key.run = run;
+    for (int i = 0; i < input->checks.count; i++)
+        error =
+            error_join(error, take_recorded(lookup, input->checks.names[i], case_check(input, i)));
+    lookup->map = "fits";
+    lookup->key.run = "fits";
+    for (int i = 0; i < input->fits.count; i++)
+        error = error_join(error,
+                           take_recorded(lookup, input->fits.names[i], &case_fit(input, i)->check));
+    return error;
+}
+
+static bool has_bounds(const struct simulation_case *input)
+{
+    for (int i = 0; i < input->checks.count; i++)
+        if (!isnan(case_check(input, i)->regression_bound.value))
+            return true;
+    for (int i = 0; i < input->fits.count; i++)
+        if (!isnan(case_fit(input, i)->check.regression_bound.value))
+            return true;
+    return false;
+}
+
+/* The case of a sweep runs with the values of one of its runs only. */
+struct error *case_take_record(struct simulation_case *input, const char *path)
+{
+    if (!has_bounds(input) || (input->sweep_runs > 0 && input->sweep_values == 0))
+        return NULL;
+    struct lookup lookup = {.input = input, .path = path, .key = {input->form, "", ""}};
+    char *file = record_path(path);
+    char *run =
+        input->sweep_values ? sweep_run_name(input->sweep, input->sweep_values) : text_copy("");
+    struct error *error = file && run ? record_read(file, &lookup.record)
+                                      : error_new(ERROR_SYSTEM, "out of memory for a record");
+    if (!error) {
+        error = take_all(input, &lookup, run);
+        csv_free(&lookup.record);
+    }
+    free(run);
+    free(file);
+    return error;
 }

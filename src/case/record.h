@@ -22,8 +22,8 @@ struct error *record_read(const char *file, struct csv *record);
 /* Whether ROW of RECORD is of KEY, whatever its run. */
 bool record_is_of(const struct csv *record, int64_t row, const struct record_key *key);
 
-/* The value that KEY and CHECK have in RECORD; NAN: none. */
-double record_find(const struct csv *record, const struct record_key *key, const char *check);
+/* The row of KEY and CHECK in RECORD; -1: none. */
+int64_t record_find(const struct csv *record, const struct record_key *key, const char *check);
 
 /* Opens FILE.part for writing and writes the heads; file_end publishes it. */
 struct error *record_begin(const char *file, FILE **stream);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/visible.h"
 #include "case/document_internal.h"
 #include "case/internal.h"
 
@@ -305,4 +306,45 @@ void sweep_values_free(struct sweep_value *values, int count)
         free(values[i].text);
     }
     free(values);
+}
+
+/* "U0=500 m/s,pore=1 mm" of the values from FIRST on. */
+static char *values_text(const struct sweep_value *values, int first, int count)
+{
+    char *text = text_copy("");
+    for (int i = first; i < count && text; i++) {
+        char *longer =
+            text_format("%s%s%s=%s", text, i > first ? "," : "", values[i].key, values[i].text);
+        free(text);
+        text = longer;
+    }
+    return text;
+}
+
+/* The same of the first value of every entry. */
+static char *first_values_text(const struct sweep_value *values, int count)
+{
+    char *text = text_copy("");
+    for (int i = 0; i < count && text; i++) {
+        if (i > 0 && values[i].entry == values[i - 1].entry)
+            continue;
+        char *longer =
+            text_format("%s%s%s=%s", text, text[0] ? "," : "", values[i].key, values[i].text);
+        free(text);
+        text = longer;
+    }
+    return text;
+}
+
+char *sweep_run_name(const struct sweep_value *values, int count)
+{
+    enum { LONGEST = 120 }; /* a folder has a name of 255 bytes at most */
+    char *name = values_text(values, 0, count);
+    if (name && strlen(name) > LONGEST) {
+        free(name);
+        name = first_values_text(values, count);
+    }
+    if (name)
+        text_make_file_name(name);
+    return name;
 }

@@ -92,8 +92,10 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
     const char *const folders[] = {materials};
     struct progress_pace pace = terminal_pace();
     bool draws_over = pace.fraction == 0.0;
+    struct case_options reading = case_reading(options, folders);
+    reading.recording = options->record;
     struct verify_options verifying = {
-        .reading = case_reading(options, folders),
+        .reading = reading,
         .catalogue = &bolide_catalogue,
         .record = options->record,
         .running = {.output = options->output,

@@ -38,11 +38,18 @@ struct error *check_find_limits(const struct check_input *check, const char *wha
     TRY(check_same_dimension(what, "is", &check->is, dimension));
     TRY(check_same_dimension(what, "at_most", &check->at_most, dimension));
     TRY(check_same_dimension(what, "at_least", &check->at_least, dimension));
+    TRY(check_same_dimension(what, "recorded_value", &check->recorded, dimension));
+    if (!dimension_equal(check->regression_bound.dimension, none))
+        TRY(check_same_dimension(what, "regression_bound", &check->regression_bound, dimension));
     *wanted = NAN;
     *low = given(&check->at_least) ? check->at_least.value : -INFINITY;
     *high = given(&check->at_most) ? check->at_most.value : INFINITY;
-    if (given(&check->is) != given(&check->within) && given(&check->is))
-        return error_new(ERROR_INPUT, "`is` wants `within`");
+    const bool bounded = given(&check->regression_bound);
+    if (given(&check->is) && !given(&check->within)) {
+        if (!bounded)
+            return error_new(ERROR_INPUT, "`is` wants `within`");
+        *wanted = check->is.value;
+    }
     if (given(&check->within)) {
         double is = given(&check->is) ? check->is.value : 0.0, distance = check->within.value;
         if (dimension_equal(check->within.dimension, none) && is != 0.0)
@@ -53,9 +60,9 @@ struct error *check_find_limits(const struct check_input *check, const char *wha
         *low = maximum(*low, is - distance);
         *high = minimum(*high, is + distance);
     }
-    if (isinf(*low) && isinf(*high))
-        return error_new(ERROR_INPUT, "nothing to compare with: give `is` and `within`, `at_most` "
-                                      "or `at_least`");
+    if (isinf(*low) && isinf(*high) && !bounded)
+        return error_new(ERROR_INPUT, "nothing to compare with: give `is` and `within`, `at_most`, "
+                                      "`at_least` or `regression_bound`");
     return NULL;
 }
 
@@ -256,8 +263,28 @@ struct error *checks_watch(const struct checks *checks, const struct check_momen
     return NULL;
 }
 
-void check_judge(const struct check_input *check, struct check_result *result)
+/* An error may grow, a distance from what is wanted too, and another value may change, by the
+ * fraction or the quantity. While the record is being made, what is measured stands for what was recorded. */
+static void bound_change(const struct check_input *check, bool is_error,
+                         struct check_result *result)
 {
+    const struct dimension none = {0, 0, 0, 0};
+    const struct quantity *bound = &check->regression_bound;
+    const double from = given(&check->recorded) ? check->recorded.value : result->measured;
+    const bool fraction = dimension_equal(bound->dimension, none);
+    const double wanted = given(&check->is) ? check->is.value : 0.0, error = fabs(from - wanted);
+    const double change = fraction ? bound->value * error : bound->value;
+    const double middle = given(&check->is) || is_error ? wanted : from;
+    const double reach = given(&check->is) || is_error ? error + change : change;
+    if (!is_error || given(&check->is))
+        result->low = maximum(result->low, middle - reach);
+    result->high = minimum(result->high, middle + reach);
+}
+
+void check_judge(const struct check_input *check, bool is_error, struct check_result *result)
+{
+    if (given(&check->regression_bound))
+        bound_change(check, is_error, result);
     const bool within = result->measured >= result->low && result->measured <= result->high;
     /* What measured nothing is not excused. */
     const bool expected =
@@ -267,7 +294,8 @@ void check_judge(const struct check_input *check, struct check_result *result)
                              : (expected ? CHECK_KNOWN_DEVIATION : CHECK_FAILED);
     result->known_deviation =
         result->verdict == CHECK_KNOWN_DEVIATION ? text_copy(check->known_deviation) : NULL;
-    result->regression_bound = check->regression_bound;
+    result->regression_bound = given(&check->regression_bound);
+    result->changes = check->regression_bound;
 }
 
 /* MEMORY holds what all checks measured. */
@@ -287,7 +315,7 @@ static struct error *judge(const struct prepared_check *prepared, const struct c
         result->measured /= memory[index].start;
     else if (check->relative)
         result->measured /= memory[check->relative_check].measured;
-    check_judge(check, result);
+    check_judge(check, class_of(check)->needs_exact, result);
     return result->name ? NULL : error_new(ERROR_SYSTEM, "out of memory for checks");
 }
 

@@ -14,10 +14,11 @@ enum check_verdict {
 
 /* One line of the table; SI units. It stands by itself when the run is gone. */
 struct check_result {
-    char *name, *source;   /* source may be NULL */
-    char *known_deviation; /* its reason; else NULL */
-    bool regression_bound; /* the limit bounds the change from an earlier result of Bolide */
-    const char *measure;   /* static text */
+    char *name, *source;     /* source may be NULL */
+    char *known_deviation;   /* its reason; else NULL */
+    bool regression_bound;   /* the limit bounds the change from an earlier result of Bolide, */
+    struct quantity changes; /* by this fraction of the error or this quantity */
+    const char *measure;     /* static text */
     char unit[DIMENSION_TEXT];
     double measured, time; /* s, when it was measured; NAN: never */
     double wanted;         /* NAN: there are only limits */
@@ -101,8 +102,12 @@ struct error *check_same_dimension(const char *what, const char *key,
 struct error *check_find_limits(const struct check_input *check, const char *what,
                                 struct dimension dimension, double *wanted, double *low,
                                 double *high);
-/* Fills in verdict, source and reasons of RESULT, whose measured value and limits are known. */
-void check_judge(const struct check_input *check, struct check_result *result);
+/* Narrows the limits of RESULT, whose measured value and other limits are known, by the regression
+ * bound of CHECK, and fills in its verdict, source and reasons. IS_ERROR: what is measured is an
+ * error, the smaller the better. */
+void check_judge(const struct check_input *check, bool is_error, struct check_result *result);
+/* "10 %", "5 MPa": the regression bound of RESULT. */
+void check_bound_text(const struct check_result *result, char *buffer, size_t size);
 const char *check_verdict_name(enum check_verdict verdict);
 
 #endif

@@ -61,6 +61,15 @@ void check_allowed_text(const struct check_result *result, char *buffer, size_t 
         snprintf(buffer, size, "%s .. %s", low, high);
 }
 
+void check_bound_text(const struct check_result *result, char *buffer, size_t size)
+{
+    const struct quantity *bound = &result->changes;
+    if (dimension_equal(bound->dimension, (struct dimension){0}))
+        snprintf(buffer, size, "%.6g %%", 100.0 * bound->value);
+    else
+        quantity_text(bound->value, result->unit, buffer, size);
+}
+
 const char *check_verdict_name(enum check_verdict verdict)
 {
     return verdict == CHECK_PASSED            ? "passed"

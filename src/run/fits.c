@@ -169,7 +169,7 @@ static struct error *evaluate(const struct fit_input *fit, const char *name,
     if (points->count > 0)
         TRY(check_find_limits(&fit->check, take_name(fit), dimension, &result->wanted, &result->low,
                               &result->high));
-    check_judge(&fit->check, result);
+    check_judge(&fit->check, fit->take == FIT_MISFIT, result);
     return NULL;
 }
 

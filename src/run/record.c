@@ -80,8 +80,11 @@ static void put_result(FILE *stream, const struct record_key *key,
         put_number(stream, result->wanted);
     put_number(stream, result->low);
     put_number(stream, result->high);
-    fprintf(stream, "%s,%s\n", verdicts[result->verdict],
-            result->regression_bound ? "regression bound" : "");
+    char bound[64] = "";
+    if (result->regression_bound)
+        check_bound_text(result, bound, sizeof bound);
+    fprintf(stream, "%s,%s%s\n", verdicts[result->verdict], bound[0] ? "regression bound " : "",
+            bound);
 }
 
 /* Normal, short, long; of one form first the case as it is, then in the order of the settings. */

@@ -8,21 +8,13 @@
 #include "base/csv.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/visible.h"
 #include "output/page.h"
 #include "output/picture.h"
 
 const char sweep_table_name[] = "sweep.csv";
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
-/* Makes TEXT a name of a file in place: what has a meaning to a shell or a file system becomes "_". */
-static void make_name(char *text)
-{
-    for (; *text; text++)
-        if ((unsigned char)*text < 128 &&
-            !strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.+-=,", *text))
-            *text = '_';
-}
 
 /* "U0=500 m/s,pore=1 mm" of the values from FIRST on. */
 static char *values_text(const struct sweep_value *values, int first, int count)
@@ -35,34 +27,6 @@ static char *values_text(const struct sweep_value *values, int first, int count)
         text = longer;
     }
     return text;
-}
-
-/* The same of the first value of every entry. */
-static char *first_values_text(const struct sweep_value *values, int count)
-{
-    char *text = text_copy("");
-    for (int i = 0; i < count && text; i++) {
-        if (i > 0 && values[i].entry == values[i - 1].entry)
-            continue;
-        char *longer =
-            text_format("%s%s%s=%s", text, text[0] ? "," : "", values[i].key, values[i].text);
-        free(text);
-        text = longer;
-    }
-    return text;
-}
-
-char *sweep_run_name(const struct sweep_value *values, int count)
-{
-    enum { LONGEST = 120 }; /* a folder has a name of 255 bytes at most */
-    char *name = values_text(values, 0, count);
-    if (name && strlen(name) > LONGEST) {
-        free(name);
-        name = first_values_text(values, count);
-    }
-    if (name)
-        make_name(name);
-    return name;
 }
 
 /* The unit of the swept value at INDEX where all runs have a quantity of one dimension; else NULL. */
@@ -278,7 +242,7 @@ static struct error *draw_check(const char *folder, const struct verify_case *ru
     const char *x_unit = swept_unit(runs, count, 0, unit);
     char *file = text_format("%s.png", name);
     if (file)
-        make_name(file);
+        text_make_file_name(file);
     char *path = file ? path_join(folder, file) : NULL;
     struct error *error = path ? NULL : out_of_memory();
     int taken = take_dots(runs, count, name, !x_unit, dots);

@@ -5,10 +5,6 @@
 
 #include "run/verify.h"
 
-/* "U0=500_m_s": the folder of the run that takes these COUNT values; of keys that change
- * together the first alone, where the name would be long. NULL when memory is out; free it. */
-char *sweep_run_name(const struct sweep_value *values, int count);
-
 /* The table's file in the folder of a sweep. */
 extern const char sweep_table_name[];
 

@@ -11,7 +11,7 @@ says() { grep -qF -- "$2" "$1" || fail "$1 does not say \"$2\": $(head -50 "$1")
 verify() { "$BOLIDE" verify --threads 1 "$@" >log 2>&1; }
 rows() { grep -c "^$1" tube/results.csv; }
 
-chmod -R u+w . && rm -rf tube sweep other.yaml other.results.csv page ./*.log
+chmod -R u+w . && rm -rf tube sweep bound results other.yaml other.results.csv page ./*.log
 mkdir -p tube sweep page
 sed 's/^  density:  .*/  density, mean: {l1: density, at_most: 0.06}/; s/checks: {density: {at_most: 0.09}, /checks: {/' \
     "$BOLIDE_SOURCE_DIR/templates/riemann.yaml" >tube/case.yaml
@@ -61,6 +61,30 @@ if [ "$(id -u)" != 0 ]; then
     chmod u+w tube
 fi
 ! find . -name '*.part' | grep . || fail "half a file is left"
+
+# Regression bounds start from the record, which says what a change of the result may be.
+mkdir -p bound && sed 's/density, mean: {l1: density, at_most: 0.5}/density, mean: {l1: density, regression_bound: 10 %}/
+    s/^  mass: .*/  place: {front: {field: pressure, value: 2 bar}, regression_bound: 1 mm}/' tube/case.yaml >bound/case.yaml
+verify bound && fail "a bound without a record passes"
+says log "bolide verify --record bound/case.yaml"
+verify --short bound && fail "a bound without a record passes"
+says log "no record of this value in the short form: \`bolide verify --record --short bound/case.yaml\` makes it"
+verify --record bound && verify bound || fail "a bound does not hold in what it was made of: $(cat log)"
+says log "2 within regression bounds"
+says bound/results.csv "regression bound 10 %"
+# value FACTOR: the recorded value of the mean density times FACTOR.
+value() { awk -F, -v f="$1" 'BEGIN { OFS = "," } /^normal,,,"density/ { $6 *= f } 1' kept.csv >bound/results.csv; }
+cp bound/results.csv kept.csv
+value 0.8
+verify bound && fail "an error a quarter larger than recorded passes"
+says log "FAILED"
+value 0.95
+verify bound || fail "an error a twentieth larger than recorded fails: $(cat log)"
+value 3
+verify bound || fail "a smaller error fails: $(cat log)"
+cp kept.csv bound/results.csv
+"$BOLIDE" run bound --output results --overwrite >log 2>&1 && grep -q "recorded_value:" results/case.yaml &&
+    verify results/case.yaml || fail "the case as run does not run again: $(cat log)"
 
 # Pages.
 figures() { /usr/bin/python3 "$BOLIDE_SOURCE_DIR/scripts/figures" "$@" page/README.md >log 2>&1; }

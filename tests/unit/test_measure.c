@@ -73,6 +73,7 @@ static int setup(void **state)
     b->input.checks = (struct named_map){0, b->check_names, &b->check, {0}};
     b->check.is.value = b->check.within.value = b->check.scale.value = NAN;
     b->check.at_least.value = b->check.at = NAN;
+    b->check.regression_bound.value = b->check.recorded.value = NAN;
     b->check.relative_check = -1;
     b->check.at_most.value = 1e300;
     b->ranks = ranks_alone();
@@ -334,6 +335,34 @@ static void within_is_a_fraction_of_what_is_wanted_or_a_quantity(void **state)
     assert_int_equal(result.verdict, CHECK_FAILED);
 }
 
+static void a_regression_bound_starts_from_what_was_recorded(void **state)
+{
+    struct bench *b = *state;
+    struct check_result result = {0};
+    choose(b, "mean", &pressure);
+    for (int i = 0; i < ALL; i++)
+        particles_of(&b->simulation)->pressure[i] = 95.0;
+    b->check.at_most.value = NAN;
+    b->check.regression_bound = (struct quantity){0.1, one};
+    b->check.recorded = (struct quantity){90.0, pascal};
+    assert_null(evaluate(b, &result)); /* a value may change by a tenth */
+    assert_float_equal(result.low, 81.0, 1e-12);
+    assert_float_equal(result.high, 99.0, 1e-12);
+    assert_int_equal(result.verdict, CHECK_PASSED);
+    assert_true(result.regression_bound);
+    b->check.is = (struct quantity){100.0, pascal};
+    assert_null(evaluate(b, &result)); /* a distance from what is wanted may grow by a tenth */
+    assert_float_equal(result.low, 89.0, 1e-12);
+    assert_float_equal(result.high, 111.0, 1e-12);
+    b->check.regression_bound = (struct quantity){3.0, pascal};
+    assert_null(evaluate(b, &result));
+    assert_float_equal(result.low, 87.0, 1e-12);
+    b->check.within = (struct quantity){0.04, one};
+    assert_null(evaluate(b, &result)); /* other limits hold besides */
+    assert_float_equal(result.low, 96.0, 1e-12);
+    assert_int_equal(result.verdict, CHECK_FAILED);
+}
+
 static void expect_mistake(struct bench *b, const char *text)
 {
     struct checks *checks;
@@ -404,6 +433,7 @@ int main(void)
         TEST(contact_norms_take_ten_particles_a_side),
         TEST(what_the_ledger_booked_is_conserved),
         TEST(within_is_a_fraction_of_what_is_wanted_or_a_quantity),
+        TEST(a_regression_bound_starts_from_what_was_recorded),
         TEST(what_is_allowed_reads_as_it_is),
         TEST(mistakes_in_checks_are_told_before_the_run),
     };

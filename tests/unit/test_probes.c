@@ -84,6 +84,7 @@ static struct bench *make_bench(int dimension)
     b->given.every = b->profile.width = NAN;
     b->check.is.value = b->check.within.value = b->check.scale.value = NAN;
     b->check.at_least.value = b->check.at = NAN;
+    b->check.regression_bound.value = b->check.recorded.value = NAN;
     b->check.at_most.value = 1e300;
     b->check.relative_check = -1;
     b->ranks = ranks_alone();
