@@ -97,8 +97,6 @@ class Entry:
                     check["at_least"] = unit(low, measure.unit).strip()
                 if high is not None or low is None:  # the program wants one limit
                     check["at_most"] = unit(1e300 if high is None else high, measure.unit).strip()
-                if measure.kind == "regression":
-                    check["regression_bound"] = "yes"
                 checks[measure.name] = check
         case["checks"] = checks
         lines = ["# Written by scripts/matrix."]
