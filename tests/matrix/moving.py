@@ -235,7 +235,7 @@ def impact(
         for body in bodies.values():
             body["lattice"] = lattice
     case.update(materials={"m": m.case}, bodies=bodies)
-    middle = f.middle(0.6 * (wave - v) * until)
+    middle = f.middle((0.4 if geometry == "3d" else 0.6) * (wave - v) * until)
     case["checks"] = f.stress_checks(**middle)
     why = "jump conditions over the shock, an elastic one first where it yields; within 5 %"
     jump = stress - m.pressure
