@@ -8,20 +8,23 @@
  * sums: a uniform pressure is then balanced as well as in plane strain. The hoop stress does no work
  * on E + U^2/2. */
 void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
-                  const struct sph_fields *f)
+                  const struct sph_fields *f, const double *stress)
 {
     const struct particles *p = particles_of(simulation);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
-        double radius = p->position[i][0];
-        double stress = p->deviator[i][2] - p->pressure[i] - (f->viscosity ? f->viscosity[i] : 0.0);
-        double pull = -stress * f->rates.hoop_pull[i] / (p->density[i] * radius);
+        const struct ring ring = sph_ring(p, i);
+        const double acts =
+            stress ? stress[i]
+                   : p->deviator[i][2] - p->pressure[i] - (f->viscosity ? f->viscosity[i] : 0.0);
+        double pull = -acts * f->rates.hoop_pull[i] / (p->density[i] * ring.depth);
         f->rates.acceleration[i][0] += pull;
         f->rates.power[i] -= p->velocity[i][0] * pull;
         /* the radius grows as the particle moves, which may be with its contacts' velocity */
         double velocity = p->velocity[i][0] + sph->ahead * f->rates.acceleration[i][0] +
                           (f->rates.drift ? f->rates.drift[i][0] : 0.0);
-        f->rates.strain_rate[i][2] = f->rates.hoop_strain[i] * velocity / radius;
+        f->rates.strain_rate[i][2] =
+            f->rates.hoop_strain[i] * ring_hoop_rate(ring, velocity, f->rates.strain_rate[i][0]);
         f->rates.hoop_pull[i] = pull;
     }
 }

@@ -13,6 +13,7 @@
 #include "particle/neighbours.h"
 #include "sph/conduction/conduction.h"
 #include "sph/layout.h"
+#include "sph/ring.h"
 #include "sph/sph.h"
 
 /* What decides which fields exist, and how a step goes on. */
@@ -173,13 +174,19 @@ enum { SPH_FIELDS_MAX = 32 };
 int sph_declare_fields(const struct sph_scheme *scheme, unsigned traits, int dimension,
                        struct field_declaration *fields);
 
-/* The depth of a particle: its radius, its thickness, or one. */
+/* The ring that particle I is. */
+BOLIDE_INLINE struct ring sph_ring(const struct particles *p, int32_t i)
+{
+    return ring_of(p->position[i][0], p->mass[i], p->density[i]);
+}
+
+/* The depth of a particle: that of its ring, its thickness, or one. */
 BOLIDE_INLINE double sph_depth(const struct simulation *simulation, const struct sph_fields *f,
                                int32_t i)
 {
     if (f->thickness)
         return f->thickness[i];
-    return sph_axisymmetric(simulation) ? particles_of(simulation)->position[i][0] : 1.0;
+    return sph_axisymmetric(simulation) ? sph_ring(particles_of(simulation), i).depth : 1.0;
 }
 
 /* The diameter that sets the support of particle I. */
@@ -283,9 +290,9 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation,
                          const struct sph_fields *fields, double dt);
 
 /* depth.c. Axisymmetry: adds to the pair sums what the hoop stress does, and leaves its
- * acceleration in hoop_pull. */
+ * acceleration in hoop_pull. STRESS is the hoop stress that acts; NULL: that of level n. */
 void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
-                  const struct sph_fields *f);
+                  const struct sph_fields *f, const double *stress);
 
 /* A particle that a step has taken through a mirror wall or the axis goes on as its own image,
  * which has come in there. */

@@ -280,7 +280,7 @@ BOLIDE_INLINE void finish_point(struct particles *p, const struct advance *step,
         f->support ? support_ratio(p, f, passage->sound[k], step->largest_support, step->dt, i)
                    : 1.0;
     const double depth = f->thickness         ? f->thickness[i]
-                         : f->rates.hoop_pull ? fabs(p->position[i][0])
+                         : f->rates.hoop_pull ? sph_ring(p, i).depth
                                               : 1.0;
     f->diameter[i] = diameter_of_volume(p->mass[i] / (p->density[i] * depth), step->dimension);
     if (f->support)

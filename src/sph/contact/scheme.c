@@ -38,7 +38,7 @@ void contact_sum_pairs(struct sph *sph, const struct simulation *simulation,
     sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &sweep, 1});
     sph->neighbours.prune = false;
     if (sph_axisymmetric(simulation))
-        sph_add_hoop(sph, simulation, fields);
+        sph_add_hoop(sph, simulation, fields, NULL);
 }
 
 static struct ranked limit_of_particle(const struct sph *sph, const struct simulation *simulation,

@@ -92,7 +92,7 @@ void hllc_find_rates(struct sph *sph, struct simulation *simulation, const struc
 BOLIDE_INLINE double hllc_volume(const struct simulation *simulation, int32_t i)
 {
     const struct particles *p = particles_of(simulation);
-    double depth = sph_axisymmetric(simulation) ? fabs(p->position[i][0]) : 1.0;
+    double depth = sph_axisymmetric(simulation) ? sph_ring(p, i).depth : 1.0;
     return p->mass[i] / (p->density[i] * depth);
 }
 

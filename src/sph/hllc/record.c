@@ -69,7 +69,7 @@ static void pack_for_forces(const struct hllc_kind kind, const struct simulation
         *next++ = strength_yield(&material->strength, &point);
     }
     if (kind.depth)
-        *next++ = p->position[i][0];
+        *next++ = copysign(sph_ring(p, i).depth, p->position[i][0]);
     if (!kind.reconstructed)
         return;
     *next++ = p->material[i];

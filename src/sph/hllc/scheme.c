@@ -59,7 +59,7 @@ static void add_hoop(const struct sph *sph, const struct simulation *simulation,
     const struct particles *p = particles_of(simulation);
     for (int32_t i = 0; i < p->count; i++)
         f->sph.rates.hoop_strain[i] = 1.0;
-    sph_add_hoop(sph, simulation, &f->sph);
+    sph_add_hoop(sph, simulation, &f->sph, NULL);
     for (int32_t i = 0; i < p->count; i++)
         f->sph.density_rate[i] -= p->density[i] * f->sph.rates.strain_rate[i][2];
 }

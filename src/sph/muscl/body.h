@@ -290,7 +290,8 @@ struct volume_pair {
 };
 
 /* What the contact is ahead of its place between the two, one volume gains and the other loses:
- * weighed so that the sum of the logarithms stays, if they were of one size at the start. */
+ * weighed so that the sum of the logarithms stays, if they were of one size at the start. Rings limit
+ * the weight: a thin one would gain the more the thinner it is. */
 BOLIDE_INLINE void add_volume(struct muscl_kind kind, const struct pairs *pairs, int k,
                               const struct volume_pair *pair, double (*sums)[LANES])
 {
@@ -388,7 +389,7 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
         const struct volume_pair volume = {.counts = counts,
                                            .like = own_m == lanes->field[m][k] ? like : 0.0,
                                            .contact = vec3_dot(w, n),
-                                           .compression = ratio,
+                                           .compression = kind.depth ? minimum(ratio, 2.0) : ratio,
                                            .packing = lanes->field[muscl_packing(kind)][k],
                                            .moved = moved};
         add_volume(kind, pairs, k, &volume, sums);

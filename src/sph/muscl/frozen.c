@@ -273,7 +273,7 @@ static void push(struct sph *sph, const struct simulation *simulation,
     put_tensor(dimension, fields->own.correction + (size_t)i * (size_t)tensor_components(dimension),
                1, correction_of(dimension, moment_of_forces(s.moment, s.offset)));
     if (fields->sph.rates.hoop_pull)
-        s.open.x += fields->sph.rates.hoop_pull[i] / p->position[i][0];
+        s.open.x += fields->sph.rates.hoop_pull[i] / sph_ring(p, i).depth;
     const double area = vec3_dot(s.open, n), ns[3] = {n.x, n.y, n.z};
     struct vec3 force = traction(kind, s.stress, s.open);
     double power = 0.0;

@@ -32,6 +32,7 @@ struct muscl_state {
 struct muscl_own_fields {
     double *correction, *velocity_gradient, *stress_gradient;
     double (*force)[3];
+    double *hoop_stress; /* NULL but in axisymmetry */
 };
 struct muscl_fields {
     struct sph_fields sph;
@@ -61,7 +62,9 @@ BOLIDE_INLINE double muscl_divergence(const struct simulation *simulation,
     double sum = g[0];
     for (int a = 1; a < dimension; a++)
         sum += g[a * (dimension + 1)];
-    return sph_axisymmetric(simulation) ? sum + p->velocity[i][0] / p->position[i][0] : sum;
+    return sph_axisymmetric(simulation)
+               ? sum + ring_hoop_rate(sph_ring(p, i), p->velocity[i][0], g[0])
+               : sum;
 }
 
 /* record.c. Collective: records sph->ahead in time, by the slopes of the step before. */

@@ -5,6 +5,7 @@
 #define BOLIDE_SPH_MUSCL_RATES_H
 
 #include "sph/muscl/sums.h"
+#include "sph/ring.h"
 
 /* The largest number of slopes: three of nine values. */
 enum { SLOPES = 27, TENSOR = 6 };
@@ -27,7 +28,7 @@ struct batch {
     double inverse[TENSOR][LANES] ALIGNED, correction[TENSOR][LANES] ALIGNED;
     double slope[SLOPES][LANES] ALIGNED;
     double acceleration[3][LANES] ALIGNED, wall[3][LANES] ALIGNED, power[LANES] ALIGNED;
-    double hoop_pull[LANES] ALIGNED, drift[LANES] ALIGNED;
+    double hoop_pull[LANES] ALIGNED, hoop_lack[LANES] ALIGNED, drift[LANES] ALIGNED;
     double strain[TENSOR][LANES] ALIGNED, spin[3][LANES] ALIGNED;
     double follows[VOLUME_NUMBERS][LANES] ALIGNED, force[3][LANES] ALIGNED;
 };
@@ -116,8 +117,12 @@ BOLIDE_INLINE void find_forces(struct muscl_kind kind, struct batch *batch, int 
         power += acceleration * batch->ahead[a][k]; /* the sums saw the velocity ahead */
     }
     batch->power[k] = power;
-    if (kind.depth)
-        batch->hoop_pull[k] = 1.0 + batch->all[at.hoop + 1][k] - 2.0 * batch->all[at.hoop][k];
+    if (kind.depth) {
+        /* What a free surface lacks. Where neighbours stand thinly, their L make areas larger than
+         * the particle has: then it lacks nothing. */
+        batch->hoop_lack[k] = maximum(0.0, 1.0 + batch->all[at.hoop + 1][k]);
+        batch->hoop_pull[k] = -2.0 * batch->all[at.hoop][k];
+    }
     const struct vec3 first = vector_from(dimension, &batch->all[at.offset][k], LANES);
     const struct sym3 second = tensor_at(dimension, batch->all + at.moment, k);
     put_tensor(dimension, &batch->inverse[0][k], LANES, correction_of(dimension, second));
@@ -351,8 +356,11 @@ BOLIDE_INLINE void batch_write_all(const struct muscl_loop *loop, struct muscl_k
     batch_write(batch, &batch->power, 1, rates->sums.power, 1);
     if (rates->sums.hoop_pull)
         for (int k = 0; k < batch->count; k++) {
-            rates->sums.hoop_pull[batch->first + k] = batch->hoop_pull[k];
-            rates->sums.hoop_strain[batch->first + k] = 1.0;
+            const int32_t i = batch->first + k;
+            const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
+            const double slope = ring_slope(own[0], own[muscl_depth(kind)]);
+            rates->sums.hoop_pull[i] = slope * batch->hoop_lack[k] + batch->hoop_pull[k];
+            rates->sums.hoop_strain[i] = 1.0;
         }
     batch_write(batch, batch->strain, 6, rates->sums.strain_rate[0], 6);
     batch_write(batch, batch->spin, 3, rates->sums.spin[0], 3);

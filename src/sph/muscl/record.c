@@ -28,11 +28,12 @@ BOLIDE_INLINE struct expected expected_rates(const struct simulation *simulation
         for (int b = 0; b < dimension; b++)
             rates.gradient[a][b] = g[a * dimension + b];
     if (kind.depth && sph_axisymmetric(simulation)) {
-        double radius = p->position[i][0];
-        force[0] += (p->deviator[i][0] - p->deviator[i][2]) / radius;
+        const struct ring ring = sph_ring(p, i);
+        const double opening = ring.slope / ring.depth; /* 1/r away from the axis */
+        force[0] += (p->deviator[i][0] - p->deviator[i][2]) * opening;
         if (kind.shear)
-            force[1] += p->deviator[i][3] / radius;
-        rates.gradient[2][2] = p->velocity[i][0] / radius;
+            force[1] += p->deviator[i][3] * opening;
+        rates.gradient[2][2] = ring_hoop_rate(ring, p->velocity[i][0], g[0]);
     }
     bool held = body_is_held(simulation, p->body[i]);
     for (int a = 0; a < 3; a++)
@@ -139,6 +140,8 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
         int from = dimension == 2 && a == 2 ? 3 : a;
         record[k++] = at[from] + by[from];
     }
+    if (f->own.hoop_stress)
+        f->own.hoop_stress[i] = at[2] + by[2];
     record[k++] = p->density[i] * f->sph.sound_long[i];
     if (dimension > 1)
         record[k++] = across_impedance(f, kind, p->density[i], i);

@@ -23,6 +23,10 @@ const struct field_row muscl_rows[] = {
     {.field = {"expected_force", "N/m^3", "force of the next step", NUMBER_DOUBLE, 3, FIELD_STATE},
      .where = "method: muscl",
      AT(force)},
+    {.field = {"hoop_stress", NULL, "hoop stress half a step ahead", NUMBER_DOUBLE, 1,
+               FIELD_PASSING},
+     .when = SPH_AXISYMMETRIC,
+     AT(hoop_stress)},
     FIELD_ROWS_END,
 };
 
@@ -77,7 +81,7 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
     sph->neighbours.prune = false;
     frozen_push(sph, simulation, fields);
     if (sph_axisymmetric(simulation))
-        sph_add_hoop(sph, simulation, &fields->sph);
+        sph_add_hoop(sph, simulation, &fields->sph, fields->own.hoop_stress);
     simulation_spend(simulation, "pairs", clock_seconds() - begin);
 }
 
@@ -85,7 +89,14 @@ static struct ranked limit_of_particle(const struct sph *sph, const struct simul
                                        const void *context, int32_t i)
 {
     const struct muscl_fields *f = context;
-    return sph_courant_limit(sph, &f->sph, muscl_divergence(simulation, f, i), i);
+    struct ranked limit = sph_courant_limit(sph, &f->sph, muscl_divergence(simulation, f, i), i);
+    if (sph_axisymmetric(simulation)) { /* a ring wider than its radius vibrates faster */
+        const double depth = sph_ring(particles_of(simulation), i).depth;
+        const double narrow = sph->parameters.courant * 2.0 * depth / f->sph.sound_long[i];
+        limit.what = narrow < limit.value ? SPH_LIMIT_SOUND : limit.what;
+        limit.value = minimum(narrow, limit.value);
+    }
+    return limit;
 }
 
 /* The step is chosen from the rates of the step before, as the records are. The first step has
