@@ -112,9 +112,9 @@ BOLIDE_INLINE void sum_up(const struct muscl_loop *loop, struct muscl_kind kind,
 BOLIDE_INLINE void all_rates(const struct muscl_loop *loop, struct muscl_kind kind, add_apart *add,
                              int32_t begin, int32_t end)
 {
-    static const struct batch nothing;
-    struct batch batch = nothing; /* lanes that no particle takes are computed too */
+    struct batch batch;
     batch.first = begin;
+    batch.count = 0;
     for (int32_t i = begin; i < end; i++) {
         sum_up(loop, kind, add, i, &batch);
         if (batch.count == LANES || i == end - 1)

@@ -310,12 +310,11 @@ BOLIDE_INLINE void find_expected(struct muscl_kind kind, struct batch *batch, in
     batch->force[2][k] = force.z;
 }
 
-/* Stages particle I, whose totals are in place, as the next lane. IMAGES are the tractions of
- * images. */
-BOLIDE_INLINE void batch_add(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
-                             const double *images, struct batch *batch)
+/* Stages what lane K needs of particle I beside its totals. IMAGES are the tractions of images. */
+BOLIDE_INLINE void batch_stage(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                               const double *images, struct batch *batch, int k)
 {
-    const int dimension = kind.dimension, k = batch->count++;
+    const int dimension = kind.dimension;
     const double *own = loop->record + (size_t)i * (size_t)muscl_stride(kind);
     batch->factor[k] =
         -2.0 / (kind.depth ? loop->density[i] * own[muscl_depth(kind)] : loop->density[i]);
@@ -331,6 +330,13 @@ BOLIDE_INLINE void batch_add(const struct muscl_loop *loop, struct muscl_kind ki
     if (dimension > 1)
         for (int p = 0; p < PACKING_NUMBERS; p++)
             batch->packing[p][k] = loop->rates.packing[i][p];
+}
+
+/* Adds particle I, whose totals are in place, as the next lane. */
+BOLIDE_INLINE void batch_add(const struct muscl_loop *loop, struct muscl_kind kind, int32_t i,
+                             const double *images, struct batch *batch)
+{
+    batch_stage(loop, kind, i, images, batch, batch->count++);
 }
 
 /* Writes COUNT components of each particle of BATCH, STRIDE apart, to TO. */
@@ -394,9 +400,11 @@ BOLIDE_INLINE void batch_write_all(const struct muscl_loop *loop, struct muscl_k
 BOLIDE_INLINE void batch_finish(const struct muscl_loop *loop, struct muscl_kind kind,
                                 struct batch *batch)
 {
-    const double *row[LANES];
+    const double none[3] = {0.0, 0.0, 0.0}, *row[LANES];
     for (int k = 0; k < LANES; k++)
-        row[k] = batch->total[k];
+        row[k] = batch->total[k < batch->count ? k : 0];
+    for (int k = batch->count; k < LANES; k++) /* lanes to spare repeat the first particle */
+        batch_stage(loop, kind, batch->first, none, batch, k);
     for (int f = 0; f < layout_of(kind).count; f += 4)
         transpose(row, f, batch->all + f);
 #pragma omp simd simdlen(8)
