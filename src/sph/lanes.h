@@ -195,13 +195,19 @@ BOLIDE_INLINE int lanes_keep(struct lane_records records, const double *own, con
     return lanes_compress(records, own, entry, count, bits, list);
 }
 
-/* Where the part PART of a row ends that begins at BEGIN; most rows have but one. */
+/* Where the part PART of a row ends that begins at BEGIN; most rows have but one, and the parts of
+ * the others are contiguous. */
 BOLIDE_INLINE int lanes_part(const uint32_t *entry, int begin, int count, unsigned part)
 {
     if (begin < count && entry[count - 1] >> ENTRY_PART_SHIFT == part)
         return count;
-    while (begin < count && entry[begin] >> ENTRY_PART_SHIFT == part)
-        begin++;
+    for (int end = count; begin < end;) {
+        const int middle = begin + (end - begin) / 2;
+        if (entry[middle] >> ENTRY_PART_SHIFT == part)
+            begin = middle + 1;
+        else
+            end = middle;
+    }
     return begin;
 }
 

@@ -85,7 +85,8 @@ BOLIDE_INLINE void put_vector(int dimension, double (*to)[LANES], int k, struct 
         to[2][k] = v.z;
 }
 
-/* One own particle against eight neighbours: where they are, and how much they count. */
+/* One own particle against eight neighbours: where they are, how much they count, and the moments
+ * of that. */
 BOLIDE_INLINE void find_places(struct muscl_kind kind, double smoothing, const double *own,
                                const struct lanes *lanes, struct pairs *pairs,
                                double (*sums)[LANES])
@@ -119,7 +120,11 @@ BOLIDE_INLINE void find_places(struct muscl_kind kind, double smoothing, const d
         pairs->area[k] = 0.5 * (ar * inverse_r);
         double near = smoothing * own[d] * inverse_h;
         pairs->near[k] = near;
-        put_vector(dimension, pairs->c, k, vec3_scale(-weight * near, e));
+        const struct vec3 c = vec3_scale(-weight * near, e);
+        const struct vec3 m = vec3_scale(vec3_dot(x, e), c);
+        put_vector(dimension, pairs->c, k, c);
+        add_vector(dimension, sums, at.offset, k, m);
+        add_symmetric(dimension, sums, at.moment, k, m, e);
         sums[at.weight][k] += weight;
         sums[at.impedance][k] += weight * lanes->field[z][k];
     }
@@ -154,18 +159,13 @@ BOLIDE_INLINE void walk_rows(struct muscl_kind kind, const double *own, const st
         transpose(row, f, pairs->wide + f);
 }
 
-/* Adds to the sums what the next step's slopes follow from. */
+/* Adds to the sums of slopes after the step what is not in rows. */
 BOLIDE_INLINE void add_slope(struct muscl_kind kind, const double *own, const struct lanes *lanes,
                              const struct pairs *pairs, double (*sums)[LANES], int k)
 {
     const int dimension = kind.dimension, values = muscl_values(kind), narrow = muscl_narrow(kind);
     const struct layout at = layout_of(kind);
-    const struct vec3 x = vector_from(dimension, &pairs->x[0][k], LANES);
     const struct vec3 c = vector_from(dimension, &pairs->c[0][k], LANES);
-    const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
-    struct vec3 m = vec3_scale(vec3_dot(x, e), c);
-    add_vector(dimension, sums, at.offset, k, m);
-    add_symmetric(dimension, sums, at.moment, k, m, e);
     for (int f = values - narrow; f < values; f++) {
         const int from = muscl_next(kind, f), to = at.narrow + f - (values - narrow);
         double dq = lanes->field[from][k] - own[from];

@@ -52,8 +52,9 @@ BOLIDE_INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kin
             else
                 for (int m = 0; m < groups; m++)
                     add_contacts(kind, false, own, &lanes[m], &pairs[m], sums->lane);
-            for (int m = 0; m < groups; m++)
-                add_slopes(kind, own, &lanes[m], &pairs[m], sums->lane);
+            if (muscl_narrow(kind) > 0)
+                for (int m = 0; m < groups; m++)
+                    add_slopes(kind, own, &lanes[m], &pairs[m], sums->lane);
         }
 }
 
