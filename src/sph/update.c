@@ -56,17 +56,30 @@ BOLIDE_INLINE double packing_growth(const struct material *material, const struc
     return growth;
 }
 
-/* The volume ratio in a step of DT, where it is RATIO by the velocities of contacts; ACROSS is the
- * strain rate that the plane does not know of, that of a hoop. Courant's condition keeps what the
- * particles' places do to a volume below a tenth a step; what single neighbours do is kept below a
- * third. */
-BOLIDE_INLINE double volume_ratio(const double *volume, double dt, double ratio, double across)
+/* The volume ratio in a step of DT, where it is RATIO by the velocities of contacts, and SHARE of it
+ * follows positions; ACROSS is the strain rate that the plane does not know of, that of a hoop.
+ * Courant's condition keeps what the particles' places do to a volume below a tenth a step; what
+ * single neighbours do is kept below a third. */
+BOLIDE_INLINE double volume_ratio(const double *volume, double share, double dt, double ratio,
+                                  double across)
 {
-    const double share = volume[VOLUME_SHARE];
     const double growth = 1.0 + dt * (volume[VOLUME_FIRST] +
                                       dt * (volume[VOLUME_SECOND] + dt * volume[VOLUME_THIRD]));
     const double placed = growth * (1.0 + dt * across) * exponential(dt * volume[VOLUME_EXCHANGE]);
     return ratio + share * (minimum(maximum(placed, 0.75), 4.0 / 3.0) - ratio);
+}
+
+/* The same for ring I. A fit through the few neighbours that a fragment has left says little of its
+ * volume, and no work goes with what it says. So its share falls from one to none as neighbours fill
+ * less than a half of the surroundings, which they do at a corner, down to a quarter. */
+BOLIDE_INLINE double ring_volume_ratio(const struct sph_fields *f, int32_t i, double dt,
+                                       double ratio)
+{
+    const double *packing = f->packing[i], *volume = f->volume[i];
+    const double filled = packing[PACKING_START] + packing[PACKING_EXCESS];
+    const double share = volume[VOLUME_SHARE] * minimum(1.0, maximum(0.0, 4.0 * filled - 1.0));
+    ratio = volume_ratio(volume, share, dt, ratio, f->rates.strain_rate[i][2]);
+    return minimum(maximum(ratio, 0.75), 4.0 / 3.0);
 }
 
 /* The largest stretch that the plastic and elastic strain allow. */
@@ -165,8 +178,11 @@ BOLIDE_INLINE void start_point(struct particles *p, const struct advance *step,
     double density = p->density[i] * (2.0 - divergence * dt) / (2.0 + divergence * dt); /* (1.82) */
     if (step->finite) {
         double ratio = deform(step, passage, k);
-        if (f->volume)
-            ratio = volume_ratio(f->volume[i], dt, ratio, step->dimension == 2 ? rate[2] : 0.0);
+        if (f->volume && f->rates.hoop_pull)
+            ratio = ring_volume_ratio(f, i, dt, ratio);
+        else if (f->volume)
+            ratio = volume_ratio(f->volume[i], f->volume[i][VOLUME_SHARE], dt, ratio,
+                                 step->dimension == 2 ? rate[2] : 0.0);
         density = p->density[i] / ratio;
     }
     if (f->packing)
