@@ -117,6 +117,8 @@ BOLIDE_INLINE void find_forces(struct muscl_kind kind, struct batch *batch, int 
         power += acceleration * batch->ahead[a][k]; /* the sums saw the velocity ahead */
     }
     batch->power[k] = power;
+    for (int a = dimension; a < 3; a++)
+        batch->acceleration[a][k] = batch->wall[a][k] = 0.0;
     if (kind.depth) {
         /* What a free surface lacks. Where neighbours stand thinly, their L make areas larger than
          * the particle has: then it lacks nothing. */
