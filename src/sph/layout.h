@@ -35,7 +35,7 @@ struct pair_rates {
     double *hoop_pull, *hoop_strain;
 };
 
-/* How the volumes about a particle fill space, in 2-D and 3-D (muscl/sums.h): at the start, one at
+/* How the volumes about a particle fill space, in 2-D and 3-D (muscl/rates.h): at the start, one at
  * least; what they do beyond, and its mean over the neighbours; by how much density has grown for
  * it. And how thinly neighbours stand on some axis, at the start and now. */
 enum {

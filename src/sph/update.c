@@ -95,7 +95,7 @@ BOLIDE_INLINE double largest_stretch(const struct particles *p, const struct sph
 /* The ratio of support to diameter of particle I after a step of DT. Large strain moves particles
  * apart along one axis and together along another, until they lose their neighbours along the first
  * axis: the velocity gradient then lacks that axis, and density drifts. So a support grows, some
- * per cent a step, where neighbours are more sparse than at the start (see write_packing), and
+ * per cent a step, where neighbours are more sparse than at the start (see find_packing), and
  * shrinks where they are not; at most to largest_stretch and to LARGEST times. SOUND is that
  * of level n. */
 BOLIDE_INLINE double support_ratio(const struct particles *p, const struct sph_fields *f,
