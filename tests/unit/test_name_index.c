@@ -20,7 +20,7 @@ static void every_name_is_found_among_thousands(void **state)
 {
     (void)state;
     enum { NAMES = 5000 };
-    static char names[NAMES][12];
+    static char names[NAMES][16];
     struct name_index index = {0};
     for (int i = 0; i < NAMES; i++) {
         snprintf(names[i], sizeof names[i], "name%d", i);

@@ -13,7 +13,7 @@ struct heap {
     struct simulation_case input;
     struct body_input body[BODIES];
     struct shape_box box[BODIES];
-    char name[BODIES][8], *names[BODIES], *replaced[BODIES];
+    char name[BODIES][16], *names[BODIES], *replaced[BODIES];
 };
 
 static void fill_heap(struct heap *heap, int dimension, uint32_t seed)
