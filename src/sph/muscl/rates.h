@@ -208,7 +208,7 @@ BOLIDE_INLINE void find_volume(struct muscl_kind kind, struct batch *batch, int 
     batch->follows[VOLUME_EXCHANGE][k] = follows ? -2.0 * batch->all[at.exchange][k] : 0.0;
 }
 
-/* Strain rate, spin and, on a line, drift. */
+/* Strain rate, spin and, in 1-D, drift. */
 BOLIDE_INLINE void find_strain(struct muscl_kind kind, struct batch *batch, int k)
 {
     const int dimension = kind.dimension;
