@@ -22,5 +22,6 @@ __global__ void write_sums(struct muscl_loop loop, struct muscl_kind kind, struc
     double *all = batch[i].total[0];
     sums_totals(kind, &sums[i], all);
     batch_add(&loop, kind, i, all, &batch[i]);
+    batch_pad(&loop, kind, &batch[i]);
     batch_finish(&loop, kind, &batch[i]);
 }

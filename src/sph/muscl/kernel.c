@@ -118,8 +118,10 @@ BOLIDE_INLINE void all_rates(const struct muscl_loop *loop, struct muscl_kind ki
     batch.count = 0;
     for (int32_t i = begin; i < end; i++) {
         sum_up(loop, kind, add, i, &batch);
-        if (batch.count == LANES || i == end - 1)
+        if (batch.count == LANES || i == end - 1) {
+            batch_pad(loop, kind, &batch);
             batch_finish(loop, kind, &batch);
+        }
     }
 }
 

@@ -341,6 +341,15 @@ BOLIDE_INLINE void batch_add(const struct muscl_loop *loop, struct muscl_kind ki
     batch_stage(loop, kind, i, images, batch, batch->count++);
 }
 
+/* Lets the lanes to spare repeat the first particle. */
+BOLIDE_INLINE void batch_pad(const struct muscl_loop *loop, struct muscl_kind kind,
+                             struct batch *batch)
+{
+    const double none[3] = {0.0, 0.0, 0.0};
+    for (int k = batch->count; k < LANES; k++)
+        batch_stage(loop, kind, batch->first, none, batch, k);
+}
+
 /* Writes COUNT components of each particle of BATCH, STRIDE apart, to TO. */
 BOLIDE_INLINE void batch_write(const struct batch *batch, const double (*from)[LANES], int count,
                                double *to, int stride)
@@ -398,15 +407,14 @@ BOLIDE_INLINE void batch_write_all(const struct muscl_loop *loop, struct muscl_k
     batch_write(batch, batch->force, 3, rates->force[0], 3);
 }
 
-/* Turns the totals of BATCH into rates, writes them, and empties it. */
+/* Turns the totals of BATCH, all lanes of which are staged, into rates, writes them, and empties
+ * it. */
 BOLIDE_INLINE void batch_finish(const struct muscl_loop *loop, struct muscl_kind kind,
                                 struct batch *batch)
 {
-    const double none[3] = {0.0, 0.0, 0.0}, *row[LANES];
+    const double *row[LANES];
     for (int k = 0; k < LANES; k++)
         row[k] = batch->total[k < batch->count ? k : 0];
-    for (int k = batch->count; k < LANES; k++) /* lanes to spare repeat the first particle */
-        batch_stage(loop, kind, batch->first, none, batch, k);
     for (int f = 0; f < layout_of(kind).count; f += 4)
         transpose(row, f, batch->all + f);
 #pragma omp simd simdlen(8)
