@@ -195,11 +195,13 @@ void case_free(struct simulation_case *input)
     free(input);
 }
 
-/* The table of what is written: without the study, whose values may be those of names that are gone. */
+/* The table of what is written: without the study, whose values may be those of names that are
+ * gone, and without the fits, which want the sweep that this is a run of. */
 static void written_table(struct parameter *table)
 {
     for (const struct parameter *p = case_table; !PARAMETER_IS_END(p); p++)
-        if (p->offset != offsetof(struct simulation_case, convergence))
+        if (p->offset != offsetof(struct simulation_case, convergence) &&
+            p->offset != offsetof(struct simulation_case, fits))
             *table++ = *p;
     *table = (struct parameter)PARAMETER_END;
 }

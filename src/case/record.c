@@ -119,7 +119,7 @@ static struct error *take_recorded(const struct lookup *lookup, const char *name
     return NULL;
 }
 
-static struct error *take_all(struct simulation_case *input, struct lookup *lookup, char *run)
+static struct error *take_all(struct simulation_case *input, struct lookup *lookup, const char *run)
 {
     struct error *error = NULL;
     lookup->map = "checks";

@@ -298,6 +298,30 @@ static void a_written_case_reads_back_to_the_same_bits(void **state)
     case_free(input);
 }
 
+/* What goes over the runs of a sweep has no place beside one of them. */
+static void a_run_of_a_sweep_is_written_as_a_case_of_its_own(void **state)
+{
+    (void)state;
+    struct simulation_case *input =
+        good_case("format: 1\ndimension: 1\nresolution: 1 mm\nsolver: sph\nrun: {until: 1 us}\n"
+                  "let: {u: 1 m/s}\n"
+                  "materials: {m: {library: copper}}\n"
+                  "bodies: {all: {material: m, box: {from: [0], to: [5 mm]}, velocity: [u]}}\n"
+                  "checks: {speed: {mean: velocity.x, at_most: 4 m/s}}\n"
+                  "sweep: {let.u: [1 m/s, 2 m/s, 3 m/s]}\n"
+                  "fits: {slope: {of: speed, over: let.u, take: slope, at_most: 2}}\n",
+                  NULL, 0, false);
+    assert_int_equal(input->fits.count, 1);
+    char *text;
+    size_t length;
+    FILE *file = open_memstream(&text, &length);
+    assert_null(case_write(input, file));
+    fclose(file);
+    case_free(input);
+    case_free(good_case(text, NULL, 0, false));
+    free(text);
+}
+
 static void fields_are_written_with_their_names_filled_in(void **state)
 {
     (void)state;
@@ -478,6 +502,7 @@ int main(void)
         cmocka_unit_test(a_setting_that_spoils_an_expression_is_named),
         cmocka_unit_test(a_library_that_is_not_there_is_told),
         cmocka_unit_test(a_written_case_reads_back_to_the_same_bits),
+        cmocka_unit_test(a_run_of_a_sweep_is_written_as_a_case_of_its_own),
         cmocka_unit_test(fields_are_written_with_their_names_filled_in),
         cmocka_unit_test(a_key_that_the_library_leaves_out_joins_those_of_its_file),
         cmocka_unit_test(wrong_materials_and_detonations_are_told),
