@@ -1,7 +1,6 @@
 /* `--ranks N`: mpirun starts this program N times, and this process stands for all of them: what stops it stops them,
  * and its exit status is theirs. To mpirun the ranks end with 0, whatever the verdict: a status of another kind is an
  * accident to it, and the last words would be its own. The verdict comes through a file. */
-#define _GNU_SOURCE /* pipe2, CPU_COUNT */
 #include <errno.h>
 #include <fcntl.h>
 #include <sched.h>
@@ -172,12 +171,13 @@ static int attend(pid_t child, const sigset_t *heard, int *stop)
 /* The exit status: that of the ranks in the file at PATH, unless a signal stopped them or they could not tell. */
 static int status_of(const char *path, int ended, int stop)
 {
-    int told = -1;
+    char text[16] = "", *end = text;
     FILE *file = fopen(path, "r");
-    if (file && fscanf(file, "%d", &told) != 1)
-        told = -1;
+    const bool any = file && fgets(text, sizeof text, file);
     if (file)
         fclose(file);
+    const int number = (int)strtol(text, &end, 10);
+    const int told = any && end > text ? number : -1;
     if (stop && (told < 0 || told > 128))
         return 128 + stop;
     if (told >= 0)
