@@ -195,8 +195,8 @@ void case_free(struct simulation_case *input)
     free(input);
 }
 
-/* The table of what is written: without the study, whose values may be those of names that are
- * gone, and without the fits, which want the sweep that this is a run of. */
+/* The keys that case_write writes. It leaves out the convergence study, whose values may use names
+ * that no longer exist, and the fits, which need a sweep. */
 static void written_table(struct parameter *table)
 {
     for (const struct parameter *p = case_table; !PARAMETER_IS_END(p); p++)

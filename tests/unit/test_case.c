@@ -298,7 +298,7 @@ static void a_written_case_reads_back_to_the_same_bits(void **state)
     case_free(input);
 }
 
-/* What goes over the runs of a sweep has no place beside one of them. */
+/* A fit needs a sweep, which the case that one of its runs writes does not have. */
 static void a_run_of_a_sweep_is_written_as_a_case_of_its_own(void **state)
 {
     (void)state;

@@ -341,7 +341,7 @@ BOLIDE_INLINE void batch_add(const struct muscl_loop *loop, struct muscl_kind ki
     batch_stage(loop, kind, i, images, batch, batch->count++);
 }
 
-/* Lets the lanes to spare repeat the first particle. */
+/* Fills spare lanes with the first particle. */
 BOLIDE_INLINE void batch_pad(const struct muscl_loop *loop, struct muscl_kind kind,
                              struct batch *batch)
 {
