@@ -76,8 +76,7 @@ static void make_images(struct sph *sph, const struct simulation *simulation,
         const double at[3] = {place.x, place.y, place.z};
         for (size_t f = 0; f < stride; f++)
             record[f] = sign[f] * from[f];
-        for (int axis = 0; axis < dimension; axis++)
-            record[axis] = at[axis];
+        memcpy(record, at, (size_t)dimension * sizeof *record);
     }
     copy_places(simulation, records, begin, end);
 }

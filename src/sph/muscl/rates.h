@@ -394,7 +394,7 @@ BOLIDE_INLINE void batch_write_all(const struct muscl_loop *loop, struct muscl_k
         batch_write(batch, batch->follows, VOLUME_NUMBERS, rates->volume[0], VOLUME_NUMBERS);
     }
     for (int k = 0; k < batch->count; k++) {
-        const size_t i = (size_t)(batch->first + k);
+        const size_t i = (size_t)batch->first + (size_t)k;
         double *g = rates->velocity_gradient + i * (size_t)(dimension * dimension);
         double *h = rates->stress_gradient + i * (size_t)(dimension * stresses);
         for (int a = 0; a < dimension; a++) {
