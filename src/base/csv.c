@@ -227,9 +227,7 @@ static struct error *compare_mark(FILE *file, const char *path, int64_t keep, of
 static struct error *open_after(const char *path, int64_t keep, const struct csv_mark *mark,
                                 FILE **file)
 {
-    *file = fopen(path, "r+e");
-    if (!*file)
-        return system_error(path, errno);
+    TRY(file_open(path, "r+", file));
     off_t place;
     struct error *error = place_after(*file, path, keep, &place);
     if (!error && mark)
@@ -247,8 +245,7 @@ struct error *csv_grow(const char *path, int64_t keep, const struct csv_mark *ma
 {
     if (keep > 0)
         return open_after(path, keep, mark, file);
-    *file = fopen(path, "w+e");
-    return *file ? NULL : system_error(path, errno);
+    return file_open(path, "w+", file);
 }
 
 void csv_put_head(FILE *file, const char *name, const char *unit)

@@ -29,6 +29,71 @@ char *path_join(const char *folder, const char *name)
     return text_format("%s%s%s", folder, open ? "/" : "", name);
 }
 
+struct error *file_clear_beside(const char *path, char **beside)
+{
+    *beside = file_beside(path);
+    if (!*beside)
+        return out_of_memory();
+    if (!unlink(*beside) || errno == ENOENT)
+        return NULL;
+    struct error *error = system_error(*beside, errno);
+    free(*beside);
+    *beside = NULL;
+    return error;
+}
+
+static struct error *not_plain(const char *path)
+{
+    return error_new(ERROR_INPUT,
+                     "%s: is a folder, a pipe or a device where a plain file is wanted; remove it",
+                     path);
+}
+
+/* Without O_NONBLOCK to open a pipe waits for its other end. */
+struct error *file_open_descriptor(const char *path, int flags, int *descriptor)
+{
+    struct stat status;
+    struct error *error = NULL;
+    *descriptor = open(path, flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY, 0666);
+    if (*descriptor < 0 && errno == ELOOP)
+        return error_new(ERROR_INPUT,
+                         "%s: is a symbolic link; results are not written through links: remove it",
+                         path);
+    if (*descriptor < 0)
+        return errno == ENXIO || errno == EISDIR ? not_plain(path) : system_error(path, errno);
+    if (fstat(*descriptor, &status))
+        error = system_error(path, errno);
+    else if (!S_ISREG(status.st_mode))
+        error = not_plain(path);
+    if (error) {
+        close(*descriptor);
+        *descriptor = -1;
+    }
+    return error;
+}
+
+struct error *file_open(const char *path, const char *mode, FILE **file)
+{
+    const int flags = (mode[1] ? O_RDWR : O_WRONLY) | (*mode == 'a' ? O_APPEND : 0) |
+                      (*mode == 'r' ? 0 : O_CREAT);
+    int descriptor;
+    *file = NULL;
+    TRY(file_open_descriptor(path, flags, &descriptor));
+    if (*mode != 'w' || !ftruncate(descriptor, 0))
+        *file = fdopen(descriptor, mode);
+    if (*file)
+        return NULL;
+    struct error *error = system_error(path, errno);
+    close(descriptor);
+    return error;
+}
+
+bool file_is_plain(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISREG(status.st_mode);
+}
+
 /* A rename is on disk once its folder is. */
 static int flush_to_disk(const char *path, int flags)
 {
@@ -68,10 +133,9 @@ struct error *file_publish(const char *path)
 
 struct error *file_begin(const char *path, FILE **file)
 {
-    char *beside = file_beside(path);
-    if (!beside)
-        return out_of_memory();
-    *file = fopen(beside, "we");
+    char *beside;
+    TRY(file_clear_beside(path, &beside));
+    *file = fopen(beside, "wxe");
     struct error *error = *file ? NULL : system_error(path, errno);
     free(beside);
     return error;

@@ -8,6 +8,8 @@
 
 /* The name to write to before PATH: PATH.part. Free it. */
 char *file_beside(const char *path);
+/* The same, with whatever has that name removed: a link goes, what it points to stays. */
+struct error *file_clear_beside(const char *path, char **beside);
 
 /* Flushes the finished file PATH.part to disk and renames it to PATH. */
 struct error *file_publish(const char *path);
@@ -16,6 +18,15 @@ struct error *file_publish(const char *path);
 struct error *file_begin(const char *path, FILE **file);
 /* Closes FILE (an error of any earlier write shows here) and publishes PATH. */
 struct error *file_end(const char *path, FILE *file);
+
+/* Opens PATH as fopen does with the MODE "r+", "a", "w" or "w+", but only a plain file: ERROR_INPUT for a
+ * link, whose target may be anybody's, and for a pipe or a device, which might never answer. */
+struct error *file_open(const char *path, const char *mode, FILE **file);
+/* The same with the FLAGS of open(); DESCRIPTOR is -1 after an error. */
+struct error *file_open_descriptor(const char *path, int flags, int *descriptor);
+
+/* True when PATH is a plain file, or a link to one. */
+bool file_is_plain(const char *path);
 
 /* Makes FOLDER and its parents where missing. */
 struct error *folder_make(const char *folder);

@@ -140,9 +140,30 @@ static struct error *remove_run(const char *folder)
 static bool is_there(const char *folder, const char *name)
 {
     char *path = path_join(folder, name);
-    bool there = path && access(path, F_OK) == 0;
+    struct stat status;
+    bool there = path && lstat(path, &status) == 0; /* a link that points nowhere is there too */
     free(path);
     return there;
+}
+
+/* Files are never written through a link, since they are made anew; in a folder that is a link they
+ * would be. */
+struct error *results_check_links(const char *folder)
+{
+    struct error *error = NULL;
+    for (size_t i = 0; i < COUNT_OF(result_folders) && !error; i++) {
+        char *path = path_join(folder, result_folders[i]);
+        struct stat status;
+        if (!path)
+            error = out_of_memory();
+        else if (!lstat(path, &status) && S_ISLNK(status.st_mode))
+            error = error_new(ERROR_INPUT,
+                              "%s: is a symbolic link; results are not written through links: put "
+                              "a folder there",
+                              path);
+        free(path);
+    }
+    return error;
 }
 
 /* A name that a run would write to and that is in FOLDER; NULL when there is none. */
@@ -171,15 +192,17 @@ struct error *results_check(const char *folder, bool overwrite)
                          "%s: holds %s, which is in the way of a run's own but comes from no run "
                          "(there is no %s); choose another folder",
                          folder, name, log_name);
-    return NULL;
+    return results_check_links(folder);
 }
 
 /* An empty log marks the folder as a run's from the first moment. */
 static struct error *mark_folder(const char *folder)
 {
+    FILE *file = NULL;
     char *path = path_join(folder, log_name);
-    FILE *file = path ? fopen(path, "we") : NULL;
-    struct error *error = file && !fclose(file) ? NULL : system_error(path ? path : folder, errno);
+    struct error *error = path ? file_open(path, "w", &file) : out_of_memory();
+    if (file && fclose(file))
+        error = system_error(path, errno);
     free(path);
     return error;
 }
@@ -223,7 +246,7 @@ static struct error *in_use(const char *folder, int descriptor)
 static bool is_file_of(int descriptor, const char *path)
 {
     struct stat open_file, there;
-    return !fstat(descriptor, &open_file) && !stat(path, &there) &&
+    return !fstat(descriptor, &open_file) && !lstat(path, &there) &&
            open_file.st_dev == there.st_dev && open_file.st_ino == there.st_ino;
 }
 
@@ -236,8 +259,8 @@ struct error *results_lock(const char *folder, struct results_lock *lock)
     if (!path)
         return out_of_memory();
     for (;;) {
-        int descriptor = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        struct error *error = descriptor < 0 ? system_error(path, errno) : NULL;
+        int descriptor;
+        struct error *error = file_open_descriptor(path, O_RDWR | O_CREAT, &descriptor);
         if (!error && flock(descriptor, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK)
             error = in_use(folder, descriptor);
         if (!error && is_file_of(descriptor, path)) {

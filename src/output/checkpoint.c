@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "base/memory.h"
 #include "output/hdf5_file.h"
 #include "output/rows.h"
@@ -332,6 +333,8 @@ static struct error *open_to_read(const char *path, hid_t *file)
 {
     if (access(path, R_OK))
         return error_new(ERROR_INPUT, "cannot be read: %s", strerror(errno));
+    if (!file_is_plain(path))
+        return error_new(ERROR_INPUT, "is a folder, a pipe or a device: no checkpoint");
     *file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (*file < 0)
         return hdf5_error(ERROR_INPUT, "is no HDF5 file, or a damaged one");

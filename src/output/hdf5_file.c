@@ -61,13 +61,15 @@ struct error *hdf5_error(enum error_kind kind, const char *format, ...)
 
 struct error *hdf5_create(const char *path, bool checksums, hid_t *file)
 {
-    char *beside = file_beside(path);
+    char *beside;
+    *file = H5I_INVALID_HID;
+    TRY(file_clear_beside(path, &beside));
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    bool ready = beside && access >= 0;
+    bool ready = access >= 0;
     if (ready && checksums)
         ready = H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110) >= 0;
     hid_t creation = hdf5_creation_list(H5P_FILE_CREATE);
-    *file = ready ? H5Fcreate(beside, H5F_ACC_TRUNC, creation, access) : H5I_INVALID_HID;
+    *file = ready ? H5Fcreate(beside, H5F_ACC_EXCL, creation, access) : H5I_INVALID_HID;
     struct error *error = NULL;
     if (*file < 0)
         error = hdf5_error(ERROR_SYSTEM, "%s: cannot be written", path);

@@ -48,9 +48,8 @@ void canvas_destroy(struct canvas *canvas)
 
 struct error *canvas_publish(const struct canvas *canvas, const char *path)
 {
-    char *beside = file_beside(path);
-    if (!beside)
-        return error_new(ERROR_SYSTEM, "%s: out of memory", path);
+    char *beside;
+    TRY(file_clear_beside(path, &beside));
     cairo_status_t status = cairo_status(canvas->pen);
     errno = 0;
     if (status == CAIRO_STATUS_SUCCESS)

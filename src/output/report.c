@@ -1,10 +1,10 @@
 /* run.log, the progress line and readable numbers; see report.h. */
 #include "output/report.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/memory.h"
 
 struct run_log {
@@ -19,9 +19,10 @@ struct error *run_log_open(const char *path, bool resume, const struct listener 
 {
     struct run_log *made = calloc(1, sizeof *made);
     char *copy = text_copy(path);
-    FILE *file = made && copy ? fopen(path, resume ? "ae" : "we") : NULL;
-    if (!file) {
-        struct error *error = error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno));
+    FILE *file = NULL;
+    struct error *error = made && copy ? file_open(path, resume ? "a" : "w", &file)
+                                       : error_new(ERROR_SYSTEM, "%s: out of memory", path);
+    if (error) {
         free(copy);
         free(made);
         return error;

@@ -90,6 +90,8 @@ static struct error *look_for_checkpoint(struct run *run)
     if (access(path, R_OK))
         error = error_new(ERROR_INPUT, "%s: nothing to resume: there is no checkpoint.h5",
                           run->options->output);
+    if (!error)
+        error = results_check_links(run->options->output);
     free(path);
     return error;
 }

@@ -72,6 +72,37 @@ rm results/long/case.yaml
 [ -s results/long/snapshots/start.vtkhdf ] && [ -s results/long/notes.txt ] ||
     fail "overwriting removed a user's file"
 
+# Nothing is written through a link, and a resumed run waits for no pipe.
+"$BOLIDE" run run/plate.yaml --output results/whole >whole.log 2>&1 || fail "$(cat whole.log)"
+echo precious >results/victim
+for file in .bolide-lock run.log history.csv checkpoint.h5.part case.yaml.part report.html.part \
+    snapshots/000000.vtkhdf pictures/speed-000000.png.part probes/flyer.csv pictures; do
+    for how in --overwrite --resume; do
+        rm -rf results/linked && cp -r results/whole results/linked
+        rm -rf results/linked/$file
+        [ $file = pictures ] && target=.. || target=$PWD/results/victim
+        ln -s "$target" results/linked/$file
+        timeout 60 "$BOLIDE" run run/plate.yaml --output results/linked $how >linked.log 2>&1
+        got=$?
+        [ $got = 0 ] || [ $got = 2 ] || fail "$file is a link, $how ended with $got"
+        [ $got = 0 ] || grep -q "linked/$file: is a symbolic link" linked.log ||
+            fail "$file is a link, $how: $(cat linked.log)"
+        [ "$(cat results/victim)" = precious ] && [ -z "$(find results -maxdepth 1 -name '*.png')" ] ||
+            fail "$how wrote through the link $file"
+    done
+done
+for file in checkpoint.h5 history.csv probes/flyer.csv run.log .bolide-lock; do
+    for kind in pipe folder device; do
+        rm -rf results/odd && cp -r results/whole results/odd && rm -f results/odd/$file
+        case $kind in
+        pipe) mkfifo results/odd/$file ;;
+        folder) mkdir results/odd/$file ;;
+        device) ln -s /dev/zero results/odd/$file ;;
+        esac
+        refused "odd/$file: is a" timeout 60 "$BOLIDE" run run/plate.yaml --output results/odd --resume
+    done
+done
+
 # Names that lead out of the folder that is meant.
 refused "the name of the folder is empty" "$BOLIDE" run run/plate.yaml --output ""
 for folder in / // .. run/.. run/../; do

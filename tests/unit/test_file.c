@@ -126,6 +126,69 @@ static void folders_are_made_with_their_parents(void **state)
     assert_fails(folder_make(in_folder("a/file/b")), ERROR_INPUT, "is a file");
 }
 
+static void a_link_is_never_written_through(void **state)
+{
+    (void)state;
+    FILE *file;
+    put("victim", "precious");
+    assert_int_equal(symlink("victim", in_folder("link")), 0);
+    assert_int_equal(symlink("nowhere", in_folder("dangling")), 0);
+    assert_int_equal(symlink("victim", in_folder("a.txt.part")), 0);
+    assert_int_equal(symlink("victim", in_folder("a.txt")), 0);
+    static const char *const modes[] = {"w", "a", "w+", "r+"};
+    for (size_t i = 0; i < COUNT_OF(modes); i++) {
+        assert_fails(file_open(in_folder("link"), modes[i], &file), ERROR_INPUT, "symbolic link");
+        assert_fails(file_open(in_folder("dangling"), modes[i], &file), ERROR_INPUT,
+                     "symbolic link");
+    }
+    assert_false(there("nowhere"));
+    assert_null(file_begin(in_folder("a.txt"), &file));
+    fputs("new", file);
+    assert_null(file_end(in_folder("a.txt"), file));
+    assert_content("victim", "precious");
+    assert_content("a.txt", "new");
+}
+
+/* An alarm would end a test that waits. */
+static void a_pipe_or_a_device_is_refused_at_once(void **state)
+{
+    (void)state;
+    static const char *const modes[] = {"w", "a", "w+", "r+"};
+    assert_int_equal(mkfifo(in_folder("pipe"), 0666), 0);
+    assert_null(folder_make(in_folder("folder")));
+    alarm(20);
+    for (size_t i = 0; i < COUNT_OF(modes); i++) {
+        FILE *file;
+        assert_fails(file_open(in_folder("pipe"), modes[i], &file), ERROR_INPUT, "a pipe");
+        assert_fails(file_open(in_folder("folder"), modes[i], &file), ERROR_INPUT, "a folder");
+        assert_fails(file_open("/dev/null", modes[i], &file), ERROR_INPUT, "a device");
+    }
+    alarm(0);
+    assert_false(file_is_plain(in_folder("pipe")));
+    assert_false(file_is_plain("/dev/zero"));
+}
+
+static void a_plain_file_is_opened_as_fopen_does(void **state)
+{
+    (void)state;
+    FILE *file;
+    assert_null(file_open(in_folder("a.txt"), "w", &file));
+    fputs("one ", file);
+    fclose(file);
+    assert_null(file_open(in_folder("a.txt"), "a", &file));
+    fputs("two", file);
+    fclose(file);
+    assert_content("a.txt", "one two");
+    assert_null(file_open(in_folder("a.txt"), "r+", &file));
+    fputs("six", file);
+    fclose(file);
+    assert_content("a.txt", "six two");
+    assert_null(file_open(in_folder("a.txt"), "w+", &file));
+    fclose(file);
+    assert_content("a.txt", "");
+    assert_fails(file_open(in_folder("b.txt"), "r+", &file), ERROR_SYSTEM, "No such file");
+}
+
 static void paths_are_joined_with_one_slash(void **state)
 {
     (void)state;
@@ -147,6 +210,9 @@ int main(void)
         IN_FOLDER(a_full_disk_leaves_the_old_file_and_tells_why),
         IN_FOLDER(an_unwritable_place_is_an_error),
         IN_FOLDER(folders_are_made_with_their_parents),
+        IN_FOLDER(a_link_is_never_written_through),
+        IN_FOLDER(a_pipe_or_a_device_is_refused_at_once),
+        IN_FOLDER(a_plain_file_is_opened_as_fopen_does),
         cmocka_unit_test(paths_are_joined_with_one_slash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

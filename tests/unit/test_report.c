@@ -8,6 +8,8 @@
 
 #include <cmocka.h>
 
+#include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "output/report.h"
@@ -111,9 +113,18 @@ static void a_log_that_cannot_be_written_is_told_at_the_end(void **state)
 {
     (void)state;
     struct run_log *log;
-    assert_null(run_log_open("/dev/full", false, NULL, &log));
+    const char *path = "test_report_full.log";
+    struct rlimit before, none;
+    assert_null(run_log_open(path, false, NULL, &log));
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before);
+    none = before;
+    none.rlim_cur = 0;
+    setrlimit(RLIMIT_FSIZE, &none);
     run_log_line(log, "lost");
     struct error *error = run_log_close(log);
+    setrlimit(RLIMIT_FSIZE, &before);
+    unlink(path);
     assert_non_null(error);
     assert_int_equal(error_kind(error), ERROR_SYSTEM);
     error_free(error);

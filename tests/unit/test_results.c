@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -233,6 +234,64 @@ static void a_file_in_place_of_the_folder_is_a_mistake(void **state)
     assert_fails(results_begin(in_folder("file"), true, no_names), ERROR_INPUT, "is a file");
 }
 
+static void overwriting_removes_links_and_not_their_targets(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"run.log",          ".bolide-files", "history.csv",
+                                        "history.csv.part", "checkpoint.h5", "report.html.part"};
+    put_a_run();
+    put("victim", "precious");
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        unlink(in_folder(names[i]));
+        assert_int_equal(symlink("victim", in_folder(names[i])), 0);
+    }
+    assert_null(results_begin(folder, true, run_names));
+    assert_content("victim", "precious");
+    assert_content("run.log", "");
+    for (size_t i = 2; i < COUNT_OF(names); i++)
+        assert_false(there(names[i]));
+}
+
+static void a_log_that_points_nowhere_marks_a_run_s_folder(void **state)
+{
+    (void)state;
+    assert_int_equal(symlink("elsewhere", in_folder("run.log")), 0);
+    assert_fails(results_begin(folder, false, no_names), ERROR_INPUT, "results of a run already");
+    assert_false(there("elsewhere"));
+    assert_null(results_begin(folder, true, no_names));
+    assert_content("run.log", "");
+    assert_false(there("elsewhere"));
+}
+
+static void a_folder_of_results_that_is_a_link_is_refused(void **state)
+{
+    (void)state;
+    put_a_run();
+    assert_null(folder_make(in_folder("mine")));
+    put("mine/p-000012.png", "mine");
+    unlink(in_folder("pictures/p-000012.png"));
+    assert_int_equal(rename(in_folder("pictures"), in_folder("before")), 0);
+    assert_int_equal(symlink("mine", in_folder("pictures")), 0);
+    assert_fails(results_begin(folder, true, run_names), ERROR_INPUT, "pictures: is a symbolic");
+    assert_fails(results_check_links(folder), ERROR_INPUT, "pictures: is a symbolic");
+    assert_content("mine/p-000012.png", "mine");
+    assert_content("history.csv", "result");
+}
+
+static void a_lock_that_is_a_link_or_a_pipe_is_refused(void **state)
+{
+    (void)state;
+    struct results_lock lock = {0};
+    put("victim", "precious");
+    assert_int_equal(symlink("victim", in_folder(".bolide-lock")), 0);
+    assert_fails(results_lock(folder, &lock), ERROR_INPUT, ".bolide-lock: is a symbolic link");
+    assert_content("victim", "precious");
+    unlink(in_folder(".bolide-lock"));
+    assert_int_equal(mkfifo(in_folder(".bolide-lock"), 0666), 0);
+    assert_fails(results_lock(folder, &lock), ERROR_INPUT, ".bolide-lock: is a folder, a pipe");
+    results_unlock(&lock);
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_folder, remove_folder)
 
 int main(void)
@@ -247,6 +306,10 @@ int main(void)
         IN_FOLDER(a_locked_folder_names_the_process_that_has_it),
         IN_FOLDER(the_lock_of_a_process_that_is_gone_is_free),
         IN_FOLDER(a_lock_is_not_taken_from_its_new_owner),
+        IN_FOLDER(overwriting_removes_links_and_not_their_targets),
+        IN_FOLDER(a_log_that_points_nowhere_marks_a_run_s_folder),
+        IN_FOLDER(a_folder_of_results_that_is_a_link_is_refused),
+        IN_FOLDER(a_lock_that_is_a_link_or_a_pipe_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
