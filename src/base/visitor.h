@@ -17,6 +17,8 @@ struct visitor {
     /* Not zero while the rows that are shown are FIRST and the following of TOTAL, which all ranks show together; other
      * arrays are the same on all ranks. */
     int64_t first, total;
+    /* What is loaded has no array of more rows of 8 bytes; 0: nothing is loaded. */
+    int64_t most;
 };
 
 #endif

@@ -274,6 +274,17 @@ struct error *probes_close(struct probes *probes)
     return error;
 }
 
+struct error *probes_check_loaded(const struct probes *probes, int64_t steps)
+{
+    for (int i = 0; i < probes->count; i++) {
+        const struct probe *probe = &probes->item[i];
+        if (probe->rows < 0 || probe->rows > steps + 1 || probe->due < 0 || probe->step > steps)
+            return error_new(ERROR_SYSTEM, "a number of probe \"%s\" does not fit step %lld",
+                             probe->name, (long long)steps);
+    }
+    return NULL;
+}
+
 struct error *probes_visit(struct probes *probes, struct visitor *visitor)
 {
     for (int i = 0; i < probes->count; i++) {

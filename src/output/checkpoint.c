@@ -338,7 +338,7 @@ static struct error *open_to_read(const char *path, hid_t *file)
     *file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (*file < 0)
         return hdf5_error(ERROR_INPUT, "is no HDF5 file, or a damaged one");
-    return NULL;
+    return hdf5_check_whole(*file);
 }
 
 struct error *checkpoint_read(const char *path, const struct checkpoint *checkpoint)
@@ -351,7 +351,8 @@ struct error *checkpoint_read(const char *path, const struct checkpoint *checkpo
         error = check_head(file, checkpoint->case_text);
     error = ranks_agree(ranks, error_context(error, "%s", path));
     if (!error) {
-        struct file_visitor loader = {{.visit = load}, file, NULL, NULL};
+        const int64_t most = file_size(path) / (int64_t)sizeof(double);
+        struct file_visitor loader = {{.visit = load, .most = most}, file, NULL, NULL};
         error = visit_all(checkpoint, &loader.visitor);
         error = ranks_agree(ranks, error_context(error, "%s", path));
     }

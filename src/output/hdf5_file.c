@@ -86,6 +86,51 @@ hid_t hdf5_creation_list(hid_t kind)
     return list;
 }
 
+static struct error *check_storage(hid_t dataset, const char *name)
+{
+    hid_t list = H5Dget_create_plist(dataset);
+    struct error *error = NULL;
+    if (list < 0)
+        error = hdf5_error(ERROR_SYSTEM, "%s is damaged", name);
+    else if (H5Pget_external_count(list) != 0 || H5Pget_layout(list) == H5D_VIRTUAL)
+        error = error_new(ERROR_INPUT,
+                          "the numbers of %s are in other files: only a file that holds all of its "
+                          "own is read",
+                          name);
+    if (list >= 0)
+        H5Pclose(list);
+    return error;
+}
+
+/* A soft link counts as one to elsewhere: it may lead there by way of another. */
+static herr_t check_link(hid_t group, const char *name, const H5L_info_t *link, void *context)
+{
+    struct error **error = context;
+    if (link->type != H5L_TYPE_HARD) {
+        *error = error_new(ERROR_INPUT,
+                           "%s is a link to elsewhere: only a file that holds all of its own is "
+                           "read",
+                           name);
+        return 1;
+    }
+    hid_t object = H5Oopen(group, name, H5P_DEFAULT);
+    if (object < 0)
+        *error = hdf5_error(ERROR_SYSTEM, "%s is damaged", name);
+    else if (H5Iget_type(object) == H5I_DATASET)
+        *error = check_storage(object, name);
+    if (object >= 0)
+        H5Oclose(object);
+    return *error ? 1 : 0;
+}
+
+struct error *hdf5_check_whole(hid_t file)
+{
+    struct error *error = NULL;
+    if (H5Lvisit(file, H5_INDEX_NAME, H5_ITER_INC, check_link, &error) < 0 && !error)
+        error = hdf5_error(ERROR_INPUT, "its table of contents is damaged");
+    return error;
+}
+
 struct error *hdf5_finish(const char *path, hid_t file, struct error *error)
 {
     if (H5Fclose(file) < 0 && !error)

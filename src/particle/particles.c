@@ -133,6 +133,9 @@ static struct error *visit_count(struct particles *particles, struct visitor *vi
     const struct ranks *ranks = particles->ranks;
     int64_t before = ranks_sum(ranks, particles->count), total = before;
     TRY(visitor->visit(visitor, "particles/count", NUMBER_INT64, &total, 1, 1));
+    if (total < 0 || (visitor->most && total > visitor->most))
+        return error_new(ERROR_SYSTEM, "particles/count is %lld: a file of this size has 0 to %lld",
+                         (long long)total, (long long)visitor->most);
     visitor->first = ranks_before(ranks, particles->count);
     visitor->total = total;
     if (total == before)

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "model/loaded.h"
 #include "output/snapshot.h"
 #include "run/run_internal.h"
 
@@ -90,11 +91,38 @@ bool run_checkpoint_is_due(const struct run *run)
     return interval > 0.0 && clock_seconds() - run->last_checkpoint >= interval;
 }
 
+/* No more rows than steps; what was measured at the start is finite. */
+static struct error *check_extra(const struct run *run)
+{
+    const int64_t steps = run->simulation.step;
+    bool finite = isfinite(run->largest_step) && isfinite(run->start.kinetic) &&
+                  isfinite(run->start.internal) && isfinite(run->start.momentum_scale) &&
+                  isfinite(run->start.released);
+    for (int i = 0; i < LEDGER_ENTRIES; i++)
+        finite = finite && isfinite(run->start.entry[i]);
+    for (int64_t i = 0; i < run->snapshots; i++)
+        finite = finite && isfinite(run->snapshot_times[i]);
+    if (!finite)
+        return error_new(ERROR_SYSTEM, "a number of the group run is not finite");
+    if (run->history_rows < 0 || run->history_rows > steps + 1 || run->history_step > steps ||
+        run->history_due < 0 || run->snapshots_due < 0 || run->collapsed_steps < 0)
+        return error_new(ERROR_SYSTEM, "a number of the group run does not fit step %lld",
+                         (long long)steps);
+    return probes_check_loaded(&run->probes, steps);
+}
+
 struct error *run_load(struct run *run)
 {
     char *path = run_path(run, "checkpoint.h5");
     struct checkpoint checkpoint = checkpoint_of(run);
     struct error *error = path ? checkpoint_read(path, &checkpoint) : out_of_memory();
+    if (!error) {
+        error = simulation_check_loaded(&run->simulation);
+        if (!error)
+            error = check_extra(run);
+        error = ranks_agree(&run->ranks,
+                            error_context(error, "%s: is no checkpoint of this case", path));
+    }
     free(path);
     run->checkpoint_step = run->simulation.step;
     run->checkpoint_time = run->simulation.time;
