@@ -277,14 +277,19 @@ static void complain_missing(struct reading *reading, const struct node *map,
              known);
 }
 
+/* Each search for a suggestion walks the document: a file of nothing but unknown keys must not take for
+ * ever. */
+static bool may_search(const struct reading *reading)
+{
+    enum { SEARCHES = 20 };
+    return !reading->error || error_count(reading->error) < SEARCHES;
+}
+
 /* Complains about ENTRY with the path that it may be meant for, unless one of NAMES is like it. */
 static bool suggest_path(struct reading *reading, const struct node *entry,
                          const struct parameter *table, const char *const *names, int count)
 {
-    /* Each search walks the document: a file of nothing but unknown keys must not take for ever. */
-    enum { SEARCHES = 20 };
-    const bool search = (!reading->error || error_count(reading->error) < SEARCHES) &&
-                        !nearest_name(entry->key, names, count);
+    const bool search = may_search(reading) && !nearest_name(entry->key, names, count);
     char *meant = search ? document_suggest(reading, table, entry) : NULL;
     if (meant)
         complain(reading, entry->key_place, NULL, "unknown key \"%.60s\" (did you mean \"%s\"?)",
@@ -301,7 +306,8 @@ static bool suggest_choice(struct reading *reading, const struct node *entry,
 {
     char prefix[1024];
     path_text(path, prefix, sizeof prefix);
-    char *meant = document_suggest_inside(reading, table, entry->key, prefix);
+    char *meant =
+        may_search(reading) ? document_suggest_inside(reading, table, entry->key, prefix) : NULL;
     if (meant)
         complain(reading, entry->key_place, path, "unknown key \"%.60s\" (did you mean \"%s\"?)",
                  entry->key, meant);

@@ -157,10 +157,19 @@ static bool uses_name(const char *text, const char *name)
     return false;
 }
 
-/* True when TEXT uses a name of `let` whose own expression is wrong; that has been told already. */
-static bool rests_on_mistake(const struct reading *reading, const char *text)
+/* The names that the text of NODE may use: a file of the library has none, as it means the same in every
+ * case. */
+static const struct named_quantities *names_for(const struct reading *reading,
+                                                const struct node *node)
 {
-    for (const char *at = text; *at && reading->wrong_names > 0;) {
+    static const struct named_quantities none = {0};
+    return node->foreign ? &none : &reading->names;
+}
+
+/* True when NODE uses a name of `let` whose own expression is wrong; that has been told already. */
+static bool rests_on_mistake(const struct reading *reading, const struct node *node)
+{
+    for (const char *at = node->text; *at && reading->wrong_names > 0 && !node->foreign;) {
         size_t length = 0;
         while (is_word_letter(at[length]))
             length++;
@@ -194,11 +203,11 @@ static bool read_expression(struct reading *reading, const struct node *node,
         return false;
     }
     /* once no more messages are wanted, what is left need not be judged */
-    if (error_is_full(reading->error) || rests_on_mistake(reading, node->text)) {
+    if (error_is_full(reading->error) || rests_on_mistake(reading, node)) {
         mark_wrong(reading, path);
         return false;
     }
-    const struct named_quantities *names = &reading->names;
+    const struct named_quantities *names = names_for(reading, node);
     struct error *error =
         field ? varying_expression_compile(node->text, arguments, names, quantity, field)
               : expression_evaluate(node->text, names, quantity);

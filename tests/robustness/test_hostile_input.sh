@@ -72,6 +72,8 @@ refuse 10 'control character \x1b' "$BOLIDE" check plate.yaml --set 'title="\e[2
 # Time grows with the size of a case, not with its square.
 { plate; seq -f 'key%.0f: 1' 100000; } >keys.yaml
 refuse 20 "99950 more are not shown" "$BOLIDE" check keys.yaml
+{ plate; seq 10 20000 | awk '{ print "  b" $1 ": {material: aluminium, nonsense" $1 ": 1, moreover: 2, box: {from: [" $1 " mm], to: [" $1 + 1 " mm]}, resolution: 1 mm}" }'; } >odd.yaml
+refuse 20 "are not shown" "$BOLIDE" check odd.yaml
 { plate; echo "let:"; seq -f '  name%.0f: 1 mm' 100000; } >let.yaml
 limited 20 "$BOLIDE" check let.yaml >/dev/null || fail "a hundred thousand names take too long"
 { plate; seq 10 20000 | awk '{ print "  b" $1 ": {material: aluminium, box: {from: [" $1 " mm], to: [" $1 + 1 " mm]}, resolution: 1 mm}" }'; } >bodies.yaml

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -119,6 +120,33 @@ static void names_are_plain_and_no_two_materials_are_the_same(void **state)
     }
 }
 
+/* A file of the library means the same in every case, whatever names that has. */
+static void names_of_a_case_do_not_reach_into_the_library(void **state)
+{
+    const struct library *library = *state;
+    static const char *const text =
+        "format: 1\ndimension: 1\nresolution: 1 mm\nrun: {until: 1 us}\nsolver: sph\n"
+        "let: {s: 2, m: 3, kg: 4, K: 5, J: 6, Pa: 7, GPa: 8, MPa: 9, km: 10, g: 11, cm: 12,\n"
+        "      us: 13, mol: 14, kJ: 15, mm: 16, W: 17}\n"
+        "materials: {one: {library: %s}}\n"
+        "bodies: {body: {material: one, pressure: 1 atm, box: {from: [0 mm], to: [5 mm]}}}\n";
+    for (int i = 0; i < library->names.count; i++) {
+        const struct case_options options = {.library_paths = folders, .library_count = 1};
+        struct simulation_case *input;
+        FILE *file = fopen("test_library_names.yaml", "w");
+        assert_non_null(file);
+        assert_true(fprintf(file, text, library->names.names[i]) > 0 && fclose(file) == 0);
+        struct error *error =
+            case_read("test_library_names.yaml", &options, &small_catalogue, &input);
+        unlink("test_library_names.yaml");
+        if (error)
+            fail_msg("%s", error_message(error, 0));
+        assert_memory_equal(case_material(input, 0)->material, library->input[i].material,
+                            sizeof *library->input[i].material);
+        case_free(input);
+    }
+}
+
 static bool holds_one_of(const char *text, const char *const *words)
 {
     for (; *words; words++)
@@ -206,6 +234,7 @@ int main(void)
         cmocka_unit_test(sound_travels_in_every_material_at_rest),
         cmocka_unit_test(rest_is_without_energy_but_for_gases),
         cmocka_unit_test(every_material_says_what_it_is_and_whence),
+        cmocka_unit_test(names_of_a_case_do_not_reach_into_the_library),
         cmocka_unit_test(names_are_plain_and_no_two_materials_are_the_same),
         cmocka_unit_test(every_value_carries_its_source),
         cmocka_unit_test(a_slip_gets_the_nearest_name),
