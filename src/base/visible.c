@@ -27,15 +27,31 @@ size_t utf8_character(const char *text, size_t length, uint32_t *code)
     return *code < least[size] || *code > 0x10ffff || surrogate ? 0 : size;
 }
 
+static bool is_within(uint32_t code, const uint32_t ranges[][2], size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (code >= ranges[i][0] && code <= ranges[i][1])
+            return true;
+    return false;
+}
+
+bool is_invisible(uint32_t code)
+{
+    static const uint32_t ranges[][2] = {
+        {0x20, 0x20},       {0xa0, 0xa0},       {0xad, 0xad},      {0x34f, 0x34f},
+        {0x115f, 0x1160},   {0x1680, 0x1680},   {0x17b4, 0x17b5},  {0x180b, 0x180f},
+        {0x2000, 0x200d},   {0x202f, 0x202f},   {0x205f, 0x2065},  {0x2800, 0x2800},
+        {0x3000, 0x3000},   {0x3164, 0x3164},   {0xfe00, 0xfe0f},  {0xffa0, 0xffa0},
+        {0x1bca0, 0x1bca3}, {0x1d173, 0x1d17a}, {0xe0100, 0xe01ef}};
+    return is_control(code) || is_within(code, ranges, COUNT_OF(ranges));
+}
+
 bool is_control(uint32_t code)
 {
     static const uint32_t ranges[][2] = {
         {0x00, 0x1f},     {0x7f, 0x9f},     {0x61c, 0x61c},   {0x200b, 0x200b}, {0x200e, 0x200f},
         {0x2028, 0x202e}, {0x2060, 0x206f}, {0xfeff, 0xfeff}, {0xfff9, 0xfffb}, {0xe0000, 0xe007f}};
-    for (size_t i = 0; i < COUNT_OF(ranges); i++)
-        if (code >= ranges[i][0] && code <= ranges[i][1])
-            return true;
-    return false;
+    return is_within(code, ranges, COUNT_OF(ranges));
 }
 
 /* Writes the piece that TEXT starts with, as it is or written out, into PIECE; returns how many

@@ -2,6 +2,7 @@
  * and pages. */
 #include <string.h>
 
+#include "base/visible.h"
 #include "case/checking.h"
 
 /* Bytes of a name, so that with a number and an ending it is that of a file; of the title; of other
@@ -18,6 +19,29 @@ static bool is_letter_or_digit(char c)
            (unsigned char)c >= 128;
 }
 
+/* Names that look the same are the same: no blank at the end, no two in a row, and nothing else that shows
+ * nothing. */
+static void check_blanks(struct checking *checking, const char *name)
+{
+    uint32_t code = ' ';
+    for (const char *c = name; *c;) {
+        const uint32_t before = code;
+        const size_t size = utf8_character(c, strnlen(c, 4), &code);
+        if (is_invisible(code) && code != ' ') {
+            case_wrong(checking, "", "a name cannot hold the invisible character U+%04X",
+                       (unsigned)code);
+            return;
+        }
+        if (code == ' ' && before == ' ' && c > name) {
+            case_wrong(checking, "", "a name cannot hold two blanks in a row");
+            return;
+        }
+        c += size ? size : 1;
+    }
+    if (*name && code == ' ')
+        case_wrong(checking, "", "a name cannot end with a blank");
+}
+
 static void check_name(struct checking *checking, const char *name, bool of_file)
 {
     if (strlen(name) > NAME_MAX_BYTES)
@@ -32,6 +56,7 @@ static void check_name(struct checking *checking, const char *name, bool of_file
                    "a name starts with a letter or a digit and holds besides these only blanks and "
                    "%s",
                    punctuation);
+    check_blanks(checking, name);
 }
 
 static void check_names(struct checking *checking)
@@ -62,10 +87,27 @@ static void check_names(struct checking *checking)
     checking->name = NULL;
 }
 
-/* TEXT for people, which gets into one line. */
+/* The bytes of what shows nothing at the start of TEXT. */
+static size_t leading_blanks(const char *text)
+{
+    size_t length = 0;
+    for (uint32_t code; text[length];) {
+        const size_t size = utf8_character(text + length, strnlen(text + length, 4), &code);
+        if (size == 0 || !is_invisible(code))
+            break;
+        length += size;
+    }
+    return length;
+}
+
+/* TEXT for people, which gets into one line. Spreadsheets look for a formula after the blanks at its
+ * start. */
 static void check_text(struct checking *checking, const char *key, char *text, size_t longest)
 {
-    size_t length = text ? strlen(text) : 0;
+    const size_t blanks = text ? leading_blanks(text) : 0;
+    size_t length = text ? strlen(text) - blanks : 0;
+    if (blanks > 0 && length > 0)
+        memmove(text, text + blanks, length + 1);
     for (size_t i = 0; i < length; i++)
         text[i] = text[i] == '\n' || text[i] == '\t' ? ' ' : text[i];
     while (length > 1 && text[length - 1] == ' ')

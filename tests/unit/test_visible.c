@@ -56,11 +56,23 @@ static void bytes_that_are_no_text_are_written_out(void **state)
     assert_visible("\xc0\x8a", "\\xc0\\x8a"); /* a line feed in two bytes */
 }
 
+static void what_shows_nothing_is_known(void **state)
+{
+    (void)state;
+    static const uint32_t invisible[] = {' ', 0xa0, 0xad, 0x200b, 0x200d, 0x2003, 0x3000, 0xfe0f};
+    static const uint32_t seen[] = {'a', '_', 0xb5, 0x434, 0x6c34, 0x1f4a5};
+    for (size_t i = 0; i < COUNT_OF(invisible); i++)
+        assert_true(is_invisible(invisible[i]));
+    for (size_t i = 0; i < COUNT_OF(seen); i++)
+        assert_false(is_invisible(seen[i]));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(letters_of_all_scripts_stay),
         cmocka_unit_test(controls_are_written_out),
+        cmocka_unit_test(what_shows_nothing_is_known),
         cmocka_unit_test(bytes_that_are_no_text_are_written_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
