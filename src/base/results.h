@@ -8,8 +8,8 @@
 /* The ERROR_INPUT with which results_begin would refuse FOLDER; changes nothing. */
 struct error *results_check(const char *folder, bool overwrite);
 
-/* ERROR_INPUT when a folder inside FOLDER that a run writes into is a symbolic link; results_check looks
- * for that too. */
+/* ERROR_INPUT when a folder inside FOLDER that a run writes into is a symbolic link; results_check
+ * looks for that too. */
 struct error *results_check_links(const char *folder);
 
 /* Stands for the digits of a number in the name of a file. */

@@ -15,8 +15,8 @@ size_t utf8_character(const char *text, size_t length, uint32_t *code);
  * paragraph separators, marks that change the direction of the text, the byte order mark, tags. */
 bool is_control(uint32_t code);
 
-/* True for what shows nothing by itself: blanks of all widths, joiners, fillers, variation selectors, the soft
- * hyphen. Two texts that differ by these alone look the same. */
+/* True for what shows nothing by itself: blanks of all widths, joiners, fillers, variation
+ * selectors, the soft hyphen. Two texts that differ by these alone look the same. */
 bool is_invisible(uint32_t code);
 
 /* The same text on one line, with controls written as \x1b or \u202e and bytes that are not UTF-8

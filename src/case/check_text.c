@@ -19,8 +19,8 @@ static bool is_letter_or_digit(char c)
            (unsigned char)c >= 128;
 }
 
-/* Names that look the same are the same: no blank at the end, no two in a row, and nothing else that shows
- * nothing. */
+/* Names that look the same are the same: no blank at the end, no two in a row, and nothing else
+ * that shows nothing. */
 static void check_blanks(struct checking *checking, const char *name)
 {
     uint32_t code = ' ';
@@ -100,8 +100,8 @@ static size_t leading_blanks(const char *text)
     return length;
 }
 
-/* TEXT for people, which gets into one line. Spreadsheets look for a formula after the blanks at its
- * start. */
+/* TEXT for people, which gets into one line. Spreadsheets look for a formula after the blanks at
+ * its start. */
 static void check_text(struct checking *checking, const char *key, char *text, size_t longest)
 {
     const size_t blanks = text ? leading_blanks(text) : 0;

@@ -277,8 +277,8 @@ static void complain_missing(struct reading *reading, const struct node *map,
              known);
 }
 
-/* Each search for a suggestion walks the document: a file of nothing but unknown keys must not take for
- * ever. */
+/* Each search for a suggestion walks the document: a file of nothing but unknown keys must not take
+ * for ever. */
 static bool may_search(const struct reading *reading)
 {
     enum { SEARCHES = 20 };

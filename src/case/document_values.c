@@ -157,8 +157,8 @@ static bool uses_name(const char *text, const char *name)
     return false;
 }
 
-/* The names that the text of NODE may use: a file of the library has none, as it means the same in every
- * case. */
+/* The names that the text of NODE may use: a file of the library has none, as it means the same in
+ * every case. */
 static const struct named_quantities *names_for(const struct reading *reading,
                                                 const struct node *node)
 {

@@ -96,7 +96,8 @@ struct error *probes_close(struct probes *probes);
 
 /* What a resumed run needs. */
 struct error *probes_visit(struct probes *probes, struct visitor *visitor);
-/* ERROR_SYSTEM when PROBES, just loaded, have more rows than STEPS give, or others that no run writes. */
+/* ERROR_SYSTEM when PROBES, just loaded, have more rows than STEPS give, or others that no run
+ * writes. */
 struct error *probes_check_loaded(const struct probes *probes, int64_t steps);
 
 /* The probe called NAME, NULL when there is none. */

@@ -133,8 +133,8 @@ double energy_drift(const struct totals *now, const struct totals *booked,
 /* A sum as a row of whole numbers: its digits, its pending additions, whether it is not finite. */
 enum { SUM_NUMBERS = EXACT_SUM_DIGITS + 2, SUMS = LEDGER_CAUSES * LEDGER_ENTRIES };
 
-/* What additions can have made of a sum: carries keep a digit below 2^32, and each of the pending additions
- * adds less than that. */
+/* What additions can have made of a sum: carries keep a digit below 2^32, and each of the pending
+ * additions adds less than that. */
 static bool sum_possible(const int64_t row[SUM_NUMBERS])
 {
     const int64_t pending = row[EXACT_SUM_DIGITS], most = (int64_t)1 << 62;

@@ -27,8 +27,8 @@ struct error *hdf5_create(const char *path, bool checksums, hid_t *file);
  * time, so that the same run gives the same file. Close it with H5Pclose. */
 hid_t hdf5_creation_list(hid_t kind);
 
-/* NULL when everything that FILE holds lies in it: ERROR_INPUT names a link to elsewhere, or a dataset whose
- * numbers are in other files, be these pipes or another user's. */
+/* NULL when everything that FILE holds lies in it: ERROR_INPUT names a link to elsewhere, or a
+ * dataset whose numbers are in other files, be these pipes or another user's. */
 struct error *hdf5_check_whole(hid_t file);
 
 /* Closes FILE and publishes PATH; after an earlier ERROR, or when closing fails, removes PATH.part

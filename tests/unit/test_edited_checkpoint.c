@@ -1,5 +1,5 @@
-/* Checkpoints that somebody has edited, with valid checksums: resuming one ends with an error or runs on,
- * and never crashes, waits or reads another file. */
+/* Checkpoints that somebody has edited, with valid checksums: resuming one ends with an error or
+ * runs on, and never crashes, waits or reads another file. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -148,7 +148,8 @@ static bool has_prefix(const char *name, const char *prefix)
     return !strncmp(name, prefix, strlen(prefix));
 }
 
-/* What is not finite stands nowhere in a state; only a check that has not measured yet has no number. */
+/* What is not finite stands nowhere in a state; only a check that has not measured yet has no
+ * number. */
 static bool must_be_finite(const char *name, hid_t file)
 {
     hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT), type = H5Dget_type(dataset);
