@@ -19,6 +19,7 @@ struct material_input {
     struct one_of strength;     /* "strength"; not given: a fluid */
     struct one_of burn;         /* "burn"; not given: instant */
     struct heat heat;           /* "heat" */
+    double tensile_strength;    /* Pa; NAN: not known */
     struct material *material;  /* filled by case_read from the above; owned */
 };
 
@@ -166,6 +167,14 @@ struct fit_input {
 enum fit_form { FIT_LINE, FIT_POWER };
 enum fit_take { FIT_SLOPE, FIT_INTERCEPT, FIT_MISFIT };
 
+/* expected_warnings: NAME: {warning: tension, of: [copper], reason: ...}: what `bolide verify` lets
+ * pass. */
+struct expected_warning_input {
+    int warning;         /* enum warning_kind of the run */
+    struct name_list of; /* materials; count 0: all */
+    char *reason;
+};
+
 /* convergence: order: CHECK: {at_least: 0.8}: what order of accuracy is wanted. */
 struct order_input {
     double at_least, at_most; /* NAN: not given */
@@ -213,6 +222,7 @@ struct simulation_case {
     struct one_of exact;       /* "exact": what checks measure against; not given: nothing */
     struct named_map checks;   /* struct check_input */
     struct named_map fits;     /* struct fit_input */
+    struct named_map expected; /* "expected_warnings", struct expected_warning_input */
     struct convergence_input convergence;
     int sweep_runs;   /* filled by case_read: runs that a sweep asks for; 0: it has none */
     int sweep_values; /* of this run of it; 0: the case itself */
@@ -322,6 +332,11 @@ static inline struct order_input *case_order(const struct simulation_case *c, in
 static inline struct fit_input *case_fit(const struct simulation_case *c, int index)
 {
     return (struct fit_input *)c->fits.items + index;
+}
+static inline struct expected_warning_input *case_expected(const struct simulation_case *c,
+                                                           int index)
+{
+    return (struct expected_warning_input *)c->expected.items + index;
 }
 static inline struct check_input *case_check(const struct simulation_case *c, int index)
 {

@@ -381,6 +381,16 @@ static void check_profile(struct checking *checking, int index)
     case_check_axis(checking, "along", profile->along);
 }
 
+static void check_expected(struct checking *checking, int index)
+{
+    const struct simulation_case *input = checking->input;
+    const struct expected_warning_input *expected = case_expected(input, index);
+    for (int i = 0; i < expected->of.count; i++)
+        case_find_name(checking, &input->materials, "material", expected->of.names[i], "of");
+    if (expected->reason && !expected->reason[0])
+        case_wrong(checking, "reason", "the reason is wanted");
+}
+
 static void check_map(struct checking *checking, const char *key, const struct named_map *map,
                       void (*check)(struct checking *, int))
 {
@@ -429,6 +439,7 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "profiles", &input->profiles, check_profile);
     check_map(&checking, "checks", &input->checks, case_check_check);
     check_map(&checking, "fits", &input->fits, case_check_fit);
+    check_map(&checking, "expected_warnings", &input->expected, check_expected);
     case_check_study(&checking);
     check_map(&checking, "convergence.order", &input->convergence.order, case_check_order);
     return checking.error;

@@ -75,7 +75,8 @@ static void check_names(struct checking *checking)
                 {"detonations", &input->detonations, false},
                 {"probes", &input->probes, true},
                 {"profiles", &input->profiles, true},
-                {"checks", &input->checks, false}};
+                {"checks", &input->checks, false},
+                {"expected_warnings", &input->expected, false}};
     for (size_t k = 0; k < COUNT_OF(maps); k++) {
         checking->map = maps[k].key;
         for (int i = 0; i < maps[k].map->count; i++) {
@@ -138,6 +139,11 @@ void case_check_texts(struct checking *checking)
         checking->name = input->checks.names[i];
         check_text(checking, "source", check->source, TEXT_MAX_BYTES);
         check_text(checking, "known_deviation", check->known_deviation, TEXT_MAX_BYTES);
+    }
+    checking->map = "expected_warnings";
+    for (int i = 0; i < input->expected.count; i++) {
+        checking->name = input->expected.names[i];
+        check_text(checking, "reason", case_expected(input, i)->reason, TEXT_MAX_BYTES);
     }
     checking->map = "fits";
     for (int i = 0; i < input->fits.count; i++) {

@@ -69,5 +69,13 @@ const struct parameter case_material_table[] = {
      .standard = PARAMETER_OPTIONAL,
      .table = heat_table,
      .help = "its thermal constants, where temperatures are wanted"},
+    {.key = "tensile_strength",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct material_input, tensile_strength),
+     .unit = "Pa",
+     .standard = PARAMETER_OPTIONAL,
+     .below = INFINITY,
+     .help = "the mean tension above which the run gives a warning; default: what its models "
+             "limit, else a twentieth of the bulk modulus. It changes no result"},
     PARAMETER_END,
 };

@@ -23,6 +23,14 @@ static void case_ended(void *context, const struct verify_case *verified)
                               : "FAILED",
            colour(COLOUR_NONE), verified->result.seconds,
            1e-6 * verified->result.updates_per_second, verified->result.energy_drift);
+    const struct warning_results *warnings = &verified->result.warnings;
+    for (int i = 0; i < warnings->count; i++) {
+        const struct warning *warning = &warnings->item[i];
+        printf("  %s%swarning%s: %s%s%s\n", colour(COLOUR_WARN),
+               warning->expected ? "expected " : "", colour(COLOUR_NONE),
+               warning->expected ? warning->name : warning->text, warning->expected ? ": " : "",
+               warning->expected ? warning->expected : "");
+    }
     fflush(stdout);
 }
 
@@ -98,6 +106,7 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
         .reading = reading,
         .catalogue = &bolide_catalogue,
         .record = options->record,
+        .warnings_fail = true,
         .running = {.output = options->output,
                     .overwrite = options->overwrite,
                     .ranks = options->ranks,
@@ -112,7 +121,7 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
     };
     struct verify_result result;
     struct error *error = verify_cases(paths, count, &verifying, &result);
-    if (result.checks)
+    if (result.checks || result.warnings)
         print_table(&result);
     int status = error ? report_error(error) : EXIT_OK;
     if (*verifying.running.stop)

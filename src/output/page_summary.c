@@ -175,8 +175,38 @@ static void put_names(const struct page *page, bool (*among)(const struct check 
     }
 }
 
+/* One of the run's warnings; the verdict is never told without them. */
+static void put_warning(const struct page *page, int64_t row)
+{
+    const char *name = csv_field(&page->summary, row, NAME);
+    const char *expected = summary_value(&page->summary, "warning", name, "expected");
+    fprintf(page->file, "<p class=\"said warn\"><span class=\"mark\">△ %s:</span> ",
+            *expected ? "expected warning" : "warning");
+    page_text(page->file, csv_field(&page->summary, row, VALUE));
+    if (*expected) {
+        fputs("; expected: ", page->file);
+        page_text(page->file, expected);
+    }
+    fputs("</p>\n", page->file);
+}
+
+static int64_t count_warnings(const struct page *page)
+{
+    int64_t count = 0;
+    for (int64_t row = -1; (row = find_row(&page->summary, row + 1, "warning", NULL, "text")) >= 0;)
+        count++;
+    return count;
+}
+
+static void put_warnings(const struct page *page)
+{
+    for (int64_t row = -1; (row = find_row(&page->summary, row + 1, "warning", NULL, "text")) >= 0;)
+        put_warning(page, row);
+}
+
 static void put_judged(const struct page *page)
 {
+    const int64_t warnings = count_warnings(page);
     int64_t failed = 0, lacking = 0, bounds = 0, count = page->checks.rows;
     for (int64_t row = 0; row < count; row++) {
         struct check check = read_check(&page->checks, row);
@@ -189,7 +219,7 @@ static void put_judged(const struct page *page)
                 "<p class=\"verdict bad\"><strong>Failed: %lld of %lld checks.</strong>",
                 (long long)failed, (long long)count);
         put_names(page, has_failed);
-    } else if (lacking)
+    } else if (lacking || (warnings && count))
         fprintf(page->file,
                 "<p class=\"verdict warn\"><strong>Passed: %lld of %lld checks.</strong>",
                 (long long)(count - lacking), (long long)count);
@@ -204,11 +234,14 @@ static void put_judged(const struct page *page)
     if (bounds)
         fprintf(page->file, " %lld of those that passed %s.", (long long)bounds,
                 bounds == 1 ? "is a regression bound" : "are regression bounds");
-    if (count)
-        fputs("</p>\n", page->file);
-    else
-        fputs("<p class=\"verdict\"><strong>Finished.</strong> The case has no checks.</p>\n",
-              page->file);
+    if (!count)
+        fprintf(page->file,
+                "<p class=\"verdict%s\"><strong>Finished.</strong> The case has no checks.",
+                warnings ? " warn" : "");
+    if (warnings)
+        fprintf(page->file, " <strong>%lld warning%s, below.</strong>", (long long)warnings,
+                warnings == 1 ? "" : "s");
+    fputs("</p>\n", page->file);
 }
 
 /* "at step 400, t = 1.2 ns of 2 ns" */
@@ -258,6 +291,7 @@ void page_verdict(const struct page *page)
             "<p class=\"verdict warn\"><strong>Unknown:</strong> the folder has no summary of the "
             "run.</p>\n",
             page->file);
+    put_warnings(page);
     if (page->checks.rows)
         page_checks(page, "Checks");
     fputs("</section>\n", page->file);

@@ -158,6 +158,9 @@ static struct error *make_solver(struct run *run)
     run->solver = memory_allocate(run->method->size);
     if (!run->solver)
         return error_new(ERROR_SYSTEM, "out of memory for the solver");
+    run->warnings = warnings_create(&run->simulation);
+    if (!run->warnings)
+        return error_new(ERROR_SYSTEM, "out of memory for warnings");
     TRY(probes_create(run->input, &run->probes));
     return run->method->create(run->solver, &run->simulation, run->input->solver.value);
 }
@@ -170,8 +173,10 @@ static struct error *make_particles(struct run *run)
         TRY(run->simulation.members->distribute(run->simulation.store));
     start_threads(run);
     TRY(ranks_agree(&run->ranks, run->method->start(run->solver, &run->simulation)));
-    if (!run->options->resume)
+    if (!run->options->resume) {
         run->start = totals_at_start(run);
+        warnings_start(run->warnings, &run->simulation);
+    }
     run->first_step = run->simulation.step;
     run->particles = ranks_sum(&run->ranks, simulation_population(&run->simulation).count);
     run->start_time = run->last_progress_time = run->simulation.time;
@@ -237,6 +242,8 @@ static struct error *conclude(struct run *run)
 {
     struct run_result *result = run->result;
     TRY(run_checkpoint(run));
+    TRY(ranks_agree(&run->ranks,
+                    warnings_conclude(run->warnings, &run->simulation, &result->warnings)));
     if (result->finished) {
         const struct check_moment moment = moment_of(run);
         TRY(checks_evaluate(run->checks, &moment, &result->checks));
@@ -303,6 +310,18 @@ static void tell_end(struct run *run)
     }
 }
 
+/* No verdict stands alone over what the models do not cover. */
+static void tell_warnings(struct run *run)
+{
+    const struct warning_results *warnings = &run->result->warnings;
+    for (int i = 0; i < warnings->count; i++) {
+        const struct warning *warning = &warnings->item[i];
+        run_say(run, "  %swarning: %s%s%s", warning->expected ? "expected " : "", warning->text,
+                warning->expected ? "; expected: " : "",
+                warning->expected ? warning->expected : "");
+    }
+}
+
 /* An error that the other ranks do not know of: nothing may be asked of them any more. */
 static bool is_lonely(const struct run *run, const struct error *error)
 {
@@ -329,6 +348,7 @@ static struct error *run_through(struct run *run)
     if (!error) {
         run->result->hash = run->simulation.members->hash(run->simulation.store);
         tell_end(run);
+        tell_warnings(run);
     } else
         for (int i = 0; run->log && i < error_count(error); i++)
             run_log_line(run->log, "error: %s", error_message(error, i));
@@ -338,6 +358,7 @@ static struct error *run_through(struct run *run)
 static void destroy(struct run *run)
 {
     checks_free(run->checks);
+    warnings_free(run->warnings);
     probes_free(&run->probes);
     profiles_free(&run->profiles);
     if (run->solver && run->method)
@@ -408,4 +429,8 @@ struct error *run_validate(const struct simulation_case *input)
     return error;
 }
 
-void run_result_free(struct run_result *result) { check_results_free(&result->checks); }
+void run_result_free(struct run_result *result)
+{
+    check_results_free(&result->checks);
+    warning_results_free(&result->warnings);
+}

@@ -6,6 +6,7 @@
 
 #include "output/report.h"
 #include "run/checks.h"
+#include "run/warnings.h"
 
 /* How often progress is told: at least this many seconds of wall clock and this fraction of the
  * run since the last time; or SILENCE seconds, which grow to a twentieth of what the run has
@@ -42,6 +43,7 @@ struct run_result {
     double energy_drift;
     uint64_t hash;               /* of all particles' bits */
     struct check_results checks; /* empty unless finished */
+    struct warning_results warnings;
 };
 
 /* Runs INPUT to its end, or until told to stop. Watching a run never changes it. A failed check is

@@ -40,6 +40,7 @@ static struct error *visit_extra(void *context, struct visitor *visitor)
     if (run->input->checks.count)
         TRY(visitor->visit(visitor, "run/checks", NUMBER_DOUBLE, run->check_memory,
                            run->input->checks.count, CHECK_MEMORY_NUMBERS));
+    TRY(warnings_visit(run->warnings, visitor));
     TRY(csv_visit_mark(&run->history_mark, "run/history_file", visitor));
     TRY(probes_visit(&run->probes, visitor));
     if (run->snapshots < 1)

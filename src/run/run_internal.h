@@ -9,6 +9,7 @@
 #include "output/history.h"
 #include "run/run.h"
 #include "run/threads.h"
+#include "run/warnings.h"
 
 struct run {
     const struct simulation_case *input;
@@ -23,14 +24,13 @@ struct run {
     struct probes probes;
     struct profiles profiles;
     struct checks *checks;
+    struct warnings *warnings;
     struct limit limit;
     double step;                          /* the last one taken, s */
     double largest_step;                  /* of all, s */
     int64_t collapsed_steps;              /* the last so many were far too short */
     bool sound;                           /* the state is that of the end of a step */
     int64_t particles;                    /* of all ranks */
-    bool drift_is_known;                  /* a warning of the energy was given */
-    uint64_t range_is_known;              /* of the range of a material, by bit */
     bool told_to_stop, checkpoint_is_due; /* a rank of them was, to a rank it is */
     bool checkpoint_is_wanted;            /* by the user, and not yet written */
     sig_atomic_t checkpoints_heard;       /* requests for one that have been seen */

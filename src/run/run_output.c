@@ -48,13 +48,14 @@ static struct error *make_text(const struct simulation_case *input, char **text)
     return error;
 }
 
-/* A run may be resumed with another limit of the drift, and with checkpoints at other times:
- * neither changes the state. */
+/* A run may be resumed with another limit of the drift, with checkpoints at other times, and with
+ * other warnings expected: none of these changes the state. */
 static struct error *make_case_texts(struct run *run)
 {
     struct simulation_case state = *run->input;
     state.run.energy_drift = 0.0;
     state.output.checkpoint = 0.0;
+    state.expected = (struct named_map){0};
     TRY(make_text(run->input, &run->case_text));
     return make_text(&state, &run->state_text);
 }

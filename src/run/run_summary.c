@@ -160,12 +160,24 @@ static void put_run(FILE *file, const struct run *run, const char *status,
         put_speed(file, run);
 }
 
+/* about "warning": the name, and why it is expected ("": it is not). */
+static void put_warnings(FILE *file, const struct warning_results *warnings)
+{
+    for (int i = 0; i < warnings->count; i++) {
+        const struct warning *warning = &warnings->item[i];
+        put_text(file, "warning", warning->name, "text", warning->text);
+        put_text(file, "warning", warning->name, "expected",
+                 warning->expected ? warning->expected : "");
+    }
+}
+
 static void put_summary(FILE *file, const struct run *run, const char *status,
                         const struct error *error)
 {
     const struct simulation *s = &run->simulation;
     fputs("about,name,quantity,value,unit\n", file);
     put_run(file, run, status, error);
+    put_warnings(file, &run->result->warnings);
     put_table(file, "method", "", "", run->input->solver.choice->table, run->input->solver.value);
     for (int i = 0; i < run->input->bodies.count; i++)
         put_body(file, run, i);

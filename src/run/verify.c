@@ -98,14 +98,17 @@ static void tell_end(const struct verify_options *options, const struct verify_c
 }
 
 static void run_input(const struct simulation_case *input, const char *folder,
-                      const struct run_options *options, bool judged, struct verify_case *verified)
+                      const struct verify_options *options, const struct run_options *how,
+                      struct verify_case *verified)
 {
-    struct run_options running = *options;
+    struct run_options running = *how;
+    const bool judged = !options->reading.convergence;
     running.output = folder;
     verified->form = input->form;
     verified->error = run_case(input, &running, &verified->result);
+    verified->warned = options->warnings_fail && verified->result.warnings.unexpected;
     verified->passed = !verified->error && verified->result.finished &&
-                       !(judged && verified->result.checks.failed);
+                       !(judged && verified->result.checks.failed) && !verified->warned;
     if (!verified->error && !verified->result.finished)
         verified->error = error_new(ERROR_SYSTEM, "stopped before its end");
 }
@@ -131,7 +134,7 @@ static struct error *run_of_sweep(struct simulation_case *input, const char *pat
         const struct listener *listener = running.listener;
         if (listener && listener->line)
             listener->line(listener->context, verified->name);
-        run_input(input, own_folder, &running, !options->reading.convergence, verified);
+        run_input(input, own_folder, options, &running, verified);
         verified->sweep = input->sweep;
         verified->sweep_values = input->sweep_values;
         input->sweep = NULL;
@@ -277,7 +280,7 @@ static struct error *run_path(const char *path, const char *name, const char *fo
     struct verify_case *verified = runs ? NULL : add_case(result, path, text_copy(name));
     struct error *error = runs || verified ? NULL : out_of_memory();
     if (verified) {
-        run_input(input, folder, &options->running, true, verified);
+        run_input(input, folder, options, &options->running, verified);
         tell_end(options, verified);
     }
     case_free(input);
@@ -297,12 +300,32 @@ static struct error *named_error(const struct verify_case *verified)
     return all;
 }
 
+/* Why a run that came to its end has not passed. */
+static struct error *failure(const struct verify_case *verified)
+{
+    const struct check_results *checks = &verified->result.checks;
+    const struct warning_results *warnings = &verified->result.warnings;
+    struct error *error = NULL;
+    if (checks->failed)
+        error = error_new(ERROR_CHECK, "%s: %d of %d checks failed", verified->name, checks->failed,
+                          checks->count);
+    for (int i = 0; i < warnings->count && verified->warned; i++)
+        if (!warnings->item[i].expected)
+            error = error_join(error,
+                               error_new(ERROR_CHECK,
+                                         "%s: warning of %s, which `expected_warnings` of the case "
+                                         "does not list",
+                                         verified->name, warnings->item[i].name));
+    return error;
+}
+
 /* What the results come to as one error. */
 static struct error *sum_up(struct verify_result *result)
 {
     struct error *error = NULL;
     result->cases = result->passed = result->checks = result->checks_passed = 0;
     result->regression_bounds = result->known_deviations = 0;
+    result->warnings = result->unexpected = 0;
     for (int i = 0; i < result->count; i++) {
         const struct verify_case *verified = &result->item[i];
         const struct check_results *checks = &verified->result.checks;
@@ -313,11 +336,12 @@ static struct error *sum_up(struct verify_result *result)
             checks->count - checks->failed - checks->known_deviations - checks->regression_bounds;
         result->regression_bounds += checks->regression_bounds;
         result->known_deviations += checks->known_deviations;
+        result->warnings += verified->result.warnings.count;
+        result->unexpected += verified->result.warnings.unexpected;
         if (verified->error)
             error = error_join(error, named_error(verified));
         else if (!verified->passed)
-            error = error_join(error, error_new(ERROR_CHECK, "%s: %d of %d checks failed",
-                                                verified->name, checks->failed, checks->count));
+            error = error_join(error, failure(verified));
     }
     return error;
 }
@@ -336,6 +360,7 @@ char *verify_checks_text(const struct verify_result *result)
               deviations = result->known_deviations,
               failed = result->checks - passed - bounds - deviations;
     char parts[3][64] = {"", "", ""};
+    char *warnings = warnings_count_text(result->warnings, result->unexpected);
     if (bounds)
         snprintf(parts[0], sizeof parts[0], ", %d within regression bounds", bounds);
     if (deviations)
@@ -343,8 +368,11 @@ char *verify_checks_text(const struct verify_result *result)
                  deviations == 1 ? "" : "s");
     if (failed)
         snprintf(parts[2], sizeof parts[2], ", %d failed", failed);
-    return text_format("; %d check%s: %d passed%s%s%s", result->checks,
-                       result->checks == 1 ? "" : "s", passed, parts[0], parts[1], parts[2]);
+    char *text = text_format("; %d check%s: %d passed%s%s%s%s", result->checks,
+                             result->checks == 1 ? "" : "s", passed, parts[0], parts[1], parts[2],
+                             warnings ? warnings : "");
+    free(warnings);
+    return text;
 }
 
 /* Runs the case at PATH; what keeps it from running becomes an item of its own. */

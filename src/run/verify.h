@@ -14,6 +14,7 @@ struct verify_case {
     struct error *error; /* NULL: it ran; owned */
     struct run_result result;
     bool passed;       /* a run of a convergence study: came to its end, whatever its checks say */
+    bool warned;       /* it fails by a warning that the case does not expect */
     double resolution; /* m; of a run of a sweep or a study */
     bool fits;         /* no run: the fits through those of a sweep */
     int sweep_values;  /* 0: no run of a sweep */
@@ -25,7 +26,8 @@ struct verify_options {
     const struct catalogue *catalogue;
     /* How each is run. Output is the folder in which each case gets one of its name. */
     struct run_options running;
-    bool record; /* store what each measured beside it */
+    bool record;        /* store what each measured beside it */
+    bool warnings_fail; /* a run fails by a warning that its case does not expect */
     /* Called when a case or a run of a sweep has ended, may be NULL. */
     void (*ended)(void *context, const struct verify_case *verified);
     void *context;
@@ -36,11 +38,12 @@ struct verify_result {
     int cases, passed; /* items that ran: not the fits through a sweep */
     /* REGRESSION_BOUNDS passed too, and are not counted among CHECKS_PASSED. */
     int checks, checks_passed, regression_bounds, known_deviations;
+    int warnings, unexpected; /* of the runs, and those that no case expects */
     struct verify_case *item;
 };
 
-/* "; 12 checks: 9 passed, 2 within regression bounds, 1 known deviation"; of what there is none,
- * nothing is said. Owned by the caller; NULL when memory is out. */
+/* "; 12 checks: 9 passed, 2 within regression bounds, 1 known deviation; 1 warning, expected"; of
+ * what there is none, nothing is said. Owned by the caller; NULL when memory is out. */
 char *verify_checks_text(const struct verify_result *result);
 
 /* What the check called NAME of a run measured; NULL: it has none. */

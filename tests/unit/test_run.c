@@ -585,10 +585,12 @@ static void energy_that_drifts_is_a_warning_where_no_limit_is_given(void **state
     assert_true(result.finished && result.energy_drift > 0.05);
     run_result_free(&result);
     char *log = file_text("test_run_drift", "run.log");
-    const char *first = strstr(log, "warning: step ");
+    const char *first = strstr(log, "warning: energy: ");
     assert_non_null(first);
     assert_non_null(strstr(first, "the total energy has drifted by"));
-    assert_null(strstr(first + 1, "warning: step ")); /* once */
+    first = strstr(first + 1, "warning: energy: "); /* once, and again at the end */
+    assert_non_null(first);
+    assert_null(strstr(first + 1, "warning: energy: "));
     free(log);
 }
 

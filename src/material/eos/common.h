@@ -14,8 +14,11 @@ struct eos_traits {
     /* gamma where waves are those of an ideal gas, for exact solutions of them; NAN: they are not.
      * */
     double ratio_of_heats;
-    /* Of rho/rho_0, up to which a model that does not depend on energy is meant; INFINITY: any. */
+    /* Of rho/rho_0, up to which the model is meant; a run warns beyond it. INFINITY: any, as of
+     * gases. */
     double largest_compression;
+    /* Its tension has a limit that is a strength, not the form of a curve. */
+    bool limits_tension;
     /* The history that it needs: a sum of HISTORY_BIT. */
     unsigned history;
     /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
@@ -25,7 +28,7 @@ struct eos_traits {
 /* The traits of a model that says no more. */
 BOLIDE_INLINE struct eos_traits eos_default_traits(void)
 {
-    struct eos_traits traits = {NAN, NAN, INFINITY, 0, NULL, NULL};
+    struct eos_traits traits = {NAN, NAN, 4.0, false, 0, NULL, NULL};
     return traits;
 }
 

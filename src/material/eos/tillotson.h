@@ -132,6 +132,7 @@ BOLIDE_INLINE struct eos_value eos_tillotson(const struct eos_tillotson *t, doub
 BOLIDE_INLINE struct eos_traits eos_tillotson_traits(const struct eos_tillotson *t)
 {
     struct eos_traits traits = eos_default_traits();
+    traits.limits_tension = !isnan(t->tension);
     /* dc/drho at constant entropy, from e = A mu^2/(2 rho_0) and p = A mu + B mu^2 + (a + b) rho_0
      * e */
     traits.shock_slope = 0.5 * (1.0 + t->second_modulus / t->bulk_modulus + 0.5 * (t->a + t->b));

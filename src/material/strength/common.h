@@ -14,6 +14,8 @@ struct strength_traits {
     unsigned history;
     /* Its step takes the pressure of the elastic trial, and may change it. */
     bool takes_pressure;
+    /* It limits the mean tension. */
+    bool limits_tension;
     /* It has a step of many points at once. */
     bool batched;
     /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
@@ -23,7 +25,7 @@ struct strength_traits {
 /* The traits of a model that says no more. */
 BOLIDE_INLINE struct strength_traits strength_default_traits(void)
 {
-    struct strength_traits traits = {0, false, false, NULL, NULL};
+    struct strength_traits traits = {0, false, false, false, NULL, NULL};
     return traits;
 }
 

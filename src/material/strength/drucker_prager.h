@@ -76,6 +76,7 @@ BOLIDE_INLINE struct strength_traits strength_drucker_prager_traits(
     const struct strength_drucker_prager *soil)
 {
     struct strength_traits traits = strength_default_traits();
+    traits.limits_tension = true;
     (void)soil;
     traits.history = HISTORY_BIT(dilation);
     traits.takes_pressure = true;

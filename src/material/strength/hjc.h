@@ -180,6 +180,7 @@ BOLIDE_INLINE void strength_hjc_cut(const struct strength_hjc *concrete, const d
 BOLIDE_INLINE struct strength_traits strength_hjc_traits(const struct strength_hjc *concrete)
 {
     struct strength_traits traits = strength_default_traits();
+    traits.limits_tension = true;
     traits.history = HISTORY_BIT(damage);
     if (concrete->tensile_growth > 0.0)
         traits.history |= HISTORY_BIT(tensile_damage);

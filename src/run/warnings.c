@@ -1,0 +1,356 @@
+/* What a run warns of: limits of every material, the search among the members; see warnings.h. The
+ * words are in warnings_text.c. */
+#include "run/warnings.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "material/any.h"
+#include "material/material.h"
+#include "model/held.h"
+#include "run/warnings_internal.h"
+
+/* Of the largest speed that needs no warning. Gas of gamma = 1.3 that expands into vacuum in one
+ * dimension reaches three times sqrt(2 e), Johnson-Cook's copper as the jet of a charge some 1.5
+ * times the speed of its detonation. */
+static const double SPEED_FACTOR = 3.0;
+
+/* The strength of an ideal crystal is about a tenth of its bulk modulus. */
+static const double TENSION_FRACTION = 1.0 / 20.0;
+
+static const double DRIFT_TO_WARN_OF = 0.05;
+
+/* The mean tension that the run takes as what MATERIAL bears. */
+static double tension_limit(const struct material *material, double strength, bool *estimated)
+{
+    *estimated = false;
+    if (!isnan(strength))
+        return strength;
+    if (eos_traits(&material->eos).limits_tension ||
+        strength_traits(&material->strength).limits_tension)
+        return INFINITY;
+    struct point rest = {.density = material_density(material)};
+    rest.history[HISTORY_burnt] = 1.0;
+    const struct response response = any_material_evaluate(material, &rest);
+    const double bulk =
+        rest.density * (response.dp_drho + response.dp_de * rest.pressure / square(rest.density));
+    *estimated = bulk > 0.0;
+    return bulk > 0.0 ? TENSION_FRACTION * bulk : INFINITY;
+}
+
+/* The energy at which temperature is zero at DENSITY. */
+static double coldest(const struct material *material, double density)
+{
+    return heat_energy(&material->heat, &material->eos, density, 0.0);
+}
+
+static void find_limits(struct material_watch *watch, const struct material *material,
+                        double strength)
+{
+    for (int kind = 0; kind < WARNING_ENERGY; kind++)
+        watch->limit[kind] = INFINITY;
+    watch->limit[WARNING_TENSION] = tension_limit(material, strength, &watch->estimated);
+    watch->limit[WARNING_DENSITY] =
+        eos_traits(&material->eos).largest_compression * material_density(material);
+    watch->warm = !heat_wrong(&material->heat, &material->eos);
+    if (!watch->warm)
+        return;
+    watch->limit[WARNING_TEMPERATURE] = 0.0;
+    for (int k = 0; k < COLDEST; k++)
+        watch->coldest[k] = coldest(material, k * COLDEST_STEP * material_density(material));
+}
+
+struct warnings *warnings_create(const struct simulation *simulation)
+{
+    const int materials = simulation->materials;
+    struct warnings *w = memory_allocate(sizeof *w);
+    if (!w)
+        return NULL;
+    w->materials = materials;
+    w->memories = materials * WARNING_ENERGY + 1;
+    w->watch = memory_allocate((size_t)materials * sizeof *w->watch);
+    w->memory = memory_allocate((size_t)w->memories * sizeof *w->memory);
+    w->held = memory_allocate((size_t)simulation->input->bodies.count);
+    if (!w->watch || !w->memory || !w->held) {
+        warnings_free(w);
+        return NULL;
+    }
+    for (int m = 0; m < materials; m++)
+        find_limits(&w->watch[m], &simulation->material[m],
+                    case_material(simulation->input, m)->tensile_strength);
+    for (int b = 0; b < simulation->input->bodies.count; b++)
+        w->held[b] = body_is_held(simulation, b);
+    return w;
+}
+
+void warnings_free(struct warnings *warnings)
+{
+    if (!warnings)
+        return;
+    free(warnings->watch);
+    free(warnings->memory);
+    free(warnings->held);
+    free(warnings);
+}
+
+static double speed_of(const struct population *p, int32_t i)
+{
+    return sqrt(vec3_dot(vector_at(p->velocity[i]), vector_at(p->velocity[i])));
+}
+
+/* What the state of member I at the start can set in motion: the particle velocity of a wave that
+ * relieves its stress, all its energy as motion, its detonation. */
+static double released_speed(const struct simulation *simulation, const struct population *p,
+                             int32_t i)
+{
+    const struct material *material = &simulation->material[p->material[i]];
+    struct point point = {.density = p->density[i], .energy = p->energy[i]};
+    point.history[HISTORY_burnt] = 1.0;
+    const struct response response = any_material_evaluate(material, &point);
+    double stress = fabs(point.pressure), speed = sqrt(2.0 * maximum(p->energy[i], 0.0));
+    if (p->deviator) {
+        memcpy(&point.deviator, p->deviator[i], sizeof point.deviator);
+        stress += sym3_mises(point.deviator);
+    }
+    if (response.sound_long > 0.0)
+        speed = maximum(speed, stress / (point.density * response.sound_long));
+    return material_burns(material) ? maximum(speed, material->burn.of.speed) : speed;
+}
+
+void warnings_start(struct warnings *warnings, const struct simulation *simulation)
+{
+    const struct population population = simulation_population(simulation), *p = &population;
+    double largest = 0.0;
+    for (int32_t i = 0; i < p->count; i++)
+        largest = maximum(largest, maximum(speed_of(p, i), released_speed(simulation, p, i)));
+    warnings->speed = ranks_maximum(simulation->ranks, largest);
+}
+
+/* The speed to which LOAD accelerates material from rest, sqrt(2 p/rho), now. */
+static double load_speed(const struct simulation *simulation, const struct load_input *load)
+{
+    const struct body_input *body = case_body(simulation->input, load->body);
+    const struct vec3 nowhere = {0.0, 0.0, 0.0};
+    double stress =
+        load->traction.count ? 0.0 : field_at(&load->pressure, nowhere, simulation->time);
+    for (int k = 0; k < load->traction.count; k++)
+        stress = hypot(stress, field_at(&load->traction.at[k], nowhere, simulation->time));
+    const double speed =
+        sqrt(2.0 * fabs(stress) / material_density(&simulation->material[body->material_index]));
+    return isfinite(speed) ? speed : 0.0;
+}
+
+/* What else moves members: loads; bodies with prescribed motion, and, where work is done on the case, the
+ * mean speed of what moves, sum m u^2/sum m |u|. Collective. */
+static void follow_speed(struct warnings *w, const struct simulation *simulation,
+                         const struct population *p, const struct totals *now)
+{
+    double largest = w->speed;
+    for (int i = 0; i < simulation->input->loads.count; i++)
+        largest = maximum(largest, load_speed(simulation, case_load(simulation->input, i)));
+    if (any_body(simulation, body_is_held))
+        for (int32_t i = 0; i < p->count; i++)
+            if (w->held[p->body[i]])
+                largest = maximum(largest, speed_of(p, i));
+    if (now->momentum_scale > 0.0)
+        largest = maximum(largest, 2.0 * now->kinetic / now->momentum_scale);
+    w->speed = ranks_maximum(simulation->ranks, largest);
+    for (int m = 0; m < w->materials; m++)
+        w->watch[m].limit[WARNING_SPEED] = w->speed > 0.0 ? SPEED_FACTOR * w->speed : INFINITY;
+}
+
+/* Less the temperature, or less than nothing where it is surely above 0 K: the exact one may be an
+ * integral along an isentrope. */
+static double coldness(const struct material_watch *watch, const struct material *material,
+                       double density, double energy)
+{
+    const double place = density / (material_density(material) * COLDEST_STEP);
+    if (place < COLDEST - 1) {
+        const int k = (int)place;
+        const double low = watch->coldest[k], high = watch->coldest[k + 1];
+        if (energy > maximum(low, high) + fabs(high - low))
+            return -1.0;
+    }
+    return -heat_temperature(&material->heat, &material->eos, density, energy);
+}
+
+/* The worst member of a warning, and how many there are. */
+struct found {
+    struct ranked worst; /* the value is negative: the first is the worst; `what` is its index */
+    int64_t count;
+};
+
+static void keep(struct found *found, double value, uint64_t id, int32_t index)
+{
+    const struct ranked own = {-value, id, index};
+    if (found->count++ == 0 || ranked_before(&own, &found->worst))
+        found->worst = own;
+}
+
+static void look_at(const struct warnings *w, const struct simulation *simulation,
+                    const struct population *p, int32_t i, struct found *all)
+{
+    const int m = p->material[i];
+    const struct material_watch *watch = &w->watch[m];
+    struct found *found = all + (ptrdiff_t)m * WARNING_ENERGY;
+    double value[WARNING_ENERGY] = {
+        [WARNING_TENSION] = -p->pressure[i],
+        [WARNING_SPEED] = speed_of(p, i),
+        [WARNING_TEMPERATURE] = -1.0,
+        [WARNING_DENSITY] = p->density[i],
+    };
+    if (watch->warm)
+        value[WARNING_TEMPERATURE] =
+            coldness(watch, &simulation->material[m], p->density[i], p->energy[i]);
+    for (int kind = 0; kind < WARNING_ENERGY; kind++)
+        if (value[kind] > watch->limit[kind])
+            keep(&found[kind], value[kind], p->id[i], i);
+}
+
+static void join(struct found *found, const struct found *own, int count)
+{
+    for (int k = 0; k < count; k++) {
+        if (own[k].count && (!found[k].count || ranked_before(&own[k].worst, &found[k].worst)))
+            found[k].worst = own[k].worst;
+        found[k].count += own[k].count;
+    }
+}
+
+/* Fills FOUND, COUNT of them, for the members of this rank; false when memory is out. */
+static bool search(const struct warnings *w, const struct simulation *simulation,
+                   const struct population *p, struct found *found, int count)
+{
+    bool failed = false;
+#pragma omp parallel num_threads(p->threads)
+    {
+        struct found *own = calloc((size_t)count, sizeof *own);
+#pragma omp for schedule(static)
+        for (int32_t i = 0; i < p->count; i++)
+            if (own)
+                look_at(w, simulation, p, i, own);
+#pragma omp critical(bolide_warnings)
+        {
+            if (own)
+                join(found, own, count);
+            failed |= !own;
+        }
+        free(own);
+    }
+    return !failed;
+}
+
+/* Collective: body and place of the member of all ranks that FOUND is about, which is then that of
+ * all ranks. */
+static void agree_on_worst(const struct simulation *simulation, const struct population *p,
+                           struct found *found, double body_and_place[4])
+{
+    struct ranked first = found->worst;
+    if (!found->count)
+        first = (struct ranked){INFINITY, UINT64_MAX, -1};
+    const struct ranked own = first;
+    ranks_first(simulation->ranks, &first);
+    const bool here = found->count && own.id == first.id && own.value == first.value;
+    for (int k = 0; k < 4; k++)
+        body_and_place[k] = -INFINITY;
+    if (here) {
+        body_and_place[0] = p->body[own.what];
+        memcpy(body_and_place + 1, p->position[own.what], 3 * sizeof(double));
+    }
+    ranks_maximum_of(simulation->ranks, body_and_place, 4);
+    found->worst = first;
+}
+
+/* Takes VALUE, LIMIT and COUNT, the state of a warning now, into its memory. True where it is new. */
+static bool remember(struct warning_memory *memory, const struct simulation *simulation,
+                     double value, double limit, double count)
+{
+    const bool new = memory->count == 0.0;
+    if (new || value > memory->worst) {
+        memory->worst = value;
+        memory->worst_limit = limit;
+        memory->worst_time = simulation->time;
+    }
+    memory->count = maximum(memory->count, count);
+    if (!new)
+        return false;
+    memory->value = value;
+    memory->limit = limit;
+    memory->time = simulation->time;
+    memory->step = (double)simulation->step;
+    return true;
+}
+
+struct tell {
+    void (*tell)(void *context, const char *text);
+    void *context;
+};
+
+static struct error *tell_new(const struct warnings *w, const struct simulation *simulation, int k,
+                              const struct tell *tell)
+{
+    char *text = warning_text(w, simulation, k);
+    if (!text)
+        return error_new(ERROR_SYSTEM, "out of memory for a warning");
+    tell->tell(tell->context, text);
+    free(text);
+    return NULL;
+}
+
+/* What all ranks FOUND. Collective. */
+static struct error *take_found(struct warnings *w, const struct simulation *simulation,
+                                const struct population *p, struct found *found,
+                                const struct tell *tell)
+{
+    int64_t *counts = calloc((size_t)w->memories, sizeof *counts);
+    TRY(ranks_agree(simulation->ranks,
+                    counts ? NULL : error_new(ERROR_SYSTEM, "out of memory for warnings")));
+    for (int k = 0; k < w->memories - 1; k++)
+        counts[k] = found[k].count;
+    ranks_sum_of(simulation->ranks, counts, w->memories);
+    struct error *error = NULL;
+    for (int k = 0; k < w->memories - 1; k++) {
+        double place[4];
+        if (!counts[k])
+            continue;
+        agree_on_worst(simulation, p, &found[k], place);
+        struct warning_memory *memory = &w->memory[k];
+        const double limit = w->watch[k / WARNING_ENERGY].limit[k % WARNING_ENERGY];
+        if (!remember(memory, simulation, -found[k].worst.value, limit, (double)counts[k]))
+            continue;
+        memory->body = place[0];
+        memcpy(memory->place, place + 1, sizeof memory->place);
+        error = error_join(error, tell_new(w, simulation, k, tell));
+    }
+    free(counts);
+    return error;
+}
+
+struct error *warnings_watch(struct warnings *w, const struct simulation *simulation,
+                             const struct totals *now, double drift,
+                             void (*tell)(void *context, const char *text), void *context)
+{
+    const struct population population = simulation_population(simulation), *p = &population;
+    const struct tell teller = {tell, context};
+    follow_speed(w, simulation, p, now);
+    struct found *found = calloc((size_t)w->memories, sizeof *found);
+    const bool done = found && search(w, simulation, p, found, w->memories - 1);
+    struct error *error = ranks_agree(
+        simulation->ranks, done ? NULL : error_new(ERROR_SYSTEM, "out of memory for warnings"));
+    if (!error)
+        error = take_found(w, simulation, p, found, &teller);
+    free(found);
+    const int last = w->memories - 1;
+    if (!error && drift > DRIFT_TO_WARN_OF &&
+        remember(&w->memory[last], simulation, drift, DRIFT_TO_WARN_OF, 1.0))
+        error = tell_new(w, simulation, last, &teller);
+    return error;
+}
+
+struct error *warnings_visit(struct warnings *warnings, struct visitor *visitor)
+{
+    TRY(visitor->visit(visitor, "run/warnings", NUMBER_DOUBLE, warnings->memory, warnings->memories,
+                       WARNING_NUMBERS));
+    return visitor->visit(visitor, "run/largest_speed", NUMBER_DOUBLE, &warnings->speed, 1, 1);
+}

@@ -1,0 +1,201 @@
+/* The words of warnings, and those that a case expects. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "material/material.h"
+#include "output/report.h"
+#include "run/warnings_internal.h"
+
+static const struct {
+    const char *name, *unit, *what, *advice;
+    double sign; /* of the value that is shown */
+} kinds[WARNING_KINDS] = {
+    [WARNING_TENSION] = {"tension", "Pa", "mean tension of",
+                         "it carries more than it would bear, so holes and fragments are missing: "
+                         "give the model a tension limit",
+                         1.0},
+    [WARNING_SPEED] =
+        {"speed", "m/s", "a speed of",
+         "nothing in the case moves members that fast: look for an instability of the "
+         "method or a state outside its models",
+         1.0},
+    [WARNING_TEMPERATURE] = {"temperature", "K", "a temperature of",
+                             "its equation of state ends before this state", -1.0},
+    [WARNING_DENSITY] = {"density", "kg/m^3", "a density of", NULL, 1.0},
+    [WARNING_ENERGY] = {"energy", "", NULL, NULL, 1.0},
+};
+
+const char *warning_kind_name(enum warning_kind kind)
+{
+    return kind < WARNING_KINDS ? kinds[kind].name : NULL;
+}
+
+static enum warning_kind kind_of(const struct warnings *warnings, int index)
+{
+    return index == warnings->memories - 1 ? WARNING_ENERGY
+                                           : (enum warning_kind)(index % WARNING_ENERGY);
+}
+
+char *warning_name(const struct warnings *warnings, const struct simulation *simulation, int index)
+{
+    const enum warning_kind kind = kind_of(warnings, index);
+    if (kind == WARNING_ENERGY)
+        return text_copy(kinds[kind].name);
+    return text_format("%s in %s", kinds[kind].name,
+                       simulation->input->materials.names[index / WARNING_ENERGY]);
+}
+
+/* What LIMIT is. */
+static void put_limit(const struct warnings *warnings, const struct simulation *simulation,
+                      int index, double limit, char *text, size_t size)
+{
+    char value[48];
+    const struct material *material = &simulation->material[index / WARNING_ENERGY];
+    const enum warning_kind kind = kind_of(warnings, index);
+    readable(limit, kinds[kind].unit, value, sizeof value);
+    switch (kind) {
+    case WARNING_TENSION:
+        snprintf(text, size, "%s %s",
+                 warnings->watch[index / WARNING_ENERGY].estimated
+                     ? "more than an estimate of its strength, K/20 ="
+                     : "more than its tensile strength of",
+                 value);
+        break;
+    case WARNING_SPEED:
+        snprintf(text, size, "more than %s, three times what set the case in motion", value);
+        break;
+    case WARNING_DENSITY:
+        snprintf(text, size, "more than %.3g times that at rest, where its equation of state ends",
+                 limit / material_density(material));
+        break;
+    default:
+        snprintf(text, size, "below 0 K");
+    }
+}
+
+/* A model without energy lacks the heat of shocks. */
+static const char *advice_of(const struct simulation *simulation, int index, enum warning_kind kind)
+{
+    if (kind != WARNING_DENSITY)
+        return kinds[kind].advice;
+    const struct eos *eos = &simulation->material[index / WARNING_ENERGY].eos;
+    const double none[POINT_HISTORY] = {0.0};
+    return eos_evaluate(eos, 2.0 * eos_reference_density(eos), 0.0, none).dp_de == 0.0
+               ? "one that depends on energy, such as mie-grueneisen, goes further"
+               : "no shock compresses a solid that far";
+}
+
+static char *energy_text(const struct warning_memory *memory)
+{
+    char later[64] = "";
+    if (memory->worst > memory->value)
+        snprintf(later, sizeof later, ", later by %.2g", memory->worst);
+    return text_format(
+        "energy: the total energy has drifted by %.2g of the largest energy of the case, first "
+        "seen "
+        "at step %.0f, t = %.6g s%s. Where bodies strike or shocks pass, nodes of a grid equalise "
+        "the velocities of particles and that energy is lost: finer particles lose less. `run: "
+        "{energy_drift: 5 %%}` makes this an error, `energy_drift: 0` silences it",
+        memory->value, memory->step, memory->time, later);
+}
+
+char *warning_text(const struct warnings *warnings, const struct simulation *simulation, int index)
+{
+    const struct warning_memory *memory = &warnings->memory[index];
+    const enum warning_kind kind = kind_of(warnings, index);
+    char value[48], worst[48], time[48], later[128] = "", limit[160];
+    if (kind == WARNING_ENERGY)
+        return energy_text(memory);
+    readable(kinds[kind].sign * memory->value, kinds[kind].unit, value, sizeof value);
+    put_limit(warnings, simulation, index, memory->limit, limit, sizeof limit);
+    if (memory->worst > memory->value) {
+        readable(kinds[kind].sign * memory->worst, kinds[kind].unit, worst, sizeof worst);
+        readable(memory->worst_time, "s", time, sizeof time);
+        snprintf(later, sizeof later, ", at worst %s at t = %s", worst, time);
+    }
+    char *name = warning_name(warnings, simulation, index);
+    readable(memory->time, "s", time, sizeof time);
+    char *text =
+        name ? text_format("%s: %s %s, %s; first seen at step %.0f, t = %s, in body \"%s\" at (%g, "
+                           "%g, %g) m; up to %.0f %s%s at once%s; %s",
+                           name, kinds[kind].what, value, limit, memory->step, time,
+                           simulation->input->bodies.names[(int)memory->body], memory->place[0],
+                           memory->place[1], memory->place[2], memory->count, "particle",
+                           memory->count == 1.0 ? "" : "s", later,
+                           advice_of(simulation, index, kind))
+             : NULL;
+    free(name);
+    return text;
+}
+
+/* The reason that the case gives for KIND in MATERIAL (-1: in none); NULL: it does not expect it. */
+static const char *expected(const struct simulation_case *input, enum warning_kind kind,
+                            int material)
+{
+    for (int i = 0; i < input->expected.count; i++) {
+        const struct expected_warning_input *item = case_expected(input, i);
+        bool fits = item->of.count == 0 || material < 0;
+        for (int k = 0; k < item->of.count && !fits; k++)
+            fits = !strcmp(item->of.names[k], input->materials.names[material]);
+        if (item->warning == (int)kind && fits)
+            return item->reason;
+    }
+    return NULL;
+}
+
+static bool add(const struct warnings *warnings, const struct simulation *simulation, int index,
+                struct warning_results *results)
+{
+    const enum warning_kind kind = kind_of(warnings, index);
+    const char *reason =
+        expected(simulation->input, kind, kind == WARNING_ENERGY ? -1 : index / WARNING_ENERGY);
+    struct warning *warning = &results->item[results->count++];
+    *warning = (struct warning){.kind = kind,
+                                .name = warning_name(warnings, simulation, index),
+                                .text = warning_text(warnings, simulation, index),
+                                .expected = reason ? text_copy(reason) : NULL};
+    results->unexpected += !reason;
+    return warning->name && warning->text && (warning->expected || !reason);
+}
+
+struct error *warnings_conclude(const struct warnings *warnings,
+                                const struct simulation *simulation,
+                                struct warning_results *results)
+{
+    bool done = true;
+    int happened = 0;
+    *results = (struct warning_results){0};
+    for (int k = 0; k < warnings->memories; k++)
+        happened += warnings->memory[k].count > 0.0;
+    if (!happened)
+        return NULL;
+    results->item = memory_allocate((size_t)happened * sizeof *results->item);
+    done = results->item != NULL;
+    for (int k = 0; k < warnings->memories && done; k++)
+        if (warnings->memory[k].count > 0.0)
+            done = add(warnings, simulation, k, results);
+    return done ? NULL : error_new(ERROR_SYSTEM, "out of memory for warnings");
+}
+
+void warning_results_free(struct warning_results *results)
+{
+    for (int i = 0; i < results->count; i++) {
+        free(results->item[i].name);
+        free(results->item[i].text);
+        free(results->item[i].expected);
+    }
+    free(results->item);
+    *results = (struct warning_results){0};
+}
+
+char *warnings_count_text(int count, int unexpected)
+{
+    if (!count)
+        return text_copy("");
+    const int known = count - unexpected;
+    return text_format("; %d warning%s%s", count, count == 1 ? "" : "s",
+                       !known           ? ""
+                       : known == count ? count == 1 ? ", expected" : ", all expected"
+                                        : ", some of them expected");
+}
