@@ -24,6 +24,7 @@ struct walk {
     const struct simulation_case *input;
     int body;
     struct lattice lattice;
+    struct range kept;      /* about an axis, the y between the mirrors that cut the body */
     int64_t site, end;      /* the next one to look at */
     struct lattice_row row; /* of the site; empty before the first */
     struct rival *rivals;   /* bodies whose bounds meet this one's, */
@@ -34,11 +35,31 @@ struct walk {
     struct vec3 conflict_place;
 };
 
+/* Where mirrors cut a body about an axis: the y that stays, infinite where none cuts it. A body wholly
+ * behind a mirror is not cut: that is a mistake. */
+static struct range kept_by_mirrors(const struct simulation_case *input, const struct bounds *shape)
+{
+    struct range kept = {-INFINITY, INFINITY};
+    for (int i = 0; i < input->walls.count && input->geometry == GEOMETRY_AXISYMMETRIC; i++) {
+        const struct wall_input *wall = case_wall(input, i);
+        if (wall->axis != 1 || !(wall->at > shape->low.y && wall->at < shape->high.y))
+            continue;
+        if (wall->side == WALL_LOW)
+            kept.low = maximum(kept.low, wall->at);
+        else
+            kept.high = minimum(kept.high, wall->at);
+    }
+    return kept;
+}
+
 struct bounds body_bounds(const struct simulation_case *input, int body)
 {
     struct bounds bounds = shape_bounds(&case_body(input, body)->shape);
     if (input->geometry == GEOMETRY_AXISYMMETRIC && bounds.high.x > 0.0)
         bounds.low.x = maximum(bounds.low.x, 0.0);
+    const struct range kept = kept_by_mirrors(input, &bounds);
+    bounds.low.y = maximum(bounds.low.y, kept.low);
+    bounds.high.y = minimum(bounds.high.y, kept.high);
     return bounds;
 }
 
@@ -82,6 +103,8 @@ static struct error *walk_begin(struct walk *walk, const struct overlaps *overla
                            "the lattice has %.3g sites, more than the %.3g that ids can tell "
                            "apart: choose a coarser resolution",
                            walk->lattice.sites, sites_limit);
+    const struct bounds bounds = shape_bounds(&case_body(input, body)->shape);
+    walk->kept = kept_by_mirrors(input, &bounds);
     const struct slice slice = ranks_slice(ranks, (int64_t)walk->lattice.sites);
     if (slice.end - slice.begin > sites_a_rank)
         return input_error(input, "bodies", input->bodies.names[body],
@@ -126,10 +149,14 @@ static bool site_dropped(struct walk *walk, struct vec3 place)
     return false;
 }
 
-/* Beyond the axis of symmetry, or on it, but for rounding: there is nothing of a body. */
-static bool site_beyond_axis(const struct simulation_case *input, struct vec3 place)
+/* Beyond the axis of symmetry or a mirror across it, or on one of them, but for rounding: there is
+ * nothing of a body. */
+static bool site_beyond_axis(const struct walk *walk, struct vec3 place)
 {
-    return input->geometry == GEOMETRY_AXISYMMETRIC && place.x <= 1e-9 * input->resolution;
+    const double margin = 1e-9 * walk->input->resolution;
+    return walk->input->geometry == GEOMETRY_AXISYMMETRIC &&
+           (place.x <= margin || place.y <= walk->kept.low + margin ||
+            place.y >= walk->kept.high - margin);
 }
 
 /* The next site that becomes a particle, and where; false behind the last. */
@@ -141,7 +168,7 @@ static bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place)
         if (*site >= walk->row.first + walk->row.sites)
             walk_to_row(walk, *site);
         *place = lattice_place(&walk->lattice, &walk->row, *site);
-        if (!site_beyond_axis(walk->input, *place) && shape_inside(shape, *place) &&
+        if (!site_beyond_axis(walk, *place) && shape_inside(shape, *place) &&
             !site_dropped(walk, *place))
             return true;
     }

@@ -20,7 +20,8 @@ struct body_summary {
                              fastest sound */
 };
 
-/* The bounds of BODY's shape; about an axis those of its part at x > 0, if it has one. */
+/* The bounds of BODY's shape; about an axis those of its part at x > 0, if it has one, between the mirrors
+ * on y that cut it. */
 struct bounds body_bounds(const struct simulation_case *input, int body);
 
 struct lattice body_lattice(const struct simulation_case *input, int body);

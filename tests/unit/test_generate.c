@@ -260,6 +260,56 @@ static void a_body_beyond_the_axis_is_told_to_move(void **state)
     assert_refused(&w, 1, "the whole body is at x < 0; move it to x > 0");
 }
 
+/* A low mirror, a high one, and both; lattices of lines and of rings. */
+static void a_ball_about_the_axis_is_cut_by_mirrors_too(void **state)
+{
+    (void)state;
+    const struct ranks alone = ranks_alone();
+    static const double mirrors[][2] = {
+        {0.0, INFINITY}, {-INFINITY, 0.0}, {-0.5, 0.5}, {0.123, INFINITY}};
+    for (int kind = LATTICE_SQUARE; kind <= LATTICE_RINGS; kind++)
+        for (size_t k = 0; k < COUNT_OF(mirrors); k++) {
+            struct workshop w;
+            struct simulation simulation;
+            struct shape_ball ball = {VECTOR(0.0, 0.0), 1.0};
+            struct lattice_rings rings = {.count = 0};
+            const double low = maximum(mirrors[k][0], -1.0), high = minimum(mirrors[k][1], 1.0);
+            open_workshop(&w, 2, 0.011);
+            w.input.geometry = GEOMETRY_AXISYMMETRIC;
+            struct body_input *body = add_body(&w, "ball", &ball);
+            body->start.density = 3.0;
+            body->lattice =
+                lattice_of((enum lattice_kind)kind, kind == LATTICE_RINGS ? &rings : NULL);
+            if (isfinite(mirrors[k][0]))
+                add_wall(&w, 1, WALL_LOW, low);
+            if (isfinite(mirrors[k][1]))
+                add_wall(&w, 1, WALL_HIGH, high);
+            assert_made(&w, &alone, &simulation);
+            const struct particles *p = particles_of(&simulation);
+            for (int i = 0; i < p->count; i++)
+                assert_true(p->position[i][1] > low && p->position[i][1] < high);
+            /* pi (1 - y^2) dy over 2 pi */
+            const double wanted =
+                3.0 * 0.5 * (high - low - (high * high * high - low * low * low) / 3.0);
+            const double mass =
+                population_totals(population_of_particles(p), &alone, -1).entry[LEDGER_MASS];
+            assert_float_equal(mass, wanted, 0.01 * wanted);
+            simulation_destroy(&simulation);
+        }
+}
+
+static void a_body_wholly_behind_a_mirror_stays_a_mistake(void **state)
+{
+    (void)state;
+    struct workshop w;
+    struct shape_box box = {VECTOR(0.0, -2.0), VECTOR(1.0, 0.0)};
+    open_workshop(&w, 2, 0.1);
+    w.input.geometry = GEOMETRY_AXISYMMETRIC;
+    add_body(&w, "box", &box);
+    add_wall(&w, 1, WALL_LOW, 0.0);
+    assert_refused(&w, 1, "lies behind wall \"floor\"");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -267,6 +317,8 @@ int main(void)
         cmocka_unit_test(a_bar_on_the_axis_is_cut_there_and_has_its_exact_mass),
         cmocka_unit_test(a_ring_lattice_is_cut_at_the_axis_too),
         cmocka_unit_test(a_body_beyond_the_axis_is_told_to_move),
+        cmocka_unit_test(a_ball_about_the_axis_is_cut_by_mirrors_too),
+        cmocka_unit_test(a_body_wholly_behind_a_mirror_stays_a_mistake),
         cmocka_unit_test(a_box_has_its_exact_mass_and_every_particle_its_start_state),
         cmocka_unit_test(the_spacing_is_adjusted_to_fill_the_bounds),
         cmocka_unit_test(a_grain_that_replaces_its_matrix_cuts_a_hole_of_its_own_form),
