@@ -81,6 +81,33 @@ double largest_diameter(const struct simulation_case *input)
     return largest;
 }
 
+/* Far from the origin doubles lie too far apart for the distances of neighbours, whose error is up to
+ * half a step of them: FINEST of the spacing at most. */
+static struct error *check_place(const struct simulation_case *input, int body,
+                                 const struct lattice *lattice)
+{
+    static const double FINEST = 1e-3;
+    const struct bounds bounds = body_bounds(input, body);
+    const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z};
+    const double high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
+    const double spacing[3] = {lattice->spacing.x, lattice->spacing.y, lattice->spacing.z};
+    assert(input->dimension <= 3);
+    for (int axis = 0; axis < input->dimension; axis++) {
+        const double far = maximum(fabs(low[axis]), fabs(high[axis]));
+        const double apart = nextafter(far, INFINITY) - far;
+        const double wanted = lattice->kind == LATTICE_RINGS ? lattice->arc : spacing[axis];
+        if (apart > FINEST * wanted)
+            return input_error(input, "bodies", input->bodies.names[body],
+                               "it lies at %c = %.3g m, where numbers are %.2g m apart, too far "
+                               "for particles %.3g m apart: move the case to within %.2g m of the "
+                               "origin",
+                               "xyz"[axis],
+                               fabs(low[axis]) > fabs(high[axis]) ? low[axis] : high[axis], apart,
+                               wanted, FINEST * wanted / 0x1p-52);
+    }
+    return NULL;
+}
+
 static void walk_end(struct walk *walk)
 {
     free(walk->rivals);
@@ -103,6 +130,7 @@ static struct error *walk_begin(struct walk *walk, const struct overlaps *overla
                            "the lattice has %.3g sites, more than the %.3g that ids can tell "
                            "apart: choose a coarser resolution",
                            walk->lattice.sites, sites_limit);
+    TRY(check_place(input, body, &walk->lattice));
     const struct bounds bounds = shape_bounds(&case_body(input, body)->shape);
     walk->kept = kept_by_mirrors(input, &bounds);
     const struct slice slice = ranks_slice(ranks, (int64_t)walk->lattice.sites);

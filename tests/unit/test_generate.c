@@ -175,6 +175,32 @@ static void a_lattice_beyond_the_ids_is_refused(void **state)
     assert_refused(&w, 1, "choose a coarser resolution");
 }
 
+/* Where the spacing survives the particles keep it; beyond that nothing is made. */
+static void a_body_too_far_from_the_origin_is_refused(void **state)
+{
+    (void)state;
+    static const double spacings[] = {1e-9, 1e-4, 0.1, 1e6};
+    const struct ranks alone = ranks_alone();
+    for (size_t k = 0; k < COUNT_OF(spacings); k++)
+        for (int axis = 0; axis < 2; axis++)
+            for (double sign = -1.0; sign <= 1.0; sign += 2.0) {
+                const double h = spacings[k];
+                double near = sign * 4e12 * h, far = sign * 1e13 * h;
+                struct shape_box box = {VECTOR(-h, -h), VECTOR(h, h)};
+                struct workshop w;
+                struct simulation simulation;
+                open_workshop(&w, 2, h);
+                add_body(&w, "box", &box);
+                box.from.at[axis] = near - 2.0 * h;
+                box.to.at[axis] = near + 2.0 * h;
+                assert_made(&w, &alone, &simulation);
+                simulation_destroy(&simulation);
+                box.from.at[axis] = far - 2.0 * h;
+                box.to.at[axis] = far + 2.0 * h;
+                assert_refused(&w, 1, "move the case to within");
+            }
+}
+
 static void the_slices_of_three_ranks_make_the_particles_of_one(void **state)
 {
     (void)state;
@@ -317,6 +343,7 @@ int main(void)
         cmocka_unit_test(a_bar_on_the_axis_is_cut_there_and_has_its_exact_mass),
         cmocka_unit_test(a_ring_lattice_is_cut_at_the_axis_too),
         cmocka_unit_test(a_body_beyond_the_axis_is_told_to_move),
+        cmocka_unit_test(a_body_too_far_from_the_origin_is_refused),
         cmocka_unit_test(a_ball_about_the_axis_is_cut_by_mirrors_too),
         cmocka_unit_test(a_body_wholly_behind_a_mirror_stays_a_mistake),
         cmocka_unit_test(a_box_has_its_exact_mass_and_every_particle_its_start_state),
