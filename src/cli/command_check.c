@@ -114,6 +114,17 @@ static void print_warnings(const struct simulation_case *input, const struct est
     error_free(warnings);
 }
 
+/* Before a silence. */
+static void print_work(const struct simulation_case *input)
+{
+    const struct ranks alone = ranks_alone();
+    const double work = generate_work(input, &alone);
+    if (work <= GENERATE_LONG || work > GENERATE_MOST)
+        return;
+    printf("%s: counting particles, which may take minutes\n", input->name);
+    fflush(stdout);
+}
+
 /* The case at PATH, or the run RUN of its sweep; *runs is how many there are. */
 static struct error *check_run(const char *path, const struct cli_options *options, int run,
                                int *runs)
@@ -128,6 +139,7 @@ static struct error *check_run(const char *path, const struct cli_options *optio
         return NULL;
     }
     char *name = run ? sweep_run_name(input->sweep, input->sweep_values) : NULL;
+    print_work(input);
     struct error *error = estimate_run(input, threads, &estimate);
     if (!error) {
         printf("%s%s%s%s%s: %s (%lld-D, %s)\n", colour(COLOUR_STRONG), input->name, name ? "/" : "",

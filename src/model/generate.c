@@ -385,11 +385,52 @@ static struct error *judge_body(const struct simulation_case *input, int body,
     return error;
 }
 
+/* A site itself takes as long as a few simple shapes. What walk_begin refuses counts as nothing. */
+static double work_of_body(const struct simulation_case *input, int body, const struct ranks *ranks)
+{
+    static const double work_a_site = 4.0;
+    const double sites = body_lattice(input, body).sites;
+    if (!(sites < sites_limit))
+        return 0.0;
+    return ceil(sites / ranks->size) * (work_a_site + shape_work(&case_body(input, body)->shape));
+}
+
+double generate_work(const struct simulation_case *input, const struct ranks *ranks)
+{
+    double work = 0.0;
+    for (int body = 0; body < input->bodies.count; body++)
+        work += work_of_body(input, body, ranks);
+    return work;
+}
+
+/* ERROR_INPUT for the body with the most of it when there is more work than a rank does in some
+ * minutes. */
+static struct error *check_work(const struct simulation_case *input, const struct ranks *ranks)
+{
+    const double all = generate_work(input, ranks);
+    double most = 0.0;
+    int worst = 0;
+    if (all <= GENERATE_MOST)
+        return NULL;
+    for (int body = 0; body < input->bodies.count; body++) {
+        const double work = work_of_body(input, body, ranks);
+        worst = work > most ? body : worst;
+        most = maximum(work, most);
+    }
+    return input_error(input, "bodies", input->bodies.names[worst],
+                       "its %.2g sites, at each of which up to %.2g shapes are asked, take too "
+                       "long to count: choose a coarser resolution, fewer copies that overlap, or "
+                       "bodies in place of the shapes of a union",
+                       body_lattice(input, worst).sites,
+                       shape_work(&case_body(input, worst)->shape));
+}
+
 /* Collective: walks over all bodies; FINDINGS has an entry for each. */
 static struct error *explore(const struct simulation_case *input, const struct ranks *ranks,
                              struct finding *findings)
 {
     struct overlaps overlaps;
+    TRY(check_work(input, ranks)); /* the same on all ranks */
     struct error *error = overlaps_make(input, &overlaps);
     const bool ready = !error;
     int64_t total = 0;

@@ -43,6 +43,13 @@ struct error *particles_fill(void *solver, struct simulation *simulation);
  * thickness. NULL, or messages to show, each located as an error would be. */
 struct error *generate_warnings(const struct simulation_case *input);
 
+/* About how many simple shapes a rank has to ask to count the particles of INPUT, where a site
+ * counts as a few. More than GENERATE_LONG take a minute, which should be announced; more than
+ * GENERATE_MOST are refused. */
+double generate_work(const struct simulation_case *input, const struct ranks *ranks);
+#define GENERATE_LONG 0x1p31
+#define GENERATE_MOST 0x1p36
+
 /* Counts without making: SUMMARY has an entry for each body. */
 struct error *generate_summary(const struct simulation_case *input, struct body_summary *summary);
 

@@ -168,6 +168,8 @@ static struct error *make_solver(struct run *run)
 /* The particles, fresh or loaded. */
 static struct error *make_particles(struct run *run)
 {
+    if (!run->options->resume && generate_work(run->input, &run->ranks) > GENERATE_LONG)
+        run_say(run, "making particles, which may take minutes");
     TRY(run->options->resume ? run_load(run) : run->method->fill(run->solver, &run->simulation));
     if (run->ranks.joined)
         TRY(run->simulation.members->distribute(run->simulation.store));

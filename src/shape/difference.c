@@ -40,4 +40,9 @@ static bool radii(const void *shape, struct radii *radii)
     return shape_radii(&((const struct shape_difference *)shape)->shapes.items[0], radii);
 }
 
-const struct shape_class shape_difference_class = {inside, bounds, wrong, radii};
+static double work(const void *shape)
+{
+    return shapes_work(&((const struct shape_difference *)shape)->shapes);
+}
+
+const struct shape_class shape_difference_class = {inside, bounds, wrong, radii, work};

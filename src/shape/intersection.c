@@ -47,4 +47,9 @@ static bool radii(const void *shape, struct radii *radii)
     return shape_radii(&((const struct shape_intersection *)shape)->shapes.items[0], radii);
 }
 
-const struct shape_class shape_intersection_class = {inside, bounds, wrong, radii};
+static double work(const void *shape)
+{
+    return shapes_work(&((const struct shape_intersection *)shape)->shapes);
+}
+
+const struct shape_class shape_intersection_class = {inside, bounds, wrong, radii, work};

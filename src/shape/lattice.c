@@ -17,7 +17,7 @@ static const struct parameter rings_table[] = {
      .kind = PARAMETER_INTEGER,
      .offset = offsetof(struct lattice_rings, count),
      .standard = "0",
-     .below = INFINITY,
+     .below = 1e6,
      .closed = true,
      .help = "particles in every ring, all of equal mass; 0: as many as the resolution asks for, "
              "more in wider rings"},

@@ -121,4 +121,19 @@ static const char *wrong(const void *shape, int dimension)
     return bounds_finite(&one) ? NULL : "a shape without end cannot be repeated";
 }
 
-const struct shape_class shape_repeat_class = {inside, bounds, wrong, NULL};
+/* As many copies as may lie over one another at a place. */
+static double work(const void *shape)
+{
+    const struct shape_repeat *repeat = shape;
+    const struct bounds one = shape_bounds(&repeat->shape);
+    const double extent[3] = {one.high.x - one.low.x, one.high.y - one.low.y,
+                              one.high.z - one.low.z};
+    double copies = 1.0;
+    for (int axis = 0; axis < 3; axis++)
+        if (repeat->count.at[axis] > 1.0)
+            copies *=
+                minimum(repeat->count.at[axis], floor(extent[axis] / repeat->step.at[axis]) + 1.0);
+    return copies * shape_work(&repeat->shape);
+}
+
+const struct shape_class shape_repeat_class = {inside, bounds, wrong, NULL, work};

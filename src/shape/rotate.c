@@ -94,4 +94,9 @@ static const char *wrong(const void *shape, int dimension)
     return shape_wrong(&rotate->shape, dimension);
 }
 
-const struct shape_class shape_rotate_class = {inside, bounds, wrong, NULL};
+static double work(const void *shape)
+{
+    return shape_work(&((const struct shape_rotate *)shape)->shape);
+}
+
+const struct shape_class shape_rotate_class = {inside, bounds, wrong, NULL, work};

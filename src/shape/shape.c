@@ -36,6 +36,20 @@ bool shape_radii(const struct one_of *shape, struct radii *radii)
     return class->radii && class->radii(shape->value, radii);
 }
 
+double shape_work(const struct one_of *shape)
+{
+    const struct shape_class *class = class_of(shape);
+    return class->work ? class->work(shape->value) : 1.0;
+}
+
+double shapes_work(const struct one_of_list *shapes)
+{
+    double work = 0.0;
+    for (int i = 0; i < shapes->count; i++)
+        work += shape_work(&shapes->items[i]);
+    return work;
+}
+
 const char *shapes_wrong(const struct one_of_list *shapes, int dimension)
 {
     const char *text = NULL;

@@ -24,6 +24,8 @@ struct shape_class {
     const char *(*wrong)(const void *shape, int dimension);
     /* Fills *radii; false, or NULL instead of a function, when the shape is not round. */
     bool (*radii)(const void *shape, struct radii *radii);
+    /* How many simple shapes a single question may ask, at most; NULL: one. */
+    double (*work)(const void *shape);
 };
 
 extern const struct choice shape_choices[];
@@ -33,6 +35,10 @@ bool shape_inside(const struct one_of *shape, struct vec3 point);
 struct bounds shape_bounds(const struct one_of *shape);
 const char *shape_wrong(const struct one_of *shape, int dimension);
 bool shape_radii(const struct one_of *shape, struct radii *radii);
+
+double shape_work(const struct one_of *shape);
+/* The sum of those of a list. */
+double shapes_work(const struct one_of_list *shapes);
 
 /* The first mistake of a list of shapes, NULL when there is none. */
 const char *shapes_wrong(const struct one_of_list *shapes, int dimension);

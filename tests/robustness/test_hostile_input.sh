@@ -93,4 +93,13 @@ for command in check run; do
 done
 refuse 10 "more sites than ids" "$BOLIDE" check plate.yaml --set dimension=2 --set 'bodies={
     disc: {material: aluminium, ball: {center: [0, 0], radius: 5 mm}, lattice: {rings: {count: 1}}, resolution: 1 nm}}'
+refuse 10 "take too long to count" "$BOLIDE" check plate.yaml --set dimension=2 --set 'resolution=0.1 mm' --set 'bodies={b: {
+    material: aluminium, repeat: {count: [300, 300], step: [0.01 mm, 0.01 mm], shape: {repeat: {count: [300, 300],
+    step: [0.01 mm, 0.01 mm], shape: {ball: {center: [0, 0], radius: 3 mm}}}}}}}'
+refuse 10 "out of range: 0 to 1e+06 is wanted" "$BOLIDE" check plate.yaml --set dimension=2 --set 'bodies={
+    disc: {material: aluminium, ball: {center: [0, 0], radius: 5 mm}, lattice: {rings: {count: 2147483647}}}}'
+refuse 10 "move the case to within" "$BOLIDE" check plate.yaml --set 'bodies={
+    far: {material: aluminium, box: {from: [1e12 m], to: [1e12 m + 8 mm]}}}'
+said=$("$BOLIDE" check plate.yaml --set 'resolution=1e-11 m' 2>&1 & sleep 1; kill $! 2>/dev/null)
+[[ $said == *"counting particles, which may take minutes"* ]] || fail "a long count is not announced: $said"
 exit $status

@@ -175,6 +175,29 @@ static void a_lattice_beyond_the_ids_is_refused(void **state)
     assert_refused(&w, 1, "choose a coarser resolution");
 }
 
+/* Copies that lie over one another, in a repetition of a repetition; and too many sites. */
+static void what_takes_too_long_to_count_is_refused(void **state)
+{
+    (void)state;
+    struct workshop w;
+    const struct ranks alone = ranks_alone();
+    struct shape_ball ball = {VECTOR(0.0, 0.0), 3.0};
+    struct shape_repeat inner = {shape_of("ball", &ball), VECTOR(300.0, 300.0), VECTOR(0.01, 0.01),
+                                 0};
+    struct shape_repeat outer = {shape_of("repeat", &inner), VECTOR(300.0, 300.0),
+                                 VECTOR(0.01, 0.01), 0};
+    struct shape_box box = {VECTOR(0.0, 0.0), VECTOR(1.0, 1.0)};
+    open_workshop(&w, 2, 0.1);
+    add_body(&w, "repeat", &outer);
+    assert_true(generate_work(&w.input, &alone) > GENERATE_MOST);
+    assert_refused(&w, 1, "bodies.matrix: its 1.4e+04 sites, at each of which up to 8.1e+09");
+    inner.count = outer.count = (struct vector_value)VECTOR(3.0, 3.0);
+    assert_true(generate_work(&w.input, &alone) < GENERATE_LONG);
+    open_workshop(&w, 2, 5e-6);
+    add_body(&w, "box", &box);
+    assert_refused(&w, 1, "take too long to count: choose a coarser resolution");
+}
+
 /* Where the spacing survives the particles keep it; beyond that nothing is made. */
 static void a_body_too_far_from_the_origin_is_refused(void **state)
 {
@@ -343,6 +366,7 @@ int main(void)
         cmocka_unit_test(a_bar_on_the_axis_is_cut_there_and_has_its_exact_mass),
         cmocka_unit_test(a_ring_lattice_is_cut_at_the_axis_too),
         cmocka_unit_test(a_body_beyond_the_axis_is_told_to_move),
+        cmocka_unit_test(what_takes_too_long_to_count_is_refused),
         cmocka_unit_test(a_body_too_far_from_the_origin_is_refused),
         cmocka_unit_test(a_ball_about_the_axis_is_cut_by_mirrors_too),
         cmocka_unit_test(a_body_wholly_behind_a_mirror_stays_a_mistake),
