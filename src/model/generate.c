@@ -1,5 +1,5 @@
-/* From bodies to particles. A lattice is walked site by site and never held in memory: once to count
- * what stays and to find mistakes, once more to make it.
+/* From bodies to particles. A lattice is walked twice (walk.h): once to count what stays and to find
+ * mistakes, once more to make it.
  * Particle mass and diameter: Parshikov (2013), (1.69). */
 #include "model/generate.h"
 
@@ -11,197 +11,7 @@
 #include "case/internal.h"
 #include "material/any.h"
 #include "material/material.h"
-#include "model/overlap.h"
-
-/* An id keeps the index of a site in 48 bits. */
-static const double sites_limit = 281474976710656.0;
-
-/* More than a rank can hold particles, and as many as it looks through in a minute. */
-static const int64_t sites_a_rank = INT64_C(1) << 32;
-
-/* A walk over the sites of one body that become particles. */
-struct walk {
-    const struct simulation_case *input;
-    int body;
-    struct lattice lattice;
-    struct range kept;      /* about an axis, the y between the mirrors that cut the body */
-    int64_t site, end;      /* the next one to look at */
-    struct lattice_row row; /* of the site; empty before the first */
-    struct rival *rivals;   /* bodies whose bounds meet this one's, */
-    int rival_count;
-    int *near; /* and those among them that meet the row */
-    int near_count;
-    int conflict; /* a body that overlaps by mistake, -1: none found yet */
-    struct vec3 conflict_place;
-};
-
-/* Where mirrors cut a body about an axis: the y that stays, infinite where none cuts it. A body wholly
- * behind a mirror is not cut: that is a mistake. */
-static struct range kept_by_mirrors(const struct simulation_case *input, const struct bounds *shape)
-{
-    struct range kept = {-INFINITY, INFINITY};
-    for (int i = 0; i < input->walls.count && input->geometry == GEOMETRY_AXISYMMETRIC; i++) {
-        const struct wall_input *wall = case_wall(input, i);
-        if (wall->axis != 1 || !(wall->at > shape->low.y && wall->at < shape->high.y))
-            continue;
-        if (wall->side == WALL_LOW)
-            kept.low = maximum(kept.low, wall->at);
-        else
-            kept.high = minimum(kept.high, wall->at);
-    }
-    return kept;
-}
-
-struct bounds body_bounds(const struct simulation_case *input, int body)
-{
-    struct bounds bounds = shape_bounds(&case_body(input, body)->shape);
-    if (input->geometry == GEOMETRY_AXISYMMETRIC && bounds.high.x > 0.0)
-        bounds.low.x = maximum(bounds.low.x, 0.0);
-    const struct range kept = kept_by_mirrors(input, &bounds);
-    bounds.low.y = maximum(bounds.low.y, kept.low);
-    bounds.high.y = minimum(bounds.high.y, kept.high);
-    return bounds;
-}
-
-struct lattice body_lattice(const struct simulation_case *input, int body)
-{
-    const struct body_input *of = case_body(input, body);
-    const double resolution = isnan(of->resolution) ? input->resolution : of->resolution;
-    return lattice_make(&of->lattice, &of->shape, body_bounds(input, body), resolution,
-                        (int)input->dimension);
-}
-
-double largest_diameter(const struct simulation_case *input)
-{
-    double largest = 0.0;
-    for (int body = 0; body < input->bodies.count; body++) {
-        const double volume = body_lattice(input, body).volume;
-        largest = maximum(largest, diameter_of_volume(volume, input->dimension));
-    }
-    return largest;
-}
-
-/* Far from the origin doubles lie too far apart for the distances of neighbours, whose error is up to
- * half a step of them: FINEST of the spacing at most. */
-static struct error *check_place(const struct simulation_case *input, int body,
-                                 const struct lattice *lattice)
-{
-    static const double FINEST = 1e-3;
-    const struct bounds bounds = body_bounds(input, body);
-    const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z};
-    const double high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
-    const double spacing[3] = {lattice->spacing.x, lattice->spacing.y, lattice->spacing.z};
-    assert(input->dimension <= 3);
-    for (int axis = 0; axis < input->dimension; axis++) {
-        const double far = maximum(fabs(low[axis]), fabs(high[axis]));
-        const double apart = nextafter(far, INFINITY) - far;
-        const double wanted = lattice->kind == LATTICE_RINGS ? lattice->arc : spacing[axis];
-        if (apart > FINEST * wanted)
-            return input_error(input, "bodies", input->bodies.names[body],
-                               "it lies at %c = %.3g m, where numbers are %.2g m apart, too far "
-                               "for particles %.3g m apart: move the case to within %.2g m of the "
-                               "origin",
-                               "xyz"[axis],
-                               fabs(low[axis]) > fabs(high[axis]) ? low[axis] : high[axis], apart,
-                               wanted, FINEST * wanted / 0x1p-52);
-    }
-    return NULL;
-}
-
-static void walk_end(struct walk *walk)
-{
-    free(walk->rivals);
-    free(walk->near);
-}
-
-/* Begins a walk over the part of BODY's lattice that falls to this rank; walk_end in any case. */
-static struct error *walk_begin(struct walk *walk, const struct overlaps *overlaps, int body,
-                                const struct ranks *ranks)
-{
-    const struct simulation_case *input = overlaps->input;
-    *walk = (struct walk){
-        .input = input, .body = body, .lattice = body_lattice(input, body), .conflict = -1};
-    if (isinf(walk->lattice.sites))
-        return input_error(input, "bodies", input->bodies.names[body],
-                           "the lattice has more sites than ids can tell apart: choose a coarser "
-                           "resolution");
-    if (walk->lattice.sites >= sites_limit)
-        return input_error(input, "bodies", input->bodies.names[body],
-                           "the lattice has %.3g sites, more than the %.3g that ids can tell "
-                           "apart: choose a coarser resolution",
-                           walk->lattice.sites, sites_limit);
-    TRY(check_place(input, body, &walk->lattice));
-    const struct bounds bounds = shape_bounds(&case_body(input, body)->shape);
-    walk->kept = kept_by_mirrors(input, &bounds);
-    const struct slice slice = ranks_slice(ranks, (int64_t)walk->lattice.sites);
-    if (slice.end - slice.begin > sites_a_rank)
-        return input_error(input, "bodies", input->bodies.names[body],
-                           "the lattice has %.3g sites, too many to look at: choose a coarser "
-                           "resolution",
-                           walk->lattice.sites);
-    walk->site = slice.begin;
-    walk->end = slice.end;
-
-    TRY(overlaps_rivals(overlaps, body, &walk->rivals, &walk->rival_count));
-    walk->near = memory_allocate(((size_t)walk->rival_count + 1) * sizeof *walk->near);
-    return walk->near ? NULL : error_new(ERROR_SYSTEM, "out of memory");
-}
-
-/* A matrix may hold thousands of grains: a row of sites tests only those that it meets. */
-static void walk_to_row(struct walk *walk, int64_t site)
-{
-    const struct lattice_row *row = &walk->row;
-    walk->row = row->sites > 0 && site == row->first + row->sites
-                    ? lattice_row_after(&walk->lattice, row)
-                    : lattice_row_of(&walk->lattice, site);
-    walk->near_count = 0;
-    for (int i = 0; i < walk->rival_count; i++)
-        if (bounds_meet(&walk->rivals[i].bounds, &walk->row.bounds))
-            walk->near[walk->near_count++] = i;
-}
-
-static bool site_dropped(struct walk *walk, struct vec3 place)
-{
-    for (int i = 0; i < walk->near_count; i++) {
-        const struct rival *rival = &walk->rivals[walk->near[i]];
-        if (place.x < rival->bounds.low.x || place.x > rival->bounds.high.x ||
-            !shape_inside(&case_body(walk->input, rival->body)->shape, place))
-            continue;
-        if (rival->overlap == OVERLAP_DROP)
-            return true;
-        if (walk->conflict < 0) {
-            walk->conflict = rival->body;
-            walk->conflict_place = place;
-        }
-    }
-    return false;
-}
-
-/* Beyond the axis of symmetry or a mirror across it, or on one of them, but for rounding: there is
- * nothing of a body. */
-static bool site_beyond_axis(const struct walk *walk, struct vec3 place)
-{
-    const double margin = 1e-9 * walk->input->resolution;
-    return walk->input->geometry == GEOMETRY_AXISYMMETRIC &&
-           (place.x <= margin || place.y <= walk->kept.low + margin ||
-            place.y >= walk->kept.high - margin);
-}
-
-/* The next site that becomes a particle, and where; false behind the last. */
-static bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place)
-{
-    const struct one_of *shape = &case_body(walk->input, walk->body)->shape;
-    while (walk->site < walk->end) {
-        *site = walk->site++;
-        if (*site >= walk->row.first + walk->row.sites)
-            walk_to_row(walk, *site);
-        *place = lattice_place(&walk->lattice, &walk->row, *site);
-        if (!site_beyond_axis(walk, *place) && shape_inside(shape, *place) &&
-            !site_dropped(walk, *place))
-            return true;
-    }
-    return false;
-}
+#include "model/walk.h"
 
 /* A place as the case writes it, in as many numbers as it has dimensions. */
 enum { PLACE_TEXT = 80 };
@@ -385,52 +195,12 @@ static struct error *judge_body(const struct simulation_case *input, int body,
     return error;
 }
 
-/* A site itself takes as long as a few simple shapes. What walk_begin refuses counts as nothing. */
-static double work_of_body(const struct simulation_case *input, int body, const struct ranks *ranks)
-{
-    static const double work_a_site = 4.0;
-    const double sites = body_lattice(input, body).sites;
-    if (!(sites < sites_limit))
-        return 0.0;
-    return ceil(sites / ranks->size) * (work_a_site + shape_work(&case_body(input, body)->shape));
-}
-
-double generate_work(const struct simulation_case *input, const struct ranks *ranks)
-{
-    double work = 0.0;
-    for (int body = 0; body < input->bodies.count; body++)
-        work += work_of_body(input, body, ranks);
-    return work;
-}
-
-/* ERROR_INPUT for the body with the most of it when there is more work than a rank does in some
- * minutes. */
-static struct error *check_work(const struct simulation_case *input, const struct ranks *ranks)
-{
-    const double all = generate_work(input, ranks);
-    double most = 0.0;
-    int worst = 0;
-    if (all <= GENERATE_MOST)
-        return NULL;
-    for (int body = 0; body < input->bodies.count; body++) {
-        const double work = work_of_body(input, body, ranks);
-        worst = work > most ? body : worst;
-        most = maximum(work, most);
-    }
-    return input_error(input, "bodies", input->bodies.names[worst],
-                       "its %.2g sites, at each of which up to %.2g shapes are asked, take too "
-                       "long to count: choose a coarser resolution, fewer copies that overlap, or "
-                       "bodies in place of the shapes of a union",
-                       body_lattice(input, worst).sites,
-                       shape_work(&case_body(input, worst)->shape));
-}
-
 /* Collective: walks over all bodies; FINDINGS has an entry for each. */
 static struct error *explore(const struct simulation_case *input, const struct ranks *ranks,
                              struct finding *findings)
 {
     struct overlaps overlaps;
-    TRY(check_work(input, ranks)); /* the same on all ranks */
+    TRY(walk_check_work(input, ranks)); /* the same on all ranks */
     struct error *error = overlaps_make(input, &overlaps);
     const bool ready = !error;
     int64_t total = 0;
