@@ -109,6 +109,7 @@ static struct error *check_extra(const struct run *run)
         run->history_due < 0 || run->snapshots_due < 0 || run->collapsed_steps < 0)
         return error_new(ERROR_SYSTEM, "a number of the group run does not fit step %lld",
                          (long long)steps);
+    TRY(warnings_check_loaded(run->warnings, run->input->bodies.count));
     return probes_check_loaded(&run->probes, steps);
 }
 

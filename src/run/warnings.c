@@ -348,6 +348,17 @@ struct error *warnings_watch(struct warnings *w, const struct simulation *simula
     return error;
 }
 
+struct error *warnings_check_loaded(const struct warnings *warnings, int bodies)
+{
+    for (int i = 0; i < warnings->memories; i++)
+        if (!(warnings->memory[i].body >= 0.0 && warnings->memory[i].body < bodies))
+            return error_new(ERROR_SYSTEM,
+                             "row %d of run/warnings is of body %g, where the case has "
+                             "%d of them",
+                             i, warnings->memory[i].body, bodies);
+    return NULL;
+}
+
 struct error *warnings_visit(struct warnings *warnings, struct visitor *visitor)
 {
     TRY(visitor->visit(visitor, "run/warnings", NUMBER_DOUBLE, warnings->memory, warnings->memories,

@@ -73,5 +73,7 @@ char *warnings_count_text(int count, int unexpected);
 
 /* Saves or loads what happened so far. */
 struct error *warnings_visit(struct warnings *warnings, struct visitor *visitor);
+/* ERROR_SYSTEM when what was loaded names a body that is none of BODIES. */
+struct error *warnings_check_loaded(const struct warnings *warnings, int bodies);
 
 #endif
