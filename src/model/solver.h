@@ -49,6 +49,9 @@ struct solver_class {
     /* The jump of velocity over the speed of sound up to which its contact problem holds; NULL
      * where that has no bound. */
     double (*largest_jump)(const void *parameters);
+    /* Why the total energy may drift, and what helps, as sentences; NULL, or NULL from it, where it is
+     * conserved. */
+    const char *(*energy_lost)(const void *parameters);
     /* Every field that it may add to the store: tables of rows, NULL after the last table. */
     const struct field_row *const *fields;
 };

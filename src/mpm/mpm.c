@@ -203,6 +203,13 @@ static double mpm_step(const void *parameters, int dimension, const struct mater
 
 static const struct field_row *const field_tables[] = {field_rows, NULL};
 
+static const char *mpm_energy_lost(const void *parameters)
+{
+    (void)parameters;
+    return "where bodies strike or shocks pass, nodes of the grid equalise the velocities of "
+           "particles and that energy is lost: finer particles lose less";
+}
+
 const struct solver_class mpm_class = {.size = sizeof(struct mpm),
                                        .create = mpm_create,
                                        .fill = particles_fill,
@@ -214,4 +221,5 @@ const struct solver_class mpm_class = {.size = sizeof(struct mpm),
                                        .destroy = mpm_destroy,
                                        .bytes = mpm_bytes,
                                        .step = mpm_step,
+                                       .energy_lost = mpm_energy_lost,
                                        .fields = field_tables};

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "material/material.h"
+#include "model/solver.h"
 #include "output/report.h"
 #include "run/warnings_internal.h"
 
@@ -86,18 +87,19 @@ static const char *advice_of(const struct simulation *simulation, int index, enu
                : "no shock compresses a solid that far";
 }
 
-static char *energy_text(const struct warning_memory *memory)
+/* Why energy is lost is the solver's to say. */
+static char *energy_text(const struct warning_memory *memory, const struct simulation_case *input)
 {
+    const struct solver_class *solver = input->solver.choice->thing;
+    const char *why = solver->energy_lost ? solver->energy_lost(input->solver.value) : NULL;
     char later[64] = "";
     if (memory->worst > memory->value)
         snprintf(later, sizeof later, ", later by %.2g", memory->worst);
     return text_format(
         "energy: the total energy has drifted by %.2g of the largest energy of the case, first "
-        "seen "
-        "at step %.0f, t = %.6g s%s. Where bodies strike or shocks pass, nodes of a grid equalise "
-        "the velocities of particles and that energy is lost: finer particles lose less. `run: "
-        "{energy_drift: 5 %%}` makes this an error, `energy_drift: 0` silences it",
-        memory->value, memory->step, memory->time, later);
+        "seen at step %.0f, t = %.6g s%s%s%s; `run: {energy_drift: 5 %%}` makes this an error, "
+        "`energy_drift: 0` silences it",
+        memory->value, memory->step, memory->time, later, why ? "; " : "", why ? why : "");
 }
 
 char *warning_text(const struct warnings *warnings, const struct simulation *simulation, int index)
@@ -106,7 +108,7 @@ char *warning_text(const struct warnings *warnings, const struct simulation *sim
     const enum warning_kind kind = kind_of(warnings, index);
     char value[48], worst[48], time[48], later[128] = "", limit[160];
     if (kind == WARNING_ENERGY)
-        return energy_text(memory);
+        return energy_text(memory, simulation->input);
     readable(kinds[kind].sign * memory->value, kinds[kind].unit, value, sizeof value);
     put_limit(warnings, simulation, index, memory->limit, limit, sizeof limit);
     if (memory->worst > memory->value) {

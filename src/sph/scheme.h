@@ -86,6 +86,15 @@ BOLIDE_INLINE unsigned sph_traits_of(int motion, int energy)
            (energy == SPH_ENERGY_TOTAL ? SPH_TOTAL_ENERGY : 0u);
 }
 
+/* As in solver_class. */
+BOLIDE_INLINE const char *sph_energy_lost_by(int energy)
+{
+    return energy == SPH_ENERGY_INTERNAL
+               ? "`energy: internal` adds up the internal energy alone, and its error is that of "
+                 "the step: `energy: total` conserves the sum"
+               : NULL;
+}
+
 struct sph;
 
 /* The mistake at option KEY of the scheme that SPH has. */
@@ -116,8 +125,10 @@ struct sph_scheme {
     /* The traits that OPTIONS bring; the doubles of a record of a solid, for `bolide check`. */
     unsigned (*traits)(const void *options, int dimension);
     size_t (*stride)(const void *options, int dimension);
-    double (*largest_jump)(const void *options); /* as in solver_class; may be NULL */
-    bool wide_step;                              /* dt = K h/C in place of K D/C */
+    /* As in solver_class; may be NULL. */
+    double (*largest_jump)(const void *options);
+    const char *(*energy_lost)(const void *options);
+    bool wide_step; /* dt = K h/C in place of K D/C */
 };
 
 struct sph {

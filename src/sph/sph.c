@@ -283,6 +283,13 @@ static double sph_largest_jump(const void *parameters)
     return scheme->largest_jump ? scheme->largest_jump(all->method.value) : INFINITY;
 }
 
+static const char *sph_energy_lost(const void *parameters)
+{
+    const struct sph_parameters *all = parameters;
+    const struct sph_scheme *scheme = all->method.choice->thing;
+    return scheme->energy_lost ? scheme->energy_lost(all->method.value) : NULL;
+}
+
 const struct solver_class sph_class = {.size = sizeof(struct sph),
                                        .create = sph_create,
                                        .fill = particles_fill,
@@ -295,4 +302,5 @@ const struct solver_class sph_class = {.size = sizeof(struct sph),
                                        .bytes = sph_bytes,
                                        .step = sph_step,
                                        .largest_jump = sph_largest_jump,
+                                       .energy_lost = sph_energy_lost,
                                        .fields = sph_field_tables};

@@ -130,6 +130,7 @@ static const struct solver_class flight_class = {sizeof(struct flight_parameters
                                                  flight_bytes,
                                                  flight_step,
                                                  NULL,
+                                                 NULL,
                                                  NULL};
 
 static const struct choice flight_choice = {"flight", "free flight", flight_table,
@@ -591,7 +592,43 @@ static void energy_that_drifts_is_a_warning_where_no_limit_is_given(void **state
     first = strstr(first + 1, "warning: energy: "); /* once, and again at the end */
     assert_non_null(first);
     assert_null(strstr(first + 1, "warning: energy: "));
+    assert_null(strstr(log, "grid")); /* of a solver that has none */
     free(log);
+}
+
+/* What a solver says of a drift of its energy, under SETTING. */
+static const char *energy_lost_with(const char *setting)
+{
+    const char *const settings[] = {setting, NULL};
+    struct simulation_case *input = read_text(shock_text, settings);
+    const struct solver_class *solver = input->solver.choice->thing;
+    const char *why = solver->energy_lost ? solver->energy_lost(input->solver.value) : NULL;
+    case_free(input);
+    return why;
+}
+
+static void every_solver_explains_a_drift_of_its_own_energy(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {"solver=mpm", "nodes of the grid"},
+        {"solver={sph: {method: hllc}}", "`correction: own`"},
+        {"solver={sph: {method: {hllc: {correction: symmetric}}}}", "error of the step"},
+        {"solver={sph: {method: monaghan}}", "`correction: own`"},
+        {"solver={sph: {method: {monaghan: {correction: symmetric}}}}", "error of the step"},
+        {"solver={sph: {method: {muscl: {energy: internal}}}}", "`energy: total` conserves"},
+        {"solver={sph: {method: {contact: {energy: internal}}}}", "`energy: total` conserves"},
+        {"solver={sph: {method: {standard: {energy: internal}}}}", "`energy: total` conserves"}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        const char *why = energy_lost_with(cases[i][0]);
+        assert_non_null(why);
+        if (!strstr(why, cases[i][1]) || (i > 0 && strstr(why, "grid")))
+            fail_msg("%s: %s", cases[i][0], why);
+    }
+    static const char *const conserving[] = {"solver=sph", "solver={sph: {method: contact}}",
+                                             "solver={sph: {method: standard}}"};
+    for (size_t i = 0; i < COUNT_OF(conserving); i++)
+        assert_null(energy_lost_with(conserving[i]));
 }
 
 /* A solid that springs from rest has next to no energy in its first steps. */
@@ -729,6 +766,7 @@ int main(void)
         cmocka_unit_test(an_impossible_state_leaves_a_snapshot_of_its_moment),
         cmocka_unit_test(energy_from_nowhere_stops_a_run),
         cmocka_unit_test(energy_that_drifts_is_a_warning_where_no_limit_is_given),
+        cmocka_unit_test(every_solver_explains_a_drift_of_its_own_energy),
         cmocka_unit_test(a_start_from_rest_does_not_stop_a_run),
         cmocka_unit_test(a_mistake_in_a_check_is_told_before_the_first_step),
         cmocka_unit_test(a_picture_that_cannot_be_is_told_before_anything_is_written),

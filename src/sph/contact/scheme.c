@@ -157,6 +157,11 @@ static double largest_jump(const void *of)
 
 static const struct field_row no_rows[] = {FIELD_ROWS_END};
 
+static const char *energy_lost(const void *options)
+{
+    return sph_energy_lost_by(((const struct contact_options *)options)->energy);
+}
+
 const struct sph_scheme contact_scheme = {.name = "contact",
                                           .smoothing = {1.0, 1.0, 1.0},
                                           .courant = 0.4,
@@ -165,6 +170,7 @@ const struct sph_scheme contact_scheme = {.name = "contact",
                                           .state_size = sizeof(struct contact_state),
                                           .rows = no_rows,
                                           .traits = traits_of,
+                                          .energy_lost = energy_lost,
                                           .largest_jump = largest_jump,
                                           .stride = contact_stride,
                                           .create = create,

@@ -69,6 +69,9 @@ struct hllc_fields {
     struct hllc_own_fields own;
 };
 
+/* As in solver_class, with `correction`. */
+const char *hllc_energy_lost_by(int correction);
+
 extern const struct parameter hllc_table[];
 extern const struct sph_scheme hllc_scheme;
 

@@ -174,6 +174,21 @@ static size_t stride_of(const void *of, int dimension)
                            .reconstructed = options->reconstruction != HLLC_RECONSTRUCTION_NONE});
 }
 
+const char *hllc_energy_lost_by(int correction)
+{
+    return correction == HLLC_CORRECTION_OWN
+               ? "with `correction: own` the forces and the powers of a pair do not cancel at free "
+                 "surfaces and where particles are disordered: finer particles lose less, "
+                 "`correction: symmetric` loses the error of the step alone"
+               : "with `correction: symmetric` the error of the step is lost: a smaller `courant` "
+                 "loses less";
+}
+
+static const char *energy_lost(const void *options)
+{
+    return hllc_energy_lost_by(((const struct hllc_options *)options)->correction);
+}
+
 const struct sph_scheme hllc_scheme = {.name = "hllc",
                                        .smoothing = {1.2, 1.2, 1.2},
                                        .courant = 0.3,
@@ -181,6 +196,7 @@ const struct sph_scheme hllc_scheme = {.name = "hllc",
                                        .state_size = sizeof(struct hllc_state),
                                        .rows = hllc_rows,
                                        .traits = traits_of,
+                                       .energy_lost = energy_lost,
                                        .stride = stride_of,
                                        .wide_step = true,
                                        .create = create,

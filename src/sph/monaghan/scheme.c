@@ -28,6 +28,11 @@ static size_t stride_of(const void *options, int dimension)
     return (size_t)hllc_stride((struct hllc_kind){.dimension = dimension, .viscous = true});
 }
 
+static const char *energy_lost(const void *options)
+{
+    return hllc_energy_lost_by(((const struct monaghan_options *)options)->correction);
+}
+
 const struct sph_scheme monaghan_scheme = {.name = "monaghan",
                                            .smoothing = {1.2, 1.2, 1.2},
                                            .courant = 0.3,
@@ -35,6 +40,7 @@ const struct sph_scheme monaghan_scheme = {.name = "monaghan",
                                            .state_size = sizeof(struct hllc_state),
                                            .rows = hllc_rows,
                                            .traits = traits_of,
+                                           .energy_lost = energy_lost,
                                            .stride = stride_of,
                                            .wide_step = true,
                                            .create = create,

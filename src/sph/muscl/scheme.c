@@ -193,6 +193,11 @@ static size_t stride_of(const void *options, int dimension)
     return (size_t)muscl_stride(kind) + PLACE_STRIDE;
 }
 
+static const char *energy_lost(const void *options)
+{
+    return sph_energy_lost_by(((const struct muscl_options *)options)->energy);
+}
+
 const struct sph_scheme muscl_scheme = {.name = "muscl",
                                         .smoothing = {1.0, 1.2, 1.2},
                                         .courant = 0.4,
@@ -201,6 +206,7 @@ const struct sph_scheme muscl_scheme = {.name = "muscl",
                                         .state_size = sizeof(struct muscl_state),
                                         .rows = muscl_rows,
                                         .traits = traits_of,
+                                        .energy_lost = energy_lost,
                                         .stride = stride_of,
                                         .create = create,
                                         .start = start,

@@ -47,6 +47,11 @@ static unsigned traits_of(const void *of, int dimension)
 
 static const struct field_row no_rows[] = {FIELD_ROWS_END};
 
+static const char *energy_lost(const void *options)
+{
+    return sph_energy_lost_by(((const struct standard_options *)options)->energy);
+}
+
 const struct sph_scheme standard_scheme = {.name = "standard",
                                            .smoothing = {1.0, 1.0, 1.0},
                                            .courant = 0.4,
@@ -55,6 +60,7 @@ const struct sph_scheme standard_scheme = {.name = "standard",
                                            .state_size = sizeof(struct contact_state),
                                            .rows = no_rows,
                                            .traits = traits_of,
+                                           .energy_lost = energy_lost,
                                            .stride = contact_stride,
                                            .create = create,
                                            .start = sph_evaluate,
