@@ -39,8 +39,8 @@ struct error *generate_particles(struct simulation *simulation);
 /* The same as a solver's `fill`. */
 struct error *particles_fill(void *solver, struct simulation *simulation);
 
-/* What is no mistake but may be none of the user's wishes: a body so thin that one particle stands for its
- * thickness. NULL, or messages to show, each located as an error would be. */
+/* What is no mistake but may be none of the user's wishes: a body so thin that others get through it, or that
+ * one particle stands for its thickness; a start below 0 K. NULL, or messages to show, each located as an error would be. */
 struct error *generate_warnings(const struct simulation_case *input);
 
 /* About how many simple shapes a rank has to ask to count the particles of INPUT, where a site

@@ -54,6 +54,9 @@ struct solver_class {
     const char *(*energy_lost)(const void *parameters);
     /* Every field that it may add to the store: tables of rows, NULL after the last table. */
     const struct field_row *const *fields;
+    /* What is no mistake of INPUT but may be none of the user's wishes with this solver, as
+     * generate_warnings; NULL where there is nothing. */
+    struct error *(*warnings)(const void *parameters, const struct simulation_case *input);
 };
 
 #endif

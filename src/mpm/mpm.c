@@ -222,4 +222,5 @@ const struct solver_class mpm_class = {.size = sizeof(struct mpm),
                                        .bytes = mpm_bytes,
                                        .step = mpm_step,
                                        .energy_lost = mpm_energy_lost,
-                                       .fields = field_tables};
+                                       .fields = field_tables,
+                                       .warnings = mpm_warnings};

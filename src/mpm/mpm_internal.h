@@ -147,6 +147,9 @@ struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
 /* What the method cannot do, with parameters as they are given and cells of EDGE; located in the case. */
 struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
                          const struct simulation *simulation);
+
+/* Bodies whose particles lie on nodes of a grid of `shape: linear`. */
+struct error *mpm_warnings(const void *parameters, const struct simulation_case *input);
 /* Which bodies share a layer; those that stop change it then. */
 struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulation);
 void mpm_stop_bodies(struct mpm *mpm, struct simulation *simulation);

@@ -1,5 +1,6 @@
 /* What of a case the material point method cannot do, told where it stands in the case. */
 #include "material/material.h"
+#include "model/generate.h"
 #include "mpm/mpm_internal.h"
 #include "shape/shape.h"
 
@@ -140,4 +141,39 @@ struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
     error = error_join(error, refuse_contacts(input));
     error = error_join(error, refuse_wide_cell(edge, simulation));
     return error_join(error, refuse_far_bodies(edge, simulation));
+}
+
+/* Whether the places from FIRST on, SPACING apart, lie on nodes of cells of EDGE. */
+static bool lies_on_nodes(double first, double spacing, double edge)
+{
+    const double place = first / edge, step = spacing / edge;
+    return fabs(place - round(place)) < 1e-6 && fabs(step - round(step)) < 1e-6;
+}
+
+/* The slope of a linear function jumps at a node: a particle there, which moves by rounding, feels a
+ * strain of no body. The first particles of a body stand at its low end plus half a spacing. */
+struct error *mpm_warnings(const void *parameters, const struct simulation_case *input)
+{
+    const struct mpm_parameters *given = parameters;
+    const double edge = isnan(given->cell) ? 2.0 * input->resolution : given->cell;
+    struct error *warnings = NULL;
+    if (given->shape != SHAPE_LINEAR)
+        return NULL;
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct lattice lattice = body_lattice(input, b);
+        const double first[] = {lattice.origin.x, lattice.origin.y, lattice.origin.z};
+        const double spacing[] = {lattice.spacing.x, lattice.spacing.y, lattice.spacing.z};
+        for (int axis = 0; axis < input->dimension && lattice.kind == LATTICE_SQUARE; axis++)
+            if (lies_on_nodes(first[axis] + 0.5 * spacing[axis], spacing[axis], edge)) {
+                warnings = error_join(
+                    warnings,
+                    input_error(input, "bodies", input->bodies.names[b],
+                                "its particles lie on nodes of the grid along %c, where `shape: "
+                                "linear` has no slope: they feel strains even in rigid motion. "
+                                "Move the body by half a spacing, or take another shape",
+                                "xyz"[axis]));
+                break;
+            }
+    }
+    return warnings;
 }

@@ -169,6 +169,8 @@ struct error *estimate_warnings(const struct simulation_case *input)
     const double largest =
         class->largest_jump ? class->largest_jump(input->solver.value) : INFINITY;
     struct error *warnings = generate_warnings(input);
+    if (class->warnings)
+        warnings = error_join(warnings, class->warnings(input->solver.value, input));
     return isfinite(largest) ? error_join(warnings, strong_contacts(input, largest)) : warnings;
 }
 

@@ -181,6 +181,82 @@ static void the_bytes_foreseen_are_those_taken(void **state)
     }
 }
 
+static const char plate[] = "format: 1\n"
+                            "dimension: 2\n"
+                            "resolution: 1 mm\n"
+                            "materials: {metal: {library: aluminium}}\n"
+                            "run: {until: 1 us}\n";
+
+/* The one warning of the case has WORDS; NULL: there is none. */
+static void expect_warning(const char *more, const char *words)
+{
+    struct simulation_case *input;
+    struct error *error = read_text(plate, more, &input);
+    if (error)
+        fail_msg("%s", error_message(error, 0));
+    struct error *warnings = estimate_warnings(input);
+    if (words && (!warnings || error_count(warnings) != 1))
+        fail_msg("%d warnings, not that of \"%s\"", warnings ? error_count(warnings) : 0, words);
+    if (!words && warnings)
+        fail_msg("\"%s\"", error_message(warnings, 0));
+    if (words && !strstr(error_message(warnings, 0), words))
+        fail_msg("\"%s\" does not say \"%s\"", error_message(warnings, 0), words);
+    error_free(warnings);
+    case_free(input);
+}
+
+static void a_plate_of_less_than_three_particles_is_a_warning(void **state)
+{
+    (void)state;
+    const char ball[] = "  ball: {material: metal, ball: {center: [-9 mm, 0 mm], radius: 5 mm}}\n";
+    char text[512];
+    snprintf(text, sizeof text,
+             "solver: sph\nbodies:\n%s  plate: {material: metal, box: {from: [0 mm, 0 mm], to: [2 "
+             "mm, 20 mm]}}\n",
+             ball);
+    expect_warning(text, "bodies.plate: 2 particles thick along x");
+    snprintf(text, sizeof text,
+             "solver: sph\nbodies:\n%s  plate: {material: metal, box: {from: [0 mm, 0 mm], to: [3 "
+             "mm, 20 mm]}}\n",
+             ball);
+    expect_warning(text, NULL);
+    /* one row between mirrors stands for many */
+    expect_warning("solver: sph\n"
+                   "bodies:\n"
+                   "  left: {material: metal, box: {from: [0 mm, 0 mm], to: [5 mm, 1 mm]}}\n"
+                   "  right: {material: metal, box: {from: [5 mm, 0 mm], to: [9 mm, 1 mm]}}\n",
+                   NULL);
+}
+
+static void a_start_below_0_k_is_a_warning(void **state)
+{
+    (void)state;
+    expect_warning("solver: sph\n"
+                   "bodies: {a: {material: metal, density: 1350 kg/m^3,\n"
+                   "             box: {from: [0 mm, 0 mm], to: [9 mm, 9 mm]}}}\n",
+                   "bodies.a: it starts at -");
+    expect_warning("solver: sph\n"
+                   "bodies: {a: {material: metal, density: 2650 kg/m^3,\n"
+                   "             box: {from: [0 mm, 0 mm], to: [9 mm, 9 mm]}}}\n",
+                   NULL);
+}
+
+static void particles_on_nodes_of_linear_functions_are_a_warning(void **state)
+{
+    (void)state;
+    static const char on_nodes[] =
+        "bodies: {a: {material: metal, box: {from: [-0.5 mm, 0 mm], to: [9.5 mm, 9 mm]}}}\n"
+        "solver: {mpm: {cell: 1 mm, shape: ";
+    char text[512];
+    snprintf(text, sizeof text, "%slinear}}\n", on_nodes);
+    expect_warning(text, "on nodes of the grid along x");
+    snprintf(text, sizeof text, "%squadratic}}\n", on_nodes);
+    expect_warning(text, NULL);
+    expect_warning("bodies: {a: {material: metal, box: {from: [0 mm, 0 mm], to: [9 mm, 9 mm]}}}\n"
+                   "solver: {mpm: {cell: 1 mm, shape: linear}}\n",
+                   NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -188,6 +264,9 @@ int main(void)
         cmocka_unit_test(two_walls_bound_the_mean_density_of_their_axis),
         cmocka_unit_test(the_bytes_foreseen_are_those_taken),
         cmocka_unit_test(a_shape_or_lattice_that_cannot_be_is_told_in_its_place),
+        cmocka_unit_test(a_plate_of_less_than_three_particles_is_a_warning),
+        cmocka_unit_test(a_start_below_0_k_is_a_warning),
+        cmocka_unit_test(particles_on_nodes_of_linear_functions_are_a_warning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

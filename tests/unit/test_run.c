@@ -131,6 +131,7 @@ static const struct solver_class flight_class = {sizeof(struct flight_parameters
                                                  flight_step,
                                                  NULL,
                                                  NULL,
+                                                 NULL,
                                                  NULL};
 
 static const struct choice flight_choice = {"flight", "free flight", flight_table,

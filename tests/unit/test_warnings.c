@@ -137,6 +137,7 @@ static const struct solver_class nonsense_class = {sizeof(struct nonsense_parame
                                                    nonsense_step,
                                                    NULL,
                                                    NULL,
+                                                   NULL,
                                                    NULL};
 
 static const struct choice nonsense_choice = {"nonsense", "nonsense", nonsense_table,
