@@ -10,7 +10,7 @@
     X(largest_compression, "", "largest rho/rho_0 - 1 so far")                       \
     X(damage, "", "damage by crushing: 1 has failed")                                \
     X(tensile_damage, "", "damage by tension: 1 has broken")                         \
-    X(plastic_heating, "K", "rise of temperature by plastic work")                   \
+    X(plastic_heating, "K", "rise of temperature by a hot start and plastic work")   \
     X(lighting_time, "s", "when the detonation arrives")                             \
     X(burnt, "", "share of the explosive that has burnt")
 

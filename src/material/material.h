@@ -185,6 +185,17 @@ BOLIDE_INLINE struct response material_step_by_work(const struct material *mater
     return material_evaluate(material, point);
 }
 
+/* How much hotter POINT starts than the material at rest, K: to a strength that softens by heat this is as if
+ * plastic work had heated it. Zero where the material has no temperature. */
+BOLIDE_INLINE double material_start_heating(const struct material *material,
+                                            const struct point *point)
+{
+    if (heat_wrong(&material->heat, &material->eos))
+        return 0.0;
+    return heat_temperature(&material->heat, &material->eos, point->density, point->energy) -
+           heat_temperature(&material->heat, &material->eos, material_density(material), 0.0);
+}
+
 /* The slots of history that it needs beside the plastic strain. */
 BOLIDE_INLINE unsigned material_history(const struct material *material)
 {

@@ -88,6 +88,20 @@ static void unloading_keeps_what_has_been_crushed(void **state)
     assert_near(pressure(0.0002, history), 3.425e6, 1.0);
 }
 
+/* Of any compression: pressure that stays when the density is gone drives particles without end. */
+static void no_pressure_is_left_where_the_density_vanishes(void **state)
+{
+    (void)state;
+    for (double most = 1e-4; most < 1e3; most *= 1.5) {
+        double history[POINT_HISTORY] = {0.0};
+        history[HISTORY_largest_compression] = most;
+        const double released = minimum(most - 1e-9, pressure_of.lock_compression);
+        assert_true(pressure(-1.0 + 1e-9, history) < 0.0);
+        if (most > hjc_full_compression(&pressure_of))
+            assert_true(pressure(released, history) <= 1e-6 * pressure(most, history));
+    }
+}
+
 static void what_is_compacted_does_not_depend_on_the_steps(void **state)
 {
     (void)state;
@@ -236,6 +250,7 @@ int main(void)
         cmocka_unit_test(loading_passes_through_the_values_of_its_source),
         cmocka_unit_test(slopes_are_those_of_the_pressure),
         cmocka_unit_test(unloading_keeps_what_has_been_crushed),
+        cmocka_unit_test(no_pressure_is_left_where_the_density_vanishes),
         cmocka_unit_test(what_is_compacted_does_not_depend_on_the_steps),
         cmocka_unit_test(yield_has_the_values_of_its_source),
         cmocka_unit_test(strain_to_failure_has_the_values_of_its_source),

@@ -163,11 +163,30 @@ static void only_softening_steel_remembers_its_heat(void **state)
     assert_int_equal(material_history(&soft), HISTORY_BIT(plastic_heating));
 }
 
+/* What is hot at the start is soft at the start, and what is at rest is as before to the last bit. */
+static void a_hot_start_softens_as_plastic_work_does(void **state)
+{
+    (void)state;
+    struct material steel = {
+        .strength = {.kind = STRENGTH_johnson_cook, .of.johnson_cook = softening()},
+        .eos = {.kind = EOS_mie_grueneisen, .of.mie_grueneisen = EOS_mie_grueneisen_SAMPLE},
+        .heat = {452.0, NAN, 300.0}};
+    struct point point = {.density = material_density(&steel)};
+    assert_true(material_start_heating(&steel, &point) == 0.0);
+    point.energy = 452.0 * 500.0;
+    assert_close(material_start_heating(&steel, &point), 500.0, 1e-12);
+    point.history[HISTORY_plastic_heating] = material_start_heating(&steel, &point);
+    assert_close(strength_yield(&steel.strength, &point), 350e6 * (1.0 - 500.0 / 1511.0), 1e-12);
+    steel.heat.capacity = NAN; /* it has no temperature */
+    assert_true(material_start_heating(&steel, &point) == 0.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(yield_has_the_published_values),
         cmocka_unit_test(slow_flow_is_not_weaker_than_flow_at_the_reference_rate),
+        cmocka_unit_test(a_hot_start_softens_as_plastic_work_does),
         cmocka_unit_test(heat_softens_down_to_nothing_at_the_melting_point),
         cmocka_unit_test(the_return_ends_on_the_yield_stress_of_its_own_strain_and_rate),
         cmocka_unit_test(what_has_melted_bears_no_shear),

@@ -94,6 +94,16 @@ BOLIDE_INLINE double hjc_unloading(const struct eos_hjc *concrete, double full, 
            within * concrete->k1;
 }
 
+/* The same of MOST with its PRESSURE, at least so steep that no pressure is left where the closed concrete
+ * is at rest: the cubic outgrows K_1 from a compression of about one on, and
+ * nothing would take the pressure away from what expands without end. */
+BOLIDE_INLINE double hjc_release(const struct eos_hjc *concrete, double full, double most,
+                                 double pressure)
+{
+    const double slope = hjc_unloading(concrete, full, most);
+    return most > full ? maximum(slope, pressure / (most - concrete->lock_compression)) : slope;
+}
+
 BOLIDE_INLINE struct eos_value eos_hjc(const struct eos_hjc *concrete, double density,
                                        double energy, const double *history)
 {
@@ -103,7 +113,7 @@ BOLIDE_INLINE struct eos_value eos_hjc(const struct eos_hjc *concrete, double de
     double most = maximum(mu, history[HISTORY_largest_compression]);
     struct hjc_curve curve = hjc_loading(concrete, full, most);
     if (mu < most) {
-        curve.slope = hjc_unloading(concrete, full, most);
+        curve.slope = hjc_release(concrete, full, most, curve.pressure);
         curve.pressure -= curve.slope * (most - mu);
     }
     value.pressure = curve.pressure;
@@ -163,8 +173,9 @@ BOLIDE_INLINE struct heat_curve eos_hjc_curve(const struct eos_hjc *concrete,
                                               const struct heat *heat, double density)
 {
     double n = density / concrete->density, full = hjc_full_compression(concrete);
-    double modulus = hjc_unloading(concrete, full, n - 1.0);
-    double back = hjc_loading(concrete, full, n - 1.0).pressure / modulus; /* n - n_r */
+    double pressure = hjc_loading(concrete, full, n - 1.0).pressure;
+    double modulus = hjc_release(concrete, full, n - 1.0, pressure);
+    double back = pressure / modulus; /* n - n_r */
     double work = modulus * (logarithm(n / (n - back)) - back / n);
     struct heat_curve curve = {heat->temperature, work / concrete->density};
     return curve;

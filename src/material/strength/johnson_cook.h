@@ -2,7 +2,8 @@
  *
  *   Y = (A + B eps^n)(1 + C ln max(rate/rate_0, 1))(1 - T*^m),  T* = (T - T_room)/(T_melt - T_room)   (2-64)
  *
- * T is T_room and the heat of the plastic work, dT = Y d eps/(rho c_v). Radial return solves
+ * T is T_room, by how much hotter than at rest the body starts, and the heat of the plastic work, dT = Y d eps/(rho c_v);
+ * the heat of compression and of conduction is not in it. Radial return solves
  *
  *   S_eq - 3 G d eps = Y(eps + d eps, d eps/dt)
  *

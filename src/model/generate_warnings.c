@@ -1,0 +1,93 @@
+/* What is odd about the bodies of a case before anything moves; see generate_warnings. */
+#include "material/material.h"
+#include "model/generate.h"
+
+/* Particles across a plate below which others get through it, and with which it hardly bends. */
+enum { THIN = 3 };
+
+/* Whether mirrors keep BODY from both sides of AXIS: it stands for an infinite one. */
+static bool is_between_mirrors(const struct simulation_case *input, int axis)
+{
+    bool at[2] = {false, false};
+    for (int i = 0; i < input->walls.count; i++)
+        if (case_wall(input, i)->axis == axis)
+            at[case_wall(input, i)->side == WALL_HIGH] = true;
+    return at[0] && at[1];
+}
+
+static bool is_thin(const struct simulation_case *input, int body, int axis)
+{
+    const struct lattice lattice = body_lattice(input, body);
+    return lattice.kind != LATTICE_RINGS && lattice.count[axis] < THIN;
+}
+
+/* A sheet of which all bodies are a part is no plate. */
+static bool all_are_thin(const struct simulation_case *input, int axis)
+{
+    for (int body = 0; body < input->bodies.count; body++)
+        if (!is_thin(input, body, axis))
+            return false;
+    return true;
+}
+
+static struct error *warn_of_thin(const struct simulation_case *input, int body)
+{
+    assert(input->dimension <= 3);
+    for (int axis = 0; axis < input->dimension && input->dimension > 1; axis++)
+        if (is_thin(input, body, axis) && !is_between_mirrors(input, axis) &&
+            !all_are_thin(input, axis)) {
+            const int64_t count = body_lattice(input, body).count[axis];
+            return input_error(input, "bodies", input->bodies.names[body],
+                               "%lld particle%s thick along %c: other bodies can get through "
+                               "fewer than %d, and it hardly bends; refine it",
+                               (long long)count, count == 1 ? "" : "s", "xyz"[axis], THIN);
+        }
+    return NULL;
+}
+
+/* A state that no material has, such as a porous one that is given by its density alone. One that
+ * varies is seen at the first row of the history. */
+static struct error *warn_of_cold(const struct simulation_case *input, int body)
+{
+    const struct body_input *of = case_body(input, body);
+    const struct material *material = case_material(input, of->material_index)->material;
+    if (of->varies || heat_wrong(&material->heat, &material->eos))
+        return NULL;
+    const double temperature =
+        heat_temperature(&material->heat, &material->eos, of->start.density, of->start.energy);
+    if (!(temperature < 0.0))
+        return NULL;
+    return input_error(input, "bodies", input->bodies.names[body],
+                       "it starts at %.0f K: density %g kg/m^3 and energy %g J/kg are no state of "
+                       "its material, whose density at rest is %g kg/m^3. Make pores as holes of "
+                       "the shape, or give the temperature",
+                       temperature, of->start.density, of->start.energy,
+                       material_density(material));
+}
+
+struct error *generate_warnings(const struct simulation_case *input)
+{
+    struct error *warnings = NULL;
+    for (int body = 0; body < input->bodies.count; body++) {
+        warnings = error_join(warnings, warn_of_thin(input, body));
+        warnings = error_join(warnings, warn_of_cold(input, body));
+    }
+    for (int body = 0; body < input->bodies.count; body++) {
+        const struct body_input *of = case_body(input, body);
+        const double wanted = isnan(of->resolution) ? input->resolution : of->resolution;
+        const struct lattice lattice = body_lattice(input, body);
+        const double spacing[3] = {lattice.spacing.x, lattice.spacing.y, lattice.spacing.z};
+        assert(input->dimension <= 3);
+        for (int axis = 0; axis < input->dimension; axis++)
+            if (lattice.count[axis] == 1 && spacing[axis] < (1.0 - 1e-9) * wanted) {
+                warnings = error_join(
+                    warnings,
+                    input_error(input, "bodies", input->bodies.names[body],
+                                "smaller than the resolution along %c (%.3g m of %.3g m): "
+                                "one particle stands for it",
+                                "xyz"[axis], spacing[axis], wanted));
+                break;
+            }
+    }
+    return warnings;
+}
