@@ -196,6 +196,69 @@ static struct error *begin_results(struct run *run)
     return error;
 }
 
+/* "snapshots/NUMBER.vtkhdf" in fresh memory, and whether it is in the folder. */
+static char *snapshot_name(const struct run *run, int64_t number, bool *there)
+{
+    char *name = text_format("snapshots/%06lld.vtkhdf", (long long)number);
+    char *path = name ? run_path(run, name) : NULL;
+    *there = path && file_is_plain(path);
+    if (!path) {
+        free(name);
+        name = NULL;
+    }
+    free(path);
+    return name;
+}
+
+/* The snapshots that are there: somebody may have removed some before a resume. */
+static struct error *write_series(struct run *run)
+{
+    char **names = memory_allocate(((size_t)run->snapshots + 1) * sizeof *names);
+    double *times = memory_allocate(((size_t)run->snapshots + 1) * sizeof *times);
+    char *path = run_path(run, "snapshots.vtkhdf.series");
+    struct error *error = names && times && path ? NULL : out_of_memory();
+    int count = 0;
+    for (int64_t i = 0; i < run->snapshots && !error; i++) {
+        bool there;
+        char *name = snapshot_name(run, i, &there);
+        error = name ? NULL : out_of_memory();
+        if (there) {
+            times[count] = run->snapshot_times[i];
+            names[count++] = name;
+        } else {
+            free(name);
+        }
+    }
+    if (!error)
+        error = snapshot_series_write(path, count, (const char *const *)names, times);
+    names_free(names, count);
+    free(times);
+    free(path);
+    return error;
+}
+
+/* Tells which of the snapshots that a resumed run has written are gone. */
+static struct error *miss_snapshots(struct run *run)
+{
+    int64_t gone = 0, first = 0;
+    for (int64_t i = 0; i < run->snapshots; i++) {
+        bool there;
+        char *name = snapshot_name(run, i, &there);
+        if (!name)
+            return out_of_memory();
+        free(name);
+        first = gone ? first : i;
+        gone += !there;
+    }
+    if (gone == 0)
+        return NULL;
+    run_say(run,
+            "warning: %lld of %lld snapshots that were written are gone, snapshots/%06lld.vtkhdf "
+            "first: the series lists those that are left",
+            (long long)gone, (long long)run->snapshots, (long long)first);
+    return write_series(run);
+}
+
 /* What rank 0 does before the others may read anything. */
 static struct error *ready_folder(struct run *run)
 {
@@ -209,7 +272,8 @@ static struct error *ready_folder(struct run *run)
     TRY(make_folder(run, "snapshots"));
     TRY(make_folder(run, "pictures"));
     TRY(write_case(run));
-    return open_log(run);
+    TRY(open_log(run));
+    return options->resume && run->input->output.snapshots ? miss_snapshots(run) : NULL;
 }
 
 struct error *run_open_folder(struct run *run)
@@ -261,25 +325,6 @@ static struct error *draw_pictures(struct run *run, int64_t number)
         free(name);
         free(path);
     }
-    return error;
-}
-
-static struct error *write_series(struct run *run)
-{
-    char **names = memory_allocate(((size_t)run->snapshots + 1) * sizeof *names);
-    char *path = run_path(run, "snapshots.vtkhdf.series");
-    struct error *error = names && path ? NULL : out_of_memory();
-    for (int64_t i = 0; i < run->snapshots && !error; i++) {
-        names[i] = text_format("snapshots/%06lld.vtkhdf", (long long)i);
-        error = names[i] ? NULL : out_of_memory();
-    }
-    if (!error)
-        error = snapshot_series_write(path, (int)run->snapshots, (const char *const *)names,
-                                      run->snapshot_times);
-    for (int64_t i = 0; names && i < run->snapshots; i++)
-        free(names[i]);
-    free(names);
-    free(path);
     return error;
 }
 

@@ -19,7 +19,7 @@ same() {
         diff -rq "$1/probes" "$2/probes" && diff -rq "$1/profiles" "$2/profiles"
 }
 
-rm -rf whole killed stopped full changed
+rm -rf whole killed stopped full changed gone
 "$BOLIDE" run "$case" "${settings[@]}" --output whole >whole.log 2>&1 || fail "the whole run: $(cat whole.log)"
 
 # Killed at once when its first checkpoint is there.
@@ -148,6 +148,17 @@ sed -i '3s/[0-9]/7/' changed/probes/gauge.csv
     >changed.log 2>&1
 [ $? = 2 ] && grep -q "changed/probes/gauge.csv: its first .* rows are not those" changed.log ||
     fail "a changed probe must be refused: $(cat changed.log)"
+
+# Snapshots that were removed are missed, and the series does not list them.
+cp -r drifted gone
+rm gone/snapshots/00000[1-3].vtkhdf
+"$BOLIDE" run "$gas" "${drifts[@]}" --set run.energy_drift=0 --output gone --resume >gone.log 2>&1 ||
+    fail "resuming without some snapshots: $(cat gone.log)"
+grep -q "^warning: 3 of .* snapshots that were written are gone, snapshots/000001.vtkhdf first" gone/run.log ||
+    fail "snapshots that are gone are not missed: $(cat gone.log)"
+grep -q 000000.vtkhdf gone/snapshots.vtkhdf.series && ! grep -q 00000[1-3].vtkhdf gone/snapshots.vtkhdf.series ||
+    fail "the series lists what is gone: $(cat gone/snapshots.vtkhdf.series)"
+grep -q "snapshots that were written are gone" drifted.log && fail "no snapshot of drifted was gone"
 
 # No file may grow beyond 64 KB: the run ends with 4 and leaves no snapshot under its final name.
 (
