@@ -98,6 +98,63 @@ void case_check_load(struct checking *checking, int index)
         case_wrong(checking, "before", "this does not lie behind `after`");
 }
 
+static double speed_at(const struct field_value *velocity, double time)
+{
+    const double speed = fabs(field_at(velocity, vec3_make(0.0, 0.0, 0.0), time));
+    return isnan(speed) ? INFINITY : speed;
+}
+
+/* Where VELOCITY is largest between LOW and HIGH, if it has one maximum there; a pole is one. */
+static double time_of_peak(const struct field_value *velocity, double low, double high)
+{
+    for (int i = 0; i < 100; i++) {
+        const double third = (high - low) / 3.0;
+        if (speed_at(velocity, low + third) < speed_at(velocity, high - third))
+            low += third;
+        else
+            high -= third;
+    }
+    return 0.5 * (low + high);
+}
+
+/* A time up to END at which VELOCITY is that of light or more; NAN: none was found. Each maximum of
+ * the speed at equal intervals is looked at closely. */
+static double time_of_light(const struct field_value *velocity, double end)
+{
+    enum { INTERVALS = 200 };
+    const double interval = end / INTERVALS;
+    double before = 0.0, here = speed_at(velocity, 0.0);
+    for (int i = 0; i <= INTERVALS; i++) {
+        const double after = i < INTERVALS ? speed_at(velocity, (i + 1) * interval) : 0.0;
+        if (here >= before && here >= after && here > 0.0) {
+            const double peak = time_of_peak(velocity, maximum(0.0, (i - 1) * interval),
+                                             minimum(end, (i + 1) * interval));
+            if (speed_at(velocity, peak) >= SPEED_OF_LIGHT)
+                return peak;
+        }
+        before = here;
+        here = after;
+    }
+    return NAN;
+}
+
+/* What moves must not come to a time at which it would be infinitely fast, or beyond it. */
+static void check_speed(struct checking *checking, const struct body_input *body, int axis,
+                        const char *key)
+{
+    const struct field_value *velocity = &body->velocity.at[axis];
+    const double until = checking->input->run.until;
+    const double end = body->stop < until ? body->stop : until;
+    if (!(end > 0.0 && end < INFINITY) || document_is_wrong(checking->input->document, "run"))
+        return;
+    const double time = time_of_light(velocity, end);
+    if (!isnan(time))
+        case_wrong(checking, key,
+                   "this is faster than light at t = %.6g s: end the motion (`stop`) or the run "
+                   "before that, or give a velocity that stays finite",
+                   time);
+}
+
 void case_check_driven(struct checking *checking, const struct body_input *body)
 {
     char key[PATH_TEXT];
@@ -109,6 +166,8 @@ void case_check_driven(struct checking *checking, const struct body_input *body)
         if (!body->driven)
             case_wrong(checking, key,
                        "only a body with `driven: yes` has a velocity of the time t");
+        else
+            check_speed(checking, body, i, key);
         for (int axis = 0; axis < 3; axis++)
             if (varying_expression_uses(velocity->varying, axis))
                 case_wrong(checking, key, "this names the time t, and with it no position %c",

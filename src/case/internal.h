@@ -38,6 +38,9 @@ void case_measure_sweep(struct simulation_case *input);
  * that was read with mistakes it checks the rest. */
 struct error *case_check_meaning(struct simulation_case *input);
 
+/* In m/s. */
+#define SPEED_OF_LIGHT 299792458.0
+
 /* What is given of a state at the start; NAN: not given. */
 struct start_given {
     double density, pressure, energy, temperature;

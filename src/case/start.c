@@ -4,8 +4,6 @@
 #include "case/internal.h"
 #include "material/material.h"
 
-static const double speed_of_light = 299792458.0; /* m/s */
-
 static double pressure_at(const struct eos *eos, double density, double energy, unsigned *status)
 {
     const double history[POINT_HISTORY] = {0.0};
@@ -133,7 +131,7 @@ const char *start_state(const struct start_given *given, const struct material *
     *key = "";
     if (response.status & POINT_OUT_OF_RANGE || !isfinite(point.pressure))
         return "the state at the start is outside the range of the equation of state";
-    if (response.sound_long > speed_of_light)
+    if (response.sound_long > SPEED_OF_LIGHT)
         return "at this start state sound would be faster than light";
     if (response.status & POINT_NO_SOUND)
         return isnan(pressure) && isnan(given->energy) && isnan(given->temperature)
@@ -231,7 +229,7 @@ const char *body_start_at(const struct body_input *body, const struct material *
     }
     const char *wrong = components_at(&body->velocity, "velocity", place, velocity, key);
     for (int i = 0; i < body->velocity.count && !wrong; i++)
-        if (fabs(velocity[i]) > speed_of_light)
+        if (fabs(velocity[i]) > SPEED_OF_LIGHT)
             wrong = "this is faster than light";
     return wrong;
 }
