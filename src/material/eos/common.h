@@ -14,6 +14,8 @@ struct eos_traits {
     /* gamma where waves are those of an ideal gas, for exact solutions of them; NAN: they are not.
      * */
     double ratio_of_heats;
+    /* A gas: however far it expands it never pulls. */
+    bool gas;
     /* Of rho/rho_0, up to which the model is meant; a run warns beyond it. INFINITY: any, as of
      * gases. */
     double largest_compression;
@@ -28,7 +30,7 @@ struct eos_traits {
 /* The traits of a model that says no more. */
 BOLIDE_INLINE struct eos_traits eos_default_traits(void)
 {
-    struct eos_traits traits = {NAN, NAN, 4.0, false, 0, NULL, NULL};
+    struct eos_traits traits = {NAN, NAN, false, 4.0, false, 0, NULL, NULL};
     return traits;
 }
 

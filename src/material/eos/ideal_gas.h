@@ -37,6 +37,7 @@ BOLIDE_INLINE struct eos_traits eos_ideal_gas_traits(const struct eos_ideal_gas 
     struct eos_traits traits = eos_default_traits();
     traits.shock_slope = 0.5 * (gas->gamma + 1.0); /* the limit of strong shocks */
     traits.ratio_of_heats = gas->gamma;
+    traits.gas = true;
     traits.largest_compression = INFINITY;
     return traits;
 }

@@ -77,6 +77,7 @@ BOLIDE_INLINE struct eos_value eos_jwl_beyond(const struct eos_jwl *jwl, double 
 BOLIDE_INLINE struct eos_traits eos_jwl_traits(const struct eos_jwl *jwl)
 {
     struct eos_traits traits = eos_default_traits();
+    traits.gas = jwl->b >= 0.0; /* products; below zero B holds together what has not burnt */
     /* -V (d2p/dV2)/(4 dp/dV) of the isentrope p = A exp(-R_1 V) + B exp(-R_2 V) + C V^(-1-w) at
      * rest */
     const double none[POINT_HISTORY] = {0.0};

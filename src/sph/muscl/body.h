@@ -363,7 +363,17 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
     const struct vec3 halfway =
         dimension > 1 ? vec3_add(middle, vec3_scale(0.5, difference.sliding)) : middle;
     w = vec3_make(driven ? halfway.x : w.x, driven ? halfway.y : w.y, driven ? halfway.z : w.z);
-    const double weight = pairs->weight[k];
+    /* A gas pulls at nothing. What flies apart faster than a gas expands into vacuum,
+     * 2 c/(gamma - 1) either side, or u A > 8 c with A = (gamma + 1)/2 and 5/3, has parted: the
+     * contact between moves and swells nothing. */
+    const double parting = pairs->along_u[k];
+    const double pull =
+        maximum(fabs(own_m), fabs(lanes->field[m][k])) < MUSCL_GAS ? 0.0 : star.stress;
+    const double faster = minimum(parting * left.shock_slope - 8.0 * left.impedance,
+                                  parting * right.shock_slope - 8.0 * right.impedance);
+    const double holds = pull > 0.0 ? 0.0 : 1.0;
+    const double meets = minimum(pull, faster) > 0.0 ? 0.0 : 1.0;
+    const double weight = pairs->weight[k], moves = meets * weight;
     double force_weight = weight * pairs->area[k];
     if (kind.depth) {
         const int depth = muscl_depth(kind);
@@ -372,16 +382,16 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
         sums[at.hoop + 1][k] += force_weight * pairs->x[0][k] * n.x;
         force_weight *= pair_depth;
     }
-    t = vec3_scale(force_weight, t);
+    t = vec3_scale(holds * force_weight, t);
     sums[at.power][k] += vec3_dot(t, w);
     add_vector(dimension, sums, at.traction, k, t);
     if (dimension == 1)
-        sums[at.drift][k] += weight * w.x;
+        sums[at.drift][k] += moves * w.x;
     add_product(dimension, sums, at.gradient, k, w,
-                vec3_scale(weight, vector_from(dimension, &pairs->e[0][k], LANES)));
+                vec3_scale(moves, vector_from(dimension, &pairs->e[0][k], LANES)));
     if (dimension > 1) {
         /* Bodies keep their volumes where they part, and where they slide past each other. */
-        const double counts = star.stress == 0.0 ? 1.0 - limits.open : 1.0;
+        const double counts = star.stress == 0.0 ? 1.0 - limits.open : meets;
         const struct vec3 moved = vec3_add(vec3_scale(pairs->along_u[k], n),
                                            vec3_scale(1.0 - limits.slip, difference.sliding));
         const double ratio = per_own * lanes->field[compression][k], by = square(ratio);

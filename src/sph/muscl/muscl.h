@@ -23,6 +23,7 @@ struct end {
 struct muscl_state {
     struct muscl_kind kind;
     double shock_slope[MATERIALS_MAX]; /* slope of the shock adiabat, by material */
+    double mark[MATERIALS_MAX];        /* as muscl_mark has it */
     int32_t ends;
     int64_t end_capacity;
     struct end *end;

@@ -146,7 +146,8 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     if (dimension > 1)
         record[k++] = across_impedance(f, kind, p->density[i], i);
     record[k++] = p->density[i] * state->shock_slope[p->material[i]];
-    record[k++] = body_is_held(simulation, p->body[i]) ? -2.0 - p->material[i] : p->material[i];
+    const double mark = state->mark[p->material[i]];
+    record[k++] = body_is_held(simulation, p->body[i]) ? -2.0 - mark : mark;
     if (dimension > 1) {
         record[k++] = p->density[i] / f->sph.density_start[i];
         record[k++] = muscl_told(f->sph.packing[i][PACKING_EXCESS]);

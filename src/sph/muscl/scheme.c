@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
+#include "material/material.h"
 #include "sph/lanes.h"
 #include "sph/prune.h"
 
@@ -165,6 +166,8 @@ static struct error *create(struct sph *sph, const struct simulation *simulation
     sph->stride = (size_t)muscl_stride(state->kind);
     sph->places = true;
     sph->largest_support = ((const struct muscl_options *)sph->parameters.method.value)->support;
+    for (int m = 0; m < simulation->materials; m++)
+        state->mark[m] = muscl_mark(m, eos_traits(&simulation->material[m].eos).gas);
     return sph_find_slopes(simulation, state->shock_slope);
 }
 
