@@ -45,6 +45,9 @@ static struct error *visit_extra(void *context, struct visitor *visitor)
     TRY(probes_visit(&run->probes, visitor));
     if (run->snapshots < 1)
         return error_new(ERROR_SYSTEM, "a checkpoint without a first snapshot");
+    if (visitor->most && run->snapshots > visitor->most)
+        return error_new(ERROR_SYSTEM, "run/snapshots is %lld: a file of this size has 1 to %lld",
+                         (long long)run->snapshots, (long long)visitor->most);
     if (!memory_reserve((void **)&run->snapshot_times, &run->snapshot_room, run->snapshots,
                         minimum(known, run->snapshots), sizeof *run->snapshot_times))
         return out_of_memory();

@@ -221,6 +221,7 @@ static void what_the_case_has_not_is_named(void **state)
         {"time", bits_of(1.0), "time is 1 s, where the run goes from 0 to 5e-05 s"},
         {"step", (uint64_t)1 << 63, "step is -9223372036854775808, which no run reaches"},
         {"run/history_rows", 7, "a number of the group run does not fit step 5"},
+        {"run/snapshots", (uint64_t)1 << 60, "run/snapshots is 1152921504606846976: a file"},
         {"probes/0/rows", 7, "a number of probe \"first\" does not fit step 5"},
         {"ledger", (uint64_t)1 << 63, "is not the digits of a sum"},
     };
