@@ -27,9 +27,10 @@ struct error *hdf5_create(const char *path, bool checksums, hid_t *file);
  * time, so that the same run gives the same file. Close it with H5Pclose. */
 hid_t hdf5_creation_list(hid_t kind);
 
-/* NULL when everything that FILE holds lies in it: ERROR_INPUT names a link to elsewhere, or a
- * dataset whose numbers are in other files, be these pipes or another user's. */
-struct error *hdf5_check_whole(hid_t file);
+/* Opens the dataset NAME of FILE, a path of groups between slashes. ERROR_INPUT names a link to
+ * elsewhere, or numbers that are in other files, be these pipes or another user's; ERROR_SYSTEM
+ * what is not there or damaged. Close it with H5Dclose. */
+struct error *hdf5_open_dataset(hid_t file, const char *name, hid_t *dataset);
 
 /* Closes FILE and publishes PATH; after an earlier ERROR, or when closing fails, removes PATH.part
  * instead. Takes ERROR and returns what went wrong. */
