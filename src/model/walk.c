@@ -210,10 +210,10 @@ struct error *walk_check_work(const struct simulation_case *input, const struct 
         worst = work > most ? body : worst;
         most = maximum(work, most);
     }
-    return input_error(input, "bodies", input->bodies.names[worst],
-                       "its %.2g sites, at each of which up to %.2g shapes are asked, take too "
-                       "long to count: choose a coarser resolution, fewer copies that overlap, or "
-                       "bodies in place of the shapes of a union",
-                       body_lattice(input, worst).sites,
-                       shape_work(&case_body(input, worst)->shape));
+    return input_error(
+        input, "bodies", input->bodies.names[worst],
+        "its %.2g sites, at each of which up to %.2g shapes are tested, take "
+        "too long to count: choose a coarser resolution, fewer copies that overlap, or "
+        "bodies in place of the shapes of a union",
+        body_lattice(input, worst).sites, shape_work(&case_body(input, worst)->shape));
 }

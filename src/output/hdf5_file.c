@@ -115,8 +115,7 @@ static struct error *check_link(hid_t file, const char *path, const char *name)
                      path);
 }
 
-/* Links are asked for one by one: where a table of them is damaged, walking through it crashes the
- * library. */
+/* Looks up the links one by one: HDF5 crashes when it walks through a damaged table of links. */
 static struct error *check_links(hid_t file, const char *name)
 {
     struct error *error = NULL;

@@ -1,10 +1,10 @@
-/* Warnings of a run: what happened that the models of the case do not cover, by name. A warning does not
- * stop the run or change its exit status; it is told when it is first seen, again at the end, and in the
- * report, so that no verdict stands alone over it.
+/* Warnings of a run: what happened that the models of the case do not cover, by name. A warning
+ * does not stop the run or change its exit status. The run prints it at its first occurrence and at
+ * the end, and the report shows it beside the verdict.
  *
- * They are looked for at the rows of the history and at the end, not at every step: a state that lasts
- * less than the interval between rows can be missed. What is found depends on the states alone, never on
- * threads, ranks or where a run was resumed. */
+ * A run looks for warnings at the rows of the history and at the end, not at every step: it can
+ * miss a state that lasts less than the interval between rows. The result depends on the states
+ * alone, not on threads, ranks or where a run was resumed. */
 #ifndef BOLIDE_RUN_WARNINGS_H
 #define BOLIDE_RUN_WARNINGS_H
 

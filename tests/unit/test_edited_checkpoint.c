@@ -14,6 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "scratch_folder.h"
+
 #include "base/file.h"
 #include "run/catalogue.h"
 #include "run/run.h"
@@ -33,22 +35,7 @@ static const char text[] =
     "probes: {first: {tracer: [0 mm, 0 mm]}}\n"
     "checks: {energy: {conserved: energy, within: 1}}\n";
 
-static char folder[64], path[96];
-
-static int make_folder(void **state)
-{
-    (void)state;
-    strcpy(folder, "/tmp/bolide-test-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[96];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
-}
+static char path[96];
 
 static struct simulation_case *read_case(const char *solver)
 {

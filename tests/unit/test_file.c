@@ -13,24 +13,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "scratch_folder.h"
+
 #include "base/file.h"
-
-static char folder[64];
-
-static int make_folder(void **state)
-{
-    (void)state;
-    strcpy(folder, "/tmp/bolide-test-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[96];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
-}
 
 /* FOLDER/NAME; four texts at a time. */
 static const char *in_folder(const char *name)

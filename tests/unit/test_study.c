@@ -10,26 +10,11 @@
 
 #include <unistd.h>
 
+#include "scratch_folder.h"
+
 #include "base/csv.h"
 #include "base/file.h"
 #include "output/study.h"
-
-static char folder[64];
-
-static int make_folder(void **state)
-{
-    (void)state;
-    strcpy(folder, "/tmp/bolide-test-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[96];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
-}
 
 static double resolution[] = {4e-3, 2e-3, 1e-3};
 static struct study_run runs[] = {

@@ -94,9 +94,9 @@ BOLIDE_INLINE double hjc_unloading(const struct eos_hjc *concrete, double full, 
            within * concrete->k1;
 }
 
-/* The same of MOST with its PRESSURE, at least so steep that no pressure is left where the closed concrete
- * is at rest: the cubic outgrows K_1 from a compression of about one on, and
- * nothing would take the pressure away from what expands without end. */
+/* The same from MOST and its PRESSURE, but at least so steep that the pressure is zero where closed
+ * concrete is at rest: the cubic grows faster than K_1 above a compression of about one, and
+ * expanded concrete would keep a pressure. */
 BOLIDE_INLINE double hjc_release(const struct eos_hjc *concrete, double full, double most,
                                  double pressure)
 {

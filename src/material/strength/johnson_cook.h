@@ -2,8 +2,8 @@
  *
  *   Y = (A + B eps^n)(1 + C ln max(rate/rate_0, 1))(1 - T*^m),  T* = (T - T_room)/(T_melt - T_room)   (2-64)
  *
- * T is T_room, by how much hotter than at rest the body starts, and the heat of the plastic work, dT = Y d eps/(rho c_v);
- * the heat of compression and of conduction is not in it. Radial return solves
+ * T is T_room plus the excess temperature of the body at the start plus the heat of the plastic
+ * work, dT = Y d eps/(rho c_v); it has no heat of compression or conduction. Radial return solves
  *
  *   S_eq - 3 G d eps = Y(eps + d eps, d eps/dt)
  *

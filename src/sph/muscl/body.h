@@ -363,9 +363,9 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
     const struct vec3 halfway =
         dimension > 1 ? vec3_add(middle, vec3_scale(0.5, difference.sliding)) : middle;
     w = vec3_make(driven ? halfway.x : w.x, driven ? halfway.y : w.y, driven ? halfway.z : w.z);
-    /* A gas pulls at nothing. What flies apart faster than a gas expands into vacuum,
-     * 2 c/(gamma - 1) either side, or u A > 8 c with A = (gamma + 1)/2 and 5/3, has parted: the
-     * contact between moves and swells nothing. */
+    /* A gas carries no tension. Two sides that separate faster than both expand into vacuum have
+     * lost contact: the pair then counts neither in velocity gradients nor in volumes. For an ideal
+     * gas that speed is 4 c/(gamma - 1); times A = (gamma + 1)/2 it is 8 c for gamma = 5/3. */
     const double parting = pairs->along_u[k];
     const double pull =
         maximum(fabs(own_m), fabs(lanes->field[m][k])) < MUSCL_GAS ? 0.0 : star.stress;

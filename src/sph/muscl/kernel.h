@@ -19,10 +19,10 @@
 #ifndef BOLIDE_SPH_MUSCL_KERNEL_H
 #define BOLIDE_SPH_MUSCL_KERNEL_H
 
-#include "model/simulation.h"
 #include "sph/contact/kernel.h"
 
-enum { MUSCL_GAS = 2 * MATERIALS_MAX };
+/* Marks the material of a gas; more than any index. */
+enum { MUSCL_GAS = 1 << 16 };
 
 struct muscl_kind {
     int dimension;
@@ -45,8 +45,8 @@ BOLIDE_INLINE int muscl_shock_slope(struct muscl_kind kind)
 {
     return muscl_impedance(kind) + 1 + (kind.dimension > 1);
 }
-/* The index of the material, of a gas MUSCL_GAS more; of a particle with prescribed motion -2 less
- * that. */
+/* The index of the material, plus MUSCL_GAS for a gas; for a particle with prescribed motion -2
+ * minus that. */
 BOLIDE_INLINE int muscl_material(struct muscl_kind kind) { return muscl_shock_slope(kind) + 1; }
 BOLIDE_INLINE bool muscl_driven(double material) { return material < -1.5; }
 BOLIDE_INLINE double muscl_index(double material) { return maximum(material, -2.0 - material); }
