@@ -4,7 +4,7 @@ rm -rf site
 "$BOLIDE_SOURCE_DIR/scripts/docs" "$BOLIDE" site && grep -q "stiffness\|bulk_modulus" site/reference/eos.html
 status=$?
 # A ball has a center and a radius.
-if grep -n "ball: *[0-9]" "$BOLIDE_SOURCE_DIR"/docs/*.md "$BOLIDE_SOURCE_DIR/README.md"; then
+if grep -n "ball: *[0-9]" -r "$BOLIDE_SOURCE_DIR/docs" "$BOLIDE_SOURCE_DIR/README.md"; then
     echo "FAILED: a ball without a table"
     status=1
 fi

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 SOURCE = pathlib.Path(os.environ["BOLIDE_SOURCE_DIR"])
-PAGES = [SOURCE / "README.md", *sorted(SOURCE.glob("docs/*.md")),
+PAGES = [SOURCE / "README.md", *sorted(SOURCE.glob("docs/**/*.md")),
          *sorted(SOURCE.glob("examples/*/*/README.md"))]
 BASE = """
 format: 1
