@@ -19,7 +19,7 @@ struct error *file_begin(const char *path, FILE **file);
 /* Closes FILE (an error of any earlier write shows here) and publishes PATH. */
 struct error *file_end(const char *path, FILE *file);
 
-/* Opens PATH as fopen does with the MODE "r+", "a", "w" or "w+", but only a plain file: ERROR_INPUT
+/* Opens PATH as fopen does with the MODE "r+", "a", "a+", "w" or "w+", but only a plain file: ERROR_INPUT
  * for a link, whose target may be anybody's, and for a pipe or a device, which may never answer. */
 struct error *file_open(const char *path, const char *mode, FILE **file);
 /* The same with the FLAGS of open(); DESCRIPTOR is -1 after an error. */

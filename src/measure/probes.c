@@ -1,6 +1,7 @@
 /* The list of kinds of probes, and what they share: their tables; see probes.h. */
 #include "measure/probes.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -56,6 +57,7 @@ void probes_free(struct probes *probes)
         free(probes->item[i].column);
         free(probes->item[i].fields);
         free(probes->item[i].value);
+        free(probes->item[i].text);
         free(probes->item[i].path);
     }
     free(probes->item);
@@ -135,7 +137,11 @@ static struct error *prepare(struct probe *probe, const struct simulation *simul
     TRY(check_key(probe, simulation, "axis", input->axis >= 0, PROBE_TAKES_AXIS));
     TRY(check_key(probe, simulation, "between", input->between.count, PROBE_TAKES_AXIS));
     probe_add_column(probe, "time", "s");
-    return class_of(probe)->prepare(probe, simulation, views);
+    TRY(class_of(probe)->prepare(probe, simulation, views));
+    struct probe_column *fit =
+        realloc(probe->column, (size_t)probe->columns * sizeof *probe->column);
+    probe->column = fit ? fit : probe->column;
+    return NULL;
 }
 
 struct error *probes_prepare(struct probes *probes, const struct simulation *simulation,
@@ -191,8 +197,12 @@ static struct error *open_one(struct probe *probe, const char *folder, bool resu
     free(name);
     if (!probe->path)
         return out_of_memory();
-    if (writes)
-        TRY(csv_grow(probe->path, resume ? probe->rows : -1, &probe->mark, &probe->file));
+    probe->writes = writes;
+    if (writes) {
+        FILE *file;
+        TRY(csv_grow(probe->path, resume ? probe->rows : -1, &probe->mark, &file));
+        fclose(file);
+    }
     return resume && probe->kept ? read_back(probe) : NULL;
 }
 
@@ -208,21 +218,61 @@ struct error *probes_open(struct probes *probes, const char *folder, bool resume
     return error;
 }
 
-static void write_row(struct probe *probe, const double *row)
+static void put_row(const struct probe *probe, const double *row, FILE *file)
 {
     for (int i = 0; i < probe->columns && probe->rows == 0; i++) {
         if (i)
-            putc(',', probe->file);
-        csv_put_head(probe->file, probe->column[i].name, probe->column[i].unit);
+            putc(',', file);
+        csv_put_head(file, probe->column[i].name, probe->column[i].unit);
     }
     if (probe->rows == 0)
-        putc('\n', probe->file);
+        putc('\n', file);
     for (int i = 0; i < probe->columns; i++) {
         if (i)
-            putc(',', probe->file);
-        csv_put_number(probe->file, row[i]);
+            putc(',', file);
+        csv_put_number(file, row[i]);
     }
-    putc('\n', probe->file);
+    putc('\n', file);
+}
+
+/* Moves the rows of PROBE from memory into its file, and extends MARK (NULL: none) to them. */
+static struct error *pour(struct probe *probe, struct csv_mark *mark)
+{
+    FILE *file;
+    TRY(file_open(probe->path, "a+", &file));
+    errno = 0;
+    const size_t bytes = (size_t)probe->text_bytes;
+    const bool failed = (bytes && fwrite(probe->text, 1, bytes, file) < bytes) || fflush(file);
+    struct error *error =
+        failed ? error_new(ERROR_SYSTEM, "%s: %s", probe->path, strerror(errno)) : NULL;
+    if (!error && mark)
+        error = csv_extend(file, probe->path, mark);
+    fclose(file);
+    probe->text_bytes = 0;
+    return error;
+}
+
+/* Takes ROW as text; enough of them go to the file together. */
+static struct error *write_row(struct probe *probe, const double *row)
+{
+    enum { ENOUGH = 4096 };
+    char *text = NULL;
+    size_t size;
+    FILE *file = open_memstream(&text, &size);
+    if (file)
+        put_row(probe, row, file);
+    bool done = file && !fclose(file);
+    const int64_t before = probe->text_bytes;
+    done = done && memory_reserve((void **)&probe->text, &probe->text_room, before + (int64_t)size,
+                                  before, 1);
+    if (done) {
+        memcpy(probe->text + before, text, size);
+        probe->text_bytes += (int64_t)size;
+    }
+    free(text);
+    if (!done)
+        return out_of_memory();
+    return probe->text_bytes < ENOUGH ? NULL : pour(probe, NULL);
 }
 
 static struct error *record(struct probe *probe, const struct simulation *simulation,
@@ -232,8 +282,7 @@ static struct error *record(struct probe *probe, const struct simulation *simula
     TRY(ranks_agree(simulation->ranks, row ? NULL : out_of_memory()));
     row[0] = simulation->time;
     TRY(ranks_agree(simulation->ranks, class_of(probe)->sample(probe, simulation, views, row + 1)));
-    if (probe->file)
-        write_row(probe, row);
+    TRY(ranks_agree(simulation->ranks, probe->writes ? write_row(probe, row) : NULL));
     probe->rows++;
     probe->step = simulation->step;
     return NULL;
@@ -257,8 +306,8 @@ struct error *probes_mark(struct probes *probes)
 {
     for (int i = 0; i < probes->count; i++) {
         struct probe *probe = &probes->item[i];
-        if (probe->file)
-            TRY(csv_extend(probe->file, probe->path, &probe->mark));
+        if (probe->writes)
+            TRY(pour(probe, &probe->mark));
     }
     return NULL;
 }
@@ -266,11 +315,8 @@ struct error *probes_mark(struct probes *probes)
 struct error *probes_close(struct probes *probes)
 {
     struct error *error = probes_mark(probes);
-    for (int i = 0; i < probes->count; i++) {
-        if (probes->item[i].file)
-            fclose(probes->item[i].file);
-        probes->item[i].file = NULL;
-    }
+    for (int i = 0; i < probes->count; i++)
+        probes->item[i].writes = false;
     return error;
 }
 

@@ -31,8 +31,10 @@ struct probe {
     bool kept; /* a check reads the rows */
     double *value;
     int64_t room;
+    bool writes; /* the rows that are not in the file yet: */
+    char *text;
+    int64_t text_bytes, text_room;
     char *path;
-    FILE *file;
     struct csv_mark mark; /* of the rows that the last checkpoint counts */
 };
 
@@ -89,8 +91,9 @@ struct error *probes_open(struct probes *probes, const char *folder, bool resume
 struct error *probes_watch(struct probes *probes, const struct simulation *simulation,
                            const struct views *views, bool last);
 
-/* Hands all rows to the system, and marks them: before a checkpoint that counts them; and closes
- * the files. */
+/* Hands all rows to the system, and marks them: before a checkpoint that counts them; and ends
+ * writing. A probe's file is open only while rows go into it: there may be more probes than a
+ * process may have open files. */
 struct error *probes_mark(struct probes *probes);
 struct error *probes_close(struct probes *probes);
 

@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/csv.h"
@@ -350,6 +351,61 @@ static void rows_come_as_often_as_wanted_and_stay_on_resume(void **state)
     drop_bench(b);
 }
 
+/* COUNT bodies' probes in place of the one of the bench. */
+static void ready_many(struct bench *b, int count, char (*name)[16], char **names)
+{
+    static struct probe_body body = {left};
+    struct probe_input *given = calloc((size_t)count, sizeof *given);
+    assert_non_null(given);
+    assert_null(prepare(b, "body", &body));
+    for (int i = 0; i < count; i++) {
+        given[i] = b->given;
+        names[i] = name[i];
+        snprintf(name[i], sizeof name[i], "p%d", i);
+    }
+    probes_free(&b->probes);
+    b->input.probes = (struct named_map){count, names, given, {0}};
+    assert_null(probes_create(&b->input, &b->probes));
+    assert_null(probes_prepare(&b->probes, &b->simulation, &b->views));
+}
+
+static void there_may_be_more_probes_than_open_files(void **state)
+{
+    (void)state;
+    enum { MANY = 100, STEPS = 200 };
+    char name[MANY][16], *names[MANY], path[128];
+    struct bench *b = make_bench(2);
+    ready_many(b, MANY, name, names);
+    struct rlimit before, few;
+    assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
+    few = before;
+    few.rlim_cur = 20;
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &few), 0);
+    struct error *error = probes_open(&b->probes, b->folder, false, true);
+    for (int step = 0; step < STEPS && !error; step++) {
+        b->simulation.step = step;
+        b->simulation.time = step;
+        error = probes_watch(&b->probes, &b->simulation, &b->views, false);
+        if (step == STEPS / 2 && !error)
+            error = probes_mark(&b->probes);
+    }
+    if (!error)
+        error = probes_close(&b->probes);
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
+    assert_null(error);
+    for (int i = 0; i < MANY; i += MANY - 1) {
+        struct csv csv;
+        snprintf(path, sizeof path, "%s/probes/p%d.csv", b->folder, i);
+        assert_null(csv_read(path, &csv));
+        assert_int_equal(csv.rows, STEPS);
+        for (int row = 0; row < STEPS; row++)
+            assert_float_equal(csv_number(&csv, row, 0), row, 0.0);
+        csv_free(&csv);
+    }
+    free(b->input.probes.items);
+    drop_bench(b);
+}
+
 /* The value of a check `recorded` over COUNT rows of time and mass. */
 static double recorded(struct bench *b, const double (*rows)[2], int count,
                        struct measure_recorded recorded, struct dimension dimension)
@@ -543,6 +599,7 @@ int main(void)
         cmocka_unit_test(half_the_jump_is_found_whatever_lies_behind),
         cmocka_unit_test(mistakes_are_told_where_they_stand),
         cmocka_unit_test(rows_come_as_often_as_wanted_and_stay_on_resume),
+        cmocka_unit_test(there_may_be_more_probes_than_open_files),
         cmocka_unit_test(a_recorded_column_gives_its_numbers),
         cmocka_unit_test(peaks_count_when_they_rise_above_the_noise),
         cmocka_unit_test(a_check_of_a_probe_that_is_not_there_is_told),
