@@ -19,6 +19,12 @@ bool is_control(uint32_t code);
  * selectors, the soft hyphen. Two texts that differ by these alone look the same. */
 bool is_invisible(uint32_t code);
 
+/* True for what Unicode spells in another way too: marks that compose with the Latin, Greek,
+ * Cyrillic, Arabic or kana letter before them, the parts of Hangul syllables, and second copies of
+ * letters, such as the signs of ohm, kelvin and angstrom. Texts that differ by their spelling look
+ * the same. */
+bool is_spelled_twice(uint32_t code);
+
 /* The same text on one line, with controls written as \x1b or \u202e and bytes that are not UTF-8
  * as \xff; in fresh memory, NULL when that is out. */
 char *text_visible(const char *text);

@@ -19,9 +19,9 @@ static bool is_letter_or_digit(char c)
            (unsigned char)c >= 128;
 }
 
-/* Names that look the same are the same: no blank at the end, no two in a row, and nothing else
- * that shows nothing. */
-static void check_blanks(struct checking *checking, const char *name)
+/* Names that look the same are the same: no blank at the end, no two in a row, nothing else that
+ * shows nothing, and one spelling of each letter. */
+static void check_looks(struct checking *checking, const char *name)
 {
     uint32_t code = ' ';
     for (const char *c = name; *c;) {
@@ -29,6 +29,13 @@ static void check_blanks(struct checking *checking, const char *name)
         const size_t size = utf8_character(c, strnlen(c, 4), &code);
         if (is_invisible(code) && code != ' ') {
             case_wrong(checking, "", "a name cannot hold the invisible character U+%04X",
+                       (unsigned)code);
+            return;
+        }
+        if (is_spelled_twice(code)) {
+            case_wrong(checking, "",
+                       "a name cannot hold U+%04X, which Unicode spells in another way too: write "
+                       "a letter with its marks as one character",
                        (unsigned)code);
             return;
         }
@@ -56,7 +63,7 @@ static void check_name(struct checking *checking, const char *name, bool of_file
                    "a name starts with a letter or a digit and holds besides these only blanks and "
                    "%s",
                    punctuation);
-    check_blanks(checking, name);
+    check_looks(checking, name);
 }
 
 static void check_names(struct checking *checking)

@@ -67,12 +67,24 @@ static void what_shows_nothing_is_known(void **state)
         assert_false(is_invisible(seen[i]));
 }
 
+static void letters_in_parts_are_known_from_whole_ones(void **state)
+{
+    (void)state;
+    static const uint32_t twice[] = {0x301, 0x308, 0x3099, 0x1161, 0x2126, 0x212a, 0x212b, 0xf900};
+    static const uint32_t once[] = {'e', 0xe9, 0x3a9, 0xc5, 0x434, 0x439, 0x30ac, 0xac00, 0x6c34};
+    for (size_t i = 0; i < COUNT_OF(twice); i++)
+        assert_true(is_spelled_twice(twice[i]));
+    for (size_t i = 0; i < COUNT_OF(once); i++)
+        assert_false(is_spelled_twice(once[i]));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(letters_of_all_scripts_stay),
         cmocka_unit_test(controls_are_written_out),
         cmocka_unit_test(what_shows_nothing_is_known),
+        cmocka_unit_test(letters_in_parts_are_known_from_whole_ones),
         cmocka_unit_test(bytes_that_are_no_text_are_written_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
