@@ -2,8 +2,8 @@
 #include "case/internal.h"
 
 /* In the order of enum warning_kind. */
-static const char *const warning_names[] = {"tension", "speed",  "temperature",
-                                            "density", "energy", NULL};
+static const char *const warning_names[] = {
+    "tension", "speed", "temperature", "density", "tensile-instability", "energy", NULL};
 
 const struct parameter case_expected_table[] = {
     {.key = "warning",
@@ -13,7 +13,8 @@ const struct parameter case_expected_table[] = {
      .names = warning_names,
      .help = "what is expected: tension beyond the strength of a material; a speed above three "
              "times that which set the case in motion; a temperature below 0 K; a density outside "
-             "the range of the equation of state; energy that is not conserved"},
+             "the range of the equation of state; tension that lasts longer than SPH holds a "
+             "body; energy that is not conserved"},
     {.key = "of",
      .kind = PARAMETER_NAMES,
      .offset = offsetof(struct expected_warning_input, of),

@@ -57,6 +57,9 @@ struct solver_class {
     /* What is no mistake of INPUT but may be none of the user's wishes with this solver, as
      * generate_warnings; NULL where there is nothing. */
     struct error *(*warnings)(const void *parameters, const struct simulation_case *input);
+    /* In 2-D and 3-D bodies in lasting tension creep and come apart, whatever their strength; see
+     * run/warnings_tension.c. */
+    bool loses_tension;
 };
 
 #endif

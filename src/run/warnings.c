@@ -52,6 +52,7 @@ static void find_limits(struct material_watch *watch, const struct material *mat
     for (int kind = 0; kind < WARNING_ENERGY; kind++)
         watch->limit[kind] = INFINITY;
     watch->limit[WARNING_TENSION] = tension_limit(material, strength, &watch->estimated);
+    watch->limit[WARNING_INSTABILITY] = 1.0;
     watch->limit[WARNING_DENSITY] =
         eos_traits(&material->eos).largest_compression * material_density(material);
     watch->warm = !heat_wrong(&material->heat, &material->eos);
@@ -73,7 +74,7 @@ struct warnings *warnings_create(const struct simulation *simulation)
     w->watch = memory_allocate((size_t)materials * sizeof *w->watch);
     w->memory = memory_allocate((size_t)w->memories * sizeof *w->memory);
     w->held = memory_allocate((size_t)simulation->input->bodies.count);
-    if (!w->watch || !w->memory || !w->held) {
+    if (!w->watch || !w->memory || !w->held || !tension_create(w, simulation)) {
         warnings_free(w);
         return NULL;
     }
@@ -92,6 +93,8 @@ void warnings_free(struct warnings *warnings)
     free(warnings->watch);
     free(warnings->memory);
     free(warnings->held);
+    free(warnings->tension);
+    free(warnings->tension_watch);
     free(warnings);
 }
 
@@ -200,6 +203,7 @@ static void look_at(const struct warnings *w, const struct simulation *simulatio
         [WARNING_SPEED] = speed_of(p, i),
         [WARNING_TEMPERATURE] = -1.0,
         [WARNING_DENSITY] = p->density[i],
+        [WARNING_INSTABILITY] = tension_of(w, p, i),
     };
     if (watch->warm)
         value[WARNING_TEMPERATURE] =
@@ -335,7 +339,8 @@ struct error *warnings_watch(struct warnings *w, const struct simulation *simula
     const struct tell teller = {tell, context};
     follow_speed(w, simulation, p, now);
     struct found *found = calloc((size_t)w->memories, sizeof *found);
-    const bool done = found && search(w, simulation, p, found, w->memories - 1);
+    const bool followed = tension_follow(w, simulation, p);
+    const bool done = found && followed && search(w, simulation, p, found, w->memories - 1);
     struct error *error = ranks_agree(
         simulation->ranks, done ? NULL : error_new(ERROR_SYSTEM, "out of memory for warnings"));
     if (!error)
@@ -356,11 +361,15 @@ struct error *warnings_check_loaded(const struct warnings *warnings, int bodies)
                              "row %d of run/warnings is of body %g, where the case has "
                              "%d of them",
                              i, warnings->memory[i].body, bodies);
+    if (!tension_check_loaded(warnings))
+        return error_new(ERROR_SYSTEM, "a number of run/tension is not finite");
     return NULL;
 }
 
 struct error *warnings_visit(struct warnings *warnings, struct visitor *visitor)
 {
+    TRY(visitor->visit(visitor, "run/tension", NUMBER_DOUBLE, warnings->tension, warnings->bodies,
+                       TENSION_NUMBERS));
     TRY(visitor->visit(visitor, "run/warnings", NUMBER_DOUBLE, warnings->memory, warnings->memories,
                        WARNING_NUMBERS));
     return visitor->visit(visitor, "run/largest_speed", NUMBER_DOUBLE, &warnings->speed, 1, 1);

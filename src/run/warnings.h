@@ -17,6 +17,7 @@ enum warning_kind {
     WARNING_SPEED,       /* beyond what set the case in motion */
     WARNING_TEMPERATURE, /* below 0 K */
     WARNING_DENSITY,     /* beyond the range of the equation of state */
+    WARNING_INSTABILITY, /* tension that lasts longer than the method holds a body in it */
     WARNING_ENERGY,      /* of all members together: it is not conserved */
     WARNING_KINDS
 };

@@ -24,6 +24,11 @@ static const struct {
     [WARNING_TEMPERATURE] = {"temperature", "K", "a temperature of",
                              "its equation of state ends before this state", -1.0},
     [WARNING_DENSITY] = {"density", "kg/m^3", "a density of", NULL, 1.0},
+    [WARNING_INSTABILITY] =
+        {"tensile-instability", "", "lasting tension of",
+         "in lasting tension bodies creep and break without reason, with energy conserved: use "
+         "`solver: mpm`",
+         1.0},
     [WARNING_ENERGY] = {"energy", "", NULL, NULL, 1.0},
 };
 
@@ -69,6 +74,9 @@ static void put_limit(const struct warnings *warnings, const struct simulation *
     case WARNING_DENSITY:
         snprintf(text, size, "more than %.3g times that at rest, where its equation of state ends",
                  limit / material_density(material));
+        break;
+    case WARNING_INSTABILITY:
+        snprintf(text, size, "where this method bears 1");
         break;
     default:
         snprintf(text, size, "below 0 K");

@@ -303,4 +303,5 @@ const struct solver_class sph_class = {.size = sizeof(struct sph),
                                        .step = sph_step,
                                        .largest_jump = sph_largest_jump,
                                        .energy_lost = sph_energy_lost,
-                                       .fields = sph_field_tables};
+                                       .fields = sph_field_tables,
+                                       .loses_tension = true};

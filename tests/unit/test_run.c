@@ -132,7 +132,8 @@ static const struct solver_class flight_class = {sizeof(struct flight_parameters
                                                  NULL,
                                                  NULL,
                                                  NULL,
-                                                 NULL};
+                                                 NULL,
+                                                 false};
 
 static const struct choice flight_choice = {"flight", "free flight", flight_table,
                                             sizeof(struct flight_parameters), &flight_class};
