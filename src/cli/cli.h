@@ -74,6 +74,12 @@ int verify_convergence(const char *const *paths, int count, bool of_all,
 /* Lists what has TEXT in its name or its help; false when nothing has. */
 bool help_search(const char *text);
 
+/* help_words.c */
+
+/* Prints what to do about TOPIC, a word of users that is no name of the program; false if there is
+ * nothing to say. */
+bool help_word(const char *topic);
+
 /* options.c */
 
 /* Reads what follows the command's name; ERROR_INPUT with the nearest right spelling. */

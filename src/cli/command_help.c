@@ -361,9 +361,19 @@ static int unknown_topic(const char *topic)
                 : error_new(ERROR_INPUT, "no help on \"%s\"; see `bolide help`", topic));
 }
 
+/* The words of `bolide help units of stress` as one text in BUFFER; NULL without any. */
+static const char *topic_of(const struct text_list *names, char *buffer, size_t size)
+{
+    size_t used = 0;
+    for (int i = 0; i < names->count && used < size; i++)
+        used += (size_t)snprintf(buffer + used, size - used, "%s%s", i ? " " : "", names->text[i]);
+    return names->count ? buffer : NULL;
+}
+
 int command_help(const struct cli_options *options)
 {
-    const char *topic = options->names.count ? options->names.text[0] : NULL;
+    char topic_buffer[128];
+    const char *topic = topic_of(&options->names, topic_buffer, sizeof topic_buffer);
     if (!topic)
         print_commands();
     else if (!strcmp(topic, "case")) {
@@ -379,7 +389,8 @@ int command_help(const struct cli_options *options)
             topic += 6;
         else if (!strncmp(topic, "long.", 5))
             topic += 5;
-        bool found = help_command(topic);
+        bool found = help_word(topic);
+        found = help_command(topic) || found;
         found = help_thing(topic) || found;
         found = help_key(case_table, topic) || help_key(case_shaping_table, topic) || found;
         if (!found)

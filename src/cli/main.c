@@ -24,7 +24,7 @@ const struct command commands[] = {
     {COMMAND_MATERIALS, "materials", "[NAME] [options]",
      "list the material library, or print one material with its sources", 0, 1, command_materials},
     {COMMAND_HELP, "help", "[TOPIC]", "explain a command, a key of a case, or anything it can name",
-     0, 1, command_help},
+     0, 6, command_help},
 };
 const int command_count = COUNT_OF(commands);
 

@@ -48,6 +48,19 @@ expect 2 "did you mean \"units\"" "$BOLIDE" help unit
 expect 0 "run --resume" "$BOLIDE" help restart
 expect 0 "tillotson.tension" "$BOLIDE" help tension
 expect 2 "no help on \"qwertyuiop\"" "$BOLIDE" help qwertyuiop
+
+# Words of users that are no names of the program have an answer, which names a page that exists.
+for word in spall failure fracture whipple craters penetration Hugoniot foam calibration restart \
+    checkpoint symmetry film ParaView h5py MPI slurm threads GPU periodic "units of stress" blast \
+    stl mesh erosion adaptive melting ceramic "long rod" plate-impact; do
+    expect 0 "" "$BOLIDE" help $word
+    page=$("$BOLIDE" help $word | sed -n 's/^More: //p')
+    [ -z "$page" ] || [ -f "$BOLIDE_SOURCE_DIR/$page" ] ||
+        { echo "FAILED: help $word names $page, which does not exist"; status=1; }
+done
+expect 0 "Not available for metals" "$BOLIDE" help spall
+expect 0 "GPa" "$BOLIDE" help units of stress
+expect 0 "--resume" "$BOLIDE" help restart
 [ "$("$BOLIDE" help fields | grep -c '^  sound_long ')" = 1 ] ||
     { echo "FAILED: help fields lists a field of every solver twice"; status=1; }
 expect 2 "bolide verify" "$BOLIDE"

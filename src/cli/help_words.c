@@ -1,0 +1,165 @@
+/* Help on words that users type and that are no names of the program: what to do, or that it is not
+ * available and what to do instead. */
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/cli.h"
+
+/* An answer to any of WORDS, which are in lower case, singular, and have blanks around them; a word
+ * of several parts has dots. */
+struct answer {
+    const char *words, *text;
+    const char *page; /* that says more, in docs/; NULL for none */
+};
+
+static const struct answer answers[] = {
+    {" spall fracture fragmentation fragment crack failure pull.back scabbing ",
+     "Not available for metals: they carry any tension that their equation of state allows, and a "
+     "run\n"
+     "warns when it exceeds their strength. Instead:\n"
+     "  materials.NAME.tensile_strength   sets the tension from which a run warns\n"
+     "  eos: {tillotson: {tension: ...}}  limits the tension; the material does not break\n"
+     "  strength: hjc                     concrete, with damage by crushing and by tension\n"
+     "  strength: drucker-prager          soil, with a tension cut-off\n"
+     "End a run before the release waves meet if the tension must not matter.",
+     "materials.md"},
+    {" damage ",
+     "Damage exists in concrete only (strength: hjc): the fields `damage` and `tensile_damage`.\n"
+     "Failure of metals is not available.",
+     "materials.md"},
+    {" whipple shield debris crater perforation hole hypervelocity bumper ballistic.limit plate ",
+     "A projectile through a plate, with hole and debris cloud: a worked case is on the page "
+     "below.\n"
+     "There is no measure of holes and craters; `minimum: position.x` of a body in a slice of "
+     "`axis: y`\n"
+     "gives the radius. Ballistic limits need failure of metals, which is not available.",
+     "tasks/impact-on-a-plate.md"},
+    {" rod long.rod penetration penetrator depth.of.penetration armour armor ",
+     "A long rod into a thick target, beside the theory (bolide help long-rod): see the page "
+     "below.",
+     "tasks/long-rod.md"},
+    {" hugoniot plate.impact flyer shock.adiabat shock.speed us.up ",
+     "Two plates at several speeds, with U_s over U_p: see the page below. `bolide exact\n"
+     "impedance-match` has the exact state; `bolide materials NAME --curves` the curves of a "
+     "material.",
+     "tasks/plate-impact.md"},
+    {" mesostructure microstructure pore porous porosity foam grain composite mixture packing ",
+     "Structures are resolved, with shapes: repeat, template, polygon, difference, and bodies "
+     "that\n"
+     "replace parts of others. Not available: random packings, images as input, and a compaction\n"
+     "model (P-alpha) for pores that are not resolved.",
+     "tasks/mesostructures.md"},
+    {" calibrate calibration optimise optimize fit fitting taylor taylor.test taylor.bar ",
+     "There is no optimiser. Run a sweep of the constant, and interpolate in sweep.csv; `fits` "
+     "puts\n"
+     "lines and power laws through the runs of a sweep.",
+     "tasks/strength-calibration.md"},
+    {" restart resume checkpoint continue extend ",
+     "bolide run --resume continues a run from its last checkpoint, with the same bits. The case "
+     "must\n"
+     "be the same: a run cannot be extended or changed.",
+     "tasks/restart.md"},
+    {" film movie video animation animate gif ",
+     "Not available as a file. report.html has a player of the pictures of `output.pictures`; "
+     "ParaView\n"
+     "makes films of snapshots.vtkhdf.series.",
+     "tasks/results.md"},
+    {" paraview vtk vtkhdf visit ovito python h5py hdf5 csv postprocess postprocessing plot ",
+     "Snapshots are VTKHDF files: open snapshots.vtkhdf.series in ParaView, or single files with "
+     "h5py.\n"
+     "Histories, probes, profiles and checks are CSV files.",
+     "tasks/results.md"},
+    {" mpi mpirun rank cluster slurm parallel core processor thread openmp hpc ",
+     "bolide run --ranks 16 starts 16 processes on this machine; on several machines use\n"
+     "`mpirun -n 64 bolide run CASE`. --threads limits the threads of a process.",
+     "tasks/cluster.md"},
+    {" gpu cuda accelerator ", "Not available: Bolide runs on processors, with threads and MPI.",
+     "tasks/cluster.md"},
+    {" symmetry symmetric mirror half.model quarter.model ",
+     "A mirror wall is a plane of symmetry:  walls: {below: {mirror: y, at: 0 mm, side: low}}\n"
+     "`geometry: axisymmetric` makes bodies of revolution in 2-D: x is the radius, y the axis.",
+     "case.md"},
+    {" periodic periodicity ",
+     "Periodic boundaries are not available. Two mirror walls repeat a cell that is symmetric.",
+     "case.md"},
+    {" absorbing transmitting non.reflecting nonreflecting infinite ",
+     "With SPH: a few particles of the same material with `frozen: yes` at the end of a body let "
+     "waves\n"
+     "leave. With MPM: `outflows`.",
+     "case.md"},
+    {" unit.of.stress units.of.stress stress.unit unit.of.pressure units.of.pressure "
+     "pressure.unit ",
+     "Stress and pressure take Pa, kPa, MPa, GPa, bar, kbar, Mbar and any other unit of a "
+     "pressure,\n"
+     "as N/mm^2. Results are in Pa. Stress is positive in tension, pressure in compression.\n"
+     "`bolide help units` lists the symbols.",
+     NULL},
+    {" blast air.blast airblast kingery conwep afterburn fireball ",
+     "Blast in air is not usable yet: it needs a gas solver on a grid, which is not available.\n"
+     "Instead: a pressure over time on a surface (`loads`, with MPM), or explosive in contact\n"
+     "(bolide help burn).",
+     "materials.md"},
+    {" explosive detonation tnt charge detonate ",
+     "An explosive is a material with `burn` (bolide help burn; library: tnt), lit by "
+     "`detonations`.",
+     "materials.md"},
+    {" stl cad mesh geometry.file image step.file ",
+     "Not available: bodies are made of shapes (bolide help shape), or of a `template`, a map of\n"
+     "letters. There is no mesh to make: particles are placed at the distance `resolution`.",
+     "case.md"},
+    {" erosion erode delete element.deletion ",
+     "Not needed: particles are not removed, however far they deform.", "choosing.md"},
+    {" adaptive amr refinement refine ",
+     "Not available: a particle keeps its size. Give each body its own `resolution`.", "case.md"},
+    {" melt melting vaporisation vaporization boiling phase phase.transition ",
+     "eos: tillotson goes from solid to vapour, and Johnson-Cook strength vanishes at `melt`. "
+     "Solid-\n"
+     "solid transitions, latent heat and melting curves are not available.",
+     "materials.md"},
+    {" ceramic glass jh2 jh.2 johnson.holmquist ",
+     "Not available with failure: alumina, boron carbide and glass of the library are elastic up "
+     "to\n"
+     "their limit. Concrete is available (strength: hjc).",
+     "materials.md"},
+    {" convergence mesh.independence grid.convergence ",
+     "bolide verify --convergence CASE runs a case on several resolutions and gives errors and "
+     "orders.",
+     "convergence.md"},
+};
+
+/* TOPIC as the table has it: lower case, dots for blanks and hyphens, blanks around. */
+static bool as_word(const char *topic, char *word, size_t size)
+{
+    const size_t length = strlen(topic);
+    if (length + 3 > size || strpbrk(topic, "."))
+        return false;
+    word[0] = ' ';
+    for (size_t i = 0; i < length; i++) {
+        const char c = (char)tolower((unsigned char)topic[i]);
+        word[i + 1] = c == ' ' || c == '-' || c == '_' ? '.' : c;
+    }
+    memcpy(word + length + 1, " ", 2);
+    return true;
+}
+
+bool help_word(const char *topic)
+{
+    char word[64];
+    if (!as_word(topic, word, sizeof word))
+        return false;
+    const size_t length = strlen(word);
+    for (int plural = 0; plural < 2; plural++) {
+        for (size_t i = 0; i < sizeof answers / sizeof *answers; i++)
+            if (strstr(answers[i].words, word)) {
+                printf("%s\n", answers[i].text);
+                if (answers[i].page)
+                    printf("More: docs/%s\n", answers[i].page);
+                return true;
+            }
+        if (length < 5 || word[length - 2] != 's')
+            return false;
+        memcpy(word + length - 2, " ", 2); /* craters: crater */
+    }
+    return false;
+}
