@@ -157,6 +157,28 @@ static void polynomial_is_linear_in_tension(void **state)
     assert_near(pressure(&boron_carbide, 1.1 * 2510.0, 0.0), 23.3e9 - 5.93e9 + 2.8e9, 1e-3);
 }
 
+/* By what part EOS, whose sound at rest is SOUND, falls short of the shock adiabat of SLOPE at the
+ * end of its range. */
+static double shortage(const struct eos *eos, double sound, double slope)
+{
+    const double ratio = eos_traits(eos).largest_compression, eta = 1.0 - 1.0 / ratio;
+    const double rest = eos_reference_density(eos);
+    const double adiabat = rest * square(sound) * eta / square(1.0 - slope * eta);
+    return 1.0 - eos_evaluate(eos, ratio * rest, 0.0, no_history).pressure / adiabat;
+}
+
+static void straight_lines_end_a_quarter_short_of_a_shock_adiabat(void **state)
+{
+    (void)state;
+    const double water_slope = 1.92, usual_slope = 1.5;
+    const struct eos water = {EOS_barotropic,
+                              {.barotropic = {.density = 1000.0, .bulk_modulus = 2e9}}};
+    assert_near(shortage(&water, sqrt(2e6), usual_slope), 0.25, 0.01);
+    assert_near(shortage(&water, sqrt(2e6), water_slope), 0.32, 0.01);
+    assert_near(shortage(&rubber, 850.0, usual_slope), 0.18, 0.01);
+    assert_near(shortage(&rubber, 850.0, water_slope), 0.25, 0.01);
+}
+
 static void tnt_products_have_the_values_of_their_source(void **state)
 {
     (void)state;
@@ -203,6 +225,7 @@ int main(void)
         cmocka_unit_test(grueneisen_eta_tells_where_its_adiabat_ends),
         cmocka_unit_test(steel_1006_has_the_values_of_its_source),
         cmocka_unit_test(polynomial_is_linear_in_tension),
+        cmocka_unit_test(straight_lines_end_a_quarter_short_of_a_shock_adiabat),
         cmocka_unit_test(tnt_products_have_the_values_of_their_source),
         cmocka_unit_test(unreacted_petn_rests_without_pressure),
     };
