@@ -68,8 +68,10 @@ struct error *measure_error(const struct measurement *measurement, const char *f
     va_start(arguments, format);
     char *text = text_vformat(format, arguments);
     va_end(arguments);
-    struct error *error = input_error(measurement->simulation->input, "checks", measurement->name,
-                                      "%s", text ? text : "");
+    struct error *error = measurement->unplaced
+                              ? error_new(ERROR_INPUT, "%s", text ? text : "")
+                              : input_error(measurement->simulation->input, "checks",
+                                            measurement->name, "%s", text ? text : "");
     free(text);
     return error;
 }

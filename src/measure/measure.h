@@ -17,6 +17,7 @@ struct measurement {
     const struct totals *start;  /* at time zero */
     const struct check_input *check;
     const char *name;                /* of the check, for messages */
+    bool unplaced;                   /* messages are only counted: to find their place takes long */
     const struct exact_class *exact; /* NULL: nothing to compare with */
     const void *solved;
     double at_start; /* what the class kept from time zero */

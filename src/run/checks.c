@@ -91,7 +91,10 @@ static const void *solved_before(const struct checks *checks, const struct prepa
     return NULL;
 }
 
-static struct error *solve_exact(const struct checks *checks, struct prepared_check *prepared)
+/* Bytes of all exact solutions of a case. One takes up to 1.3 MB. */
+static const size_t solved_limit = (size_t)512 << 20;
+
+static struct error *solve_exact(struct checks *checks, struct prepared_check *prepared)
 {
     struct measurement *m = &prepared->measurement;
     const struct one_of *against = against_of(m);
@@ -118,6 +121,12 @@ static struct error *solve_exact(const struct checks *checks, struct prepared_ch
     m->solved = solved_before(checks, prepared);
     if (m->solved)
         return NULL;
+    if (checks->solved_bytes + m->exact->size > solved_limit)
+        return measure_error(m,
+                             "the exact solutions of the checks take more than %zu MB: give "
+                             "`exact` to the case, once, in place of `against`",
+                             solved_limit >> 20);
+    checks->solved_bytes += m->exact->size;
     prepared->solved = memory_allocate(m->exact->size);
     if (!prepared->solved)
         return error_new(ERROR_SYSTEM, "out of memory for an exact solution");
@@ -125,7 +134,7 @@ static struct error *solve_exact(const struct checks *checks, struct prepared_ch
     return located(m, m->exact->solve(against->value, prepared->solved));
 }
 
-static struct error *prepare_check(const struct checks *checks, struct prepared_check *prepared)
+static struct error *prepare_check(struct checks *checks, struct prepared_check *prepared)
 {
     const struct measurement *m = &prepared->measurement;
     const struct measure_class *class = class_of(m->check);
@@ -184,7 +193,7 @@ struct error *checks_prepare(const struct simulation *simulation, const struct v
         free(items);
         return error_new(ERROR_SYSTEM, "out of memory for checks");
     }
-    *checks = (struct checks){input->checks.count, items};
+    *checks = (struct checks){input->checks.count, items, 0};
     struct error *error = NULL;
     for (int i = 0; i < checks->count; i++) {
         items[i].measurement = (struct measurement){.simulation = simulation,
@@ -192,11 +201,14 @@ struct error *checks_prepare(const struct simulation *simulation, const struct v
                                                     .probes = probes,
                                                     .check = case_check(input, i),
                                                     .name = input->checks.names[i],
+                                                    .unplaced = error_is_full(error),
                                                     .at_start = NAN};
         error = error_join(error, prepare_check(checks, &items[i]));
     }
-    for (int i = 0; i < checks->count; i++)
+    for (int i = 0; i < checks->count; i++) {
+        items[i].measurement.unplaced = error_is_full(error);
         error = error_join(error, prepare_limits(checks, &items[i]));
+    }
     if (error) {
         checks_free(checks);
         checks = NULL;

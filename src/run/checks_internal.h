@@ -15,6 +15,7 @@ struct prepared_check {
 struct checks {
     int count;
     struct prepared_check *item;
+    size_t solved_bytes; /* of the exact solutions */
 };
 
 #endif

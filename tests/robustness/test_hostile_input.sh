@@ -53,6 +53,21 @@ refuse 10 "folder: a folder without a case.yaml" "$BOLIDE" check folder
 truncate -s 40M large.yaml
 refuse 10 "large.yaml: File too large" "$BOLIDE" check large.yaml
 
+# Many checks, all of them wrong, or each with an exact solution of its own, take neither minutes nor
+# all memory.
+{ plate; echo "checks:"
+  for i in $(seq 40000); do echo "  c$i: {mean: presure, at_most: 1 Pa}"; done; } >checks.yaml
+refuse 30 "39950 more are not shown" "$BOLIDE" check checks.yaml
+{ plate; echo "checks:"
+  state="density: 1 kg/m^3, capacity: 1 J/(kg*K), conductivity: 1 W/(m*K), temperature"
+  for i in $(seq 6000); do
+      echo "  c$i: {l1: temperature, at_most: 1, against: {temperature-jump: {" \
+          "left: {$state: $i K}, right: {$state: 300 K}}}}"
+  done; } >checks.yaml
+sed -i 's/library: aluminium}/library: aluminium, heat: {capacity: 900 J\/(kg*K), temperature: 293 K}}/' \
+    checks.yaml
+refuse 30 "the exact solutions of the checks take more than 512 MB" "$BOLIDE" check checks.yaml
+
 # No line of a file of another kind is shown.
 printf 'root:secret: 1\nuser:secret: 2\n' >foreign
 { echo "include: foreign"; plate; } >include.yaml
