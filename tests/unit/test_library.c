@@ -171,11 +171,12 @@ static bool holds_one_of(const char *text, const char *const *words)
     return false;
 }
 
-/* A line whose value holds a digit has a comment that names a place of the source. */
+/* A line whose value holds a digit has a comment that names a place of the source, or another source
+ * by its year. */
 static void check_line(const char *file, int number, char *line)
 {
-    static const char *const places[] = {"section ", "table ", "chapter ", "equation ",
-                                         " test",    "(2-",    NULL};
+    static const char *const places[] = {"section ", "table ", "chapter ", "equation ", " test",
+                                         "(2-",      " (19",   " (20",     NULL};
     char *comment = strstr(line, " #");
     if (comment)
         *comment++ = '\0';

@@ -15,6 +15,7 @@
 #include "run/catalogue.h"
 #include "run/run.h"
 #include "run/verify.h"
+#include "source_folder.h"
 
 /* NAN: stays. */
 struct nonsense_parameters {
@@ -211,7 +212,11 @@ static struct run_result run(const char *const *settings, const struct run_optio
 {
     struct run_result result;
     struct simulation_case *input;
-    struct case_options reading = {.settings = settings, .setting_count = count_settings(settings)};
+    static const char *const library_paths[] = {materials_folder};
+    struct case_options reading = {.settings = settings,
+                                   .setting_count = count_settings(settings),
+                                   .library_paths = library_paths,
+                                   .library_count = COUNT_OF(library_paths)};
     write_case();
     struct error *error = case_read(case_file, &reading, nonsense_catalogue(), &input);
     if (!error)
@@ -269,6 +274,26 @@ static void a_known_tensile_strength_takes_the_place_of_the_estimate(void **stat
                                     "materials.metal.tensile_strength=1.3 GPa", NULL};
     const char *const words[] = {"1.4 GPa", "tensile strength of 1.3 GPa", "1 particle at", NULL};
     expect_warning(settings, "tension in metal", words);
+}
+
+static void metals_of_the_library_are_named_beyond_their_spall_strength(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *set, *strength;
+    } metals[] = {
+        {"materials.metal={library: copper}", "tensile strength of 1.38 GPa"},
+        {"materials.metal={library: copper-johnson-cook}", "tensile strength of 1.38 GPa"},
+        {"materials.metal={library: aluminium}", "tensile strength of 1.26 GPa"},
+        {"materials.metal={library: steel-1006}", "tensile strength of 2 GPa"},
+        {"materials.metal={library: tungsten-alloy-johnson-cook}", "tensile strength of 1.9 GPa"},
+    };
+    for (size_t k = 0; k < COUNT_OF(metals); k++) {
+        const char *const settings[] = {"solver={nonsense: {pressure: -2.1 GPa, from: 10}}",
+                                        metals[k].set, NULL};
+        const char *const words[] = {metals[k].strength, NULL};
+        expect_warning(settings, "tension in metal", words);
+    }
 }
 
 static void a_model_that_limits_tension_needs_no_estimate(void **state)
@@ -500,6 +525,7 @@ int main(void)
         cmocka_unit_test(a_run_that_stays_within_its_models_has_no_warning),
         cmocka_unit_test(tension_beyond_a_twentieth_of_the_modulus_is_named),
         cmocka_unit_test(a_known_tensile_strength_takes_the_place_of_the_estimate),
+        cmocka_unit_test(metals_of_the_library_are_named_beyond_their_spall_strength),
         cmocka_unit_test(a_model_that_limits_tension_needs_no_estimate),
         cmocka_unit_test(a_speed_beyond_three_times_that_of_the_start_is_named),
         cmocka_unit_test(a_state_that_can_expand_may_move_faster),
