@@ -23,7 +23,7 @@ const struct parameter case_contact_table[] = {
      .offset = offsetof(struct contact_input, tension),
      .standard = "carried",
      .names = tension_names,
-     .help = "whether the contact carries tension, or none and opens"},
+     .help = "carried: the contact carries tension; none: it opens"},
     {.key = "friction",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct contact_input, friction),
@@ -37,15 +37,14 @@ const struct parameter case_contact_table[] = {
      .offset = offsetof(struct contact_input, normal),
      .standard = "mean",
      .names = normal_names,
-     .help =
-         "whose surface tells which way the contact pushes: that of the first body (the stiffer, "
-         "or the convex one), of the second, or the mean of both (solver mpm)"},
+     .help = "whose surface gives the contact normal: that of the first body (the stiffer or the "
+             "convex one), of the second, or the mean of both (solver mpm)"},
     {.key = "touch",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct contact_input, touch),
      .standard = "nodes",
      .names = touch_names,
-     .help = "when bodies that may part feel each other: where they have the same nodes, a cell "
-             "before they meet, or where their surfaces meet (solver mpm)"},
+     .help = "where contact begins for bodies that may separate; nodes: where they share nodes, a "
+             "cell before they touch; surfaces: where their surfaces touch (solver mpm)"},
     PARAMETER_END,
 };

@@ -24,6 +24,6 @@ const struct parameter case_expected_table[] = {
      .kind = PARAMETER_TEXT,
      .offset = offsetof(struct expected_warning_input, reason),
      .standard = PARAMETER_REQUIRED,
-     .help = "why it occurs, and why the checks of the case stand nevertheless"},
+     .help = "why it occurs, and why the checks of the case are valid nevertheless"},
     PARAMETER_END,
 };

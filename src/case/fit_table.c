@@ -27,8 +27,8 @@ const struct parameter case_fit_table[] = {
      .offset = offsetof(struct fit_input, take),
      .standard = PARAMETER_REQUIRED,
      .names = take_names,
-     .help = "slope: b; intercept: a, of a line; misfit: the root mean square of what y is off by, "
-             "over the mean of its absolute values (power: that of the logarithms)"},
+     .help = "slope: b; intercept: a of a line; misfit: root mean square of the residuals over the "
+             "mean absolute value of y (power: of the logarithms)"},
     {.key = "from",
      .kind = PARAMETER_QUANTITY,
      .offset = offsetof(struct fit_input, from),

@@ -82,7 +82,7 @@ struct error *case_take_record(struct simulation_case *input, const char *path);
      .kind = PARAMETER_QUANTITY,                                                                   \
      .offset = offsetof(type, member is),                                                          \
      .standard = PARAMETER_OPTIONAL,                                                               \
-     .help = "the wanted value"},                                                                  \
+     .help = "the expected value"},                                                                \
         {.key = "within",                                                                          \
          .kind = PARAMETER_QUANTITY,                                                               \
          .offset = offsetof(type, member within),                                                  \
@@ -102,7 +102,7 @@ struct error *case_take_record(struct simulation_case *input, const char *path);
          .kind = PARAMETER_TEXT,                                                                   \
          .offset = offsetof(type, member source),                                                  \
          .standard = PARAMETER_OPTIONAL,                                                           \
-         .help = "where the wanted value comes from"},                                             \
+         .help = "source of the expected value"},                                                  \
         {.key = "known_deviation",                                                                 \
          .kind = PARAMETER_TEXT,                                                                   \
          .offset = offsetof(type, member known_deviation),                                         \

@@ -9,15 +9,15 @@
 
 const struct command commands[] = {
     {COMMAND_RUN, "run", "CASE", "run a case and judge its checks", 1, 1, command_run},
-    {COMMAND_CHECK, "check", "CASE...", "say what would be computed, without computing it", 1, 1000,
-     command_check},
+    {COMMAND_CHECK, "check", "CASE...", "check a case and forecast its cost, without computing it",
+     1, 1000, command_check},
     {COMMAND_VERIFY, "verify", "CASE... | --all",
      "run cases and print all their checks as one table", 0, 1000, command_verify},
     {COMMAND_EXACT, "exact", "[NAME | CASE]",
      "print an exact solution: its numbers, and its profile", 0, 1, command_exact},
     {COMMAND_REPORT, "report", "FOLDER...", "make report.html of the results in a folder", 1, 1000,
      command_report},
-    {COMMAND_NEW, "new", "NAME", "write NAME/case.yaml, a commented case to start from", 1, 1,
+    {COMMAND_NEW, "new", "NAME", "write NAME/case.yaml, a commented case as a starting point", 1, 1,
      command_new},
     {COMMAND_SCHEMA, "schema", "", "print the JSON Schema of a case, for editors", 0, 0,
      command_schema},

@@ -7,24 +7,25 @@
 
 /* X(identifier, name, help): struct exact_<identifier>, exact_<identifier>_table,
  * exact_<identifier>_class of exact/<identifier>.h. */
-#define EXACT_LIST(X)                                                                      \
-    X(gas_riemann, "gas-riemann",                                                          \
-      "two ideal gases that meet at a plane: shocks and expansion fans")                   \
-    X(elastic_plastic_riemann, "elastic-plastic-riemann",                                  \
-      "two perfectly plastic solids that meet at a plane: elastic and plastic waves")      \
-    X(elastic_plastic_impact, "elastic-plastic-impact",                                    \
-      "two perfectly plastic plates that strike: waves meet and return from surfaces")     \
-    X(impedance_match, "impedance-match",                                                  \
-      "planar impact of two materials with linear shock relations")                        \
-    X(sedov, "sedov", "a strong blast in a gas from a point, a line or a plane")           \
-    X(gas_expansion, "gas-expansion",                                                      \
-      "a slab, cylinder or ball of gas that expands evenly into a vacuum")                 \
-    X(slab_detonation, "slab-detonation",                                                  \
-      "a slab of explosive lit at a rigid wall: the front and the wave behind it")         \
-    X(verney, "verney", "a thick plastic cylinder that runs inward until it stops")        \
-    X(long_rod, "long-rod", "a long rod that erodes in a thick target, Alekseevskii-Tate") \
-    X(temperature_jump, "temperature-jump",                                                \
-      "heat between two bodies of different temperature, in an infinite or an insulated rod")
+#define EXACT_LIST(X)                                                                           \
+    X(gas_riemann, "gas-riemann",                                                               \
+      "two ideal gases that meet at a plane: shocks and expansion fans")                        \
+    X(elastic_plastic_riemann, "elastic-plastic-riemann",                                       \
+      "two perfectly plastic solids that meet at a plane: elastic and plastic waves")           \
+    X(elastic_plastic_impact, "elastic-plastic-impact",                                         \
+      "two perfectly plastic plates that collide: waves interact and reflect at free surfaces") \
+    X(impedance_match, "impedance-match",                                                       \
+      "planar impact of two materials with linear shock relations")                             \
+    X(sedov, "sedov", "a strong blast in a gas from a point, a line or a plane")                \
+    X(gas_expansion, "gas-expansion",                                                           \
+      "homogeneous expansion of a slab, cylinder or ball of gas into a vacuum")                 \
+    X(slab_detonation, "slab-detonation",                                                       \
+      "a slab of explosive ignited at a rigid wall: the front and the rarefaction after it")    \
+    X(verney, "verney", "a thick plastic cylinder that collapses until it stops")               \
+    X(long_rod, "long-rod", "a long rod that erodes in a thick target, Alekseevskii-Tate")      \
+    X(temperature_jump, "temperature-jump",                                                     \
+      "heat conduction between two bodies of different temperature, in an infinite or an "      \
+      "insulated rod")
 
 #define EXACT_COUNT_ONE(identifier, name, help) +1
 enum { exact_choice_count = 0 EXACT_LIST(EXACT_COUNT_ONE) };

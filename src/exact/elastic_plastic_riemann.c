@@ -20,7 +20,7 @@ const struct parameter exact_elastic_plastic_riemann_table[] = {
      .standard = PARAMETER_REQUIRED, .help = "the solid right of the contact",
      .table = exact_solid_table},
     {"at", PARAMETER_NUMBER, offsetof(struct exact_elastic_plastic_riemann, at), "m", "0 mm",
-     .help = "place of the contact at the start"},
+     .help = "position of the contact at the start"},
     PARAMETER_END,
 };
 

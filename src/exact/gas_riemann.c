@@ -33,7 +33,7 @@ const struct parameter exact_gas_riemann_table[] = {
     {"right", PARAMETER_TABLE, offsetof(struct exact_gas_riemann, gas[SIDE_RIGHT]),
      .standard = PARAMETER_REQUIRED, .help = "the gas right of the contact", .table = gas_table},
     {"at", PARAMETER_NUMBER, offsetof(struct exact_gas_riemann, at), "m", "0 mm",
-     .help = "place of the contact at the start"},
+     .help = "position of the contact at the start"},
     PARAMETER_END,
 };
 

@@ -36,7 +36,7 @@ const struct parameter exact_impedance_match_table[] = {
      .standard = PARAMETER_REQUIRED, .help = "the material right of the contact",
      .table = material_table},
     {"at", PARAMETER_NUMBER, offsetof(struct exact_impedance_match, at), "m", "0 mm",
-     .help = "place of the contact at the start"},
+     .help = "position of the contact at the start"},
     PARAMETER_END,
 };
 

@@ -67,15 +67,15 @@ const struct parameter exact_long_rod_table[] = {
      .unit = "Pa",
      .below = INFINITY,
      .closed = true,
-     .help = "Y: stress at which the rod flows"},
+     .help = "Y: flow stress of the rod"},
     {.key = "target_strength",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct exact_long_rod, target_strength),
      .unit = "Pa",
      .below = INFINITY,
      .closed = true,
-     .help = "R: resistance of the target, about Y_t (2/3 + ln(0.57 E/Y_t)) of its yield strength "
-             "(Tate 1986)"},
+     .help = "R: resistance of the target, about Y_t (2/3 + ln(0.57 E/Y_t)) with its yield "
+             "strength Y_t (Tate 1986)"},
     PARAMETER_END,
 };
 

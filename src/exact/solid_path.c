@@ -13,7 +13,7 @@ const struct parameter exact_solid_table[] = {
      .kind = PARAMETER_ONE_OF,
      .offset = offsetof(struct exact_solid, eos),
      .standard = PARAMETER_OPTIONAL,
-     .help = "its equation of state; not given: barotropic, of the next two",
+     .help = "its equation of state; default: barotropic with the next two",
      .kind_of_thing = "eos"},
     {"reference_density", PARAMETER_NUMBER, offsetof(struct exact_solid, reference_density),
      "kg/m^3", PARAMETER_OPTIONAL, .above = 0.0, .below = INFINITY,
@@ -27,7 +27,7 @@ const struct parameter exact_solid_table[] = {
      .below = INFINITY, .closed = true, .help = "yield strength in simple tension"},
     {"density", PARAMETER_NUMBER, offsetof(struct exact_solid, density), "kg/m^3",
      PARAMETER_OPTIONAL, .above = 0.0, .below = INFINITY,
-     .help = "density at the start; that of the equation of state if not given"},
+     .help = "density at the start; default: that of the equation of state"},
     {"velocity", PARAMETER_NUMBER, offsetof(struct exact_solid, velocity), "m/s", "0 m/s",
      .help = "velocity at the start, positive to the right"},
     {"energy", PARAMETER_NUMBER, offsetof(struct exact_solid, energy), "J/kg", "0 J/kg",
@@ -38,7 +38,7 @@ const struct parameter exact_solid_table[] = {
      .kind = PARAMETER_FLAG,
      .offset = offsetof(struct exact_solid, free),
      .standard = "no",
-     .help = "nothing is on this side: the surface of the other one is free"},
+     .help = "nothing is on this side: the other side has a free surface"},
     PARAMETER_END,
 };
 

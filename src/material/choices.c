@@ -73,6 +73,5 @@ const struct choice strength_choices[STRENGTH_KINDS] = {
     [BURN_##name] = {BURN_##name##_NAME, BURN_##name##_HELP, burn_##name##_parameters, \
                      sizeof(struct burn_##name), NULL},
 const struct choice burn_choices[BURN_KINDS] = {
-    [BURN_INSTANT] = {"instant", "all has burnt at the start: the artificial detonation", NULL, 0,
-                      NULL},
+    [BURN_INSTANT] = {"instant", "burnt from the start: instantaneous detonation", NULL, 0, NULL},
     BURN_LIST(BURN_CHOICE)};

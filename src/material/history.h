@@ -4,15 +4,15 @@
 #define BOLIDE_MATERIAL_HISTORY_H
 
 /* X(slot, unit, help): HISTORY_<slot> is its index, <slot> the name of its field. The first is in every store. */
-#define HISTORY_LIST(X)                                                              \
-    X(plastic_strain, "", "equivalent plastic strain")                               \
-    X(dilation, "", "volume gained by flow and tearing, against the elastic volume") \
-    X(largest_compression, "", "largest rho/rho_0 - 1 so far")                       \
-    X(damage, "", "damage by crushing: 1 has failed")                                \
-    X(tensile_damage, "", "damage by tension: 1 has broken")                         \
-    X(plastic_heating, "K", "rise of temperature by a hot start and plastic work")   \
-    X(lighting_time, "s", "when the detonation arrives")                             \
-    X(burnt, "", "share of the explosive that has burnt")
+#define HISTORY_LIST(X)                                                                  \
+    X(plastic_strain, "", "equivalent plastic strain")                                   \
+    X(dilation, "", "volume gained by flow and tearing, relative to the elastic volume") \
+    X(largest_compression, "", "largest rho/rho_0 - 1 so far")                           \
+    X(damage, "", "damage by crushing; 1: failed")                                       \
+    X(tensile_damage, "", "damage by tension; 1: broken")                                \
+    X(plastic_heating, "K", "temperature rise from a hot start and plastic work")        \
+    X(lighting_time, "s", "arrival time of the detonation")                              \
+    X(burnt, "", "burnt fraction of the explosive")
 
 #define HISTORY_ENUM(slot, unit, help) HISTORY_##slot,
 enum { HISTORY_LIST(HISTORY_ENUM) POINT_HISTORY };

@@ -31,7 +31,7 @@ const struct parameter measure_asymmetry_table[] = {
      .offset = offsetof(struct measure_asymmetry, across),
      .standard = PARAMETER_REQUIRED,
      .names = across_names,
-     .help = "the axis whose sign the image changes; xy: both, half a turn about z"},
+     .help = "the axis that the image reflects; xy: both, a rotation by 180 degrees about z"},
     {.key = "parity",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct measure_asymmetry, parity),
@@ -43,7 +43,7 @@ const struct parameter measure_asymmetry_table[] = {
      .offset = offsetof(struct measure_asymmetry, center),
      .unit = "m",
      .standard = PARAMETER_OPTIONAL,
-     .help = "a point that is its own image; the origin when not given"},
+     .help = "the centre of symmetry; default: the origin"},
     PARAMETER_END,
 };
 

@@ -19,7 +19,7 @@ const struct parameter measure_extent_table[] = {
      .kind = PARAMETER_FLAG,
      .offset = offsetof(struct measure_extent, edges),
      .standard = "no",
-     .help = "to the edges of particles, half a diameter beyond their centres"},
+     .help = "whether to measure to the edges of particles, half a diameter outside their centres"},
     PARAMETER_END,
 };
 

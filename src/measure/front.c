@@ -14,7 +14,7 @@ const struct parameter measure_front_table[] = {
      .kind = PARAMETER_TEXT,
      .offset = offsetof(struct measure_front, field),
      .standard = PARAMETER_REQUIRED,
-     .help = "the field whose front is sought: pressure, stress.xx"},
+     .help = "the field whose front is located: pressure, stress.xx"},
     {.key = "value",
      .kind = PARAMETER_QUANTITY,
      .offset = offsetof(struct measure_front, value),
@@ -24,14 +24,14 @@ const struct parameter measure_front_table[] = {
      .kind = PARAMETER_FLAG,
      .offset = offsetof(struct measure_front, half),
      .standard = "no",
-     .help = "instead of `value`: halfway between the field ahead of the front and the mean of all "
-             "that is beyond this"},
+     .help = "instead of `value`: the level halfway between the field ahead of the front and the "
+             "mean of all values past this level"},
     {.key = "from",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct measure_front, from),
      .standard = "high",
      .names = (const char *const[]){"low", "high", NULL},
-     .help = "the end of the axis from which the front is sought"},
+     .help = "the end of the axis from which the search starts"},
     {.key = "slab",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct measure_front, slab),
@@ -39,14 +39,14 @@ const struct parameter measure_front_table[] = {
      .standard = "0 m",
      .below = INFINITY,
      .closed = true,
-     .help = "thickness of the slabs over which particles are averaged first; 0: none"},
+     .help = "thickness of slabs over which particles are averaged first; 0: no averaging"},
     {.key = "frame",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct measure_front, frame),
      .unit = "m/s",
      .standard = "0 m/s",
-     .help = "velocity along the axis of the frame in which the place is told; that of the matter "
-             "ahead gives the speed of a shock relative to it"},
+     .help = "velocity of the frame of reference along the axis; in the frame of the material "
+             "ahead, the speed of a shock is relative to it"},
     PARAMETER_END,
 };
 

@@ -15,8 +15,7 @@ const struct parameter measure_pieces_table[] = {
      .offset = offsetof(struct measure_pieces, link),
      .standard = "0.8",
      .below = INFINITY,
-     .help =
-         "the distance up to which two particles hang together, over the sum of their diameters"},
+     .help = "distance up to which two particles are connected, over the sum of their diameters"},
     PARAMETER_END,
 };
 

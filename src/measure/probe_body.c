@@ -11,7 +11,7 @@ const struct parameter probe_body_table[] = {
      .kind = PARAMETER_TEXT,
      .offset = offsetof(struct probe_body, name),
      .standard = PARAMETER_REQUIRED,
-     .help = "a name of bodies"},
+     .help = "name of the body"},
     PARAMETER_END,
 };
 

@@ -11,14 +11,14 @@ const struct parameter probe_gauge_table[] = {
      .offset = offsetof(struct probe_gauge, at),
      .unit = "m",
      .standard = PARAMETER_REQUIRED,
-     .help = "its place"},
+     .help = "its position"},
     {.key = "radius",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct probe_gauge, radius),
      .unit = "m",
      .standard = PARAMETER_OPTIONAL,
      .below = INFINITY,
-     .help = "within which particles count; the resolution of the case when not given"},
+     .help = "radius within which particles count; default: the resolution of the case"},
     PARAMETER_END,
 };
 

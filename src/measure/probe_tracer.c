@@ -7,8 +7,8 @@ const struct parameter probe_tracer_table[] = {
      .offset = offsetof(struct probe_tracer, at),
      .unit = "m",
      .standard = PARAMETER_REQUIRED,
-     .help = "a place, to which the particle is nearest at the start; of equally near ones the "
-             "first made"},
+     .help = "position at the start, whose nearest particle is followed; of equally near ones the "
+             "first created"},
     PARAMETER_END,
 };
 

@@ -13,12 +13,12 @@
 const struct choice probe_choices[PROBES] = {
     {"tracer", "fields of one particle, which it follows", probe_tracer_table,
      sizeof(struct probe_tracer), &probe_tracer},
-    {"gauge", "fields at a place that stands still: means over the particles near it",
-     probe_gauge_table, sizeof(struct probe_gauge), &probe_gauge},
+    {"gauge", "fields at a fixed position: means over the particles near it", probe_gauge_table,
+     sizeof(struct probe_gauge), &probe_gauge},
     {"body", "motion of a body: mass, centre, momentum, rotation, energy, extents",
      probe_body_table, sizeof(struct probe_body), &probe_body},
-    {"front", "place where a field first crosses a value, seen from one end", measure_front_table,
-     sizeof(struct measure_front), &probe_front},
+    {"front", "position where a field first crosses a value, seen from one end",
+     measure_front_table, sizeof(struct measure_front), &probe_front},
 };
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }

@@ -29,7 +29,7 @@ const struct parameter measure_recorded_table[] = {
      .kind = PARAMETER_TEXT,
      .offset = offsetof(struct measure_recorded, probe),
      .standard = PARAMETER_REQUIRED,
-     .help = "a name of probes"},
+     .help = "name of the probe"},
     {.key = "column",
      .kind = PARAMETER_TEXT,
      .offset = offsetof(struct measure_recorded, column),
@@ -40,32 +40,32 @@ const struct parameter measure_recorded_table[] = {
      .offset = offsetof(struct measure_recorded, take),
      .standard = "last",
      .names = take_names,
-     .help = "the last, smallest, largest or mean value (over time), the range from smallest to "
-             "largest, the time of one of these, the slope of the line of least squares, the same "
-             "without its sign, the number of maxima, the mean time between them"},
+     .help = "last, smallest, largest or mean value (over time); range: largest less smallest; "
+             "time of the minimum or maximum; slope: by least squares; speed: its absolute value; "
+             "maxima: their number; period: the mean time between them"},
     {.key = "after",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct measure_recorded, after),
      .unit = "s",
      .standard = PARAMETER_OPTIONAL,
-     .help = "the time at which the window begins"},
+     .help = "start of the time window"},
     {.key = "before",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct measure_recorded, before),
      .unit = "s",
      .standard = PARAMETER_OPTIONAL,
-     .help = "the time at which the window ends"},
+     .help = "end of the time window"},
     {.key = "absolute",
      .kind = PARAMETER_FLAG,
      .offset = offsetof(struct measure_recorded, absolute),
      .standard = "no",
-     .help = "whether values count without their sign"},
+     .help = "whether to take absolute values"},
     {.key = "noise",
      .kind = PARAMETER_QUANTITY,
      .offset = offsetof(struct measure_recorded, noise),
      .standard = PARAMETER_OPTIONAL,
-     .help = "how far a curve falls on either side of a maximum that counts; a hundredth of its "
-             "range when not given"},
+     .help = "how far the curve must fall on both sides of a maximum; default: a hundredth of its "
+             "range"},
     PARAMETER_END,
 };
 

@@ -19,21 +19,21 @@ const struct parameter measure_shear_layer_table[] = {
      .offset = offsetof(struct measure_shear_layer, value),
      .standard = "viscosity",
      .names = value_names,
-     .help = "the viscosity, or the root mean square distance of the rows' displacements or "
-             "velocities from the layer of that viscosity"},
+     .help = "the viscosity, or the root mean square residual of the rows' displacements or "
+             "velocities in the fit"},
     {.key = "speed",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct measure_shear_layer, speed),
      .unit = "m/s",
      .standard = PARAMETER_REQUIRED,
      .below = INFINITY,
-     .help = "of either stream at the start, along x"},
+     .help = "speed of each stream at the start, along x"},
     {.key = "plane",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct measure_shear_layer, plane),
      .unit = "m",
      .standard = "0 m",
-     .help = "where they met, on y"},
+     .help = "position of their interface on y"},
     PARAMETER_END,
 };
 

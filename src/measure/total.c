@@ -23,7 +23,8 @@ const struct parameter measure_total_table[] = {
      .offset = offsetof(struct measure_total, quantity),
      .standard = PARAMETER_REQUIRED,
      .names = quantity_names,
-     .help = "what is added up; angular momentum is about the origin, volume is mass over density"},
+     .help = "the quantity that is summed; angular momentum is about the origin, volume is mass "
+             "over density"},
     PARAMETER_END,
 };
 

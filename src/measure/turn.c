@@ -16,7 +16,7 @@ const struct parameter measure_turn_table[] = {
      .offset = offsetof(struct measure_turn, axis),
      .standard = "z",
      .names = axis_names,
-     .help = "the axis that it turns about"},
+     .help = "the axis of rotation"},
     PARAMETER_END,
 };
 

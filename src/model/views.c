@@ -97,7 +97,7 @@ static const struct view diameter_view = {.name = "diameter",
 
 static const struct view displacement_view = {.name = "displacement",
                                               .unit = "m",
-                                              .help = "position less the place at the start",
+                                              .help = "displacement from the position at the start",
                                               .components = 3,
                                               .compute = compute_displacement};
 

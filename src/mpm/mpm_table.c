@@ -18,31 +18,30 @@ const struct parameter mpm_table[] = {
      .standard = PARAMETER_OPTIONAL,
      .above = 0.0,
      .below = INFINITY,
-     .help = "edge of a cell of the grid, whose planes lie at its multiples; twice the resolution "
-             "when not given. Walls must lie on planes"},
+     .help = "edge of a grid cell; grid planes lie at its multiples, and walls must lie on them; "
+             "default: twice the resolution"},
     {.key = "shape",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, shape),
      .standard = "quadratic",
      .names = shape_names,
-     .help = "shape functions of the grid; linear; gimp: linear, averaged over particles that keep "
-             "their size; quadratic, cubic: B-splines"},
+     .help = "shape functions of the grid; linear; gimp: linear, averaged over particles of "
+             "constant size; quadratic, cubic: B-splines"},
     {.key = "scheme",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, scheme),
      .standard = "musl",
      .names = scheme_names,
-     .help = "when stresses are found; musl: last, from velocities mapped to nodes once more; usl: "
-             "last; usf: first"},
+     .help = "when stresses are updated; musl: last, from velocities mapped to nodes once more; "
+             "usl: last; usf: first"},
     {.key = "transfer",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, transfer),
      .standard = "flip",
      .names = transfer_names,
-     .help =
-         "what particles take from nodes; flip: accelerations, in the part that `flip` says, "
-         "else velocities; apic: velocities and their first moments; tpic: velocities and their "
-         "gradients"},
+     .help = "what particles take from nodes; flip: accelerations (the fraction `flip`) and "
+             "velocities (the rest); apic: velocities and their first moments; tpic: velocities "
+             "and their gradients"},
     {.key = "flip",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, flip),
@@ -50,8 +49,8 @@ const struct parameter mpm_table[] = {
      .above = 0.0,
      .below = 1.0,
      .closed = true,
-     .help = "part of accelerations in `transfer: flip`; less than 1 damps what the grid does not "
-             "resolve"},
+     .help = "fraction of accelerations in `transfer: flip`; less than 1 damps what the grid does "
+             "not resolve"},
     {.key = "order",
      .kind = PARAMETER_INTEGER,
      .offset = offsetof(struct mpm_parameters, order),
@@ -59,44 +58,39 @@ const struct parameter mpm_table[] = {
      .above = 1,
      .below = 20,
      .closed = true,
-     .help =
-         "of the inverse of the full mass matrix that velocities and accelerations of nodes are "
-         "found by; 1: of the lumped one; with `flip: 0` the method FMPM of this order"},
+     .help = "order of the inverse of the full mass matrix for node velocities and accelerations; "
+             "1: lumped masses; with `flip: 0` the method FMPM of this order"},
     {.key = "courant",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, courant),
      .standard = PARAMETER_OPTIONAL,
      .above = 1e-6, /* a smaller step adds less than rounding takes, and no run of it ends */
      .below = 1.0,
-     .help = "K of dt = min K h/(c + max |u_i|), h the cell; when not given 0.2 where there are "
-             "fluids, else 0.5"},
+     .help = "K of dt = min K h/(c + max |u_i|), h the cell; default: 0.2 with fluids, else 0.5"},
     {.key = "quadrature",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, quadrature),
      .standard = "faces",
      .names = quadrature_names,
-     .help =
-         "of the stress that pushes nodes; faces: by its means on the faces between nodes, so that "
-         "a "
-         "uniform stress pushes none, with `energy: conserved` and `shape: quadratic` or `cubic`; "
-         "particles: of each in its volume, as in the source"},
+     .help = "integration of the stress for nodal forces; faces: means on the faces between nodes, "
+             "so that a uniform stress gives no force; needs `energy: conserved` and `shape: "
+             "quadratic` or `cubic`; particles: each over its volume, as in the source"},
     {.key = "energy",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, energy),
      .standard = "conserved",
      .names = energy_names,
-     .help =
-         "of particles; conserved: what forces take from the motion at nodes, with all of "
-         "`transfer: flip`, `order: 1`, a shape that is not linear, and about an axis `quadrature: "
-         "faces`; work: that of the stress in the strain of the particle, as in the source"},
+     .help = "energy of particles; conserved: what forces take from the motion at nodes; needs "
+             "`transfer: flip` with `flip: 1`, `order: 1`, a shape that is not linear, and in "
+             "axisymmetry `quadrature: faces`; work: work of the stress in the strain of the "
+             "particle, as in the source"},
     {.key = "rotation",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct mpm_parameters, rotation),
      .standard = "exact",
      .names = rotation_names,
-     .help =
-         "how stress turns with the particle; exact: by a rotation; jaumann: by its linear part, "
-         "as in the source"},
+     .help = "how stress rotates with the particle; exact: by a rotation; jaumann: by its linear "
+             "part, as in the source"},
     {.key = "viscosity_quadratic",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, viscosity_quadratic),
@@ -114,7 +108,7 @@ const struct parameter mpm_table[] = {
      .above = 0.0,
      .below = 1e3,
      .closed = true,
-     .help = "b1 of the artificial viscosity; default 0.06, and up to 0.2 in shocks in solids"},
+     .help = "b1 of the artificial viscosity; default: 0.06, and up to 0.2 in shocks in solids"},
     {.key = "viscosity_unresolved",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, viscosity_unresolved),
@@ -122,9 +116,9 @@ const struct parameter mpm_table[] = {
      .above = 0.0,
      .below = 10.0,
      .closed = true,
-     .help = "b3 of the artificial viscosity -b3 rho h c w, w what nodes do not resolve of the "
-             "rate of volume, which then does not change volumes, in solids; 0: it does; default 2 "
-             "with another viscosity, `scheme: musl` and where `energy` is conserved, else 0"},
+     .help = "b3 of the artificial viscosity -b3 rho h c w in solids, w the part of the rate of "
+             "volume that nodes do not resolve, which then does not change volumes; 0: it does; "
+             "default: 2 with another viscosity, `scheme: musl` and conserved energy, else 0"},
     {.key = "shock_mixing",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, shock_mixing),
@@ -132,10 +126,9 @@ const struct parameter mpm_table[] = {
      .above = 0.0,
      .below = 100.0,
      .closed = true,
-     .help =
-         "rate, in c/h, at which the energies of particles that share a node in a shock are mixed, "
-         "one and a half times that of their velocities; 0: none; default 3 with `transfer: flip`, "
-         "`order: 1` and a shape that is not linear, else 0"},
+     .help = "rate, in c/h, at which the energies of particles that share a node in a shock are "
+             "mixed; velocities mix at two thirds of it; 0: no mixing; default: 3 with `transfer: "
+             "flip`, `order: 1` and a shape that is not linear, else 0"},
     {.key = "shear_damping",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, shear_damping),
@@ -150,7 +143,7 @@ const struct parameter mpm_table[] = {
      .offset = offsetof(struct mpm_parameters, damping),
      .standard = "plain",
      .names = damping_names,
-     .help = "which shear is damped; plain: rotation too; symmetric: not"},
+     .help = "which shear is damped; plain: with rotation; symmetric: without rotation"},
     {.key = "gauge_pressure",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, gauge_pressure),
@@ -158,9 +151,8 @@ const struct parameter mpm_table[] = {
      .standard = "0",
      .below = INFINITY,
      .above = -INFINITY,
-     .help =
-         "ambient pressure, which fluids do not push with: a uniform pressure makes particles on "
-         "a grid unstable"},
+     .help = "ambient pressure that fluids do not exert: a uniform pressure makes particles on a "
+             "grid unstable"},
     PARAMETER_END};
 
 struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,

@@ -21,15 +21,15 @@ static const struct choice solver_choices[] = {
 };
 
 static const struct choice_list lists[] = {
-    {"solver", "the method of solution", solver_choices, COUNT_OF(solver_choices)},
-    {"scheme", "what neighbours in SPH do to each other", sph_scheme_choices, SPH_SCHEMES},
+    {"solver", "the solver", solver_choices, COUNT_OF(solver_choices)},
+    {"scheme", "the interaction of neighbours in SPH", sph_scheme_choices, SPH_SCHEMES},
     {"eos", "the equation of state of a material", eos_choices, EOS_KINDS},
-    {"strength", "what a material does with shear", strength_choices, STRENGTH_KINDS},
-    {"burn", "how an explosive becomes its products", burn_choices, BURN_KINDS},
-    {"shape", "where a body is", shape_choices, SHAPES},
-    {"lattice", "how the particles of a body stand at the start", lattice_choices, LATTICE_KINDS},
-    {"exact", "an exact solution that results are measured against", exact_choices,
-     exact_choice_count},
+    {"strength", "the shear strength of a material", strength_choices, STRENGTH_KINDS},
+    {"burn", "how an explosive turns into its products", burn_choices, BURN_KINDS},
+    {"shape", "the shape of a body", shape_choices, SHAPES},
+    {"lattice", "the initial arrangement of the particles of a body", lattice_choices,
+     LATTICE_KINDS},
+    {"exact", "an exact solution to compare results with", exact_choices, exact_choice_count},
     {"probe", "what is recorded while a case runs", probe_choices, PROBES},
     {"measure", "what a check measures", measure_choices, MEASURES},
     {0},

@@ -7,7 +7,7 @@ const struct parameter shape_difference_table[] = {
      .kind = PARAMETER_LIST,
      .offset = offsetof(struct shape_difference, shapes),
      .kind_of_thing = "shape",
-     .help = "the shape that stays, then those that are cut from it"},
+     .help = "the shape to cut from, then those to cut away"},
     PARAMETER_END,
 };
 

@@ -11,7 +11,7 @@ const struct parameter shape_half_space_table[] = {
      .kind = PARAMETER_VECTOR,
      .offset = offsetof(struct shape_half_space, normal),
      .unit = "",
-     .help = "the direction out of the shape, across the plane; its length does not matter"},
+     .help = "outward normal of the plane, of any length"},
     PARAMETER_END,
 };
 

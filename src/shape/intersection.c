@@ -6,7 +6,7 @@ const struct parameter shape_intersection_table[] = {
      .kind = PARAMETER_LIST,
      .offset = offsetof(struct shape_intersection, shapes),
      .kind_of_thing = "shape",
-     .help = "the shapes whose common part stays; one of them at least has bounds"},
+     .help = "the shapes to intersect; at least one of them is bounded"},
     PARAMETER_END,
 };
 

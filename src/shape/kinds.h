@@ -84,12 +84,12 @@ struct shape_rotate {
     X(cylinder, "a round bar or pipe between two points; 3-D only")         \
     X(polygon, "the area within straight edges; 2-D only")                  \
     X(half_space, "one side of a plane, to cut other shapes with")          \
-    X(template, "the sites of a map that bear one letter; 2-D only")        \
+    X(template, "the sites of a map with a given letter; 2-D only")         \
     X(union, "all points that lie in at least one of a list of shapes")     \
     X(intersection, "all points that lie in every one of a list of shapes") \
     X(difference, "the first of a list of shapes without the others")       \
     X(repeat, "copies of a shape at equal steps along the axes")            \
-    X(rotate, "a shape turned by an angle")
+    X(rotate, "a rotated shape")
 
 #define SHAPE_DECLARE(identifier, help)                         \
     extern const struct parameter shape_##identifier##_table[]; \

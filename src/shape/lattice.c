@@ -11,15 +11,15 @@ static const struct parameter rings_table[] = {
      .offset = offsetof(struct lattice_rings, center),
      .unit = "m",
      .standard = PARAMETER_OPTIONAL,
-     .help = "the middle of the rings; when not given that of the shape, whose inner and outer "
-             "radius the rings then fill"},
+     .help = "the center of the rings; default: that of the shape, whose inner and outer radius "
+             "the rings then fill"},
     {.key = "count",
      .kind = PARAMETER_INTEGER,
      .offset = offsetof(struct lattice_rings, count),
      .standard = "0",
      .below = 1e6,
      .closed = true,
-     .help = "particles in every ring, all of equal mass; 0: as many as the resolution asks for, "
+     .help = "number of particles in every ring, all of equal mass; 0: as the resolution requires, "
              "more in wider rings"},
     {.key = "start",
      .kind = PARAMETER_NUMBER,
@@ -35,7 +35,7 @@ const struct choice lattice_choices[] = {
                         "A square lattice, cubic in 3-D, that fills the bounds of the shape.", NULL,
                         0, NULL},
     [LATTICE_HEXAGONAL] = {"hexagonal",
-                           "Rows along x that are shifted in turn, six neighbours each; 2-D only.",
+                           "Rows along x, alternately shifted: six neighbours each; 2-D only.",
                            NULL, 0, NULL},
     [LATTICE_RINGS] = {"rings", "Concentric rings of particles of equal area; 2-D only.",
                        rings_table, sizeof(struct lattice_rings), NULL},

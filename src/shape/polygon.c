@@ -6,8 +6,8 @@ const struct parameter shape_polygon_table[] = {
      .kind = PARAMETER_VECTORS,
      .offset = offsetof(struct shape_polygon, points),
      .unit = "m",
-     .help = "the corners in their order, either way round; the last is joined to the first. Where "
-             "edges cross, what they enclose twice is left out"},
+     .help = "the corners in order, in either direction; the last is joined to the first. Areas "
+             "enclosed twice are left out"},
     PARAMETER_END,
 };
 

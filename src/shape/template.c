@@ -8,7 +8,7 @@ const struct parameter shape_template_table[] = {
     {.key = "rows",
      .kind = PARAMETER_NAMES,
      .offset = offsetof(struct shape_template, rows),
-     .help = "the map as it is seen, a text a row, the highest row first, a letter a site"},
+     .help = "the map: one text per row, the top row first, one letter per site"},
     {.key = "letter",
      .kind = PARAMETER_TEXT,
      .offset = offsetof(struct shape_template, letter),
@@ -19,12 +19,12 @@ const struct parameter shape_template_table[] = {
      .unit = "m",
      .above = 0.0,
      .below = INFINITY,
-     .help = "the edge of a site, which is square"},
+     .help = "edge of a square site"},
     {.key = "from",
      .kind = PARAMETER_VECTOR,
      .offset = offsetof(struct shape_template, from),
      .unit = "m",
-     .help = "the corner of the map of the low coordinates"},
+     .help = "the corner of the map with the low coordinates"},
     PARAMETER_END,
 };
 

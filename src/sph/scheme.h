@@ -66,9 +66,8 @@ extern const char *const sph_motion_names[], *const sph_energy_names[];
     {                                                                                             \
         .key = "motion", .kind = PARAMETER_CHOICE, .offset = offsetof(type, motion),              \
         .standard = "particle", .names = sph_motion_names,                                        \
-        .help =                                                                                   \
-            "what moves a particle; particle: its own velocity; contact: the kernel mean of its " \
-            "contact velocities; none: nothing, heat is conducted and that is all"                \
+        .help = "velocity that moves a particle; particle: its own; contact: the kernel mean of " \
+                "its contact velocities; none: particles do not move, only heat is conducted"     \
     }
 
 #define SPH_ENERGY_ROW(type)                                                                     \

@@ -6,9 +6,9 @@
 #include "sph/standard/standard.h"
 
 const struct choice sph_scheme_choices[SPH_SCHEMES] = {
-    {"muscl", "contact SPH of second order: Riemann problems between limited slopes", muscl_table,
+    {"muscl", "second-order contact SPH: Riemann problems between limited slopes", muscl_table,
      sizeof(struct muscl_options), &muscl_scheme},
-    {"contact", "contact SPH of first order: a Riemann problem between each two particles",
+    {"contact", "first-order contact SPH: a Riemann problem between each pair of particles",
      contact_table, sizeof(struct contact_options), &contact_scheme},
     {"standard", "classical SPH with artificial viscosity", standard_table,
      sizeof(struct standard_options), &standard_scheme},

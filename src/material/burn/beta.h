@@ -15,11 +15,10 @@ struct burn_beta {
 };
 
 #define BURN_beta_NAME "beta"
-#define BURN_beta_HELP "as programmed, or sooner where it is compressed"
-#define BURN_beta_PARAMETERS(T)                                               \
-    NUMBER(T, speed, "m/s", REQUIRED, POSITIVE, "D: speed of the detonation") \
-    NUMBER(T, pressure, "Pa", REQUIRED, POSITIVE,                             \
-           "p_CJ: pressure behind the front (Chapman and Jouguet's)")
+#define BURN_beta_HELP "as programmed, or earlier where it is compressed"
+#define BURN_beta_PARAMETERS(T)                                        \
+    NUMBER(T, speed, "m/s", REQUIRED, POSITIVE, "D: detonation speed") \
+    NUMBER(T, pressure, "Pa", REQUIRED, POSITIVE, "p_CJ: Chapman-Jouguet pressure")
 
 /* F. */
 BOLIDE_INLINE double burn_beta(const struct burn_beta *burn, const struct burning *point)

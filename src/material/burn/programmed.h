@@ -15,9 +15,9 @@ struct burn_programmed {
 };
 
 #define BURN_programmed_NAME "programmed"
-#define BURN_programmed_HELP "it burns when the detonation arrives from where it is lit"
+#define BURN_programmed_HELP "burns when the detonation arrives from its ignition point"
 #define BURN_programmed_PARAMETERS(T) \
-    NUMBER(T, speed, "m/s", REQUIRED, POSITIVE, "D: speed of the detonation")
+    NUMBER(T, speed, "m/s", REQUIRED, POSITIVE, "D: detonation speed")
 
 /* F. */
 BOLIDE_INLINE double burn_programmed(const struct burn_programmed *burn,

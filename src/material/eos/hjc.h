@@ -25,7 +25,7 @@ struct eos_hjc {
 
 #define EOS_hjc_NAME "hjc"
 #define EOS_hjc_HELP \
-    "concrete after Holmquist, Johnson and Cook: elastic, crushed, compacted; unloading remembers"
+    "concrete after Holmquist, Johnson and Cook: elastic, crushed, compacted, with unloading"
 #define EOS_hjc_SAMPLE                                       \
     {                                                        \
         2400.0, 16e6, 0.001, 0.8e9, 0.1, 85e9, -171e9, 208e9 \

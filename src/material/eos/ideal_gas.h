@@ -15,9 +15,9 @@ struct eos_ideal_gas {
     {                        \
         1.2, 1.4             \
     } /* air */
-#define EOS_ideal_gas_PARAMETERS(T)                        \
-    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE,       \
-           "density at the start where a body gives none") \
+#define EOS_ideal_gas_PARAMETERS(T)                         \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE,        \
+           "density at the start of bodies that give none") \
     NUMBER(T, gamma, "", REQUIRED, ABOVE_ONE, "ratio of the specific heats")
 
 BOLIDE_INLINE struct eos_value eos_ideal_gas(const struct eos_ideal_gas *gas, double density,

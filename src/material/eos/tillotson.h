@@ -33,7 +33,7 @@ struct eos_tillotson {
 };
 
 #define EOS_tillotson_NAME "tillotson"
-#define EOS_tillotson_HELP "Tillotson's: metals and rocks from rest to vaporisation"
+#define EOS_tillotson_HELP "Tillotson: metals and rocks from rest to vaporisation"
 #define EOS_tillotson_SAMPLE                                                           \
     {                                                                                  \
         2700.0, 0.5, 1.63, 75.2e9, 65e9, 5e6, 5.0, 5.0, 3e6, 13.9e6, NAN, EOS_EXTENDED \
@@ -54,7 +54,7 @@ struct eos_tillotson {
     NUMBER(T, complete_energy, "J/kg", REQUIRED, POSITIVE,                                         \
            "e_cv: energy at which vaporisation is complete")                                       \
     NUMBER(T, tension, "Pa", OPTIONAL, NOT_NEGATIVE,                                               \
-           "largest tension that it bears, at which it parts; not given: any")                     \
+           "largest tension that it carries, at which it separates; default: unlimited")           \
     EOS_FORM_PARAMETER(T)
 
 BOLIDE_INLINE struct eos_value eos_tillotson_condensed(const struct eos_tillotson *t,

@@ -41,25 +41,24 @@ struct strength_hjc {
     "concrete after Holmquist, Johnson and Cook, with damage by crushing and by tension"
 #define STRENGTH_hjc_PARAMETERS(T)                                                                \
     NUMBER(T, shear_modulus, "Pa", REQUIRED, POSITIVE, "shear modulus")                           \
-    NUMBER(T, a, "", REQUIRED, NOT_NEGATIVE,                                                      \
-           "A: cohesion of the whole concrete, over its strength")                                \
-    NUMBER(T, b, "", REQUIRED, NOT_NEGATIVE, "B: strength by pressure")                           \
+    NUMBER(T, a, "", REQUIRED, NOT_NEGATIVE, "A: cohesion of intact concrete, over its strength") \
+    NUMBER(T, b, "", REQUIRED, NOT_NEGATIVE, "B: increase of strength with pressure")             \
     NUMBER(T, n, "", REQUIRED, POSITIVE, "N: exponent of the pressure")                           \
     NUMBER(T, c, "", REQUIRED, NOT_NEGATIVE, "C: factor of the logarithm of the strain rate")     \
     NUMBER(T, strength, "Pa", REQUIRED, POSITIVE,                                                 \
            "f_c: quasi-static uniaxial strength in compression")                                  \
-    NUMBER(T, rate, "1/s", "1 1/s", POSITIVE, "strain rate below which rate does not matter")     \
+    NUMBER(T, rate, "1/s", "1 1/s", POSITIVE, "strain rate below which the rate has no effect")   \
     NUMBER(T, most, "", REQUIRED, POSITIVE, "S_max: largest yield stress, over the strength")     \
     NUMBER(T, tension, "Pa", REQUIRED, NOT_NEGATIVE, "T: largest hydrostatic tension")            \
-    NUMBER(T, d1, "", REQUIRED, NOT_NEGATIVE, "D_1: strain to failure by pressure")               \
+    NUMBER(T, d1, "", REQUIRED, NOT_NEGATIVE, "D_1: factor of the strain to failure")             \
     NUMBER(T, d2, "", "1", POSITIVE, "D_2: exponent of the pressure in it")                       \
     NUMBER(T, damage_limit, "", "1", FROM_ZERO_TO_ONE,                                            \
            "D_c: damage by crushing at which it fails")                                           \
-    NUMBER(T, least_strain, "", REQUIRED, POSITIVE, "least strain to failure")                    \
+    NUMBER(T, least_strain, "", REQUIRED, POSITIVE, "smallest strain to failure")                 \
     NUMBER(T, tensile_growth, "1/s", "7e5 1/s", NOT_NEGATIVE,                                     \
            "a: rate of damage by tension; 0: none")                                               \
     NUMBER(T, tensile_threshold, "Pa", "2.5 MPa", POSITIVE,                                       \
-           "sigma_0: tension that does no damage yet")                                            \
+           "sigma_0: tension up to which there is no damage")                                     \
     NUMBER(T, tensile_exponent, "", "1", POSITIVE, "gamma: exponent of the tension beyond that")  \
     NUMBER(T, tensile_start, "", "1e-3", BETWEEN_ZERO_AND_ONE,                                    \
            "D_t0: damage by tension that growth begins from")                                     \

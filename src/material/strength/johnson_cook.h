@@ -38,14 +38,14 @@ struct strength_johnson_cook {
     NUMBER(T, b, "Pa", REQUIRED, NOT_NEGATIVE, "B: hardening by plastic strain")                 \
     NUMBER(T, n, "", REQUIRED, POSITIVE, "exponent of the plastic strain")                       \
     NUMBER(T, c, "", REQUIRED, NOT_NEGATIVE, "C: factor of the logarithm of the strain rate")    \
-    NUMBER(T, rate, "1/s", "1 1/s", POSITIVE, "strain rate below which rate does not matter")    \
+    NUMBER(T, rate, "1/s", "1 1/s", POSITIVE, "strain rate below which the rate has no effect")  \
     NUMBER(T, m, "", OPTIONAL, POSITIVE,                                                         \
-           "exponent of the temperature; not given: heat does not soften")                       \
+           "exponent of the temperature; default: no thermal softening")                         \
     NUMBER(T, room, "K", "300 K", POSITIVE, "temperature at the start; used with m")             \
     NUMBER(T, melt, "K", OPTIONAL, POSITIVE,                                                     \
            "temperature at which no strength is left; needed with m")                            \
     NUMBER(T, capacity, "J/(kg*K)", OPTIONAL, POSITIVE,                                          \
-           "specific heat that plastic work warms; needed with m")                               \
+           "specific heat for the heating by plastic work; needed with m")                       \
     CHOICE(T, return_map, "implicit",                                                            \
            "implicit: the stress of the step's own strain and rate; explicit: as in MPM3D, one " \
            "evaluation",                                                                         \

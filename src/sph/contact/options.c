@@ -17,8 +17,9 @@ const struct parameter contact_table[] = {
      .offset = offsetof(struct contact_options, rotation),
      .standard = "faithful",
      .names = rotation_names,
-     .help = "velocities that meet at a contact; faithful: those of the particles, which brakes "
-             "rotation as the source does; corrected: carried to the contact point by their spin"},
+     .help =
+         "velocities in the contact problem; faithful: those of the particles, which slows "
+         "rotation as in the source; corrected: extrapolated to the contact point with their spin"},
     SPH_MOTION_ROW(struct contact_options),
     SPH_ENERGY_ROW(struct contact_options),
     PARAMETER_END};

@@ -11,14 +11,13 @@ const struct parameter hllc_table[] = {
      .offset = offsetof(struct hllc_options, reconstruction),
      .standard = "none",
      .names = reconstruction_names,
-     .help =
-         "what limited gradients carry to the middle of a pair of one material: none, velocity, "
-         "or all, in 1-D only"},
+     .help = "what limited gradients extrapolate to the middle of a pair of one material; all: "
+             "density, pressure and deviator too, in 1-D only"},
     {.key = "approach_switch",
      .kind = PARAMETER_FLAG,
      .offset = offsetof(struct hllc_options, approach_switch),
      .standard = "yes",
-     .help = "whether pairs that separate use means in place of contacts"},
+     .help = "whether pairs that separate use means instead of contact problems"},
     HLLC_CONTINUITY_ROW(struct hllc_options),
     HLLC_CORRECTION_ROW(struct hllc_options),
     PARAMETER_END};

@@ -7,9 +7,9 @@ const struct parameter muscl_table[] = {
      .offset = offsetof(struct muscl_options, motion),
      .standard = PARAMETER_OPTIONAL,
      .names = sph_motion_names,
-     .help = "what moves a particle; particle: its own velocity; contact: the kernel mean of its "
-             "contact velocities, in 1-D only; none: nothing, heat is conducted and that is all; "
-             "default contact in 1-D, particle in 2-D and 3-D"},
+     .help = "velocity that moves a particle; particle: its own; contact: the kernel mean of its "
+             "contact velocities, in 1-D only; none: particles do not move, only heat is "
+             "conducted; default: contact in 1-D, particle in 2-D and 3-D"},
     SPH_ENERGY_ROW(struct muscl_options),
     {.key = "support",
      .kind = PARAMETER_NUMBER,
@@ -18,6 +18,6 @@ const struct parameter muscl_table[] = {
      .above = 1.0,
      .below = 3.0,
      .closed = true,
-     .help = "how many times its diameter the support of a particle may grow to in 2-D and 3-D, "
-             "where plastic flow draws neighbours apart; 1: it does not grow"},
+     .help = "largest ratio of support to diameter in 2-D and 3-D, to which supports grow where "
+             "plastic flow separates neighbours; 1: no growth"},
     PARAMETER_END};
