@@ -179,6 +179,44 @@ static void straight_lines_end_a_quarter_short_of_a_shock_adiabat(void **state)
     assert_near(shortage(&rubber, 850.0, water_slope), 0.25, 0.01);
 }
 
+/* The density that a shock from rest gives which sets material in motion at SPEED. */
+static double shocked(const struct eos *eos, double speed)
+{
+    const double rest = eos_reference_density(eos);
+    double low = rest, high = 1e6 * rest;
+    while (high - low > 1e-9 * low) {
+        const double density = 0.5 * (low + high);
+        const double wanted = rest * square(speed) / (1.0 - rest / density);
+        if (eos_evaluate(eos, density, 0.0, no_history).pressure < wanted)
+            low = density;
+        else
+            high = density;
+    }
+    return low;
+}
+
+static void a_barotropic_liquid_resists_any_shock(void **state)
+{
+    (void)state;
+    const struct eos water = {EOS_barotropic,
+                              {.barotropic = {.density = 1000.0, .bulk_modulus = 2e9}}};
+    const struct heat heat = {1.0, 1.0, 293.0};
+    const double edge = 2000.0;
+    assert_near(eos_evaluate(&water, edge, 0.0, no_history).pressure, 1e9, 1e-3);
+    assert_near(shocked(&water, 500.0), 1546.92, 0.01); /* rho_0/(1 - u (rho_0/K)^0.5) */
+    assert_near(shocked(&water, 6000.0) / 1000.0, 4.5, 0.5);
+    for (double density = 1900.0; density < 8000.0; density *= 1.02) {
+        const double by = 1e-5 * density;
+        const struct eos_value low = eos_evaluate(&water, density - by, 0.0, no_history),
+                               high = eos_evaluate(&water, density + by, 0.0, no_history),
+                               here = eos_evaluate(&water, density, 0.0, no_history);
+        assert_near((high.pressure - low.pressure) / (2.0 * by) / here.dp_drho, 1.0, 1e-4);
+        const double work = eos_curve(&water, &heat, density + by).energy -
+                            eos_curve(&water, &heat, density - by).energy;
+        assert_near(work / (2.0 * by) / (here.pressure / square(density)), 1.0, 1e-4);
+    }
+}
+
 static void tnt_products_have_the_values_of_their_source(void **state)
 {
     (void)state;
@@ -226,6 +264,7 @@ int main(void)
         cmocka_unit_test(steel_1006_has_the_values_of_its_source),
         cmocka_unit_test(polynomial_is_linear_in_tension),
         cmocka_unit_test(straight_lines_end_a_quarter_short_of_a_shock_adiabat),
+        cmocka_unit_test(a_barotropic_liquid_resists_any_shock),
         cmocka_unit_test(tnt_products_have_the_values_of_their_source),
         cmocka_unit_test(unreacted_petn_rests_without_pressure),
     };
