@@ -22,6 +22,8 @@ install(FILES ${schema} DESTINATION ${share} COMPONENT program)
 install(DIRECTORY materials examples templates DESTINATION ${share} COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
+    PATTERN outputs EXCLUDE)
 
 # The headers keep their modules: a program that uses the library writes `#include "case/case.h"`.
 install(TARGETS libbolide ARCHIVE COMPONENT library)

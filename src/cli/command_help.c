@@ -21,8 +21,9 @@ static void print_commands(void)
            "(of the particles), a kind of thing:");
     for (const struct choice_list *list = bolide_catalogue.lists; list->kind_of_thing; list++)
         printf(" %s", list->kind_of_thing);
-    printf(",\na thing by its name, or a key of a case by its path: bodies, run.until,\n"
-           "bodies.flyer.velocity.\n");
+    printf(",\na thing by its name, a key of a case by its path: bodies, run.until,\n"
+           "bodies.flyer.velocity, or a word that you look for: spall, crater, restart, film,\n"
+           "ParaView, MPI, units of stress.\n");
 }
 
 /* What a value may be. */

@@ -18,7 +18,7 @@ static const struct answer answers[] = {
      "Not available for metals: they carry any tension that their equation of state allows, and a "
      "run\n"
      "warns when it exceeds their strength. Instead:\n"
-     "  materials.NAME.tensile_strength   sets the tension from which a run warns\n"
+     "  materials.NAME.tensile_strength   sets the tension above which a run warns\n"
      "  eos: {tillotson: {tension: ...}}  limits the tension; the material does not break\n"
      "  strength: hjc                     concrete, with damage by crushing and by tension\n"
      "  strength: drucker-prager          soil, with a tension cut-off\n"
