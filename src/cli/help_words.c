@@ -15,9 +15,8 @@ struct answer {
 
 static const struct answer answers[] = {
     {" spall fracture fragmentation fragment crack failure pull.back scabbing ",
-     "Not available for metals: they carry any tension that their equation of state allows, and a "
-     "run\n"
-     "warns when it exceeds their strength. Instead:\n"
+     "Not available for metals: they carry any tension that their equation of state allows,\n"
+     "and a run warns when it exceeds their strength. Instead:\n"
      "  materials.NAME.tensile_strength   sets the tension above which a run warns\n"
      "  eos: {tillotson: {tension: ...}}  limits the tension; the material does not break\n"
      "  strength: hjc                     concrete, with damage by crushing and by tension\n"
@@ -25,50 +24,44 @@ static const struct answer answers[] = {
      "End a run before the release waves meet if the tension must not matter.",
      "materials.md"},
     {" damage ",
-     "Damage exists in concrete only (strength: hjc): the fields `damage` and `tensile_damage`.\n"
-     "Failure of metals is not available.",
+     "Damage exists in concrete only (strength: hjc): the fields `damage` and\n"
+     "`tensile_damage`. Failure of metals is not available.",
      "materials.md"},
     {" whipple shield debris crater perforation hole hypervelocity bumper ballistic.limit plate ",
-     "A projectile through a plate, with hole and debris cloud: a worked case is on the page "
-     "below.\n"
-     "There is no measure of holes and craters; `minimum: position.x` of a body in a slice of "
-     "`axis: y`\n"
-     "gives the radius. Ballistic limits need failure of metals, which is not available.",
+     "A projectile through a plate, with hole and debris cloud: a worked case is on the page\n"
+     "below. There is no measure of holes and craters; `minimum: position.x` of a body in a\n"
+     "slice of `axis: y` gives the radius. Ballistic limits need failure of metals, which is\n"
+     "not available.",
      "tasks/impact-on-a-plate.md"},
     {" rod long.rod penetration penetrator depth.of.penetration armour armor ",
-     "A long rod into a thick target, beside the theory (bolide help long-rod): see the page "
+     "A long rod into a thick target, beside the theory (bolide help long-rod): see the page\n"
      "below.",
      "tasks/long-rod.md"},
     {" hugoniot plate.impact flyer shock.adiabat shock.speed us.up ",
      "Two plates at several speeds, with U_s over U_p: see the page below. `bolide exact\n"
-     "impedance-match` has the exact state; `bolide materials NAME --curves` the curves of a "
+     "impedance-match` has the exact state; `bolide materials NAME --curves` the curves of a\n"
      "material.",
      "tasks/plate-impact.md"},
     {" mesostructure microstructure pore porous porosity foam grain composite mixture packing ",
-     "Structures are resolved, with shapes: repeat, template, polygon, difference, and bodies "
-     "that\n"
-     "replace parts of others. Not available: random packings, images as input, and a compaction\n"
-     "model (P-alpha) for pores that are not resolved.",
+     "Structures are resolved, with shapes: repeat, template, polygon, difference, and bodies\n"
+     "that replace parts of others. Not available: random packings, images as input, and a\n"
+     "compaction model (P-alpha) for pores that are not resolved.",
      "tasks/mesostructures.md"},
     {" calibrate calibration optimise optimize fit fitting taylor taylor.test taylor.bar ",
-     "There is no optimiser. Run a sweep of the constant, and interpolate in sweep.csv; `fits` "
-     "puts\n"
-     "lines and power laws through the runs of a sweep.",
+     "There is no optimiser. Run a sweep of the constant, and interpolate in sweep.csv; `fits`\n"
+     "puts lines and power laws through the runs of a sweep.",
      "tasks/strength-calibration.md"},
     {" restart resume checkpoint continue extend ",
-     "bolide run --resume continues a run from its last checkpoint, with the same bits. The case "
-     "must\n"
-     "be the same: a run cannot be extended or changed.",
+     "bolide run --resume continues a run from its last checkpoint, with the same bits. The\n"
+     "case must be the same: a run cannot be extended or changed.",
      "tasks/restart.md"},
     {" film movie video animation animate gif ",
-     "Not available as a file. report.html has a player of the pictures of `output.pictures`; "
-     "ParaView\n"
-     "makes films of snapshots.vtkhdf.series.",
+     "Not available as a file. report.html has a player of the pictures of `output.pictures`;\n"
+     "ParaView makes films of snapshots.vtkhdf.series.",
      "tasks/results.md"},
     {" paraview vtk vtkhdf visit ovito python h5py hdf5 csv postprocess postprocessing plot ",
-     "Snapshots are VTKHDF files: open snapshots.vtkhdf.series in ParaView, or single files with "
-     "h5py.\n"
-     "Histories, probes, profiles and checks are CSV files.",
+     "Snapshots are VTKHDF files: open snapshots.vtkhdf.series in ParaView, or single files\n"
+     "with h5py. Histories, probes, profiles and checks are CSV files.",
      "tasks/results.md"},
     {" mpi mpirun rank cluster slurm parallel core processor thread openmp hpc ",
      "bolide run --ranks 16 starts 16 processes on this machine; on several machines use\n"
@@ -84,15 +77,14 @@ static const struct answer answers[] = {
      "Periodic boundaries are not available. Two mirror walls repeat a cell that is symmetric.",
      "case.md"},
     {" absorbing transmitting non.reflecting nonreflecting infinite ",
-     "With SPH: a few particles of the same material with `frozen: yes` at the end of a body let "
-     "waves\n"
-     "leave. With MPM: `outflows`.",
+     "With SPH: a few particles of the same material with `frozen: yes` at the end of a body\n"
+     "let waves leave. With MPM: `outflows`.",
      "case.md"},
     {" unit.of.stress units.of.stress stress.unit unit.of.pressure units.of.pressure "
      "pressure.unit ",
-     "Stress and pressure take Pa, kPa, MPa, GPa, bar, kbar, Mbar and any other unit of a "
-     "pressure,\n"
-     "as N/mm^2. Results are in Pa. Stress is positive in tension, pressure in compression.\n"
+     "Stress and pressure take Pa, kPa, MPa, GPa, bar, kbar, Mbar and any other unit of a\n"
+     "pressure, as N/mm^2. Results are in Pa. Stress is positive in tension, pressure in\n"
+     "compression.\n"
      "`bolide help units` lists the symbols.",
      NULL},
     {" blast air.blast airblast kingery conwep afterburn fireball ",
@@ -101,29 +93,27 @@ static const struct answer answers[] = {
      "(bolide help burn).",
      "materials.md"},
     {" explosive detonation tnt charge detonate ",
-     "An explosive is a material with `burn` (bolide help burn; library: tnt), lit by "
+     "An explosive is a material with `burn` (bolide help burn; library: tnt), lit by\n"
      "`detonations`.",
      "materials.md"},
     {" stl cad mesh geometry.file image step.file ",
-     "Not available: bodies are made of shapes (bolide help shape), or of a `template`, a map of\n"
-     "letters. There is no mesh to make: particles are placed at the distance `resolution`.",
+     "Not available: bodies are made of shapes (bolide help shape), or of a `template`, a map\n"
+     "of letters. There is no mesh to make: particles are placed at the distance `resolution`.",
      "case.md"},
     {" erosion erode delete element.deletion ",
      "Not needed: particles are not removed, however far they deform.", "choosing.md"},
     {" adaptive amr refinement refine ",
      "Not available: a particle keeps its size. Give each body its own `resolution`.", "case.md"},
     {" melt melting vaporisation vaporization boiling phase phase.transition ",
-     "eos: tillotson goes from solid to vapour, and Johnson-Cook strength vanishes at `melt`. "
-     "Solid-\n"
-     "solid transitions, latent heat and melting curves are not available.",
+     "eos: tillotson goes from solid to vapour, and Johnson-Cook strength vanishes at `melt`.\n"
+     "Solid-solid transitions, latent heat and melting curves are not available.",
      "materials.md"},
     {" ceramic glass jh2 jh.2 johnson.holmquist ",
-     "Not available with failure: alumina, boron carbide and glass of the library are elastic up "
-     "to\n"
-     "their limit. Concrete is available (strength: hjc).",
+     "Not available with failure: alumina, boron carbide and glass of the library are elastic\n"
+     "up to their limit. Concrete is available (strength: hjc).",
      "materials.md"},
     {" convergence mesh.independence grid.convergence ",
-     "bolide verify --convergence CASE runs a case on several resolutions and gives errors and "
+     "bolide verify --convergence CASE runs a case on several resolutions and gives errors and\n"
      "orders.",
      "convergence.md"},
 };
