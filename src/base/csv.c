@@ -204,8 +204,9 @@ static struct error *place_after(FILE *file, const char *path, int64_t keep, off
     if (ferror(file))
         return system_error(path, errno);
     if (lines < keep + 1)
-        return error_new(ERROR_INPUT, "%s: has %lld rows where %lld were written: cannot go on",
-                         path, (long long)(lines ? lines - 1 : 0), (long long)keep);
+        return error_new(ERROR_INPUT,
+                         "%s: has %lld rows, but %lld were written: the run cannot continue", path,
+                         (long long)(lines ? lines - 1 : 0), (long long)keep);
     return NULL;
 }
 

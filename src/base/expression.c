@@ -168,8 +168,8 @@ static struct error *scan_unit(const struct expression_reading *reading, const c
                      is_word(at, (size_t)length, "pi");
         if ((known && !is_unit(at, word)) || argument(reading->arguments, at, (size_t)length))
             return error_new(ERROR_INPUT,
-                             "\"%.*s\" behind a number is no unit: put \"*\" between them", length,
-                             at);
+                             "\"%.*s\" after a number is not a unit: put \"*\" between them",
+                             length, at);
         struct unit unit;
         TRY(parse_unit(at, word, &unit));
         *end = scan_factor(reading, at, &ambiguous);
@@ -189,11 +189,10 @@ static struct error *scan_unit(const struct expression_reading *reading, const c
             "put the quantity before it in parentheses",
             (int)(*end - *start), *start, (int)(word_end(ambiguous) - ambiguous), ambiguous);
     if (**end == '^')
-        return error_new(
-            ERROR_INPUT,
-            "the power of the unit \"%.*s\" is no whole number: put parentheses around "
-            "the quantity to raise it as a whole",
-            (int)(*end - *start), *start);
+        return error_new(ERROR_INPUT,
+                         "the power of the unit \"%.*s\" is not a whole number: put parentheses "
+                         "around the quantity to raise it as a whole",
+                         (int)(*end - *start), *start);
     return NULL;
 }
 
@@ -298,19 +297,18 @@ static struct error *unknown_word(const struct expression_reading *reading, cons
 {
     size_t length = (size_t)(end - word);
     if (is_function(word, length))
-        return error_new(ERROR_INPUT, "the function \"%.*s\" lacks its \"(\"", (int)length, word);
+        return error_new(ERROR_INPUT, "the function \"%.*s\" needs a \"(\" after its name",
+                         (int)length, word);
     if (is_word(word, length, "t"))
-        return error_new(ERROR_INPUT,
-                         "unknown name \"t\" (as the time it stands only in loads and in "
-                         "the velocity of a driven body)");
+        return error_new(ERROR_INPUT, "unknown name \"t\" (it is the time only in loads and in the "
+                                      "velocity of a driven body)");
     if (is_unit(word, end))
         return error_new(ERROR_INPUT, "unknown name \"%.*s\" (a unit needs a number: \"1 %.*s\")",
                          (int)length, word, (int)length, word);
     if (argument(ARGUMENT_POSITION, word, length))
-        return error_new(ERROR_INPUT,
-                         "unknown name \"%c\" (as a position it stands only in what a body has at "
-                         "the start)",
-                         *word);
+        return error_new(
+            ERROR_INPUT,
+            "unknown name \"%c\" (it is a position only in the initial state of a body)", *word);
     const int own = reading->names ? reading->names->count : 0;
     const int count = own + (int)COUNT_OF(functions);
     const char **known = malloc((size_t)count * sizeof *known);

@@ -45,7 +45,7 @@ struct error *file_clear_beside(const char *path, char **beside)
 static struct error *not_plain(const char *path)
 {
     return error_new(ERROR_INPUT,
-                     "%s: is a folder, a pipe or a device where a plain file is wanted; remove it",
+                     "%s: is a folder, a pipe or a device instead of a plain file; remove it",
                      path);
 }
 
@@ -170,7 +170,7 @@ static struct error *folder_make_one(const char *folder)
     if (stat(folder, &status))
         return error_context(system_error(folder, number), "cannot make a folder");
     if (!S_ISDIR(status.st_mode))
-        return error_new(ERROR_INPUT, "%s: is a file where a folder is wanted", folder);
+        return error_new(ERROR_INPUT, "%s: is a file instead of a folder", folder);
     return NULL;
 }
 

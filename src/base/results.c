@@ -183,8 +183,8 @@ struct error *results_check(const char *folder, bool overwrite)
     bool of_run = is_there(folder, log_name);
     if (of_run && !overwrite)
         return error_new(ERROR_INPUT,
-                         "%s: holds the results of a run already (--overwrite replaces them, "
-                         "--resume goes on with them)",
+                         "%s: already contains the results of a run (--overwrite replaces them, "
+                         "--resume continues the run)",
                          folder);
     const char *name = of_run ? NULL : name_in_the_way(folder);
     if (name)

@@ -180,7 +180,7 @@ static void check_stress(struct checking *checking, const struct body_input *bod
     if (body->stress.count == 0 || !case_dimension_known(checking))
         return;
     if (body->stress.count != counts[dimension - 1])
-        case_wrong(checking, "stress", "%s is wanted in %d dimension%s", forms[dimension - 1],
+        case_wrong(checking, "stress", "give %s in %d dimension%s", forms[dimension - 1],
                    (int)dimension, dimension == 1 ? "" : "s");
     else if (checking->input->geometry == GEOMETRY_PLANE_STRESS &&
              (across->varying || across->constant != 0.0))
@@ -237,7 +237,7 @@ static void check_shape(struct checking *checking, const struct body_input *body
     const struct bounds bounds = shape_bounds(&body->shape);
     if (!bounds_finite(&bounds)) {
         case_wrong(checking, shape->name,
-                   "this shape has no end: an intersection with another bounds it");
+                   "this shape is infinite: intersect it with a bounded one");
         return;
     }
     if (!body->lattice.choice || case_is_wrong(checking, "lattice"))
@@ -263,9 +263,8 @@ static void check_body(struct checking *checking, int index)
     if (body->velocity.count == 0)
         body->velocity.count = case_dimension_known(checking) ? (int)input->dimension : 0;
     else if (case_dimension_known(checking) && body->velocity.count != input->dimension)
-        case_wrong(checking, "velocity", "%d component%s wanted, one a dimension; found %d",
-                   (int)input->dimension, input->dimension == 1 ? " is" : "s are",
-                   body->velocity.count);
+        case_wrong(checking, "velocity", "expected %d component%s, one per dimension; found %d",
+                   (int)input->dimension, input->dimension == 1 ? "" : "s", body->velocity.count);
     if (body->frozen && (body->driven || !isnan(body->stop)))
         case_wrong(checking, "frozen", "a frozen body keeps its velocity: leave `%s` out",
                    body->driven ? "driven" : "stop");
@@ -281,13 +280,12 @@ static void check_detonation(struct checking *checking, int index)
     bool same = detonation->to.count == detonation->at.count;
     for (int end = 0; end < 2 && case_dimension_known(checking); end++)
         if (ends[end]->count && ends[end]->count != input->dimension)
-            case_wrong(checking, keys[end], "%d component%s wanted, one a dimension; found %d",
-                       (int)input->dimension, input->dimension == 1 ? " is" : "s are",
-                       ends[end]->count);
+            case_wrong(checking, keys[end], "expected %d component%s, one per dimension; found %d",
+                       (int)input->dimension, input->dimension == 1 ? "" : "s", ends[end]->count);
     for (int k = 0; k < detonation->at.count; k++)
         same = same && detonation->to.at[k] == detonation->at.at[k];
     if (same && !case_is_wrong(checking, ""))
-        case_wrong(checking, "to", "both ends are the same place: leave this out");
+        case_wrong(checking, "to", "both ends are the same point: leave this out");
     detonation->body = -1;
     if (!detonation->of)
         return;
@@ -295,7 +293,8 @@ static void check_detonation(struct checking *checking, int index)
     if (detonation->body >= 0 && !case_is_wrong(checking, "of") &&
         case_body(input, detonation->body)->material_index >= 0 &&
         !detonation_lights(input, index, detonation->body))
-        case_wrong(checking, "of", "the material of this body has no `burn` that waits to be lit");
+        case_wrong(checking, "of",
+                   "the material of this body has no `burn` that needs an ignition");
 }
 
 /* Every body that burns is lit by something. */
@@ -309,7 +308,7 @@ static void check_lit(struct checking *checking, int body)
     for (int i = 0; i < input->detonations.count; i++)
         if (detonation_lights(input, i, body))
             return;
-    case_wrong(checking, "", "nothing lights this explosive: name a place in `detonations`");
+    case_wrong(checking, "", "nothing ignites this explosive: give a point in `detonations`");
 }
 
 /* What is said of a surface must act there. */
@@ -319,11 +318,11 @@ static void check_surface(struct checking *checking, const struct contact_input 
     if (contact->friction > 0.0 && !slips)
         case_wrong(checking, "friction", "bodies that stick have no friction: give `shear: slip`");
     if (contact->touch == TOUCH_SURFACES && !opens)
-        case_wrong(checking, "touch", "this is for bodies that may part: give `tension: none`");
+        case_wrong(checking, "touch", "this is for bodies that may separate: give `tension: none`");
     if (contact->normal != NORMAL_MEAN && !slips && !opens)
-        case_wrong(checking, "normal",
-                   "this is for bodies that slip or may part: give `shear: slip` or `tension: "
-                   "none`");
+        case_wrong(
+            checking, "normal",
+            "this is for bodies that slip or may separate: give `shear: slip` or `tension: none`");
 }
 
 static void check_contact(struct checking *checking, int index)
@@ -335,7 +334,7 @@ static void check_contact(struct checking *checking, int index)
     if (contact->between.count == 0 && case_is_wrong(checking, ""))
         return;
     if (contact->between.count != 2) {
-        case_wrong(checking, "between", "two bodies are wanted, found %d", contact->between.count);
+        case_wrong(checking, "between", "expected two bodies, found %d", contact->between.count);
         return;
     }
     for (int i = 0; i < 2; i++)
@@ -344,7 +343,7 @@ static void check_contact(struct checking *checking, int index)
     if (contact->body[0] < 0 || contact->body[1] < 0)
         return;
     if (contact->body[0] == contact->body[1])
-        case_wrong(checking, "between", "two different bodies are wanted");
+        case_wrong(checking, "between", "the two bodies must be different");
     bool told = false;
     for (int i = 0; i < index && !told; i++) {
         const struct contact_input *other = case_contact(input, i);
@@ -359,7 +358,7 @@ static void check_contact(struct checking *checking, int index)
 void case_check_between(struct checking *checking, const struct vector_value *between)
 {
     if (between->count != 0 && !(between->count == 2 && between->at[0] < between->at[1]))
-        case_wrong(checking, "between", "two positions are wanted, the smaller first");
+        case_wrong(checking, "between", "expected two positions, the smaller first");
 }
 
 static void check_probe(struct checking *checking, int index)
@@ -388,7 +387,7 @@ static void check_expected(struct checking *checking, int index)
     for (int i = 0; i < expected->of.count; i++)
         case_find_name(checking, &input->materials, "material", expected->of.names[i], "of");
     if (expected->reason && !expected->reason[0])
-        case_wrong(checking, "reason", "the reason is wanted");
+        case_wrong(checking, "reason", "a reason is required");
 }
 
 static void check_map(struct checking *checking, const char *key, const struct named_map *map,
@@ -421,7 +420,7 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "materials", &input->materials, check_material);
     if (input->bodies.count == 0 && !document_is_wrong(input->document, "")) {
         checking.map = "bodies";
-        case_wrong(&checking, "", "one body at least is wanted");
+        case_wrong(&checking, "", "at least one body is needed");
     }
     check_map(&checking, "bodies", &input->bodies, check_body);
     check_mutual(&checking);

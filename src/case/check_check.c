@@ -38,13 +38,13 @@ static void check_limits(struct checking *checking, const struct check_input *ch
     if (is_given(is) && is->value != 0.0 && !is_number(within) &&
         !dimension_equal(is->dimension, within->dimension))
         case_wrong(checking, "within",
-                   "a fraction, or a quantity of the dimension of `is`, is wanted");
+                   "expected a fraction, or a quantity of the dimension of `is`");
 }
 
 static void check_deviation(struct checking *checking, const struct check_input *check)
 {
     if (check->known_deviation && !check->known_deviation[0])
-        case_wrong(checking, "known_deviation", "the reason is wanted");
+        case_wrong(checking, "known_deviation", "a reason is required");
     if (!check->known_deviation && check->known_deviation_if != 1.0)
         case_wrong(checking, "known_deviation_if", "this needs `known_deviation` beside it");
 }
@@ -74,9 +74,9 @@ void case_check_check(struct checking *checking, int index)
     case_check_axis(checking, "axis", check->axis);
     if (check->about.count != 0 && case_dimension_known(checking) &&
         check->about.count != checking->input->dimension)
-        case_wrong(checking, "about", "%d component%s wanted, one a dimension; found %d",
-                   (int)checking->input->dimension,
-                   checking->input->dimension == 1 ? " is" : "s are", check->about.count);
+        case_wrong(checking, "about", "expected %d component%s, one per dimension; found %d",
+                   (int)checking->input->dimension, checking->input->dimension == 1 ? "" : "s",
+                   check->about.count);
     check_relative(checking, check, index);
     if (check->at > checking->input->run.until &&
         !document_is_wrong(checking->input->document, "run"))
@@ -101,7 +101,7 @@ void case_check_fit(struct checking *checking, int index)
     if (case_is_wrong(checking, "")) /* no map at all, or keys are missing */
         return;
     if (input->sweep_runs == 0) {
-        case_wrong(checking, "", "this wants a `sweep`, through whose runs it goes");
+        case_wrong(checking, "", "this needs a `sweep`, whose runs it fits");
         return;
     }
     case_find_name(checking, &input->checks, "check", fit->of, "of");
@@ -110,7 +110,7 @@ void case_check_fit(struct checking *checking, int index)
     if (input->sweep_values > 0 && !is_swept(input, fit->over))
         case_find_name(checking, &input->checks, "swept key or check", fit->over, "over");
     if (fit->form == FIT_POWER && fit->take == FIT_INTERCEPT)
-        case_wrong(checking, "take", "a power law has no intercept: slope and misfit are wanted");
+        case_wrong(checking, "take", "a power law has no intercept: take slope or misfit");
     check_limits(checking, &fit->check);
     check_deviation(checking, &fit->check);
 }
@@ -133,7 +133,7 @@ void case_check_order(struct checking *checking, int index)
     if (order->at_least > order->at_most)
         case_wrong(checking, "at_least", "this lies above `at_most`");
     if (order->known_deviation && !order->known_deviation[0])
-        case_wrong(checking, "known_deviation", "the reason is wanted");
+        case_wrong(checking, "known_deviation", "a reason is required");
 }
 
 void case_check_study(struct checking *checking)

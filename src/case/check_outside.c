@@ -12,7 +12,7 @@ void case_check_wall(struct checking *checking, int index)
     if (input->geometry == GEOMETRY_AXISYMMETRIC && wall->axis == 0 &&
         (wall->side == WALL_LOW ? wall->at != 0.0 : wall->at <= 0.0))
         case_wrong(checking, "at", "the axis of symmetry bounds x from below, at 0 m: %s",
-                   wall->side == WALL_LOW ? "leave this wall out" : "put this wall beyond it");
+                   wall->side == WALL_LOW ? "leave this wall out" : "put this wall above it");
     const bool wrong = case_is_wrong(checking, "");
     bool told = false; /* one of many that are alike is enough */
     for (int i = 0; i < index && !wrong && !told; i++) {
@@ -84,18 +84,17 @@ void case_check_load(struct checking *checking, int index)
     if (case_is_wrong(checking, ""))
         return;
     if (field_is_given(&load->pressure) == (load->traction.count > 0))
-        case_wrong(checking, "", "one of `pressure` and `traction` is wanted");
+        case_wrong(checking, "", "give either `pressure` or `traction`");
     else if (load->traction.count && load->between.count == 0)
-        case_wrong(checking, "traction",
-                   "this wants `between`: the body has another end, which a "
-                   "traction must not pull");
+        case_wrong(
+            checking, "traction",
+            "this needs `between`: the body has another end, which the traction must not pull");
     else if (load->traction.count && case_dimension_known(checking) &&
              load->traction.count != input->dimension)
-        case_wrong(checking, "traction", "%d component%s wanted, one a dimension; found %d",
-                   (int)input->dimension, input->dimension == 1 ? " is" : "s are",
-                   load->traction.count);
+        case_wrong(checking, "traction", "expected %d component%s, one per dimension; found %d",
+                   (int)input->dimension, input->dimension == 1 ? "" : "s", load->traction.count);
     if (load->before <= load->after)
-        case_wrong(checking, "before", "this does not lie behind `after`");
+        case_wrong(checking, "before", "this must be later than `after`");
 }
 
 static double speed_at(const struct field_value *velocity, double time)
@@ -164,13 +163,15 @@ void case_check_driven(struct checking *checking, const struct body_input *body)
         if (!field_is_of_time(velocity))
             continue;
         if (!body->driven)
-            case_wrong(checking, key,
-                       "only a body with `driven: yes` has a velocity of the time t");
+            case_wrong(
+                checking, key,
+                "only a body with `driven: yes` may have a velocity that depends on the time t");
         else
             check_speed(checking, body, i, key);
         for (int axis = 0; axis < 3; axis++)
             if (varying_expression_uses(velocity->varying, axis))
-                case_wrong(checking, key, "this names the time t, and with it no position %c",
+                case_wrong(checking, key,
+                           "this depends on the time t and cannot depend on the position %c",
                            "xyz"[axis]);
     }
 }
@@ -183,8 +184,8 @@ void case_check_gravity(struct checking *checking)
     if (!case_dimension_known(checking) || gravity->count == 0)
         return;
     if (gravity->count != input->dimension)
-        case_wrong(checking, "", "%d component%s wanted, one a dimension; found %d",
-                   (int)input->dimension, input->dimension == 1 ? " is" : "s are", gravity->count);
+        case_wrong(checking, "", "expected %d component%s, one per dimension; found %d",
+                   (int)input->dimension, input->dimension == 1 ? "" : "s", gravity->count);
     else if (input->geometry == GEOMETRY_AXISYMMETRIC && gravity->at[0] != 0.0)
         case_wrong(checking, "1", "gravity that is symmetric about the axis points along it");
 }

@@ -235,8 +235,8 @@ static struct error *merge_overlay(struct document *document, const char *wanted
     }
     for (size_t i = 0; i < COUNT_OF(overlay_keys); i++) {
         if (overlay[i] && overlay[i]->kind != NODE_MAP)
-            error = error_join(
-                error, place_error(overlay[i]->place, overlay_keys[i], "a map is wanted here"));
+            error = error_join(error,
+                               place_error(overlay[i]->place, overlay_keys[i], "expected a map"));
         else if (overlay[i] && wanted && !strcmp(overlay_keys[i], wanted)) {
             error = error_join(error, node_merge(document->root, overlay[i]));
             document->overlay = overlay_keys[i];
@@ -393,8 +393,7 @@ struct error *document_open_text(const char *text, const char *name, const char 
     struct error *error =
         origin ? node_parse(text, strlen(text), origin, true, &(*document)->root) : out_of_memory();
     if (!error && (*document)->root->kind != NODE_MAP)
-        error =
-            place_error((*document)->root->place, "", "a map of keys and values is wanted here");
+        error = place_error((*document)->root->place, "", "expected a map of keys and values");
     return finish(error, settings, count, overlay, document);
 }
 

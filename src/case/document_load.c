@@ -116,7 +116,7 @@ static struct error *read_source(struct loading *loading, struct source *source,
     free(text);
     assert(error || *root);
     if (!error && (*root)->kind != NODE_MAP)
-        error = place_error((*root)->place, "", "a map of keys and values is wanted here");
+        error = place_error((*root)->place, "", "expected a map of keys and values");
     return error;
 }
 
@@ -136,7 +136,7 @@ static struct error *include_one(struct loading *loading, const struct source *b
                                  const struct node *name, struct node *base)
 {
     if (name->kind != NODE_SCALAR || node_is_empty(name) || !name->text[0])
-        return place_error(name->place, include_key, "a file or a list of files is wanted");
+        return place_error(name->place, include_key, "expected a file or a list of files");
     if (++loading->included > INCLUDED_MAX)
         return place_error(name->place, include_key, "these are more than %d files", INCLUDED_MAX);
     char *path = path_from(by, name->text);

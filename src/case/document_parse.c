@@ -101,7 +101,7 @@ static struct place place_of(const struct parse *parse, struct fy_event *event,
 static const struct {
     const char *start, *meaning;
 } meanings[] = {
-    {"could not find expected ':'", "a colon, and a blank behind it, are missing after this key"},
+    {"could not find expected ':'", "a colon and a blank are missing after this key"},
     {"did not find expected node content", "a value is missing here"},
     {"flow mapping with invalid extra", "no bracket is open that this one could close"},
     {"flow sequence with invalid extra", "no bracket is open that this one could close"},
@@ -116,7 +116,7 @@ static const struct {
     {"mismatched flow", "this bracket is not of the kind of the last one that is open"},
     {"missing comma in flow", "a comma or a closing bracket is missing before this"},
     {"plain scalar cannot start with", "a text that starts with this sign needs quotes"},
-    {"tab character may not be used", "a tab cannot indent a line; take blanks"},
+    {"tab character may not be used", "a tab cannot indent a line; use blanks"},
     {"wrongly indented double-quoted scalar",
      "the quote that opens here is not closed in its line"},
     {"wrongly indented single-quoted scalar",
@@ -190,7 +190,7 @@ static struct error *take_text(const struct parse *parse, struct fy_event *event
     struct fy_token *token = event->scalar.value;
     if (has_misread_quotes(parse, event))
         return place_error(place, "",
-                           "two quotes in a row cannot stand in single quotes; take double quotes");
+                           "two quotes in a row cannot be in single quotes; use double quotes");
     const char *bytes = token ? fy_token_get_text(token, &length) : "";
     if (!bytes)
         return error_new(ERROR_SYSTEM, "out of memory");
@@ -301,10 +301,10 @@ static struct error *build(struct parse *parse, struct fy_event *event, struct p
     struct place place = place_of(parse, event, before);
     if (event->type == FYET_ALIAS || fy_event_get_anchor_token(event))
         return place_error(place, "",
-                           "anchors and aliases (& and *) are not known here; "
-                           "a text that starts with one needs quotes");
+                           "anchors and aliases (& and *) are not supported; a text that starts "
+                           "with one needs quotes");
     if (fy_event_get_tag_token(event))
-        return place_error(place, "", "tags (!) are not known here");
+        return place_error(place, "", "tags (!) are not supported");
     if (depth > DEPTH_MAX)
         return place_error(place, "", "nested too deeply");
     struct node *node = node_new(event->type == FYET_MAPPING_START    ? NODE_MAP
@@ -349,7 +349,7 @@ static struct error *build_document(struct parse *parse, struct node **root)
             if (type == FYET_STREAM_END)
                 break;
             if (*root)
-                return place_error(place, "", "a second document starts here; one is wanted");
+                return place_error(place, "", "a second document starts here; only one is allowed");
             continue;
         }
         TRY(build_and_free(parse, event, start, 0, root));

@@ -75,7 +75,7 @@ static void read_one_of(struct reading *reading, const struct node *node, const 
         list_text(names, count, known, sizeof known);
         snprintf(wanted, sizeof wanted, "one of %s", known);
         if (node->kind == NODE_MAP && node->count > 1)
-            complain(reading, node_place(node), path, "only one %s is wanted, found %d keys (%s)",
+            complain(reading, node_place(node), path, "expected one %s, found %d keys (%s)",
                      list->kind_of_thing, node->count, wanted);
         else
             complain_kind(reading, node, path, wanted);
@@ -253,7 +253,7 @@ static void read_entry(struct reading *reading, const struct node *entry, const 
     struct one_of *one_of = value;
     const struct choice_list *list = things(reading, parameter->kind_of_thing);
     if (given && one_of->choice) { /* without one a slip was given, and told */
-        complain(reading, entry->key_place, path, "\"%s\" beside \"%s\": only one %s is wanted",
+        complain(reading, entry->key_place, path, "\"%s\" beside \"%s\": only one %s is allowed",
                  entry->key, one_of->choice->name, list->kind_of_thing);
         return;
     }
@@ -341,7 +341,7 @@ static void read_table(struct reading *reading, const struct node *map, const st
                      : suggest_path(reading, entry, table, names, count))
                 continue;
             complain_unknown(reading, entry->key_place, path,
-                             strchr(entry->key, ':') ? "a blank is missing behind the colon in"
+                             strchr(entry->key, ':') ? "a blank is missing after the colon in"
                                                      : "unknown key",
                              entry->key, names, count);
             const char *near = nearest_name(entry->key, names, count);
@@ -393,7 +393,7 @@ static void read_let(struct reading *reading, const struct node *let)
         if (!is_identifier(entry->key)) {
             complain(reading, entry->key_place, &path,
                      "a name is made of letters, digits and _, and starts with a letter%s",
-                     strchr(entry->key, ':') ? "; a blank is missing behind the colon" : "");
+                     strchr(entry->key, ':') ? "; a blank is missing after the colon" : "");
             continue;
         }
         if (!read_quantity(reading, entry, &path, "a quantity", &quantity)) {

@@ -82,7 +82,7 @@ void complain_kind(struct reading *reading, const struct node *node, const struc
                    const char *wanted)
 {
     char buffer[TEXT_MAX];
-    complain(reading, node_place(node), path, "%s is wanted, found %s", wanted,
+    complain(reading, node_place(node), path, "expected %s, found %s", wanted,
              found_text(node, buffer));
 }
 
@@ -247,7 +247,7 @@ static bool read_dimensioned(struct reading *reading, const struct node *node,
         return false;
     bool zero = quantity.value == 0.0 && dimension_equal(quantity.dimension, unit_dimension(""));
     if (!zero && !dimension_equal(quantity.dimension, wanted)) {
-        complain(reading, node->place, path, "\"%.60s\" is %s, wanted %s%s", node->text,
+        complain(reading, node->place, path, "\"%.60s\" is %s, expected %s%s", node->text,
                  quantity_text(quantity.dimension, other), quantity_text(wanted, buffer),
                  setting_text(reading, node->text, from));
         return false;
@@ -268,14 +268,14 @@ static void check_range(struct reading *reading, const struct node *node, const 
     const char *unit = parameter->unit && parameter->unit[0] ? parameter->unit : "";
     const char *space = unit[0] ? " " : "";
     if (isinf(below))
-        complain(reading, node->place, path, "\"%.60s\" is out of range: %s %g%s%s is wanted",
+        complain(reading, node->place, path, "\"%.60s\" is out of range: it must be %s %g%s%s",
                  node->text, closed ? "at least" : "more than", above, space, unit);
     else if (isinf(above))
-        complain(reading, node->place, path, "\"%.60s\" is out of range: %s %g%s%s is wanted",
+        complain(reading, node->place, path, "\"%.60s\" is out of range: it must be %s %g%s%s",
                  node->text, closed ? "at most" : "less than", below, space, unit);
     else
-        complain(reading, node->place, path, "\"%.60s\" is out of range: %g to %g%s%s%s is wanted",
-                 node->text, above, below, space, unit, closed ? "" : ", without the ends,");
+        complain(reading, node->place, path, "\"%.60s\" is out of range: it must be %g to %g%s%s%s",
+                 node->text, above, below, space, unit, closed ? "" : ", without the ends");
 }
 
 static void read_number(struct reading *reading, const struct node *node, const struct path *path,
@@ -404,8 +404,8 @@ static void read_fields(struct reading *reading, const struct node *node, const 
         return;
     }
     if (node->count < 1 || node->count > FIELD_COMPONENTS) {
-        complain(reading, node->place, path, "1 to %d values are wanted, found %d",
-                 FIELD_COMPONENTS, node->count);
+        complain(reading, node->place, path, "expected 1 to %d values, found %d", FIELD_COMPONENTS,
+                 node->count);
         return;
     }
     value->count = node->count;

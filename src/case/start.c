@@ -127,7 +127,7 @@ const char *start_state(const struct start_given *given, const struct material *
         return wrong;
     struct response response = material_evaluate(material, &point);
     if (given->stressed && sym3_mises(point.deviator) > (1.0 + 1e-12) * response.yield)
-        return "this is beyond the yield stress: the material would flow at once";
+        return "this is above the yield stress: the material would flow at once";
     *key = "";
     if (response.status & POINT_OUT_OF_RANGE || !isfinite(point.pressure))
         return "the state at the start is outside the range of the equation of state";
@@ -158,18 +158,18 @@ const char *body_start_wrong(const struct body_input *body, const struct materia
     bool energy = field_is_given(&body->energy), temperature = field_is_given(&body->temperature);
     *key = "stress";
     if (stress && !material_has_strength(material))
-        return "a fluid bears no stress but its pressure: give `pressure`";
+        return "a fluid has no stress but its pressure: give `pressure`";
     if (stress && pressure)
         return "its mean is the pressure: `pressure` cannot be given beside it";
     *key = "pressure";
     if (pressure && material_burns(material))
-        return "an explosive that has yet to burn bears no pressure: leave this out";
+        return "an unburnt explosive has no pressure: leave this out";
     *key = "temperature";
     if (energy && temperature)
         return "energy follows from it: `energy` cannot be given beside it";
     *key = energy ? "energy" : "temperature";
     if (field_is_given(&body->density) && (stress || pressure) && (energy || temperature))
-        return "of density, pressure (or stress) and energy (or temperature) two at most can be "
+        return "at most two of density, pressure (or stress) and energy (or temperature) can be "
                "given";
     return NULL;
 }

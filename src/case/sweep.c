@@ -48,11 +48,11 @@ static struct error *check_values(const struct node *list, const char *told)
 {
     struct error *error = NULL;
     if (list->kind != NODE_LIST || list->count == 0)
-        return place_error(node_place(list), told, "a list of values is wanted");
+        return place_error(node_place(list), told, "expected a list of values");
     for (int i = 0; i < list->count; i++)
         if (list->child[i]->kind != NODE_SCALAR || node_is_empty(list->child[i]))
             error = error_join(error, place_error(node_place(list->child[i]), told,
-                                                  "a single value is wanted, a number or a text"));
+                                                  "expected a single value, a number or a text"));
     return error;
 }
 
@@ -118,7 +118,7 @@ static struct error *check_entry(const struct document *document, const struct n
     for (int k = 1; k < lists_of(entry) && !error; k++)
         if (list_of(entry, k)->count != values_of(entry))
             error = place_error(node_place(list_of(entry, k)), sweep_key,
-                                "\"%s\" and \"%s\" change together: %d values are wanted, not %d",
+                                "\"%s\" and \"%s\" change together: expected %d values, not %d",
                                 list_of(entry, 0)->key, list_of(entry, k)->key, values_of(entry),
                                 list_of(entry, k)->count);
     return error;
@@ -189,7 +189,7 @@ struct error *case_take_sweep(struct simulation_case *input, int run)
         if (!error && run > 0 && run <= input->sweep_runs)
             error = take_values(input, sweep, run);
     } else if (sweep->kind != NODE_MAP && !node_is_empty(sweep)) {
-        error = place_error(node_place(sweep), sweep_key, "a map of names and lists is wanted");
+        error = place_error(node_place(sweep), sweep_key, "expected a map of names and lists");
     }
     node_free(sweep);
     return error;
@@ -233,7 +233,7 @@ static struct error *check_varied(const struct document *document, const struct 
         find_target(document, varied->key, varied->place, "convergence.vary", path);
     if (values && (values->kind == NODE_SCALAR || (values->kind == NODE_LIST && values->count < 2)))
         return error_join(error, place_error(node_place(values), "convergence.values",
-                                             "a list of two values at least is wanted"));
+                                             "expected a list of at least two values"));
     if (!error && !values && strcmp(varied->key, "resolution") != 0)
         return place_error(varied->place, "convergence",
                            "`values` is missing: what \"%s\" is in each run", varied->key);

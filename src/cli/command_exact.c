@@ -17,7 +17,7 @@ static struct error *read_time(const char *text, double *time)
         return NULL;
     TRY(error_context(expression_evaluate(text, NULL, &quantity), "--time"));
     if (!dimension_equal(quantity.dimension, seconds) || !(quantity.value > 0.0))
-        return error_new(ERROR_INPUT, "--time: \"%s\" is no time, such as 5us", text);
+        return error_new(ERROR_INPUT, "--time: \"%s\" is not a time, such as 5us", text);
     *time = quantity.value;
     return NULL;
 }

@@ -108,7 +108,7 @@ int command_materials(const struct cli_options *options)
     char *folder = share_folder("materials");
     struct error *error;
     if (options->curves && !options->names.count)
-        error = error_new(ERROR_INPUT, "materials: --curves wants the name of a material");
+        error = error_new(ERROR_INPUT, "materials: --curves needs the name of a material");
     else if (!folder)
         error = error_new(ERROR_INPUT, "no materials found; set BOLIDE_SHARE to the folder that "
                                        "holds examples/ and materials/");

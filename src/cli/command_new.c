@@ -60,7 +60,7 @@ static struct error *copy_file(FILE *from, const char *path)
 {
     FILE *file = fopen(path, "wxe");
     if (!file && errno == EEXIST)
-        return error_new(ERROR_INPUT, "%s: is there already and stays as it is", path);
+        return error_new(ERROR_INPUT, "%s: exists already and is left unchanged", path);
     if (!file)
         return system_error(path);
     char bytes[4096];

@@ -60,7 +60,7 @@ static int run_sweep(const struct simulation_case *input, const struct cli_optio
         tell_sweep(&listener, &result, input->sweep_runs, folder);
     int status = error ? report_error(error) : EXIT_OK;
     if (*verifying.running.stop) {
-        say(&listener, text_copy("go on with --resume"));
+        say(&listener, text_copy("continue with --resume"));
         status = signals_status();
     }
     verify_result_free(&result);
@@ -83,8 +83,8 @@ static int run_input(const struct simulation_case *input, const struct cli_optio
     else if (result.checks.failed)
         status = ERROR_CHECK;
     if (!error) {
-        say(&listener,
-            text_format("results in %s%s", folder, result.finished ? "" : "; go on with --resume"));
+        say(&listener, text_format("results in %s%s", folder,
+                                   result.finished ? "" : "; continue with --resume"));
         say(&listener, text_format("report: %s/report.html", folder));
     }
     run_result_free(&result);

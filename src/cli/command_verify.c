@@ -158,7 +158,7 @@ int command_verify(const struct cli_options *options)
 {
     if (options->all == (options->names.count > 0))
         return report_error(
-            error_new(ERROR_INPUT, "verify wants cases, or --all; see `bolide help verify`"));
+            error_new(ERROR_INPUT, "verify needs cases, or --all; see `bolide help verify`"));
     return options->all ? verify_all(options)
                         : verify_listed(options->names.text, options->names.count, options);
 }

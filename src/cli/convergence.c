@@ -131,8 +131,9 @@ static struct error *check_folder(const char *folder, const struct cli_options *
     char *runs = path_join(folder, "convergence");
     struct error *error = !runs ? error_new(ERROR_SYSTEM, "out of memory") : NULL;
     if (runs && !options->overwrite && access(runs, F_OK) == 0)
-        error = error_new(
-            ERROR_INPUT, "%s: holds a convergence study already (--overwrite replaces it)", folder);
+        error =
+            error_new(ERROR_INPUT,
+                      "%s: already contains a convergence study (--overwrite replaces it)", folder);
     free(runs);
     return ranks_agree(options->ranks, error);
 }

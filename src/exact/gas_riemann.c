@@ -119,8 +119,8 @@ static struct error *gas_solve(const void *parameters, void *solved)
     double apart = right->velocity - left->velocity;
     if (!(apart < escape))
         return error_new(ERROR_INPUT,
-                         "the gases part at %g m/s, faster than both can expand (%g m/s): a vacuum "
-                         "opens between them",
+                         "the gases separate at %g m/s, faster than both can expand (%g m/s): a "
+                         "vacuum opens between them",
                          apart, escape);
     double start = minimum(left->pressure, right->pressure);
     double pressure = root_find(mismatch, problem, 0.0, INFINITY, start);

@@ -61,7 +61,8 @@ static struct error *impact_solve(const void *parameters, void *solved)
     const struct exact_shock_material *right = &input->material[SIDE_RIGHT];
     double closing = left->velocity - right->velocity;
     if (!(closing >= 0.0))
-        return error_new(ERROR_INPUT, "the bodies part at %g m/s: there is no impact", -closing);
+        return error_new(ERROR_INPUT, "the bodies separate at %g m/s: there is no impact",
+                         -closing);
     double share = left_share(left, right, closing);
     double jump[2] = {share, left_share(right, left, closing)};
     /* The mean of both sides' star values keeps the solution symmetric to the last bit. */

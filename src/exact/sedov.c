@@ -145,7 +145,7 @@ static struct error *sedov_solve(const void *parameters, void *solved)
     struct unit unit;
     TRY(unit_parse(units[input->geometry], &unit));
     if (!dimension_equal(unit.dimension, input->energy.dimension) || !(input->energy.value > 0.0))
-        return error_new(ERROR_INPUT, "the energy of a %s is wanted in %s, above zero",
+        return error_new(ERROR_INPUT, "the energy of a %s must be in %s, above zero",
                          geometry_names[input->geometry], units[input->geometry]);
     double g = input->gamma, nu = radial_dimensions(input->geometry);
     if (input->geometry == RADIAL_BALL && g > 7.0)

@@ -49,10 +49,10 @@ static struct error *eos_of(const struct exact_solid *solid, const char *side, s
     bool barotropic = !isnan(solid->reference_density) && !isnan(solid->bulk_modulus);
     bool some = !isnan(solid->reference_density) || !isnan(solid->bulk_modulus);
     if (solid->eos.value ? some : !barotropic)
-        return error_new(ERROR_INPUT,
-                         "%s: wants either eos, or reference_density and bulk_modulus of a "
-                         "barotropic solid",
-                         side);
+        return error_new(
+            ERROR_INPUT,
+            "%s: needs either eos, or reference_density and bulk_modulus of a barotropic solid",
+            side);
     if (solid->eos.value) {
         eos->kind = (enum eos_kind)solid->eos.index;
         memcpy(&eos->of, solid->eos.value, solid->eos.choice->size);

@@ -55,7 +55,7 @@ struct error *front_check(const struct measure_front *front, const char *unit)
     struct unit parsed;
     TRY(unit_parse(unit, &parsed));
     if (isnan(front->value.value) != front->half)
-        return error_new(ERROR_INPUT, "a front wants `value` or `half: yes`, one of them");
+        return error_new(ERROR_INPUT, "a front needs either `value` or `half: yes`");
     if (!front->half && !dimension_equal(parsed.dimension, front->value.dimension))
         return error_new(ERROR_INPUT, "`value` must be in %s, as %s is",
                          unit[0] ? unit : "plain numbers", front->field);

@@ -97,9 +97,9 @@ struct error *probe_check_place(const struct probe *probe, const struct simulati
 {
     if (place->count == simulation->dimension)
         return NULL;
-    return probe_error(probe, simulation, key, "%d component%s wanted, one a dimension; found %d",
-                       simulation->dimension, simulation->dimension == 1 ? " is" : "s are",
-                       place->count);
+    return probe_error(probe, simulation, key,
+                       "expected %d component%s, one per dimension; found %d",
+                       simulation->dimension, simulation->dimension == 1 ? "" : "s", place->count);
 }
 
 struct error *probe_add_fields(struct probe *probe, const struct simulation *simulation,

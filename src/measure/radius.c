@@ -51,7 +51,7 @@ static struct error *unit(const struct measurement *measurement, const char **un
     const int count = parameters->center.count;
     if (count != 0 && count != dimension)
         return measure_error(measurement,
-                             "`center`: %d components are wanted, one a dimension; found %d",
+                             "`center`: expected %d components, one per dimension; found %d",
                              dimension, count);
     *unit = "m";
     return NULL;

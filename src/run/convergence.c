@@ -100,10 +100,10 @@ static struct error *make_quantities(const struct simulation_case *input, int ru
                               "`convergence.of`");
     for (int k = 0; k < study->quantities && runs < 3; k++)
         if (study->quantity[k].kind == STUDY_ESTIMATE)
-            return document_error(input->document, "convergence.values",
-                                  "three runs at least are wanted: the error of \"%s\" has to be "
-                                  "estimated",
-                                  study->quantity[k].name);
+            return document_error(
+                input->document, "convergence.values",
+                "at least three runs are needed: the error of \"%s\" has to be estimated",
+                study->quantity[k].name);
     return NULL;
 }
 

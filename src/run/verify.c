@@ -180,8 +180,8 @@ static struct error *check_folder(const char *folder, const struct run_options *
     if (!is_there(folder, sweep_table_name))
         return results_check(folder, false);
     return error_new(ERROR_INPUT,
-                     "%s: holds the results of a sweep already (--overwrite replaces them, "
-                     "--resume goes on with them)",
+                     "%s: already contains the results of a sweep (--overwrite replaces them, "
+                     "--resume continues it)",
                      folder);
 }
 

@@ -46,7 +46,7 @@ static const char *wrong(const void *shape, int dimension)
 {
     const struct shape_ball *ball = shape;
     if (ball->center.count != dimension)
-        return "a ball wants as many numbers in `center` as the case has dimensions";
+        return "a ball needs as many numbers in `center` as the case has dimensions";
     return NULL;
 }
 

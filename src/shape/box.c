@@ -35,7 +35,7 @@ static const char *wrong(const void *shape, int dimension)
 {
     const struct shape_box *box = shape;
     if (box->from.count != dimension || box->to.count != dimension)
-        return "a box wants as many numbers in `from` and `to` as the case has dimensions";
+        return "a box needs as many numbers in `from` and `to` as the case has dimensions";
     for (int axis = 0; axis < dimension; axis++)
         if (!(box->from.at[axis] < box->to.at[axis]))
             return "the `to` of a box must lie above its `from` on every axis";

@@ -73,7 +73,7 @@ static const char *wrong(const void *shape, int dimension)
     if (dimension != 3)
         return "a cylinder needs three dimensions";
     if (cylinder->from.count != 3 || cylinder->to.count != 3)
-        return "a cylinder wants three numbers in `from` and `to`";
+        return "a cylinder needs three numbers in `from` and `to`";
     const struct vec3 along = vec3_sub(vec3_of(&cylinder->to), vec3_of(&cylinder->from));
     if (!(vec3_dot(along, along) > 0.0))
         return "the `from` and `to` of a cylinder must be two different points";

@@ -31,7 +31,7 @@ static const char *wrong(const void *shape, int dimension)
 {
     const struct one_of_list *shapes = &((const struct shape_difference *)shape)->shapes;
     if (shapes->count < 2)
-        return "a difference wants at least two shapes";
+        return "a difference needs at least two shapes";
     return shapes_wrong(shapes, dimension);
 }
 

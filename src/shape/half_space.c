@@ -51,7 +51,7 @@ static const char *wrong(const void *shape, int dimension)
 {
     const struct shape_half_space *half = shape;
     if (half->point.count != dimension || half->normal.count != dimension)
-        return "a half-space wants as many numbers in `point` and `normal` as the case has "
+        return "a half-space needs as many numbers in `point` and `normal` as the case has "
                "dimensions";
     const struct vec3 normal = vec3_of(&half->normal);
     if (!(vec3_dot(normal, normal) > 0.0))

@@ -32,7 +32,7 @@ static const char *wrong(const void *shape, int dimension)
 {
     const struct one_of_list *shapes = &((const struct shape_intersection *)shape)->shapes;
     if (shapes->count < 2)
-        return "an intersection wants at least two shapes";
+        return "an intersection needs at least two shapes";
     const char *text = shapes_wrong(shapes, dimension);
     if (text)
         return text;

@@ -55,9 +55,9 @@ const char *lattice_wrong(const struct one_of *lattice, const struct one_of *sha
     if (dimension != 2)
         return "rings need two dimensions";
     if (rings->center.count != 0 && rings->center.count != 2)
-        return "rings want two numbers in `center`";
+        return "rings need two numbers in `center`";
     if (rings->center.count == 0 && !shape_radii(shape, &radii))
-        return "the shape has no middle: rings want a ball or shell, cut or not, or their `center`";
+        return "the shape has no center: rings need a ball or shell, cut or not, or their `center`";
     return NULL;
 }
 

@@ -49,7 +49,7 @@ static const char *wrong(const void *shape, int dimension)
     if (dimension != 2)
         return "a polygon needs two dimensions";
     if (points->count < 3)
-        return "a polygon wants at least three points";
+        return "a polygon needs at least three points";
     for (int i = 0; i < points->count; i++)
         if (points->items[i].count != 2)
             return "every point of a polygon has two numbers";

@@ -101,7 +101,7 @@ static const char *wrong(const void *shape, int dimension)
 {
     const struct shape_repeat *repeat = shape;
     if (repeat->count.count != dimension || repeat->step.count != dimension)
-        return "a repetition wants as many numbers in `count` and `step` as the case has "
+        return "a repetition needs as many numbers in `count` and `step` as the case has "
                "dimensions";
     for (int axis = 0; axis < dimension; axis++) {
         const double count = repeat->count.at[axis];
@@ -118,7 +118,7 @@ static const char *wrong(const void *shape, int dimension)
     if (text)
         return text;
     const struct bounds one = shape_bounds(&repeat->shape);
-    return bounds_finite(&one) ? NULL : "a shape without end cannot be repeated";
+    return bounds_finite(&one) ? NULL : "an infinite shape cannot be repeated";
 }
 
 /* As many copies as may lie over one another at a place. */

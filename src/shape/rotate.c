@@ -89,7 +89,7 @@ static const char *wrong(const void *shape, int dimension)
     if (dimension == 1)
         return "a rotation needs two or three dimensions";
     if (rotate->about.count != 0 && rotate->about.count != dimension)
-        return "a rotation wants as many numbers in `about` as the case has dimensions";
+        return "a rotation needs as many numbers in `about` as the case has dimensions";
     if (dimension == 2 && rotate->axis != 2)
         return "a rotation in two dimensions is about the `axis` z";
     return shape_wrong(&rotate->shape, dimension);

@@ -50,7 +50,7 @@ static const char *wrong(const void *shape, int dimension)
     if (dimension == 1)
         return "a shell needs two or three dimensions";
     if (shell->center.count != dimension)
-        return "a shell wants as many numbers in `center` as the case has dimensions";
+        return "a shell needs as many numbers in `center` as the case has dimensions";
     if (!(shell->inner < shell->outer))
         return "the `inner` radius of a shell must be smaller than the `outer`";
     return NULL;

@@ -57,14 +57,14 @@ static const char *wrong(const void *shape, int dimension)
     if (strlen(map->letter) != 1)
         return "the `letter` of a template is one character";
     if (map->rows.count < 1)
-        return "a template wants at least one row";
+        return "a template needs at least one row";
     bool found = false;
     for (int i = 0; i < map->rows.count; i++) {
         if (strlen(map->rows.names[i]) != strlen(map->rows.names[0]))
             return "the `rows` of a template must be of one length";
         found = found || strchr(map->rows.names[i], map->letter[0]);
     }
-    return found ? NULL : "the `letter` of this template stands nowhere in its `rows`";
+    return found ? NULL : "the `letter` of this template is nowhere in its `rows`";
 }
 
 const struct shape_class shape_template_class = {inside, bounds, wrong, NULL, NULL};

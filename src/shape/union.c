@@ -32,7 +32,7 @@ static const char *wrong(const void *shape, int dimension)
 {
     const struct one_of_list *shapes = &((const struct shape_union *)shape)->shapes;
     if (shapes->count < 1)
-        return "a union wants at least one shape";
+        return "a union needs at least one shape";
     return shapes_wrong(shapes, dimension);
 }
 

@@ -165,7 +165,7 @@ expect 0 "1 known deviation" "$BOLIDE" verify "$cases/riemann/gas/case.yaml" \
 expect 1 "passes now: remove \`known_deviation\`" "$BOLIDE" verify "$cases/riemann/gas/case.yaml" \
     --set "checks.energy.known_deviation=a test"
 "$BOLIDE" verify "$cases/riemann/gas" --short --output verified >/dev/null 2>&1
-expect 2 "holds the results of a run already" "$BOLIDE" verify "$cases/riemann/gas" --short --output verified
+expect 2 "already contains the results of a run" "$BOLIDE" verify "$cases/riemann/gas" --short --output verified
 expect 0 "1 of 1 cases passed" "$BOLIDE" verify "$cases/riemann/gas" --short --output verified --overwrite
 expect 2 "nanometer" "$BOLIDE" run "$cases/riemann/gas/case.yaml" --overwrite \
     --set "resolution=1 nanometer"

@@ -58,7 +58,7 @@ cmp before.csv results/gas/convergence-orders.csv || fail "another order of the 
 
 "$BOLIDE" verify --convergence "$gas" --set "$(order 'at_least: 0.2')" >there.log 2>&1
 [ $? = 2 ] || fail "a study that is there was replaced: $(cat there.log)"
-says there.log "results/gas: holds a convergence study already (--overwrite replaces it)"
+says there.log "results/gas: already contains a convergence study (--overwrite replaces it)"
 cmp before.csv results/gas/convergence-orders.csv || fail "a study that is there was changed"
 
 study 1 fails.log --set "$(order 'at_least: 3')" --output all
@@ -82,9 +82,9 @@ says same.log "give the same resolution"
 study 2 fixed.log --set bodies.left.resolution=1mm --set 'convergence={values: [2 mm, 1 mm]}'
 says fixed.log "bodies.left.resolution: a convergence study refines all bodies"
 study 2 two.log --set 'convergence={values: [2 mm, 1 mm], estimate: [pressure left]}'
-says two.log "three runs at least are wanted"
+says two.log "at least three runs are needed"
 study 2 value.log --set 'convergence={values: [2 mm, 1 s, 1 mm]}'
-says value.log 'wanted a length (m)'
+says value.log 'expected a length (m)'
 study 2 nothing.log --set 'convergence={values: [2 mm, 1 mm]}' --set 'checks={mass: {conserved: mass, within: 1}}'
 says nothing.log "name what is to be studied"
 [ ! -e results ] || fail "something was written: $(find results)"

@@ -96,7 +96,7 @@ limited 20 "$BOLIDE" check bodies.yaml >/dev/null || fail "twenty thousand bodie
 
 # Numbers that only a slip or an attacker writes.
 refuse 10 "wider than all bodies" "$BOLIDE" check plate.yaml --set 'solver={mpm: {cell: 1e30 m}}'
-refuse 10 "out of range: 1e-06" "$BOLIDE" check plate.yaml --set 'solver={mpm: {courant: 1e-300}}'
+refuse 10 "out of range: it must be 1e-06" "$BOLIDE" check plate.yaml --set 'solver={mpm: {courant: 1e-300}}'
 refuse 10 "8e+27 sites, more than the 2.81e+14" "$BOLIDE" check plate.yaml --set 'resolution=1e-30 m'
 refuse 10 "a coarser resolution" "$BOLIDE" check plate.yaml --set 'resolution=1e-12 m'
 refuse 10 "bins over" "$BOLIDE" check plate.yaml --set 'profiles={p: {fields: [pressure], width: 1e-30 m}}'
@@ -111,7 +111,7 @@ refuse 10 "more sites than ids" "$BOLIDE" check plate.yaml --set dimension=2 --s
 refuse 10 "take too long to count" "$BOLIDE" check plate.yaml --set dimension=2 --set 'resolution=0.1 mm' --set 'bodies={b: {
     material: aluminium, repeat: {count: [300, 300], step: [0.01 mm, 0.01 mm], shape: {repeat: {count: [300, 300],
     step: [0.01 mm, 0.01 mm], shape: {ball: {center: [0, 0], radius: 3 mm}}}}}}}'
-refuse 10 "out of range: 0 to 1e+06 is wanted" "$BOLIDE" check plate.yaml --set dimension=2 --set 'bodies={
+refuse 10 "out of range: it must be 0 to 1e+06" "$BOLIDE" check plate.yaml --set dimension=2 --set 'bodies={
     disc: {material: aluminium, ball: {center: [0, 0], radius: 5 mm}, lattice: {rings: {count: 2147483647}}}}'
 refuse 10 "move the case to within" "$BOLIDE" check plate.yaml --set 'bodies={
     far: {material: aluminium, box: {from: [1e12 m], to: [1e12 m + 8 mm]}}}'

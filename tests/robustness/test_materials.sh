@@ -30,7 +30,7 @@ expect 2 "no material" "$BOLIDE" materials ../materials/water
 expect 2 "no material" "$BOLIDE" materials ""
 expect 2 "usage: bolide materials" "$BOLIDE" materials water air
 expect 2 "unknown option" "$BOLIDE" materials --output x
-expect 2 "wants the name" "$BOLIDE" materials --curves
+expect 2 "needs the name" "$BOLIDE" materials --curves
 expect 0 "shock,4050,8.51579e+10,5.25666e+06,3200.31,8600.05,9727.27,3242.42" "$BOLIDE" materials aluminium --curves
 
 for file in "$library"/*.yaml; do

@@ -23,7 +23,7 @@ cmp "$BOLIDE_SOURCE_DIR/templates/impact.yaml" usual/of/mine/case.yaml || fail "
 echo "format: 1 # mine" >usual/of/mine/case.yaml
 "$BOLIDE" new usual/of/mine >said 2>&1
 [ $? = 2 ] || fail "new over a case does not end with 2"
-grep -q "is there already" said || fail "$(cat said)"
+grep -q "exists already" said || fail "$(cat said)"
 [ "$(cat usual/of/mine/case.yaml)" = "format: 1 # mine" ] || fail "new changed a case"
 
 "$BOLIDE" new other --template impcat >said 2>&1

@@ -94,7 +94,7 @@ while [ ! -e stopped/checkpoint.h5 ] && kill -0 $runner 2>/dev/null; do sleep 0.
 kill -TERM $runner
 wait $runner
 [ $? = 143 ] || fail "SIGTERM to ranks: $(cat stopped.log)"
-grep -q "go on with --resume" stopped.log || fail "nothing to go on with: $(cat stopped.log)"
+grep -q "continue with --resume" stopped.log || fail "nothing to go on with: $(cat stopped.log)"
 "$BOLIDE" run "$everything" --output stopped --resume >resumed.log 2>&1 || fail "resuming: $(cat resumed.log)"
 same_but_for_order whole stopped || fail "stopped on 2 ranks and resumed alone"
 exit $status

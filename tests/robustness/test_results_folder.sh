@@ -46,7 +46,7 @@ wait $runner 2>/dev/null
 "$BOLIDE" run run/plate.yaml --output results/long --overwrite >long.log 2>&1 ||
     fail "after a kill: $(cat long.log)"
 [ ! -e results/long/.bolide-lock ] || fail "a lock is left"
-refused "holds the results of a run already" "$BOLIDE" run run/plate.yaml --output results/long
+refused "already contains the results of a run" "$BOLIDE" run run/plate.yaml --output results/long
 sweep=(--set "sweep={run.until: [50 ns, 1 ms]}" --output results/sweep)
 "$BOLIDE" run run/plate.yaml "${sweep[@]}" >sweep.log 2>&1 &
 runner=$!
@@ -109,7 +109,7 @@ for folder in / // .. run/.. run/../; do
     refused "choose a folder with a name of its own" \
         "$BOLIDE" run run/plate.yaml --output $folder
 done
-refused "run/plate.yaml: is a file where a folder is wanted" \
+refused "run/plate.yaml: is a file instead of a folder" \
     "$BOLIDE" run run/plate.yaml --output run/plate.yaml
 refused "new: the name of the folder is empty" "$BOLIDE" new ""
 refused "new ..: choose a folder with a name of its own" "$BOLIDE" new ..

@@ -214,7 +214,7 @@ static void a_wrong_setting_is_told_as_typed(void **state)
     const char *const first[] = {settings[0], settings[2], settings[3]};
     expect_messages(impact, first, 3,
                     "--set bodies.fly.velocity=[1 m/s]: bodies.fly: there is no such entry\n"
-                    "--set run.until=3: run.until: \"3\" is a plain number, wanted a time (s)\n"
+                    "--set run.until=3: run.until: \"3\" is a plain number, expected a time (s)\n"
                     "--set run.untl=3 us: run: unknown key \"untl\" (did you mean \"until\"?)\n");
     expect_messages(impact, settings + 4, 4,
                     "--set nonsense: a setting is path.to.key=value\n"
@@ -235,8 +235,9 @@ static void a_setting_that_spoils_an_expression_is_named(void **state)
     static const char *const settings[] = {"let.speed=2000", "let.d=1 us"};
     expect_messages(
         text, settings, 2,
-        "input.yaml:3:13: resolution: \"d\" is a time (s), wanted a length (m) (--set let.d=1 us)\n"
-        "input.yaml:7:42: bodies.flyer.velocity.1: \"2*speed\" is a plain number, wanted a "
+        "input.yaml:3:13: resolution: \"d\" is a time (s), expected a length (m) (--set let.d=1 "
+        "us)\n"
+        "input.yaml:7:42: bodies.flyer.velocity.1: \"2*speed\" is a plain number, expected a "
         "velocity "
         "(m/s) (--set let.speed=2000)\n"
         "input.yaml:8:27: bodies.flyer.box.to.1: \"2*d + 1 m\": different dimensions are added or "
@@ -375,11 +376,11 @@ static void wrong_materials_and_detonations_are_told(void **state)
         const char *setting, *words;
     } wrong[] = {{"materials.a.strength.johnson-cook.m=1", "melt: m needs this beside it"},
                  {"materials.t.eos.jwl.a=1 GPa", ""},
-                 {"detonations.middle.of=b", "no `burn` that waits to be lit"},
-                 {"detonations.middle.to=[0 m]", "both ends are the same place"},
-                 {"detonations.middle.at=[0 m, 0 m]", "1 component is wanted"},
+                 {"detonations.middle.of=b", "no `burn` that needs an ignition"},
+                 {"detonations.middle.to=[0 m]", "both ends are the same point"},
+                 {"detonations.middle.at=[0 m, 0 m]", "expected 1 component"},
                  {"materials.b.eos.hjc.lock_pressure=10 MPa", "not above `crush_pressure`"},
-                 {"bodies.c.pressure=1 GPa", "has yet to burn"}};
+                 {"bodies.c.pressure=1 GPa", "unburnt explosive"}};
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         struct simulation_case *input = NULL;
         static const char text[] =

@@ -154,27 +154,27 @@ static void mistakes_are_told_where_they_stand(void **state)
 {
     (void)state;
     bad("speed: [\xc3\xbc]\npoint: {x: 1 m}\n",
-        "a.yaml:1:8: speed: a velocity (m/s) is wanted, found a list\n");
+        "a.yaml:1:8: speed: expected a velocity (m/s), found a list\n");
     bad("text: \xc3\xbc\npoint: {x: 1 m, \xc3\xbc: 1, y: \"3 s\"}\n",
         "a.yaml:2:17: point: unknown key \"\xc3\xbc\" (known: x, y)\n"
-        "a.yaml:2:26: point.y: \"3 s\" is a time (s), wanted a length (m)\n");
+        "a.yaml:2:26: point.y: \"3 s\" is a time (s), expected a length (m)\n");
     bad("point: {x: 1 m}\nmarks:\n  - cross:\n      x: 1 kg\n  - crss\n  - {dot: 3}\n",
-        "a.yaml:4:10: marks.1.cross.x: \"1 kg\" is a mass (kg), wanted a length (m)\n"
+        "a.yaml:4:10: marks.1.cross.x: \"1 kg\" is a mass (kg), expected a length (m)\n"
         "a.yaml:5:5: marks.2: unknown mark \"crss\" (did you mean \"cross\"?)\n"
-        "a.yaml:6:11: marks.3.dot: a map is wanted, found \"3\"\n");
+        "a.yaml:6:11: marks.3.dot: expected a map, found \"3\"\n");
     bad("point:\nspeed: 20 km/s\nratio: 101 %\n",
         "a.yaml:1:1: point: \"x\" is missing\n"
-        "a.yaml:2:8: speed: \"20 km/s\" is out of range: less than 10000 m/s is wanted\n"
-        "a.yaml:3:8: ratio: \"101 %\" is out of range: 0 to 1 is wanted\n");
+        "a.yaml:2:8: speed: \"20 km/s\" is out of range: it must be less than 10000 m/s\n"
+        "a.yaml:3:8: ratio: \"101 %\" is out of range: it must be 0 to 1\n");
     bad("point: {x: 1 m}\npoints: {a: 3, \"\": {x: 1 m}}\n",
-        "a.yaml:2:13: points.a: a map is wanted, found \"3\"\n"
+        "a.yaml:2:13: points.a: expected a map, found \"3\"\n"
         "a.yaml:2:16: points: a name cannot be empty\n");
     bad("point: {x: 1 m}\ncorners: [[1 m], 2 m, [1 m, 2 kg], []]\n",
-        "a.yaml:2:18: corners.2: a list of 1 to 3 values is wanted, found \"2 m\"\n"
-        "a.yaml:2:29: corners.3.2: \"2 kg\" is a mass (kg), wanted a length (m)\n"
-        "a.yaml:2:36: corners.4: a list of 1 to 3 values is wanted, found a list\n");
+        "a.yaml:2:18: corners.2: expected a list of 1 to 3 values, found \"2 m\"\n"
+        "a.yaml:2:29: corners.3.2: \"2 kg\" is a mass (kg), expected a length (m)\n"
+        "a.yaml:2:36: corners.4: expected a list of 1 to 3 values, found a list\n");
     bad("point: {x: 1 m}\ncorners: 3 m\n",
-        "a.yaml:2:10: corners: a list of lists is wanted, found \"3 m\"\n");
+        "a.yaml:2:10: corners: expected a list of lists, found \"3 m\"\n");
 }
 
 static void an_overlay_lies_over_the_document_when_wanted(void **state)

@@ -121,18 +121,18 @@ static void a_shape_or_lattice_that_cannot_be_is_told_in_its_place(void **state)
 {
     (void)state;
     assert_refused("half_space: {point: [0, 0], normal: [1, 1]}}\n",
-                   "estimate.yaml:8:27: bodies.plate.half_space: this shape has no end: an "
-                   "intersection with another bounds it");
+                   "estimate.yaml:8:27: bodies.plate.half_space: this shape is infinite: "
+                   "intersect it with a bounded one");
     assert_refused("difference: [{half_space: {point: [0, 0], normal: [1, 0]}}, "
                    "{ball: {center: [0, 0], radius: 1 m}}]}\n",
-                   "estimate.yaml:8:39: bodies.plate.difference: this shape has no end: an "
-                   "intersection with another bounds it");
+                   "estimate.yaml:8:39: bodies.plate.difference: this shape is infinite: "
+                   "intersect it with a bounded one");
     assert_refused(
         "polygon: [[0, 0], [1 mm, 0]]}\n",
-        "estimate.yaml:8:36: bodies.plate.polygon: a polygon wants at least three points");
+        "estimate.yaml:8:36: bodies.plate.polygon: a polygon needs at least three points");
     assert_refused(
         "box: {from: [0, 0], to: [1 m, 1 m]}, lattice: rings}\n",
-        "estimate.yaml:8:73: bodies.plate.lattice: the shape has no middle: rings want a "
+        "estimate.yaml:8:73: bodies.plate.lattice: the shape has no center: rings need a "
         "ball or shell, cut or not, or their `center`");
 }
 

@@ -207,10 +207,10 @@ static void unknown_units_and_names_are_told_with_the_nearest(void **state)
     assert_refused("squrt(2)", "unknown name \"squrt\" (did you mean \"sqrt\"?)");
     assert_refused("banana", "unknown name \"banana\"");
     assert_refused("2*kg", "unknown name \"kg\" (a unit needs a number: \"1 kg\")");
-    assert_refused("2 U0", "\"U0\" behind a number is no unit: put \"*\" between them");
-    assert_refused("2 sqrt(2)", "\"sqrt\" behind a number is no unit: put \"*\" between them");
-    assert_refused("2pi", "\"pi\" behind a number is no unit: put \"*\" between them");
-    assert_refused("sqrt + 1", "the function \"sqrt\" lacks its \"(\"");
+    assert_refused("2 U0", "\"U0\" after a number is not a unit: put \"*\" between them");
+    assert_refused("2 sqrt(2)", "\"sqrt\" after a number is not a unit: put \"*\" between them");
+    assert_refused("2pi", "\"pi\" after a number is not a unit: put \"*\" between them");
+    assert_refused("sqrt + 1", "the function \"sqrt\" needs a \"(\" after its name");
 }
 
 static void different_dimensions_do_not_mix(void **state)
@@ -254,7 +254,7 @@ static void a_power_of_a_unit_is_whole(void **state)
     assert_value("3 m^2", 3.0, "m^2");
     assert_value("(3 m)^n", 9.0, "m^2");
     const char message[] =
-        "the power of the unit \"m\" is no whole number: put parentheses around the "
+        "the power of the unit \"m\" is not a whole number: put parentheses around the "
         "quantity to raise it as a whole";
     assert_refused("3 m^n", message);
     assert_refused("3 m^2.5", message);
@@ -289,8 +289,8 @@ static void slips_of_syntax_are_told_where_they_stand(void **state)
     assert_refused("U0(2)", "cannot be read at \"(2)\"");
     assert_refused("2**3", "cannot be read at \"*3\"");
     assert_refused("5 1/2", "cannot be read at \"1/2\"");
-    assert_refused("1, 2", "a comma stands outside a function");
-    assert_refused("(1, 2)", "a comma stands outside a function");
+    assert_refused("1, 2", "there is a comma outside a function");
+    assert_refused("(1, 2)", "there is a comma outside a function");
     assert_refused("sqrt(1, 2)", "a function has the wrong number of arguments");
     assert_refused("atan2(1)", "a function has the wrong number of arguments");
     assert_refused("max()", "a function has the wrong number of arguments");

@@ -145,7 +145,7 @@ static void names_of_a_case_do_not_reach_into_the_library(void **state)
 {
     static const char *const more[][2] = {
         {"sound does not travel", ", pressure: 1 atm"},
-        {"nothing lights this", "}}\ndetonations: {middle: {at: [1 mm]"}};
+        {"nothing ignites this", "}}\ndetonations: {middle: {at: [1 mm]"}};
     const struct library *library = *state;
     for (int i = 0; i < library->names.count; i++) {
         struct simulation_case *input;

@@ -482,7 +482,7 @@ static void what_makes_no_sense_of_a_body_is_told_before_the_run(void **state)
         {"  it: {turn: x, at_most: 1}\n", "a plane turns about z alone"},
         {"  it: {extent: z, at_most: 1 m}\n", "the case has 2 dimensions"},
         {"  it: {radius: {start: 1 m, center: [0 m]}, at_most: 1 m}\n",
-         "`center`: 2 components are wanted, one a dimension; found 1"},
+         "`center`: expected 2 components, one per dimension; found 1"},
         {"  it: {turn: z, between: [0 m, 1 m], at_most: 1}\n", "`between` has no meaning"},
         {"  it: {extent: x, at_most: 1 s}\n", "`at_most` is in s"},
         {"  it: {total: mass, relative: start, at_most: 1 kg/m}\n", "`at_most` is in"},

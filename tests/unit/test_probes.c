@@ -290,7 +290,7 @@ static void mistakes_are_told_where_they_stand(void **state)
     char presure[] = "presure", lefd[] = "lefd";
     struct probe_tracer tracer = {{1, {0.0}}};
     expect_mistake(b, "tracer", &tracer,
-                   "probes.it.tracer: 2 components are wanted, one a dimension; found 1");
+                   "probes.it.tracer: expected 2 components, one per dimension; found 1");
     tracer.at.count = 2;
     b->given.axis = 0;
     expect_mistake(b, "tracer", &tracer,
@@ -308,7 +308,7 @@ static void mistakes_are_told_where_they_stand(void **state)
     expect_mistake(b, "front", &front, "probes.it.front: `value` must be in Pa, as pressure is");
     front.half = true;
     expect_mistake(b, "front", &front,
-                   "probes.it.front: a front wants `value` or `half: yes`, one of them");
+                   "probes.it.front: a front needs either `value` or `half: yes`");
     drop_bench(b);
 }
 

@@ -147,7 +147,8 @@ static void results_are_kept_unless_overwriting(void **state)
 {
     (void)state;
     put_a_run();
-    assert_fails(results_begin(folder, false, no_names), ERROR_INPUT, "results of a run already");
+    assert_fails(results_begin(folder, false, no_names), ERROR_INPUT,
+                 "already contains the results of a run");
     assert_content("history.csv", "result");
     assert_content("snapshots/000000.vtkhdf", "result");
 }
@@ -241,7 +242,8 @@ static void a_log_that_points_nowhere_marks_a_run_s_folder(void **state)
 {
     (void)state;
     assert_int_equal(symlink("elsewhere", in_folder("run.log")), 0);
-    assert_fails(results_begin(folder, false, no_names), ERROR_INPUT, "results of a run already");
+    assert_fails(results_begin(folder, false, no_names), ERROR_INPUT,
+                 "already contains the results of a run");
     assert_false(there("elsewhere"));
     assert_null(results_begin(folder, true, no_names));
     assert_content("run.log", "");

@@ -75,7 +75,7 @@ static void a_stress_is_its_deviator_and_its_mean(void **state)
         assert_true(fabs(s[i] - wanted[i]) < 1e-6);
     given.stress.xy = 0.3e9;
     const char *key, *wrong = start_state(&given, &material, &point, &key);
-    assert_string_equal(wrong, "this is beyond the yield stress: the material would flow at once");
+    assert_string_equal(wrong, "this is above the yield stress: the material would flow at once");
     assert_string_equal(key, "stress");
 }
 

@@ -113,9 +113,10 @@ static void keys_that_change_together_have_as_many_values(void **state)
     write_case(HEAD "sweep:\n  cold: {speed: [7 m/s, 8 m/s], resolution: [1 mm]}\n");
     struct error *error = read_run(0, false, &input);
     assert_non_null(error);
-    assert_string_equal(error_message(error, 0),
-                        "case.yaml:12:45: sweep: \"speed\" and \"resolution\" change together: 2 "
-                        "values are wanted, not 1");
+    assert_string_equal(
+        error_message(error, 0),
+        "case.yaml:12:45: sweep: \"speed\" and \"resolution\" change together: expected "
+        "2 values, not 1");
     error_free(error);
     write_case(HEAD "sweep:\n  cold: {}\n");
     error = read_run(0, false, &input);
@@ -172,8 +173,9 @@ static void a_mistake_stands_where_its_value_does(void **state)
     write_case(HEAD "sweep:\n  resolution: [1 mm, 2 s]\n");
     error = read_run(2, false, &input);
     assert_non_null(error);
-    assert_string_equal(error_message(error, 0),
-                        "case.yaml:12:22: resolution: \"2 s\" is a time (s), wanted a length (m)");
+    assert_string_equal(
+        error_message(error, 0),
+        "case.yaml:12:22: resolution: \"2 s\" is a time (s), expected a length (m)");
     error_free(error);
 }
 
@@ -323,7 +325,7 @@ static void results_give_way_only_when_asked(void **state)
     struct verify_result result;
     struct error *error = run_all(false, false, &result);
     assert_int_equal(error_kind(error), ERROR_INPUT);
-    assert_non_null(strstr(error_message(error, 0), "holds the results of a sweep already"));
+    assert_non_null(strstr(error_message(error, 0), "already contains the results of a sweep"));
     error_free(error);
     verify_result_free(&result);
     error_free(run_all(true, false, &result));

@@ -106,13 +106,13 @@ static void mistakes_are_told_as_in_any_expression(void **state)
     assert_refused("z*1 m", "\"z\" is the position here: call the name of let something else");
     assert_refused("(x > 1 m", "a \")\" is missing");
     assert_refused("x = 1 m", "unexpected \"=\"");
-    assert_refused("x, y", "a comma stands outside a function");
-    assert_refused("2 x", "\"x\" behind a number is no unit: put \"*\" between them");
+    assert_refused("x, y", "there is a comma outside a function");
+    assert_refused("2 x", "\"x\" after a number is not a unit: put \"*\" between them");
     struct quantity result;
     struct error *error = expression_evaluate("2*y", NULL, &result);
     assert_string_equal(error_message(error, 0),
-                        "unknown name \"y\" (as a position it stands only in what a body has at "
-                        "the start)");
+                        "unknown name \"y\" (it is a position only in the initial state of a "
+                        "body)");
     error_free(error);
 }
 
@@ -169,12 +169,12 @@ static void t_is_the_time(void **state)
     const struct named_quantities time = {1, own, {0}};
     static const char *const texts[] = {"3 t", "2*x", "sin(t)", "t*1 Pa", "4*x + t"};
     static const char *const messages[] = {
-        "\"t\" behind a number is no unit: put \"*\" between them",
-        "unknown name \"x\" (as a position it stands only in what a body has at the start)",
+        "\"t\" after a number is not a unit: put \"*\" between them",
+        "unknown name \"x\" (it is a position only in the initial state of a body)",
         "different dimensions are added or compared, or a function such as exp is taken of a value "
         "that has a dimension",
         "\"t\" is the time here: call the name of let something else",
-        "unknown name \"t\" (as the time it stands only in loads and in the velocity of a driven "
+        "unknown name \"t\" (it is the time only in loads and in the velocity of a driven "
         "body)"};
     for (size_t i = 0; i < COUNT_OF(texts); i++) {
         struct varying_expression *expression;

@@ -48,10 +48,10 @@ static struct error *check_material(const struct simulation *simulation, int m)
     const char *wrong = heat_wrong(&material->heat, &material->eos);
     if (wrong)
         return input_error(input, "materials", name,
-                           "conduction wants the material's temperature, but %s", wrong);
+                           "conduction needs the material's temperature, but %s", wrong);
     if (isnan(material->heat.conductivity))
         return input_error(input, "materials", name,
-                           "conduction wants `heat: {conductivity: ...}`; 0 W/(m*K) for none");
+                           "conduction needs `heat: {conductivity: ...}`; 0 W/(m*K) for none");
     return NULL;
 }
 

@@ -112,11 +112,11 @@ static struct error *choose_rotation(struct sph *sph, const struct simulation *s
     if (options->rotation != CONTACT_ROTATION_CORRECTED)
         return NULL;
     if (options->riemann != CONTACT_ACOUSTIC)
-        wrong = "corrected goes with `riemann: acoustic`";
+        wrong = "corrected needs `riemann: acoustic`";
     else if (simulation->dimension == 1)
         wrong = "nothing rotates in 1-D";
     else if (!sph_has(sph, SPH_SHEAR))
-        wrong = "corrected needs a material with strength: the rotation of a fluid is not braked";
+        wrong = "corrected needs a material with strength: the rotation of a fluid is not slowed";
     if (wrong)
         return sph_option_error(sph, simulation->input, "rotation", "%s", wrong);
     return NULL;

@@ -147,7 +147,7 @@ static struct error *create(struct sph *sph, const struct simulation *simulation
     const bool all = options->reconstruction == HLLC_RECONSTRUCTION_ALL;
     if (all && simulation->dimension > 1)
         return sph_option_error(sph, simulation->input, "reconstruction",
-                                "all goes with 1-D; in 2-D and 3-D, give velocity");
+                                "all is for 1-D; in 2-D and 3-D, give velocity");
     TRY(hllc_choose_kind(sph, simulation, false,
                          options->reconstruction != HLLC_RECONSTRUCTION_NONE));
     state->by_mass = options->continuity == HLLC_CONTINUITY_MASS;
