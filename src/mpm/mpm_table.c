@@ -100,7 +100,7 @@ const struct parameter mpm_table[] = {
      .closed = true,
      .help =
          "b2 of the artificial viscosity q = rho h (b2 h d^2 - b1 c d) in compression, d < 0 the "
-         "rate of volume"},
+         "volumetric strain rate"},
     {.key = "viscosity_linear",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, viscosity_linear),
@@ -116,8 +116,9 @@ const struct parameter mpm_table[] = {
      .above = 0.0,
      .below = 10.0,
      .closed = true,
-     .help = "b3 of the artificial viscosity -b3 rho h c w in solids, w the part of the rate of "
-             "volume that nodes do not resolve, which then does not change volumes; 0: it does; "
+     .help = "b3 of the artificial viscosity -b3 rho h c w in solids, w the part of the "
+             "volumetric strain rate that nodes do not resolve; it then changes no volumes; 0: it "
+             "does; "
              "default: 2 with another viscosity, `scheme: musl` and conserved energy, else 0"},
     {.key = "shock_mixing",
      .kind = PARAMETER_NUMBER,
@@ -151,8 +152,8 @@ const struct parameter mpm_table[] = {
      .standard = "0",
      .below = INFINITY,
      .above = -INFINITY,
-     .help = "ambient pressure that fluids do not exert: a uniform pressure makes particles on a "
-             "grid unstable"},
+     .help = "ambient pressure, subtracted from that of fluids in forces: a uniform pressure makes "
+             "particles on a grid unstable"},
     PARAMETER_END};
 
 struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,

@@ -16,8 +16,8 @@ enum { SHAPES = 0 SHAPE_LIST(COUNT_SHAPE) };
 static const struct choice solver_choices[] = {
     {"sph", "smoothed particle hydrodynamics: Riemann problems or artificial viscosity", sph_table,
      sizeof(struct sph_parameters), &sph_class},
-    {"mpm", "the material point method: particles on a grid that is made anew each step", mpm_table,
-     sizeof(struct mpm_parameters), &mpm_class},
+    {"mpm", "the material point method: particles on a background grid that is reset each step",
+     mpm_table, sizeof(struct mpm_parameters), &mpm_class},
 };
 
 static const struct choice_list lists[] = {

@@ -30,10 +30,10 @@
 
 /* A parameter of such a model, and its rows in the table. */
 enum eos_form { EOS_EXTENDED, EOS_SOURCE };
-#define EOS_FORM_PARAMETER(T)                                                                     \
-    CHOICE(T, form, "extended",                                                                   \
-           "outside the valid range of the source's form: extended keeps a positive sound speed " \
-           "and limits tension; source uses the form unchanged",                                  \
+#define EOS_FORM_PARAMETER(T)                                                                   \
+    CHOICE(T, form, "extended",                                                                 \
+           "outside the range of the published formula: extended keeps a positive sound speed " \
+           "and limits tension; source uses the formula unchanged",                             \
            "extended", "source")
 
 /* rho_1/rho_0; the fraction of the adiabat's largest x that is used, and the largest (v_0 - v)/v_0

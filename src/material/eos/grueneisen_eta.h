@@ -28,7 +28,7 @@ struct eos_grueneisen_eta {
 #define EOS_grueneisen_eta_PARAMETERS(T)                                                    \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
     NUMBER(T, sound, "m/s", REQUIRED, POSITIVE,                                             \
-           "shock speed of a vanishing shock, C_0 of U_s = C_0 + s U_p")                    \
+           "C_0 of U_s = C_0 + s U_p, the speed of a weak shock")                           \
     NUMBER(T, slope, "", REQUIRED, NOT_NEGATIVE,                                            \
            "slope of the shock adiabat, s of U_s = C_0 + s U_p")                            \
     NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient at zero pressure") \

@@ -20,7 +20,7 @@ struct eos_grueneisen_polynomial {
 
 #define EOS_grueneisen_polynomial_NAME "grueneisen-polynomial"
 #define EOS_grueneisen_polynomial_HELP \
-    "Mie-Grueneisen about the shock adiabat as a cubic of the compression"
+    "Mie-Grueneisen relative to the shock adiabat, a cubic of mu = rho/rho_0 - 1"
 #define EOS_grueneisen_polynomial_SAMPLE         \
     {                                            \
         7890.0, 4569.0, 1.49, 2.17, EOS_EXTENDED \
@@ -28,7 +28,7 @@ struct eos_grueneisen_polynomial {
 #define EOS_grueneisen_polynomial_PARAMETERS(T)                                             \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
     NUMBER(T, sound, "m/s", REQUIRED, POSITIVE,                                             \
-           "shock speed of a vanishing shock, C_0 of U_s = C_0 + s U_p")                    \
+           "C_0 of U_s = C_0 + s U_p, the speed of a weak shock")                           \
     NUMBER(T, slope, "", REQUIRED, NOT_NEGATIVE,                                            \
            "slope of the shock adiabat, s of U_s = C_0 + s U_p")                            \
     NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient")                  \

@@ -30,19 +30,19 @@ struct eos_hjc {
     {                                                        \
         2400.0, 16e6, 0.001, 0.8e9, 0.1, 85e9, -171e9, 208e9 \
     } /* concrete */
-#define EOS_hjc_PARAMETERS(T)                                                    \
-    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure") \
-    NUMBER(T, crush_pressure, "Pa", REQUIRED, POSITIVE,                          \
-           "P_crush: pressure at which pores begin to close")                    \
-    NUMBER(T, crush_compression, "", REQUIRED, POSITIVE,                         \
-           "mu_crush: compression rho/rho_0 - 1 there")                          \
-    NUMBER(T, lock_pressure, "Pa", REQUIRED, POSITIVE,                           \
-           "P_lock: pressure at which all pores are closed")                     \
-    NUMBER(T, lock_compression, "", REQUIRED, NOT_NEGATIVE,                      \
-           "mu_lock: compression of the closed concrete without pressure")       \
-    NUMBER(T, k1, "Pa", REQUIRED, POSITIVE,                                      \
-           "K_1 of the closed concrete: p = K_1 m + K_2 m^2 + K_3 m^3")          \
-    NUMBER(T, k2, "Pa", REQUIRED, ANY, "K_2")                                    \
+#define EOS_hjc_PARAMETERS(T)                                                        \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure")     \
+    NUMBER(T, crush_pressure, "Pa", REQUIRED, POSITIVE,                              \
+           "P_crush: pressure at which pores begin to close")                        \
+    NUMBER(T, crush_compression, "", REQUIRED, POSITIVE,                             \
+           "mu_crush: mu = rho/rho_0 - 1 at this pressure")                          \
+    NUMBER(T, lock_pressure, "Pa", REQUIRED, POSITIVE,                               \
+           "P_lock: pressure at which all pores are closed")                         \
+    NUMBER(T, lock_compression, "", REQUIRED, NOT_NEGATIVE,                          \
+           "mu_lock: mu of the compacted concrete at zero pressure")                 \
+    NUMBER(T, k1, "Pa", REQUIRED, POSITIVE,                                          \
+           "K_1 of p = K_1 m + K_2 m^2 + K_3 m^3, m = (mu - mu_lock)/(1 + mu_lock)") \
+    NUMBER(T, k2, "Pa", REQUIRED, ANY, "K_2")                                        \
     NUMBER(T, k3, "Pa", REQUIRED, ANY, "K_3")
 
 /* mu_pl, by Newton's method from P_lock/K_1. */

@@ -17,7 +17,7 @@ struct eos_ideal_gas {
     } /* air */
 #define EOS_ideal_gas_PARAMETERS(T)                         \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE,        \
-           "density at the start of bodies that give none") \
+           "initial density of bodies that do not set one") \
     NUMBER(T, gamma, "", REQUIRED, ABOVE_ONE, "ratio of the specific heats")
 
 BOLIDE_INLINE struct eos_value eos_ideal_gas(const struct eos_ideal_gas *gas, double density,

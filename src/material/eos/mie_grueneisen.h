@@ -22,8 +22,9 @@ struct eos_mie_grueneisen {
 };
 
 #define EOS_mie_grueneisen_NAME "mie-grueneisen"
-#define EOS_mie_grueneisen_HELP \
-    "Mie-Grueneisen about the shock adiabat U_s = sound + slope U_p, linear elastic in tension"
+#define EOS_mie_grueneisen_HELP                                                                \
+    "Mie-Grueneisen relative to the shock adiabat U_s = sound + slope U_p, linear elastic in " \
+    "tension"
 #define EOS_mie_grueneisen_SAMPLE                      \
     {                                                  \
         2700.0, 5350.0, 1.35, 2.17, 73e9, EOS_EXTENDED \
@@ -31,7 +32,7 @@ struct eos_mie_grueneisen {
 #define EOS_mie_grueneisen_PARAMETERS(T)                                                    \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density at zero pressure and energy") \
     NUMBER(T, sound, "m/s", REQUIRED, POSITIVE,                                             \
-           "shock speed of a vanishing shock, C_a of U_s = C_a + S_a U_p")                  \
+           "C_a of U_s = C_a + S_a U_p, the speed of a weak shock")                         \
     NUMBER(T, slope, "", REQUIRED, NOT_NEGATIVE,                                            \
            "slope of the shock adiabat, S_a of U_s = C_a + S_a U_p")                        \
     NUMBER(T, gamma, "", REQUIRED, NOT_NEGATIVE, "Grueneisen coefficient")                  \

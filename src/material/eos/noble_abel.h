@@ -28,10 +28,11 @@ struct eos_noble_abel {
     } /* water */
 #define EOS_noble_abel_PARAMETERS(T)                                                      \
     NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE,                                      \
-           "density at the start of bodies that give none")                               \
+           "initial density of bodies that do not set one")                               \
     NUMBER(T, gamma, "", REQUIRED, ABOVE_ONE, "ratio of the specific heats")              \
     NUMBER(T, covolume, "m^3/kg", "0 m^3/kg", NOT_NEGATIVE, "b: volume of the molecules") \
-    NUMBER(T, pressure, "Pa", "0 Pa", NOT_NEGATIVE, "p_inf: attraction, zero in a gas")   \
+    NUMBER(T, pressure, "Pa", "0 Pa", NOT_NEGATIVE,                                       \
+           "p_inf: attraction of the molecules; 0 in a gas")                              \
     NUMBER(T, energy, "J/kg", "0 J/kg", ANY, "q: reference energy")
 
 BOLIDE_INLINE struct eos_value eos_noble_abel(const struct eos_noble_abel *gas, double density,

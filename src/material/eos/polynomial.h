@@ -18,7 +18,8 @@ struct eos_polynomial {
 };
 
 #define EOS_polynomial_NAME "polynomial"
-#define EOS_polynomial_HELP "cubic of the compression, without energy: intact ceramics and glasses"
+#define EOS_polynomial_HELP \
+    "p = K_1 mu + K_2 mu^2 + K_3 mu^3, mu = rho/rho_0 - 1: intact ceramics and glasses"
 #define EOS_polynomial_SAMPLE         \
     {                                 \
         2510.0, 233e9, -593e9, 2800e9 \

@@ -33,7 +33,7 @@ struct strength_drucker_prager {
            "k_phi: shear strength without pressure; 6 c cos(phi)/(sqrt(3) (3 + sin(phi)))") \
     NUMBER(T, dilatancy, "", "0", NOT_NEGATIVE, "q_psi: volume gained in plastic shear")    \
     NUMBER(T, tension, "Pa", "0 Pa", NOT_NEGATIVE,                                          \
-           "sigma^t: mean stress at which it tears, at most cohesion/friction")
+           "sigma^t: mean stress at which soil fails in tension, at most cohesion/friction")
 
 BOLIDE_INLINE double drucker_prager_tension(const struct strength_drucker_prager *soil)
 {

@@ -31,7 +31,7 @@ struct strength_johnson_cook {
 
 #define STRENGTH_johnson_cook_NAME "johnson-cook"
 #define STRENGTH_johnson_cook_HELP \
-    "yield stress (A + B eps^n)(1 + C ln rate)(1 - T*^m) after Johnson and Cook"
+    "yield stress (A + B eps^n)(1 + C ln(rate/rate_0))(1 - T*^m) after Johnson and Cook"
 #define STRENGTH_johnson_cook_PARAMETERS(T)                                                      \
     NUMBER(T, shear_modulus, "Pa", REQUIRED, POSITIVE, "shear modulus")                          \
     NUMBER(T, a, "Pa", REQUIRED, POSITIVE, "A: yield stress in simple tension before hardening") \
@@ -40,15 +40,15 @@ struct strength_johnson_cook {
     NUMBER(T, c, "", REQUIRED, NOT_NEGATIVE, "C: factor of the logarithm of the strain rate")    \
     NUMBER(T, rate, "1/s", "1 1/s", POSITIVE, "strain rate below which the rate has no effect")  \
     NUMBER(T, m, "", OPTIONAL, POSITIVE,                                                         \
-           "exponent of the temperature; default: no thermal softening")                         \
-    NUMBER(T, room, "K", "300 K", POSITIVE, "temperature at the start; used with m")             \
+           "exponent of T* = (T - room)/(melt - room); default: no thermal softening")           \
+    NUMBER(T, room, "K", "300 K", POSITIVE, "reference temperature of T*; used with m")          \
     NUMBER(T, melt, "K", OPTIONAL, POSITIVE,                                                     \
            "temperature at which no strength is left; needed with m")                            \
     NUMBER(T, capacity, "J/(kg*K)", OPTIONAL, POSITIVE,                                          \
            "specific heat for the heating by plastic work; needed with m")                       \
     CHOICE(T, return_map, "implicit",                                                            \
-           "implicit: the stress of the step's own strain and rate; explicit: as in MPM3D, one " \
-           "evaluation",                                                                         \
+           "implicit: with strain and rate of the step itself, by iteration; explicit: one "     \
+           "evaluation, as in MPM3D",                                                            \
            "implicit", "explicit")
 
 BOLIDE_INLINE bool johnson_cook_softens(const struct strength_johnson_cook *solid)
