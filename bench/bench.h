@@ -52,7 +52,8 @@ static inline struct started start_with(const char *path, const char *const *set
     const char *const library[] = {BOLIDE_SOURCE_DIR "/materials"};
     const struct case_options options = {
         .settings = settings, .setting_count = count, .library_paths = library, .library_count = 1};
-    const struct ranks alone = ranks_alone();
+    static struct ranks alone; /* outlives the simulation */
+    alone = ranks_alone();
     struct started s = {.simulation = calloc(1, sizeof *s.simulation)};
     stop_on(case_read(path, &options, &bolide_catalogue, &s.input));
     s.class = s.input->solver.choice->thing;
@@ -61,7 +62,7 @@ static inline struct started start_with(const char *path, const char *const *set
         exit(ERROR_SYSTEM);
     stop_on(simulation_create(s.input, &alone, threads, s.simulation));
     stop_on(s.class->create(s.solver, s.simulation, s.input->solver.value));
-    stop_on(generate_particles(s.simulation));
+    stop_on(s.class->fill(s.solver, s.simulation));
     stop_on(s.class->start(s.solver, s.simulation));
     stop_on(s.class->prepare(s.solver, s.simulation, &s.limit));
     return s;
@@ -90,9 +91,10 @@ static inline struct measured measured_of(const struct started *s, int steps, do
                                           const char *const *phases, int count)
 {
     const struct simulation *simulation = s->simulation;
-    struct measured m = {.particles = particles_of(simulation)->count,
-                         .rate = particles_of(simulation)->count * (double)steps / seconds,
-                         .hash = particles_hash(particles_of(simulation))};
+    const int64_t members = simulation_members(simulation);
+    struct measured m = {.particles = (int32_t)members,
+                         .rate = (double)members * steps / seconds,
+                         .hash = simulation_hash(simulation)};
     for (int k = 0; k < simulation->phases; k++)
         for (int name = 0; name < count; name++)
             if (!strcmp(simulation->phase[k].name, phases[name]))

@@ -28,7 +28,7 @@ static int64_t count_pairs(const struct sph *sph, const struct simulation *simul
     const size_t stride = sph->places ? PLACE_STRIDE : sph->stride;
     const int d = record_diameter(simulation->dimension);
     int64_t pairs = 0;
-    for (int32_t i = 0; i < particles_of(simulation)->count; i++) {
+    for (int32_t i = 0; i < sph->particles->count; i++) {
         const uint32_t *entry = neighbours_row(&sph->neighbours, i);
         const double *own = place + (size_t)i * stride;
         for (uint32_t k = 0; k < sph->neighbours.row[i].count; k++) {
@@ -55,13 +55,14 @@ static struct measured_sph measure(const struct run *run)
     struct started s = start(run); /* the first build is not counted */
     const struct sph *sph = s.solver;
     const int64_t builds = sph->neighbours.builds;
-    const double seconds = take_steps(&s, run->steps), count = particles_of(s.simulation)->count;
+    const double seconds = take_steps(&s, run->steps),
+                 count = (double)simulation_members(s.simulation);
     const double pairs = (double)count_pairs(sph, s.simulation);
     const struct measured_sph m = {
         .all = measured_of(&s, run->steps, seconds, phase_names, PHASES),
         .pairs = pairs / count,
         .seconds_a_pair = seconds / (pairs * run->steps),
-        .state_bytes = state_bytes(sph, particles_of(s.simulation)),
+        .state_bytes = state_bytes(sph, sph->particles),
         .list_bytes = (double)neighbours_bytes(&sph->neighbours) / count,
         .steps_a_build = (double)run->steps / (double)(sph->neighbours.builds - builds),
     };

@@ -176,9 +176,10 @@ static void print_solver_fields(const struct choice_list *solvers, int index, bo
 }
 
 /* What all particles show: the core's fields, and views of them. */
-static struct error *print_common_fields(struct simulation *empty, struct views *views)
+static struct error *print_common_fields(struct simulation *empty, struct particles **particles,
+                                         struct views *views)
 {
-    TRY(particles_add(empty, 1.0, NULL, 0));
+    TRY(particles_add(empty, 1.0, NULL, 0, particles));
     views_of_population(views, empty);
     printf("fields of the particles, for checks and output.pictures:\n");
     for (int i = 0; i < views->count; i++) {
@@ -199,6 +200,7 @@ static struct error *print_fields(void)
     const struct simulation_case no_case = {0};
     struct material gas = {.heat.capacity = 1.0}; /* an ideal gas, so that there is a temperature */
     struct simulation *empty = memory_allocate(sizeof *empty);
+    struct particles *particles = NULL;
     struct views views = {0};
     if (!empty)
         return error_new(ERROR_SYSTEM, "out of memory");
@@ -206,7 +208,7 @@ static struct error *print_fields(void)
     empty->dimension = 3;
     empty->materials = 1;
     empty->material = &gas;
-    struct error *error = print_common_fields(empty, &views);
+    struct error *error = print_common_fields(empty, &particles, &views);
     if (!error) {
         printf("where a material has it:\n");
         for (int slot = 1; slot < POINT_HISTORY; slot++) /* the first is the core's */
@@ -220,7 +222,7 @@ static struct error *print_fields(void)
             print_solver_fields(solvers, i, true, "the solver ", &views);
         printf("pictures also take material and body\n");
     }
-    simulation_depopulate(empty);
+    particles_drop(particles);
     free(empty);
     return error;
 }

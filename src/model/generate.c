@@ -219,12 +219,11 @@ static struct error *explore(const struct simulation_case *input, const struct r
 }
 
 /* Makes the particles of BODY from index *next on, and moves it behind the last. */
-static struct error *fill_body(struct simulation *simulation, const struct overlaps *overlaps,
-                               int body, int32_t *next)
+static struct error *fill_body(const struct simulation *simulation, struct particles *particles,
+                               const struct overlaps *overlaps, int body, int32_t *next)
 {
     const struct simulation_case *input = simulation->input;
     const struct body_input *of = case_body(input, body);
-    struct particles *particles = particles_of(simulation);
     struct walk walk;
     struct error *error = walk_begin(&walk, overlaps, body, simulation->ranks);
     int64_t site;
@@ -255,7 +254,7 @@ static struct error *fill_body(struct simulation *simulation, const struct overl
     return error;
 }
 
-struct error *generate_particles(struct simulation *simulation)
+struct error *generate_particles(const struct simulation *simulation, struct particles *particles)
 {
     const struct simulation_case *input = simulation->input;
     struct finding *findings = memory_allocate((size_t)input->bodies.count * sizeof *findings);
@@ -270,22 +269,16 @@ struct error *generate_particles(struct simulation *simulation)
     free(findings);
     int32_t next = 0;
     if (!error)
-        error = particles_append(particles_of(simulation), (int32_t)total, &next);
+        error = particles_append(particles, (int32_t)total, &next);
     struct overlaps overlaps = {0};
     if (!error)
         error = overlaps_make(input, &overlaps);
     for (int body = 0; !error && body < input->bodies.count; body++)
-        error = fill_body(simulation, &overlaps, body, &next);
+        error = fill_body(simulation, particles, &overlaps, body, &next);
     overlaps_free(&overlaps);
     if (!error)
-        error = particles_commit(particles_of(simulation));
+        error = particles_commit(particles);
     return ranks_agree(simulation->ranks, error);
-}
-
-struct error *particles_fill(void *solver, struct simulation *simulation)
-{
-    (void)solver;
-    return generate_particles(simulation);
 }
 
 struct error *generate_summary(const struct simulation_case *input, struct body_summary *summary)

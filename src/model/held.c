@@ -30,10 +30,9 @@ bool any_body(const struct simulation *simulation, bool (*is)(const struct simul
     return false;
 }
 
-void act_on_particles(struct simulation *simulation, bool (*is)(const struct simulation *, int),
-                      particle_act *act, const void *of)
+void act_on_particles(struct simulation *simulation, const struct particles *p,
+                      bool (*is)(const struct simulation *, int), particle_act *act, const void *of)
 {
-    const struct particles *p = particles_of(simulation);
     if (is && !any_body(simulation, is))
         return;
 #pragma omp parallel num_threads(simulation->threads)
@@ -42,26 +41,25 @@ void act_on_particles(struct simulation *simulation, bool (*is)(const struct sim
 #pragma omp for schedule(static)
         for (int32_t i = 0; i < p->count; i++)
             if (!is || is(simulation, p->body[i]))
-                act(simulation, of, i, &own);
+                act(simulation, p, of, i, &own);
 #pragma omp critical(bolide_act)
         ledger_join(&simulation->ledger, &own);
     }
 }
 
-static void stop_particle(struct simulation *simulation, const void *of, int32_t i,
-                          struct ledger *ledger)
+static void stop_particle(const struct simulation *simulation, const struct particles *p,
+                          const void *of, int32_t i, struct ledger *ledger)
 {
-    const struct particles *p = particles_of(simulation);
     const struct vec3 velocity = vector_at(p->velocity[i]);
-    (void)of;
+    (void)simulation, (void)of;
     ledger_book(ledger, LEDGER_PISTONS, 0.0, vec3_scale(-p->mass[i], velocity),
                 vector_at(p->position[i]), -0.5 * p->mass[i] * vec3_dot(velocity, velocity));
     p->velocity[i][0] = p->velocity[i][1] = p->velocity[i][2] = 0.0;
 }
 
-void stop_bodies(struct simulation *simulation)
+void stop_bodies(struct simulation *simulation, const struct particles *particles)
 {
-    act_on_particles(simulation, body_stands, stop_particle, NULL);
+    act_on_particles(simulation, particles, body_stands, stop_particle, NULL);
 }
 
 /* A body, and its new velocity after a step; NAN: the component stays. */
@@ -71,10 +69,10 @@ struct drive {
 };
 
 /* The place in the middle of the step is where the impulse has the moment that the particle gains. */
-static void drive_particle(struct simulation *simulation, const void *of, int32_t i,
-                           struct ledger *ledger)
+static void drive_particle(const struct simulation *simulation, const struct particles *p,
+                           const void *of, int32_t i, struct ledger *ledger)
 {
-    const struct particles *p = particles_of(simulation);
+    (void)simulation;
     const struct drive *drive = of;
     const struct vec3 before = vector_at(p->velocity[i]), place = vector_at(p->position[i]);
     if (p->body[i] != drive->body)
@@ -101,7 +99,8 @@ static bool follows_time(const struct simulation *simulation, int body)
     return false;
 }
 
-struct error *drive_bodies(struct simulation *simulation, double dt)
+struct error *drive_bodies(struct simulation *simulation, const struct particles *particles,
+                           double dt)
 {
     static const char *const keys[] = {"velocity.1", "velocity.2", "velocity.3"};
     const struct simulation_case *input = simulation->input;
@@ -115,7 +114,26 @@ struct error *drive_bodies(struct simulation *simulation, double dt)
             if (field_is_of_time(&velocity->at[k]))
                 TRY(simulation_value_at(simulation, simulation->time + dt, &velocity->at[k],
                                         input->bodies.names[b], keys[k], &drive.velocity[k]));
-        act_on_particles(simulation, follows_time, drive_particle, &drive);
+        act_on_particles(simulation, particles, follows_time, drive_particle, &drive);
     }
     return NULL;
+}
+
+/* The earlier of an EVENT and one at TIME, NAN never, if that has yet to come. */
+static double earlier(const struct simulation *simulation, double event, double time)
+{
+    return time > simulation->time && time < event ? time : event;
+}
+
+double next_event(const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    double event = INFINITY;
+    for (int i = 0; i < input->bodies.count; i++)
+        event = earlier(simulation, event, case_body(input, i)->stop);
+    for (int i = 0; i < input->loads.count; i++) {
+        event = earlier(simulation, event, case_load(input, i)->after);
+        event = earlier(simulation, event, case_load(input, i)->before);
+    }
+    return event;
 }

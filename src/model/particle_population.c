@@ -1,6 +1,10 @@
 /* The population of solvers whose members are particles; see particle_population.h. */
 #include "model/particle_population.h"
 
+#include <stdlib.h>
+
+#include "base/memory.h"
+
 struct population population_of_particles(const struct particles *particles)
 {
     return (struct population){.kind = POPULATION_OF_PARTICLES,
@@ -41,27 +45,34 @@ static struct error *visit(void *store, struct visitor *visitor)
 
 static uint64_t hash(const void *store) { return particles_hash(store); }
 
-static void destroy(void *store) { particles_destroy(store); }
-
-const struct population_class particle_population = {.size = sizeof(struct particles),
-                                                     .members = members,
+const struct population_class particle_population = {.members = members,
                                                      .changed = changed,
                                                      .commit = commit,
                                                      .distribute = distribute,
                                                      .visit = visit,
-                                                     .hash = hash,
-                                                     .destroy = destroy};
+                                                     .hash = hash};
 
 struct error *particles_add(struct simulation *simulation, double cell,
-                            const struct field_declaration *more, int count)
+                            const struct field_declaration *more, int count,
+                            struct particles **made)
 {
-    TRY(simulation_populate(simulation, &particle_population));
-    struct particles *particles = particles_of(simulation);
+    struct particles *particles = memory_allocate(sizeof *particles);
+    *made = particles;
+    if (!particles)
+        return error_new(ERROR_SYSTEM, "out of memory");
     TRY(particles_create(simulation->dimension, cell, more, count, particles));
+    simulation_add_population(simulation, "particles", &particle_population, particles);
     if (!simulation->ranks) /* no run */
         return NULL;
     particles->ranks = simulation->ranks;
     particles->partition = &simulation->partition;
     particles->threads = &simulation->threads;
     return NULL;
+}
+
+void particles_drop(struct particles *particles)
+{
+    if (particles)
+        particles_destroy(particles);
+    free(particles);
 }

@@ -7,17 +7,20 @@
 
 extern const struct population_class particle_population;
 
-/* The particles of SIMULATION, which has them. */
-BOLIDE_INLINE struct particles *particles_of(const struct simulation *simulation)
+/* The particles that a population is of. */
+BOLIDE_INLINE struct particles *particles_in(const struct population_source *population)
 {
-    assert(simulation->members == &particle_population);
-    return (struct particles *)simulation->store;
+    assert(population->class == &particle_population);
+    return (struct particles *)population->store;
 }
 
 struct population population_of_particles(const struct particles *particles);
 
-/* Gives SIMULATION particles, none yet, in cells of edge CELL, with the core's fields and COUNT more. */
+/* Gives SIMULATION the population "particles", none yet, in cells of edge CELL, with the core's
+ * fields and COUNT more. *PARTICLES is the caller's, to be freed with particles_drop. */
 struct error *particles_add(struct simulation *simulation, double cell,
-                            const struct field_declaration *more, int count);
+                            const struct field_declaration *more, int count,
+                            struct particles **particles);
+void particles_drop(struct particles *particles);
 
 #endif

@@ -29,7 +29,6 @@ struct population {
 
 /* What the run loop does with a store of members, whatever they are. */
 struct population_class {
-    size_t size; /* of the store, which is zero before the solver makes it */
     struct population (*members)(const void *store);
     /* Whether members are to be taken in or out, which commit then does. */
     bool (*changed)(const void *store);
@@ -40,7 +39,6 @@ struct population_class {
     struct error *(*visit)(void *store, struct visitor *visitor);
     /* Collective: one number for the bits of the state, whatever the order of storage. */
     uint64_t (*hash)(const void *store);
-    void (*destroy)(void *store);
 };
 
 #endif

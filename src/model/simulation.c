@@ -254,29 +254,68 @@ int simulation_history(const struct simulation *simulation, struct field_declara
     return count;
 }
 
-struct error *simulation_populate(struct simulation *simulation,
-                                  const struct population_class *members)
+void simulation_add_population(struct simulation *simulation, const char *name,
+                               const struct population_class *class, void *store)
 {
-    assert(!simulation->members);
-    simulation->store = memory_allocate(members->size);
-    if (!simulation->store)
-        return error_new(ERROR_SYSTEM, "out of memory");
-    simulation->members = members;
+    assert(simulation->populations < POPULATIONS_MAX);
+    simulation->population[simulation->populations++] =
+        (struct population_source){name, class, store};
+}
+
+void simulation_remove_population(struct simulation *simulation, const void *store)
+{
+    int kept = 0;
+    for (int k = 0; k < simulation->populations; k++)
+        if (simulation->population[k].store != store)
+            simulation->population[kept++] = simulation->population[k];
+    simulation->populations = kept;
+}
+
+bool simulation_changed(const struct simulation *simulation)
+{
+    bool changed = false;
+    for (int k = 0; k < simulation->populations; k++)
+        changed |= simulation->population[k].class->changed(simulation->population[k].store);
+    return changed;
+}
+
+struct error *simulation_commit(struct simulation *simulation)
+{
+    struct error *error = NULL;
+    for (int k = 0; k < simulation->populations; k++)
+        error = error_join(
+            error, simulation->population[k].class->commit(simulation->population[k].store));
+    return error;
+}
+
+struct error *simulation_distribute(struct simulation *simulation)
+{
+    for (int k = 0; k < simulation->populations; k++)
+        TRY(simulation->population[k].class->distribute(simulation->population[k].store));
     return NULL;
 }
 
-void simulation_depopulate(struct simulation *simulation)
+uint64_t simulation_hash(const struct simulation *simulation)
 {
-    if (simulation->members)
-        simulation->members->destroy(simulation->store);
-    free(simulation->store);
-    simulation->members = NULL;
-    simulation->store = NULL;
+    const struct population_source *first = simulation->population;
+    uint64_t hash = first->class->hash(first->store);
+    for (int k = 1; k < simulation->populations; k++)
+        hash = hash * 0x9e3779b97f4a7c15u +
+               simulation->population[k].class->hash(simulation->population[k].store);
+    return hash;
+}
+
+int64_t simulation_members(const struct simulation *simulation)
+{
+    int64_t own = 0;
+    for (int k = 0; k < simulation->populations; k++)
+        own += simulation->population[k].class->members(simulation->population[k].store).count;
+    return ranks_sum(simulation->ranks, own);
 }
 
 void simulation_destroy(struct simulation *simulation)
 {
-    simulation_depopulate(simulation);
+    simulation->populations = 0;
     partition_free(&simulation->partition);
     free(simulation->group_of_body);
     simulation->group_of_body = NULL;
@@ -328,7 +367,9 @@ struct error *simulation_visit(struct simulation *simulation, struct visitor *vi
     TRY(visitor->visit(visitor, "time", NUMBER_DOUBLE, &simulation->time, 1, 1));
     TRY(visitor->visit(visitor, "step", NUMBER_INT64, &simulation->step, 1, 1));
     TRY(ledger_visit(&simulation->ledger, simulation->ranks, visitor));
-    return simulation->members->visit(simulation->store, visitor);
+    for (int k = 0; k < simulation->populations; k++)
+        TRY(simulation->population[k].class->visit(simulation->population[k].store, visitor));
+    return NULL;
 }
 
 bool interval_is_due(double time, double interval, int64_t *due)

@@ -24,6 +24,14 @@ struct phase {
     double seconds;
 };
 
+/* A population by its NAME, as `of:` of a case has it. The solver owns its STORE. */
+struct population_source {
+    const char *name;
+    const struct population_class *class;
+    void *store;
+};
+enum { POPULATIONS_MAX = 4 };
+
 struct simulation {
     const struct simulation_case *input;
     const struct ranks *ranks;
@@ -38,9 +46,9 @@ struct simulation {
     uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS]; /* of the first towards the second */
     int surfaces;
     struct contact_surface surface[CONTACT_SURFACES];
-    struct partition partition;             /* of the blocks among the ranks */
-    const struct population_class *members; /* what it computes with; NULL: nothing yet */
-    void *store;                            /* of them, owned */
+    struct partition partition; /* of the blocks among the ranks */
+    int populations;            /* what it computes with */
+    struct population_source population[POPULATIONS_MAX];
     struct ledger ledger;
     double time;
     int64_t step;
@@ -59,21 +67,31 @@ struct error *simulation_create(const struct simulation_case *input, const struc
                                 int threads, struct simulation *simulation);
 void simulation_destroy(struct simulation *simulation);
 
-/* Gives SIMULATION members of a class, none yet: an empty store that the caller makes ready. */
-struct error *simulation_populate(struct simulation *simulation,
-                                  const struct population_class *members);
-void simulation_depopulate(struct simulation *simulation);
+/* Shows STORE, of CLASS, to all that watches the run, until the population is removed. NAME must
+ * last as long. */
+void simulation_add_population(struct simulation *simulation, const char *name,
+                               const struct population_class *class, void *store);
+void simulation_remove_population(struct simulation *simulation, const void *store);
 
 /* The fields for what the case's materials remember beyond the core's, POINT_HISTORY at most: the solver adds them to its
  * store. Returns how many. */
 int simulation_history(const struct simulation *simulation, struct field_declaration *fields);
 
-/* What watchers of the run see of it. */
+/* The population that checks, probes and pictures look at where they name none: the first. */
 BOLIDE_INLINE struct population simulation_population(const struct simulation *simulation)
 {
-    assert(simulation->members);
-    return simulation->members->members(simulation->store);
+    assert(simulation->populations);
+    return simulation->population[0].class->members(simulation->population[0].store);
 }
+
+/* Of all populations: whether members are to be taken in or out; takes them in and out; brings each
+ * to the rank that owns its block; a number for all their bits. Collective, but for the first two. */
+bool simulation_changed(const struct simulation *simulation);
+struct error *simulation_commit(struct simulation *simulation);
+struct error *simulation_distribute(struct simulation *simulation);
+uint64_t simulation_hash(const struct simulation *simulation);
+/* Collective: how many members all populations have. */
+int64_t simulation_members(const struct simulation *simulation);
 
 /* True when the case has gravity. */
 BOLIDE_INLINE bool simulation_has_gravity(const struct simulation *simulation)

@@ -6,12 +6,19 @@
 #include "model/views.h"
 #include "particle/field_rows.h"
 
-/* The largest step, what limits it, and the id of the member where. */
+/* The largest step, what limits it, the id of the member where, and the time of the solver's next
+ * event, which no step may pass: a body stops, a load begins. */
 struct limit {
     double dt;
     const char *why;
     uint64_t id;
+    double event;
 };
+
+BOLIDE_INLINE struct limit limit_of_nothing(void)
+{
+    return (struct limit){INFINITY, "nothing", 0, INFINITY};
+}
 
 /* Collective: the limit of the member that comes first of all ranks (ranked_before); what OWN says
  * of the rank's own first one is an index of REASONS. */
@@ -19,14 +26,14 @@ BOLIDE_INLINE struct limit limit_of_ranks(const struct ranks *ranks, struct rank
                                           const char *const *reasons)
 {
     ranks_first(ranks, &own);
-    const struct limit limit = {own.value, reasons[own.what], own.id};
+    const struct limit limit = {own.value, reasons[own.what], own.id, INFINITY};
     return limit;
 }
 
 struct solver_class {
     size_t size; /* bytes of the solver's own state, zeroed before create */
-    /* Gives the simulation a population (simulation_populate), with fields by the case's parameters
-     * PARAMETERS. Members come after, from `fill` or from a checkpoint; `start` is called once they
+    /* Makes the solver's stores, with fields by the case's parameters PARAMETERS, and shows them as
+     * populations (simulation_add_population). Members come after, from `fill` or from a checkpoint; `start` is called once they
      * are there. */
     struct error *(*create)(void *solver, struct simulation *simulation, const void *parameters);
     /* Collective: what the bodies of the case put into the population. */

@@ -64,15 +64,15 @@ struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulat
 
 void mpm_stop_bodies(struct mpm *mpm, struct simulation *simulation)
 {
-    stop_bodies(simulation);
+    stop_bodies(simulation, mpm->particles);
     for (int b = 0; b < simulation->input->bodies.count; b++)
         if (body_stands(simulation, b))
             mpm->layer_of_body[b] = mpm->layer_at_rest[b];
 }
 
-void mpm_move_held(struct simulation *simulation, double dt)
+void mpm_move_held(const struct mpm *mpm, const struct simulation *simulation, double dt)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = mpm->particles;
     if (!any_body(simulation, body_is_held))
         return;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
@@ -134,19 +134,19 @@ struct weight {
 };
 
 /* Work goes with the mean velocity of the step, so that free fall keeps its energy to rounding. */
-static void book_weight(struct simulation *simulation, const void *of, int32_t i,
-                        struct ledger *ledger)
+static void book_weight(const struct simulation *simulation, const struct particles *p,
+                        const void *of, int32_t i, struct ledger *ledger)
 {
-    const struct particles *p = particles_of(simulation);
     const struct weight *weight = of;
     const struct vec3 impulse = vec3_scale(weight->dt * p->mass[i], vector_at(simulation->gravity));
     ledger_book(ledger, LEDGER_GRAVITY, 0.0, weight->begin ? impulse : vec3_make(0.0, 0.0, 0.0),
                 vector_at(p->position[i]), 0.5 * vec3_dot(impulse, vector_at(p->velocity[i])));
 }
 
-void mpm_book_gravity(struct simulation *simulation, double dt, bool begin)
+void mpm_book_gravity(const struct mpm *mpm, struct simulation *simulation, double dt, bool begin)
 {
-    act_on_particles(simulation, body_is_heavy, book_weight, &(struct weight){dt, begin});
+    act_on_particles(simulation, mpm->particles, body_is_heavy, book_weight,
+                     &(struct weight){dt, begin});
 }
 
 /* A step, and pressures of materials and particles. */
@@ -161,10 +161,10 @@ static bool is_free(const struct simulation *simulation, int body)
 }
 
 /* Shape functions sum to one, those around the axis too. */
-static void book_hoop(struct simulation *simulation, const void *of, int32_t i,
-                      struct ledger *ledger)
+static void book_hoop(const struct simulation *simulation, const struct particles *p,
+                      const void *of, int32_t i, struct ledger *ledger)
 {
-    const struct particles *p = particles_of(simulation);
+    (void)simulation;
     const struct hoop *hoop = of;
     const double stress =
         p->deviator[i][2] - p->pressure[i] - hoop->viscosity[i] + hoop->gauge[p->material[i]];
@@ -173,19 +173,19 @@ static void book_hoop(struct simulation *simulation, const void *of, int32_t i,
                 vector_at(p->position[i]), 0.0);
 }
 
-static void book_ambient(struct simulation *simulation, const void *of, int32_t i,
-                         struct ledger *ledger)
+static void book_ambient(const struct simulation *simulation, const struct particles *p,
+                         const void *of, int32_t i, struct ledger *ledger)
 {
-    const struct particles *p = particles_of(simulation);
+    (void)simulation;
     const struct vec3 none = vec3_make(0.0, 0.0, 0.0);
     ledger_book(ledger, LEDGER_LOADS, 0.0, none, none, p->mass[i] * ((const double *)of)[i]);
 }
 
 void mpm_book_ambient(const struct mpm *mpm, struct simulation *simulation)
 {
-    const double *ambient = mpm_fields_of(mpm, simulation).ambient;
+    const double *ambient = mpm_fields_of(mpm).ambient;
     if (ambient)
-        act_on_particles(simulation, is_free, book_ambient, ambient);
+        act_on_particles(simulation, mpm->particles, is_free, book_ambient, ambient);
 }
 
 /* Nodes without mass, which shape functions around the axis reach and others do not, give their forces to nothing. */
@@ -228,10 +228,10 @@ void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double 
 {
     if (simulation->geometry != GEOMETRY_AXISYMMETRIC)
         return;
-    const struct hoop hoop = {mpm->gauge, mpm_fields_of(mpm, simulation).viscosity, dt};
+    const struct hoop hoop = {mpm->gauge, mpm_fields_of(mpm).viscosity, dt};
     const bool by_faces = mpm_is_by_faces(&mpm->parameters);
     if (!by_faces)
-        act_on_particles(simulation, is_free, book_hoop, &hoop);
+        act_on_particles(simulation, mpm->particles, is_free, book_hoop, &hoop);
     for (int g = 0; g < mpm->layers; g++) {
         const struct layer *layer = &mpm->layer[g];
 #pragma omp parallel num_threads(simulation->threads)
@@ -253,8 +253,8 @@ void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double 
 
 void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulation)
 {
-    const struct particles *p = particles_of(simulation);
-    double(*gradient)[9] = mpm_fields_of(mpm, simulation).velocity_gradient;
+    const struct particles *p = mpm->particles;
+    double(*gradient)[9] = mpm_fields_of(mpm).velocity_gradient;
     assert(simulation->dimension <= 3);
     for (int32_t i = 0; i < p->count; i++) {
         const struct field_list *velocity = &case_body(simulation->input, p->body[i])->velocity;

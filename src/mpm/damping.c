@@ -47,8 +47,8 @@ struct parts {
 static struct parts parts_of(const struct mpm *mpm, const struct simulation *simulation,
                              const int64_t index[3], const int32_t *list, int32_t count)
 {
-    const struct particles *p = particles_of(simulation);
-    const double *sound = mpm_fields_of(mpm, simulation).sound_long;
+    const struct particles *p = mpm->particles;
+    const double *sound = mpm_fields_of(mpm).sound_long;
     const double factor =
         mpm->parameters.shear_damping / mpm->edge * (simulation->dimension == 3 ? 0.25 : 1.0);
     const bool centred = p->shift > 0.0;

@@ -62,11 +62,11 @@ static struct field_needs needs_of(const struct mpm_parameters *parameters)
     return (struct field_needs){.conditions = conditions};
 }
 
-struct mpm_fields mpm_fields_of(const struct mpm *mpm, const struct simulation *simulation)
+struct mpm_fields mpm_fields_of(const struct mpm *mpm)
 {
     const struct field_needs needs = needs_of(&mpm->parameters);
     struct mpm_fields fields;
-    field_rows_bind(field_rows, &needs, particles_of(simulation), &fields);
+    field_rows_bind(field_rows, &needs, mpm->particles, &fields);
     return fields;
 }
 
@@ -96,10 +96,16 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     const struct field_needs needs = needs_of(&mpm->parameters);
     int count = simulation_history(simulation, fields);
     count += field_rows_declare(field_rows, &needs, fields + count);
-    TRY(particles_add(simulation, mpm->edge, fields, count));
+    TRY(particles_add(simulation, mpm->edge, fields, count, &mpm->particles));
     if (mpm_window(mpm, simulation).centred)
-        particles_of(simulation)->shift = 0.5 * mpm->edge;
+        mpm->particles->shift = 0.5 * mpm->edge;
     return NULL;
+}
+
+static struct error *mpm_fill(void *solver, struct simulation *simulation)
+{
+    const struct mpm *mpm = solver;
+    return generate_particles(simulation, mpm->particles);
 }
 
 static struct error *mpm_start(void *solver, struct simulation *simulation)
@@ -109,14 +115,14 @@ static struct error *mpm_start(void *solver, struct simulation *simulation)
     mpm->rate = memory_allocate((size_t)mpm->threads * sizeof *mpm->rate);
     if (!mpm->rate)
         return error_new(ERROR_SYSTEM, "out of memory");
-    if (!particles_of(simulation)->blocks) /* as they are when loaded */
-        TRY(particles_sort(particles_of(simulation)));
+    if (!mpm->particles->blocks) /* as they are when loaded */
+        TRY(particles_sort(mpm->particles));
     if (mpm_is_affine(mpm) && simulation->step == 0)
         mpm_start_gradients(mpm, simulation);
-    const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
+    const struct mpm_fields fields = mpm_fields_of(mpm);
     if (fields.at_state && simulation->step == 0)
-        memcpy(fields.at_state, particles_of(simulation)->energy,
-               (size_t)particles_of(simulation)->count * sizeof *fields.at_state);
+        memcpy(fields.at_state, mpm->particles->energy,
+               (size_t)mpm->particles->count * sizeof *fields.at_state);
     mpm_evaluate(mpm, simulation);
     return NULL;
 }
@@ -140,6 +146,7 @@ static void mpm_destroy(void *solver)
     for (int t = 0; t < mpm->threads && mpm->rate; t++)
         free(mpm->rate[t]);
     free(mpm->rate);
+    particles_drop(mpm->particles);
     free(mpm->half_size);
     free(mpm->gauge);
     free(mpm->layer_of_body);
@@ -212,7 +219,7 @@ static const char *mpm_energy_lost(const void *parameters)
 
 const struct solver_class mpm_class = {.size = sizeof(struct mpm),
                                        .create = mpm_create,
-                                       .fill = particles_fill,
+                                       .fill = mpm_fill,
                                        .start = mpm_start,
                                        .prepare = mpm_prepare,
                                        .advance = mpm_advance,

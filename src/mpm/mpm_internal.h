@@ -59,6 +59,7 @@ struct halo {
 
 struct mpm {
     struct mpm_parameters parameters;
+    struct particles *particles;
     double edge;       /* of a cell, m */
     double *half_size; /* of the particles of each body, in cells */
     double *gauge;     /* of each material, Pa */
@@ -123,7 +124,7 @@ struct mpm_fields {
     double *at_state, *divergence, *shock,
         *ambient; /* NULL likewise; see point_kernel.h, transfer.h */
 };
-struct mpm_fields mpm_fields_of(const struct mpm *mpm, const struct simulation *simulation);
+struct mpm_fields mpm_fields_of(const struct mpm *mpm);
 
 /* Whether a bin belongs to another rank, which has its particles. */
 BOLIDE_INLINE bool mpm_is_far(const struct mpm *mpm, const struct layer *layer, int32_t bin)
@@ -158,7 +159,7 @@ void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulat
 /* Neither rounding nor what holds a body takes a particle at X through a wall. */
 void mpm_keep_before_walls(const struct simulation *simulation, double x[3]);
 /* Held bodies move by their velocities in a step of DT. */
-void mpm_move_held(struct simulation *simulation, double dt);
+void mpm_move_held(const struct mpm *mpm, const struct simulation *simulation, double dt);
 
 /* Books what the ambient pressure of fluids has done in the step of velocities. */
 void mpm_book_ambient(const struct mpm *mpm, struct simulation *simulation);
@@ -168,7 +169,7 @@ struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulati
 
 /* Books what gravity does in a step of DT: its impulse and half of its work at the BEGIN of the step, the rest of its work
  * once velocities are those of the end. */
-void mpm_book_gravity(struct simulation *simulation, double dt, bool begin);
+void mpm_book_gravity(const struct mpm *mpm, struct simulation *simulation, double dt, bool begin);
 
 /* Books what the hoop stress pushes in a step of DT by the forces that nodes have from particles alone. */
 void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double dt);
@@ -238,7 +239,7 @@ void mpm_warm(const struct mpm *mpm, const struct simulation *simulation, struct
 /* Collective: loads, as they are in its middle, and faces of outflow push in a step of DT. ERROR_STATE: a load is not finite. */
 struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt);
 /* Marks particles that have left through a face, and books what they had. */
-void mpm_lose_particles(struct simulation *simulation);
+void mpm_lose_particles(const struct mpm *mpm, struct simulation *simulation);
 
 /* Mean modes of shear in cells of fluid lose force (2-46)-(2-48), and what that takes in DT heats the particles. */
 void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt);

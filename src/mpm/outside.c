@@ -102,7 +102,7 @@ struct surface {
 static struct given by_load(const struct mpm *mpm, const struct simulation *simulation,
                             const struct surface *surface, int32_t i)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = mpm->particles;
     const struct load_input *load = surface->load;
     const double volume = p->mass[i] / p->density[i],
                  sign = load->side == WALL_HIGH ? volume : -volume;
@@ -123,8 +123,8 @@ enum { FACE_AREA, FACE_IMPEDANCE, FACE_PUSH, FACE_FORCE };
 static struct given by_outflow(const struct mpm *mpm, const struct simulation *simulation,
                                const struct surface *surface, int32_t i)
 {
-    const struct particles *p = particles_of(simulation);
-    const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
+    const struct particles *p = mpm->particles;
+    const struct mpm_fields fields = mpm_fields_of(mpm);
     const double gauge = mpm->gauge[p->material[i]], volume = p->mass[i] / p->density[i];
     const double sign = surface->outflow->side == WALL_HIGH ? 1.0 : -1.0;
     const int axis = surface->axis;
@@ -151,7 +151,7 @@ static bool is_near(const struct layer *layer, const struct surface *surface, in
 static void give_bin(const struct mpm *mpm, const struct simulation *simulation,
                      const struct layer *layer, const struct surface *surface, int32_t b)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = mpm->particles;
     const struct bin *bin = &layer->bins.bin[b];
     const int dimension = layer->grid.dimension;
     double *patch = grid_patch(&layer->grid, &layer->back, b);
@@ -376,10 +376,10 @@ struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, 
     return NULL;
 }
 
-void mpm_lose_particles(struct simulation *simulation)
+void mpm_lose_particles(const struct mpm *mpm, struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->input;
-    struct particles *p = particles_of(simulation);
+    struct particles *p = mpm->particles;
     for (int i = 0; i < input->outflows.count; i++) {
         const struct outflow_input *outflow = case_outflow(input, i);
         for (int32_t k = 0; k < p->count; k++) {

@@ -9,8 +9,8 @@
 
 void mpm_evaluate(const struct mpm *mpm, struct simulation *simulation)
 {
-    struct particles *p = particles_of(simulation);
-    const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
+    struct particles *p = mpm->particles;
+    const struct mpm_fields fields = mpm_fields_of(mpm);
     const double *energy = fields.at_state ? fields.at_state : p->energy;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
@@ -36,8 +36,8 @@ void mpm_keep_before_walls(const struct simulation *simulation, double x[3])
 static struct point_loop loop_of(const struct mpm *mpm, const struct simulation *simulation,
                                  double dt, const double *rate)
 {
-    const struct particles *p = particles_of(simulation);
-    const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
+    const struct particles *p = mpm->particles;
+    const struct mpm_fields fields = mpm_fields_of(mpm);
     const double linear = mpm->parameters.viscosity_linear;
     struct point_loop loop = {.density = p->density,
                               .energy = p->energy,
@@ -74,11 +74,12 @@ static bool is_possible(const struct particles *p, const struct point_loop *loop
 /* A gas that runs into nothing turns all of its energy into motion, and may overdraw it a little: half
  * a step lies between the energy that stresses have worked with and the state. Such a particle goes on
  * as next to cold, and what it has overdrawn stays in its energy. */
-static void let_go_on(struct simulation *simulation, const struct point_loop *loop, int32_t i)
+static void let_go_on(const struct mpm *mpm, const struct simulation *simulation,
+                      const struct point_loop *loop, int32_t i)
 {
     const double little = 0.1, least = 1e-3, *u = loop->velocity[i];
     const double motion = 0.5 * (square(u[0]) + square(u[1]) + square(u[2]));
-    struct particles *p = particles_of(simulation);
+    struct particles *p = mpm->particles;
     if (!loop->at_state || !(loop->at_state[i] < 0.0 && -loop->at_state[i] < little * motion))
         return;
     struct point point = {.density = p->density[i], .energy = -least * loop->at_state[i]};
@@ -94,7 +95,7 @@ static bool update_run(const struct mpm *mpm, const struct simulation *simulatio
                        const struct point_loop *loop, const int32_t *list, int32_t begin,
                        int32_t end)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = mpm->particles;
     const struct material *material = &simulation->material[p->material[list[begin]]];
     if (batch_takes(material))
         return point_loop_run(loop, material, list, begin, end);
@@ -110,7 +111,7 @@ static bool update_run(const struct mpm *mpm, const struct simulation *simulatio
 int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
                           const struct layer *layer, int32_t bin, double dt, const double *rate)
 {
-    struct particles *p = particles_of(simulation);
+    struct particles *p = mpm->particles;
     const struct point_loop loop = loop_of(mpm, simulation, dt, rate);
     const int32_t *list = layer->bins.list + layer->bins.bin[bin].first;
     const int32_t count = layer->bins.bin[bin].cell[BLOCK_CELLS];
@@ -127,7 +128,7 @@ int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
     }
     for (int32_t k = 0; k < count && !possible; k++) {
         if (!is_possible(p, &loop, list[k]))
-            let_go_on(simulation, &loop, list[k]);
+            let_go_on(mpm, simulation, &loop, list[k]);
         if (!is_possible(p, &loop, list[k]) &&
             (impossible < 0 || p->id[list[k]] < p->id[impossible]))
             impossible = list[k];

@@ -15,8 +15,8 @@ static const double moved_limit = 0.25;
 struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *simulation,
                                 struct layer *layer)
 {
-    const struct particles *p = particles_of(simulation);
-    const struct mpm_fields fields = mpm_fields_of(mpm, simulation);
+    const struct particles *p = mpm->particles;
+    const struct mpm_fields fields = mpm_fields_of(mpm);
     return (struct transfer){.dimension = simulation->dimension,
                              .shape = (enum grid_shape)mpm->parameters.shape,
                              .window = 1 + layer->grid.reach + layer->grid.after,
@@ -56,7 +56,7 @@ struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *
 
 static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = mpm->particles;
     struct binned binned = {.dimension = simulation->dimension,
                             .edge = mpm->edge,
                             .shift = p->shift,
@@ -103,7 +103,7 @@ static struct error *reserve_rates(struct mpm *mpm)
 /* Stores the particles as bins have them. */
 static struct error *store_by_bins(struct mpm *mpm, struct simulation *simulation)
 {
-    struct particles *p = particles_of(simulation);
+    struct particles *p = mpm->particles;
     const struct bins *bins = &mpm->bins;
     if (mpm->layers > 1) { /* blocks have a bin for each layer */
         TRY(particles_sort(p));
@@ -134,7 +134,7 @@ static bool has_left(const struct mpm *mpm, const struct simulation *simulation)
  * is done here. */
 static struct error *place_particles(struct mpm *mpm, struct simulation *simulation)
 {
-    struct particles *p = particles_of(simulation);
+    struct particles *p = mpm->particles;
     const int64_t every = simulation->input->run.rebalance;
     const bool several = simulation->ranks->size > 1,
                recut = several && every > 0 && simulation->step % every == 0;
@@ -238,8 +238,8 @@ static const double first_way = 0.1, step_growth = 1.2;
 /* Collective: dt = K min h/(c + max |u_i|), of equal ones that of the smallest id. */
 static struct limit limit_step(const struct mpm *mpm, const struct simulation *simulation)
 {
-    const struct particles *p = particles_of(simulation);
-    const double *sound = mpm_fields_of(mpm, simulation).sound_long;
+    const struct particles *p = mpm->particles;
+    const double *sound = mpm_fields_of(mpm).sound_long;
     struct ranked first = {(double)INFINITY, UINT64_MAX, LIMIT_SOUND};
 #pragma omp parallel num_threads(simulation->threads)
     {
@@ -261,9 +261,8 @@ static struct limit limit_step(const struct mpm *mpm, const struct simulation *s
 }
 
 /* Collective: of all particles; not zero. */
-static double largest_speed(const struct simulation *simulation)
+static double largest_speed(const struct simulation *simulation, const struct particles *p)
 {
-    const struct particles *p = particles_of(simulation);
     double most = 1e-300;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads) reduction(max : most)
     for (int32_t i = 0; i < p->count; i++)
@@ -286,10 +285,11 @@ struct error *mpm_prepare(void *solver, struct simulation *simulation, struct li
     *limit = limit_step(mpm, simulation);
     const double allowed = mpm->limit_before > 0.0
                                ? step_growth * mpm->limit_before
-                               : first_way * mpm->edge / largest_speed(simulation);
+                               : first_way * mpm->edge / largest_speed(simulation, mpm->particles);
     mpm->limit = minimum(limit->dt, allowed);
     if (allowed < limit->dt)
-        *limit = (struct limit){allowed, "growth of the step", limit->id};
+        *limit = (struct limit){allowed, "growth of the step", limit->id, INFINITY};
+    limit->event = next_event(simulation);
     simulation_spend(simulation, "limit", clock_seconds() - begin);
     return NULL;
 }
@@ -325,7 +325,7 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
                         struct transfer_step step, bool of_main, int32_t *failed)
 {
     const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = mpm->particles;
     if (layer->held) /* nothing strains it; held bodies that meet would strain each other */
         return;
 #pragma omp parallel num_threads(simulation->threads)
@@ -382,7 +382,7 @@ struct error *mpm_advance(void *solver, struct simulation *simulation, double dt
     struct mpm *mpm = solver;
     const int scheme = mpm->parameters.scheme;
     mpm->limit_before = mpm->limit;
-    mpm_book_gravity(simulation, dt, true);
+    mpm_book_gravity(mpm, simulation, dt, true);
     mpm_mix_shocks(mpm, simulation, dt);
     if (scheme == MPM_USF) {
         TRY(ranks_agree(simulation->ranks, update_states(mpm, simulation, dt, true)));
@@ -401,10 +401,10 @@ struct error *mpm_advance(void *solver, struct simulation *simulation, double dt
     find_velocities(mpm, simulation, (struct transfer_step){dt, scheme == MPM_USF},
                     scheme == MPM_MUSL);
     mpm_book_ambient(mpm, simulation);
-    mpm_book_gravity(simulation, dt, false);
+    mpm_book_gravity(mpm, simulation, dt, false);
     struct error *error = scheme == MPM_USF ? NULL : update_states(mpm, simulation, dt, false);
-    mpm_move_held(simulation, dt);
-    error = error_join(error, drive_bodies(simulation, dt));
-    mpm_lose_particles(simulation);
+    mpm_move_held(mpm, simulation, dt);
+    error = error_join(error, drive_bodies(simulation, mpm->particles, dt));
+    mpm_lose_particles(mpm, simulation);
     return error;
 }

@@ -172,7 +172,7 @@ static struct error *make_particles(struct run *run)
         run_say(run, "making particles, which may take minutes");
     TRY(run->options->resume ? run_load(run) : run->method->fill(run->solver, &run->simulation));
     if (run->ranks.joined)
-        TRY(run->simulation.members->distribute(run->simulation.store));
+        TRY(simulation_distribute(&run->simulation));
     start_threads(run);
     TRY(ranks_agree(&run->ranks, run->method->start(run->solver, &run->simulation)));
     if (!run->options->resume) {
@@ -180,7 +180,7 @@ static struct error *make_particles(struct run *run)
         warnings_start(run->warnings, &run->simulation);
     }
     run->first_step = run->simulation.step;
-    run->particles = ranks_sum(&run->ranks, simulation_population(&run->simulation).count);
+    run->particles = simulation_members(&run->simulation);
     run->start_time = run->last_progress_time = run->simulation.time;
     return NULL;
 }
@@ -228,9 +228,8 @@ static void tell_beginning(struct run *run)
     run_say(run, "%s: %s", run->input->name ? run->input->name : "case",
             run->input->title ? run->input->title : "");
     run_say(run, "%lld particles, %d-D, %s, until %s, %s%d thread%s%s",
-            (long long)ranks_sum(&run->ranks, simulation_population(s).count), s->dimension,
-            run->input->solver.choice->name, until, workers, threads, threads == 1 ? "" : "s",
-            run->options->resume ? ", resumed" : "");
+            (long long)simulation_members(s), s->dimension, run->input->solver.choice->name, until,
+            workers, threads, threads == 1 ? "" : "s", run->options->resume ? ", resumed" : "");
     struct error *warnings = estimate_warnings(run->input);
     for (int i = 0; warnings && i < error_count(warnings); i++)
         run_say(run, "warning: %s", error_message(warnings, i));
@@ -270,7 +269,7 @@ static void measure_speed(struct run *run)
     const struct simulation *s = &run->simulation;
     result->steps = s->step;
     result->time = s->time;
-    result->particles = ranks_sum(&run->ranks, simulation_population(s).count);
+    result->particles = simulation_members(s);
     result->seconds = clock_seconds() - run->began;
     double stepping = maximum(result->seconds - run->watching, 1e-9);
     result->updates_per_second = result->updates > 0 ? (double)result->updates / stepping : 0.0;
@@ -348,7 +347,7 @@ static struct error *run_through(struct run *run)
     if (!error)
         error = conclude(run);
     if (!error) {
-        run->result->hash = run->simulation.members->hash(run->simulation.store);
+        run->result->hash = simulation_hash(&run->simulation);
         tell_end(run);
         tell_warnings(run);
     } else

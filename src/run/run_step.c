@@ -94,34 +94,12 @@ struct error *run_check_step(struct run *run)
                          "`run.until`");
 }
 
-/* The earlier of an EVENT and one at TIME, NAN never, if that has yet to come. */
-static double earlier(const struct run *run, double event, double time)
-{
-    return time > run->simulation.time && time < event ? time : event;
-}
-
-/* The time that a step must not pass: the end, or before it that of a body which stops, or of a
- * load. */
-static double next_event(const struct run *run)
-{
-    double event = run->input->run.until;
-    for (int i = 0; i < run->input->bodies.count; i++)
-        event = earlier(run, event, case_body(run->input, i)->stop);
-    for (int i = 0; i < run->input->loads.count; i++) {
-        event = earlier(run, event, case_load(run->input, i)->after);
-        event = earlier(run, event, case_load(run->input, i)->before);
-    }
-    return event;
-}
-
 struct error *run_hear_ranks(struct run *run, struct error *error)
 {
     const struct run_options *options = run->options;
-    const struct population_class *members = run->simulation.members;
-    void *store = run->simulation.store;
     const sig_atomic_t wanted = options->checkpoints ? *options->checkpoints : 0;
     enum { CHANGED, STOP, CHECKPOINT, WANTED, SAID };
-    double said[SAID] = {[CHANGED] = members->changed(store),
+    double said[SAID] = {[CHANGED] = simulation_changed(&run->simulation),
                          [STOP] = options->stop && *options->stop,
                          [CHECKPOINT] = run_checkpoint_is_due(run),
                          [WANTED] = wanted != run->checkpoints_heard};
@@ -131,8 +109,8 @@ struct error *run_hear_ranks(struct run *run, struct error *error)
     run->checkpoint_is_due = said[CHECKPOINT] > 0.0;
     run->checkpoint_is_wanted = run->checkpoint_is_wanted || said[WANTED] > 0.0;
     if (said[CHANGED] > 0.0) {
-        TRY(ranks_agree(&run->ranks, members->commit(store)));
-        run->particles = ranks_sum(&run->ranks, simulation_population(&run->simulation).count);
+        TRY(ranks_agree(&run->ranks, simulation_commit(&run->simulation)));
+        run->particles = simulation_members(&run->simulation);
     }
     return NULL;
 }
@@ -140,9 +118,10 @@ struct error *run_hear_ranks(struct run *run, struct error *error)
 struct error *run_take_step(struct run *run)
 {
     struct simulation *simulation = &run->simulation;
-    double event = next_event(run);
     run->sound = false;
+    run->limit = limit_of_nothing();
     TRY(run->method->prepare(run->solver, simulation, &run->limit));
+    const double event = minimum(run->limit.event, run->input->run.until);
     double dt = step_towards(run->limit.dt, simulation->time, event);
     double after = dt == event - simulation->time ? event : simulation->time + dt;
     if (!(dt > 0.0) || !(after > simulation->time))

@@ -148,8 +148,7 @@ static void put_run(FILE *file, const struct run *run, const char *status,
         put_text(file, "run", "", "title", input->title);
     put_number(file, "run", "", "dimension", (double)input->dimension, "");
     put_text(file, "run", "", "method", input->solver.choice->name);
-    put_number(file, "run", "", "particles", ranks_sum(&run->ranks, simulation_population(s).count),
-               "");
+    put_number(file, "run", "", "particles", simulation_members(s), "");
     put_number(file, "run", "", "threads", run->threads.most, "");
     if (run->ranks.size > 1)
         put_number(file, "run", "", "ranks", run->ranks.size, "");

@@ -10,7 +10,7 @@
 void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
                   const struct sph_fields *f, const double *stress)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = sph->particles;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
         const struct ring ring = sph_ring(p, i);

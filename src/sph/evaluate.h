@@ -11,7 +11,7 @@
 BOLIDE_INLINE struct response sph_evaluate_point(struct simulation *simulation,
                                                  const struct sph_fields *f, int32_t i)
 {
-    struct particles *p = particles_of(simulation);
+    struct particles *p = f->particles;
     struct point point = {.density = p->density[i], .energy = p->energy[i]};
     particle_load_history(p, i, point.history);
     struct response r = any_material_evaluate(&simulation->material[p->material[i]], &point);

@@ -85,13 +85,14 @@ void sph_bind_fields(const struct sph *sph, const struct simulation *simulation,
 {
     int size[SPH_SIZES];
     const struct field_needs needs = needs_of(sph->traits, simulation->dimension, size);
-    field_rows_bind(rows, &needs, particles_of(simulation), fields);
+    field_rows_bind(rows, &needs, sph->particles, fields);
 }
 
 struct sph_fields sph_fields_of(const struct sph *sph, const struct simulation *simulation)
 {
     struct sph_fields fields;
     sph_bind_fields(sph, simulation, sph_rows, &fields);
+    fields.particles = sph->particles;
     return fields;
 }
 

@@ -15,10 +15,10 @@ double sph_near_skin(const struct sph_parameters *parameters, unsigned traits)
 }
 
 /* Records are in the scratch of the store until particles are sorted again. */
-static struct error *reserve_records(struct sph *sph, struct simulation *simulation)
+static struct error *reserve_records(struct sph *sph)
 {
-    struct scratch *scratch = &particles_of(simulation)->scratch;
-    int64_t count = (int64_t)particles_of(simulation)->count + sph->neighbours.ghosts.count + 1;
+    struct scratch *scratch = &sph->particles->scratch;
+    int64_t count = (int64_t)sph->particles->count + sph->neighbours.ghosts.count + 1;
     const size_t bytes = (size_t)count * sph->stride * sizeof(double);
     if (!scratch_begin(scratch, bytes) ||
         (sph->places && !memory_reserve((void **)&sph->place, &sph->place_capacity, count, 0,
@@ -57,7 +57,7 @@ static struct reach reach_of(const struct sph *sph, const struct simulation *sim
 
 struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, bool *rebuilt)
 {
-    struct particles *p = particles_of(simulation);
+    struct particles *p = sph->particles;
     int64_t most = sph->parameters.rebuild;
     double begin = clock_seconds();
     bool recut = recuts(sph, simulation);
@@ -75,5 +75,5 @@ struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, 
                          &sph->groups, simulation->threads));
     sph->steps_since_build = 0;
     simulation_spend(simulation, "neighbours", clock_seconds() - begin);
-    return ranks_agree(simulation->ranks, reserve_records(sph, simulation));
+    return ranks_agree(simulation->ranks, reserve_records(sph));
 }

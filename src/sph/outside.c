@@ -49,7 +49,7 @@ struct act {
 static void book_of_axis(const struct simulation *simulation, const struct act *act,
                          struct ledger *ledger, int32_t i, struct vec3 *push)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = act->fields->particles;
     double radius = p->position[i][0], gap = simulation->mirrors.high[0] - radius;
     double pull = act->fields->rates.hoop_pull[i];
     if (!(gap < radius)) {
@@ -62,10 +62,9 @@ static void book_of_axis(const struct simulation *simulation, const struct act *
 
 /* The work of a slip wall at rest is zero, and so is that of the hoop stress on the total energy.
  */
-static void book_images(struct simulation *simulation, const void *of, int32_t i,
-                        struct ledger *ledger)
+static void book_images(const struct simulation *simulation, const struct particles *p,
+                        const void *of, int32_t i, struct ledger *ledger)
 {
-    const struct particles *p = particles_of(simulation);
     const struct act *act = of;
     struct vec3 push = vector_at(act->fields->rates.wall[i]);
     if (act->fields->rates.hoop_pull)
@@ -77,11 +76,11 @@ static void book_images(struct simulation *simulation, const void *of, int32_t i
 
 void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, double dt)
 {
-    act_on_particles(simulation, NULL, book_images, &(struct act){f, dt, 0.0});
+    act_on_particles(simulation, f->particles, NULL, book_images, &(struct act){f, dt, 0.0});
 }
 
 /* Replaces particle I by its image in the mirror across AXIS at PLACE. */
-static void reflect_particle(struct particles *p, int32_t i, int axis, double place)
+static void reflect_particle(const struct particles *p, int32_t i, int axis, double place)
 {
     static const int shear[3][2] = {{3, 5}, {3, 4}, {4, 5}}; /* xy, yz, zx of those with the axis */
     assert(axis >= 0 && axis < 3);
@@ -93,10 +92,9 @@ static void reflect_particle(struct particles *p, int32_t i, int axis, double pl
 
 /* Books the momentum at the old position as outgoing and at the new one as incoming, so that the
  * angular momentum closes too. */
-static void return_stray(struct simulation *simulation, const void *of, int32_t i,
-                         struct ledger *ledger)
+static void return_stray(const struct simulation *simulation, const struct particles *p,
+                         const void *of, int32_t i, struct ledger *ledger)
 {
-    struct particles *p = particles_of(simulation);
     (void)of;
     if (body_is_frozen(simulation, p->body[i]) || body_is_held(simulation, p->body[i]))
         return;
@@ -115,16 +113,16 @@ static void return_stray(struct simulation *simulation, const void *of, int32_t 
     }
 }
 
-void sph_return_strays(struct simulation *simulation)
+void sph_return_strays(struct simulation *simulation, const struct particles *particles)
 {
-    act_on_particles(simulation, NULL, return_stray, NULL);
+    act_on_particles(simulation, particles, NULL, return_stray, NULL);
 }
 
 /* Particles of frozen bodies get no rates: they move as they are. */
-static void freeze_particle(struct simulation *simulation, const void *of, int32_t i,
-                            struct ledger *ledger)
+static void freeze_particle(const struct simulation *simulation, const struct particles *p,
+                            const void *of, int32_t i, struct ledger *ledger)
 {
-    const struct particles *p = particles_of(simulation);
+    (void)simulation;
     const struct act *act = of;
     const struct sph_fields *f = act->fields;
     const double dt = act->dt;
@@ -150,10 +148,10 @@ static void freeze_particle(struct simulation *simulation, const void *of, int32
         memset(f->volume[i], 0, sizeof *f->volume);
 }
 
-static void hold_particle(struct simulation *simulation, const void *of, int32_t i,
-                          struct ledger *ledger)
+static void hold_particle(const struct simulation *simulation, const struct particles *p,
+                          const void *of, int32_t i, struct ledger *ledger)
 {
-    const struct particles *p = particles_of(simulation);
+    (void)simulation;
     const struct act *act = of;
     const struct pair_rates *rates = &act->fields->rates;
     double *a = rates->acceleration[i];
@@ -170,16 +168,15 @@ static void hold_particle(struct simulation *simulation, const void *of, int32_t
 void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, double dt)
 {
     const struct act act = {f, dt, 0.0};
-    act_on_particles(simulation, body_is_frozen, freeze_particle, &act);
-    act_on_particles(simulation, body_is_held, hold_particle, &act);
+    act_on_particles(simulation, f->particles, body_is_frozen, freeze_particle, &act);
+    act_on_particles(simulation, f->particles, body_is_held, hold_particle, &act);
 }
 
 /* Its work goes with the mean velocity of the step, so that free fall keeps its energy to rounding.
  */
-static void pull_particle(struct simulation *simulation, const void *of, int32_t i,
-                          struct ledger *ledger)
+static void pull_particle(const struct simulation *simulation, const struct particles *p,
+                          const void *of, int32_t i, struct ledger *ledger)
 {
-    const struct particles *p = particles_of(simulation);
     const struct act *act = of;
     double *a = act->fields->rates.acceleration[i];
     for (int axis = 0; axis < 3; axis++)
@@ -194,5 +191,6 @@ static void pull_particle(struct simulation *simulation, const void *of, int32_t
 void sph_add_gravity(struct simulation *simulation, const struct sph_fields *f, double dt,
                      double ahead)
 {
-    act_on_particles(simulation, body_is_heavy, pull_particle, &(struct act){f, dt, ahead});
+    act_on_particles(simulation, f->particles, body_is_heavy, pull_particle,
+                     &(struct act){f, dt, ahead});
 }

@@ -23,10 +23,10 @@ void sph_reflect_motion(const struct simulation *simulation, image_code image, d
 }
 
 /* Copies position and diameter of the records of ghosts BEGIN .. END - 1. */
-static void copy_places(const struct simulation *simulation, const struct sph_records *records,
-                        int32_t begin, int32_t end)
+static void copy_places(const struct sph *sph, const struct simulation *simulation,
+                        const struct sph_records *records, int32_t begin, int32_t end)
 {
-    const size_t count = (size_t)particles_of(simulation)->count, stride = records->stride;
+    const size_t count = (size_t)sph->particles->count, stride = records->stride;
     const size_t bytes = (size_t)(simulation->dimension + 1) * sizeof(double);
     if (!records->place)
         return;
@@ -59,7 +59,7 @@ static void make_images(struct sph *sph, const struct simulation *simulation,
                         const struct sph_records *records, int32_t begin, int32_t end)
 {
     const struct ghosts *ghosts = &sph->neighbours.ghosts;
-    const size_t count = (size_t)particles_of(simulation)->count, stride = records->stride;
+    const size_t count = (size_t)sph->particles->count, stride = records->stride;
     const int dimension = simulation->dimension;
     struct reflections reflections;
     if (begin == end)
@@ -78,14 +78,14 @@ static void make_images(struct sph *sph, const struct simulation *simulation,
             record[f] = sign[f] * from[f];
         memcpy(record, at, (size_t)dimension * sizeof *record);
     }
-    copy_places(simulation, records, begin, end);
+    copy_places(sph, simulation, records, begin, end);
 }
 
 double *sph_records_start(struct sph *sph, const struct simulation *simulation,
                           const struct sph_records *records)
 {
     struct ghosts *ghosts = &sph->neighbours.ghosts;
-    const int32_t count = particles_of(simulation)->count;
+    const int32_t count = sph->particles->count;
     ghosts_start(ghosts, records->first, count, records->stride * sizeof(double));
     make_images(sph, simulation, records, ghosts->remotes, ghosts->early);
     double *empty = records->first + (size_t)(count + ghosts->count) * records->stride;
@@ -97,6 +97,6 @@ void sph_records_finish(struct sph *sph, const struct simulation *simulation,
 {
     struct ghosts *ghosts = &sph->neighbours.ghosts;
     ghosts_finish(ghosts);
-    copy_places(simulation, records, 0, ghosts->remotes);
+    copy_places(sph, simulation, records, 0, ghosts->remotes);
     make_images(sph, simulation, records, ghosts->early, ghosts->count);
 }

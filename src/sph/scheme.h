@@ -43,7 +43,8 @@ enum sph_size { SPH_SIZE_TENSOR = 1, SPH_SIZE_GRADIENT, SPH_SIZE_STRESS_GRADIENT
 
 /* The store's fields that this solver adds, looked up once a step. */
 struct sph_fields {
-    double *diameter; /* D = V^(1/dimension) (1.70) */
+    struct particles *particles; /* the store that they are of */
+    double *diameter;            /* D = V^(1/dimension) (1.70) */
     double *sound_long, *sound_shear;
     double *thickness; /* relative to the start; plane stress only */
     struct pair_rates rates;
@@ -137,6 +138,7 @@ struct sph {
     unsigned traits;        /* enum sph_trait */
     double ahead;           /* of level n, by which the velocities of records lead, s */
     double largest_support; /* over the diameter, where supports follow packing */
+    struct particles *particles;
     struct neighbours neighbours;
     struct contact_groups groups;
     int64_t steps_since_build;
@@ -196,7 +198,7 @@ BOLIDE_INLINE double sph_depth(const struct simulation *simulation, const struct
 {
     if (f->thickness)
         return f->thickness[i];
-    return sph_axisymmetric(simulation) ? sph_ring(particles_of(simulation), i).depth : 1.0;
+    return sph_axisymmetric(simulation) ? sph_ring(f->particles, i).depth : 1.0;
 }
 
 /* The diameter that sets the support of particle I. */
@@ -209,7 +211,7 @@ BOLIDE_INLINE double sph_support(const struct sph_fields *f, int32_t i)
 BOLIDE_INLINE double sph_volume(const struct simulation *simulation, const struct sph_fields *f,
                                 int32_t i)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = f->particles;
     return p->mass[i] / (p->density[i] * sph_depth(simulation, f, i));
 }
 
@@ -306,7 +308,7 @@ void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
 
 /* A particle that a step has taken through a mirror wall or the axis goes on as its own image,
  * which has come in there. */
-void sph_return_strays(struct simulation *simulation);
+void sph_return_strays(struct simulation *simulation, const struct particles *particles);
 
 /* material_step in plane stress: solves for the rate of thickness at which no stress is left across
  * the plate. DIVERGENCE is that in the plane, MOTION->density follows from it alone; *THICKNESS is

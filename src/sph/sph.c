@@ -134,7 +134,7 @@ static struct error *check_walls(const struct simulation *simulation, double rea
     return NULL;
 }
 
-static struct error *create_store(const struct sph *sph, struct simulation *simulation)
+static struct error *create_store(struct sph *sph, struct simulation *simulation)
 {
     struct field_declaration fields[POINT_HISTORY + SPH_FIELDS_MAX];
     const struct sph_parameters *parameters = &sph->parameters;
@@ -144,8 +144,7 @@ static struct error *create_store(const struct sph *sph, struct simulation *simu
     double support = 2.0 * parameters->smoothing * diameter;
     TRY(check_walls(simulation, support - (1.0 + 1e-9) * diameter));
     double cell = growth_room * support * (1.0 + parameters->skin);
-    TRY(particles_add(simulation, cell, fields, count));
-    return NULL;
+    return particles_add(simulation, cell, fields, count, &sph->particles);
 }
 
 static struct error *sph_create(void *solver, struct simulation *simulation, const void *parameters)
@@ -167,6 +166,12 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     return create_store(sph, simulation);
 }
 
+static struct error *sph_fill(void *solver, struct simulation *simulation)
+{
+    const struct sph *sph = solver;
+    return generate_particles(simulation, sph->particles);
+}
+
 static struct error *sph_start(void *solver, struct simulation *simulation)
 {
     const struct sph *sph = solver;
@@ -178,16 +183,14 @@ static struct error *sph_prepare(void *solver, struct simulation *simulation, st
 {
     struct sph *sph = solver;
     bool rebuilt;
-    stop_bodies(simulation);
+    stop_bodies(simulation, sph->particles);
     TRY(sph_refresh_lists(sph, simulation, &rebuilt));
     if (rebuilt && (sph->scheme->rebuilt || sph_has(sph, SPH_CONDUCTION))) {
-        struct error *error =
-            sph_has(sph, SPH_CONDUCTION) ? conduction_reserve(sph, simulation) : NULL;
+        struct error *error = sph_has(sph, SPH_CONDUCTION) ? conduction_reserve(sph) : NULL;
         if (!error && sph->scheme->rebuilt)
             error = sph->scheme->rebuilt(sph, simulation);
         TRY(ranks_agree(simulation->ranks, error));
     }
-    *limit = (struct limit){(double)INFINITY, "nothing", 0};
     if (!sph_has(sph, SPH_STILL))
         sph->scheme->prepare(sph, simulation, limit);
     if (sph_has(sph, SPH_CONDUCTION)) {
@@ -196,6 +199,7 @@ static struct error *sph_prepare(void *solver, struct simulation *simulation, st
         conduction_prepare(sph, simulation, &fields, limit);
         simulation_spend(simulation, "heat", clock_seconds() - begin);
     }
+    limit->event = next_event(simulation);
     return NULL;
 }
 
@@ -204,7 +208,7 @@ static struct error *sph_advance(void *solver, struct simulation *simulation, do
     struct sph *sph = solver;
     sph->steps_since_build++;
     struct error *error = sph->scheme->advance(sph, simulation, dt);
-    return error_join(error, drive_bodies(simulation, dt));
+    return error_join(error, drive_bodies(simulation, sph->particles, dt));
 }
 
 static struct error *sph_state(void *solver, struct visitor *visitor)
@@ -230,6 +234,7 @@ static void sph_destroy(void *solver)
         sph->scheme->destroy(sph);
     free(sph->state);
     free(sph->place);
+    particles_drop(sph->particles);
 }
 
 /* Of a solid without walls. */
@@ -292,7 +297,7 @@ static const char *sph_energy_lost(const void *parameters)
 
 const struct solver_class sph_class = {.size = sizeof(struct sph),
                                        .create = sph_create,
-                                       .fill = particles_fill,
+                                       .fill = sph_fill,
                                        .start = sph_start,
                                        .prepare = sph_prepare,
                                        .advance = sph_advance,

@@ -4,7 +4,7 @@
 void sph_sweep(struct sph *sph, const struct simulation *simulation,
                const struct sph_records *records, const struct sph_sweep *sweep)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = sph->particles;
     for (int rest = 0; rest < 2; rest++) {
         if (rest)
             sph_records_finish(sph, simulation, records);
@@ -22,7 +22,7 @@ static const char *const limit_reasons[] = {[SPH_LIMIT_SOUND] = "sound speed",
 struct limit sph_smallest_limit(const struct sph *sph, const struct simulation *simulation,
                                 sph_limit_of *limit_of, const void *context)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = sph->particles;
     struct ranked first = {(double)INFINITY, UINT64_MAX, SPH_LIMIT_SOUND};
 #pragma omp parallel num_threads(simulation->threads)
     {

@@ -12,7 +12,7 @@ void sph_evaluate(const struct sph *sph, struct simulation *simulation)
 {
     struct sph_fields f = sph_fields_of(sph, simulation);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < particles_of(simulation)->count; i++) {
+    for (int32_t i = 0; i < sph->particles->count; i++) {
         if (f.thickness && f.thickness[i] == 0.0) /* fresh */
             f.thickness[i] = 1.0;
         sph_evaluate_point(simulation, &f, i);
@@ -339,7 +339,7 @@ static void update_run(const struct material *material, struct particles *p,
 static void update_block(struct simulation *simulation, const struct advance *step,
                          const struct block *block, struct failure *failure)
 {
-    struct particles *p = particles_of(simulation);
+    struct particles *p = step->fields->particles;
     const int32_t end = block->first + block->count;
     for (int32_t begin = block->first, next; begin < end; begin = next) {
         uint16_t material = p->material[begin];
@@ -353,7 +353,7 @@ static void update_block(struct simulation *simulation, const struct advance *st
 static void update_heat(const struct sph *sph, struct simulation *simulation,
                         const struct sph_fields *f, double dt, struct failure *failure)
 {
-    struct particles *p = particles_of(simulation);
+    struct particles *p = sph->particles;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++)
         p->energy[i] += dt * f->heat_rate[i];
@@ -390,13 +390,13 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation,
     {
         struct failure own = {false, 0, 0};
 #pragma omp for schedule(dynamic)
-        for (int32_t b = 0; b < particles_of(simulation)->blocks; b++)
-            update_block(simulation, &step, &particles_of(simulation)->block[b], &own);
+        for (int32_t b = 0; b < sph->particles->blocks; b++)
+            update_block(simulation, &step, &sph->particles->block[b], &own);
 #pragma omp critical(bolide_sph_failure)
         if (own.any)
             note_failure(&failure, own.id, own.index);
     }
     if (fields->rates.wall)
-        sph_return_strays(simulation);
+        sph_return_strays(simulation, sph->particles);
     return failure.any ? simulation_impossible(simulation, failure.index) : NULL;
 }

@@ -6,7 +6,7 @@
 
 #include "base/isa.h"
 #include "gas_kernel.h"
-#include "model/particle_population.h"
+#include "model/simulation.h"
 
 enum { FIELDS_MAX = 8, LINE_MAX_LENGTH = 512 };
 
@@ -41,7 +41,7 @@ static void count_case(const struct entry *entry)
     snprintf(path, sizeof path, "%s/tests/speed/cases/%s.yaml", BOLIDE_SOURCE_DIR, entry->file);
     struct started s = start_with(path, entry->setting, entry->settings, 1);
     take_steps(&s, entry->steps);
-    report(entry, particles_of(s.simulation)->count);
+    report(entry, (int32_t)simulation_members(s.simulation));
     counted(steps, &s, entry->steps);
     finish(&s);
 }

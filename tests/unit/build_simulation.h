@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "model/particle_population.h"
+#include "populations.h"
 
 /* COUNT particles on a line of spacing 1 mm, each with values of its own. Free with
  * drop_simulation. */
@@ -18,7 +18,7 @@ static inline struct simulation *build_simulation(int32_t count)
     simulation->time = 1.5e-6;
     simulation->step = 42;
     int32_t first;
-    if (particles_add(simulation, 0.004, NULL, 0))
+    if (give_particles(simulation, 0.004, NULL, 0))
         abort();
     struct particles *particles = particles_of(simulation);
     if ((count && (particles_append(particles, count, &first) || particles_commit(particles))))
@@ -43,7 +43,7 @@ static inline struct simulation *build_simulation(int32_t count)
 
 static inline void drop_simulation(struct simulation *simulation)
 {
-    simulation_depopulate(simulation);
+    free_particles(simulation);
     free(simulation);
 }
 

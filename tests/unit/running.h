@@ -3,6 +3,7 @@
 #define BOLIDE_TEST_RUNNING_H
 
 #include "dice.h"
+#include "populations.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -141,7 +142,7 @@ static inline struct running *resume(struct running *run, const char *text,
 static inline struct running *begin_fresh(const char *text, const struct variant *variant)
 {
     struct running *run = begin(text, variant);
-    assert_success(generate_particles(&run->simulation));
+    assert_success(generate_particles(&run->simulation, particles_of(&run->simulation)));
     assert_success(run->solver->start(&run->sph, &run->simulation));
     return run;
 }

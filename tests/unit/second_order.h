@@ -2,7 +2,7 @@
 #ifndef BOLIDE_TEST_SECOND_ORDER_H
 #define BOLIDE_TEST_SECOND_ORDER_H
 
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 #define METAL                                                                                \

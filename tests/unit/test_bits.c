@@ -1,6 +1,6 @@
 /* The same bits for any number of threads, order of storage, skin, age of rows, and after a resume: one hash
  * of the state after many steps. And what the steps must keep: mass, momentum and energy. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 #if defined(BOLIDE_SANITIZE)

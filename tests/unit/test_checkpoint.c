@@ -16,8 +16,8 @@
 #include <hdf5.h>
 
 #include "build_simulation.h"
-#include "model/particle_population.h"
 #include "output/checkpoint.h"
+#include "populations.h"
 
 static const char case_text[] = "format: 1\ntitle: test\nrun:\n  until: 5e-06 s\n";
 

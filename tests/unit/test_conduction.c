@@ -2,7 +2,7 @@
  * after a resume, energy that is kept, a cylinder that cools about its axis, and what a case without the constants
  * is told. */
 #include "material/material.h"
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 #include "run/estimate.h"

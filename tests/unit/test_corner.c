@@ -1,6 +1,6 @@
 /* A corner of two mirror walls stands for the whole: particle by particle, a quarter between walls moves
  * as the same quarter of the whole body without them. So does one half of a body of revolution. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 enum { STEPS = 60 };
@@ -60,7 +60,7 @@ static struct running *begin_block(const char *bodies)
     char text[4096];
     assert_true(snprintf(text, sizeof text, "%s%s", block, bodies) < (int)sizeof text);
     struct running *run = begin(text, &plain);
-    assert_success(generate_particles(&run->simulation));
+    assert_success(generate_particles(&run->simulation, particles_of(&run->simulation)));
     assert_success(run->solver->start(&run->sph, &run->simulation));
     return run;
 }

@@ -1,5 +1,5 @@
 /* Particles with a depth: what axisymmetry and plane stress must keep. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 static const struct variant plain = {"plain", 1, 1.0, NULL, false};
@@ -208,7 +208,7 @@ static void a_particle_comes_out_on_the_other_side_of_the_axis(void **state)
     p->position[0][0] = -2e-3;
     p->velocity[0][0] = -50.0;
     p->deviator[0][3] = 7.0;
-    sph_return_strays(&run->simulation);
+    sph_return_strays(&run->simulation, particles_of(&run->simulation));
     assert_true(p->position[0][0] == 2e-3 && p->velocity[0][0] == 50.0);
     assert_true(p->deviator[0][3] == -7.0);
     struct totals axis = ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_AXIS);
@@ -229,7 +229,7 @@ static void a_particle_comes_out_of_a_wall_as_its_image(void **state)
     p->deviator[0][0] = 3.0;
     p->deviator[0][3] = 7.0;
     struct totals through = population_totals(population_of_particles(p), &run->ranks, -1);
-    sph_return_strays(&run->simulation);
+    sph_return_strays(&run->simulation, particles_of(&run->simulation));
     assert_true(p->position[0][1] == 1e-4);
     assert_true(p->velocity[0][0] == 30.0 && p->velocity[0][1] == 50.0);
     assert_true(p->deviator[0][0] == 3.0 && p->deviator[0][3] == -7.0);

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "model/generate.h"
+#include "populations.h"
 #include "run/catalogue.h"
 #include "run/estimate.h"
 #include "source_folder.h"
@@ -154,7 +155,7 @@ static double bytes_taken(const char *method, double *foreseen)
     const struct solver_class *class = input->solver.choice->thing;
     assert_null(simulation_create(input, &alone, 1, &simulation));
     assert_null(class->create(&sph, &simulation, input->solver.value));
-    assert_null(generate_particles(&simulation));
+    assert_null(generate_particles(&simulation, particles_of(&simulation)));
     assert_null(class->start(&sph, &simulation));
     assert_null(class->prepare(&sph, &simulation, &limit));
     const struct particles *p = particles_of(&simulation);

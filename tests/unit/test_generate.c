@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "model/particle_population.h"
+#include "populations.h"
 #include "workshop.h"
 
 static void a_box_has_its_exact_mass_and_every_particle_its_start_state(void **state)

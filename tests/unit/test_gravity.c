@@ -1,5 +1,5 @@
 /* Gravity by both solvers: free fall, and what the ledger says of it. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 #define MATERIALS                                                                            \

@@ -1,5 +1,5 @@
 /* Bodies that something outside holds: pistons that are driven and strikers that stop, and what the ledger says. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 static const char push[] =

@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 #include "build_simulation.h"
-#include "model/particle_population.h"
 #include "output/history.h"
+#include "populations.h"
 
 static char path[] = "/tmp/bolide-test-XXXXXX";
 

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "model/particle_population.h"
+#include "populations.h"
 #include "workshop.h"
 
 static const double density = 8.0; /* of every body of the workshop */

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "model/ledger.h"
-#include "model/particle_population.h"
+#include "populations.h"
 
 enum { COUNT = 1000 };
 

@@ -9,7 +9,7 @@
 
 #include "exact/choices.h"
 #include "exact/gas_riemann.h"
-#include "model/particle_population.h"
+#include "populations.h"
 #include "run/checks.h"
 #include "shape/kinds.h"
 
@@ -43,7 +43,7 @@ static const struct choice *choice_of(const struct choice *choices, int count, c
 static void place_particles(struct bench *bench)
 {
     int32_t first;
-    assert_null(particles_add(&bench->simulation, 0.1, NULL, 0));
+    assert_null(give_particles(&bench->simulation, 0.1, NULL, 0));
     struct particles *p = particles_of(&bench->simulation);
     assert_null(particles_append(p, ALL, &first));
     for (int i = 0; i < ALL; i++) {
@@ -91,7 +91,7 @@ static int setup(void **state)
 static int teardown(void **state)
 {
     struct bench *b = *state;
-    simulation_depopulate(&b->simulation);
+    free_particles(&b->simulation);
     free(b);
     return 0;
 }

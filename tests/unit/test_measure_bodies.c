@@ -13,6 +13,7 @@
 #include "model/generate.h"
 #include "model/solver.h"
 #include "model/start_place.h"
+#include "populations.h"
 #include "run/catalogue.h"
 #include "run/checks.h"
 
@@ -69,7 +70,7 @@ static struct error *stage_open(struct stage *s, const char *checks)
     const struct solver_class *method = s->input->solver.choice->thing;
     s->solver = calloc(1, method->size);
     expect_success(method->create(s->solver, &s->simulation, s->input->solver.value));
-    expect_success(generate_particles(&s->simulation));
+    expect_success(generate_particles(&s->simulation, particles_of(&s->simulation)));
     expect_success(method->start(s->solver, &s->simulation));
     method->observe(s->solver, &s->simulation, &s->views);
     s->start = population_totals(simulation_population(&s->simulation), &s->ranks, -1);

@@ -1,6 +1,6 @@
 /* The material point method step by step: the same bits whatever the threads, the storage, and after a resume; what the
  * steps keep; and what it refuses. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 #if defined(BOLIDE_SANITIZE)
@@ -163,7 +163,7 @@ static void mixing_in_shocks_turns_motion_into_heat(void **state)
             struct running *run = begin_fresh(texts[k], &variant);
             step(run, STEPS);
             const struct particles *p = particles_of(&run->simulation);
-            double *shock = mpm_fields_of(&run->mpm, &run->simulation).shock;
+            double *shock = mpm_fields_of(&run->mpm).shock;
             const struct totals before =
                                     population_totals(population_of_particles(p), &run->ranks, -1),
                                 booked = ledger_totals(&run->simulation.ledger, &run->ranks,
@@ -209,7 +209,7 @@ static void mixing_in_shocks_does_not_heat_across_materials(void **state)
         const struct variant variant = {"", 1, 1.0, NULL, false};
         struct running *run = begin_fresh(with, &variant);
         struct particles *p = particles_of(&run->simulation);
-        double *shock = mpm_fields_of(&run->mpm, &run->simulation).shock;
+        double *shock = mpm_fields_of(&run->mpm).shock;
         for (int32_t i = 0; i < p->count; i++)
             shock[i] = 1.0;
         const struct totals before = population_totals(population_of_particles(p), &run->ranks, 0);

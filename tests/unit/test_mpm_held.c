@@ -1,6 +1,6 @@
 /* Bodies that something outside holds, by the material point method: pistons that are driven, strikers that stop, ends that
  * keep all of their state; and what the ledger says. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 #define METAL                                                                                \

@@ -1,6 +1,6 @@
 /* Velocities of nodes by the inverse of the full mass matrix to some order, in a bar at rest in which no force acts yet: so
  * one step shows what nodes make of the velocities of particles. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 static const char bar_case[] =

@@ -1,5 +1,5 @@
 /* Loads on surfaces and faces of outflow by the material point method. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 #define MATERIALS                                                                            \

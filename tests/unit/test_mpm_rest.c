@@ -1,5 +1,5 @@
 /* The material point method with a gas at rest: what a uniform pressure does to nodes. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 /* Between walls, with particles of 1 mm; the low side of x is a wall or the axis. */

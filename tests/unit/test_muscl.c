@@ -1,6 +1,6 @@
 /* The second-order contact method: what its gradients must give exactly, and what its sums must keep. */
 #include "material/material.h"
-#include "model/particle_population.h"
+#include "populations.h"
 #include "second_order.h"
 
 #define LINE "{from: [-8 mm], to: [8 mm]}"

@@ -1,6 +1,6 @@
 /* Nothing but the state decides the bits of the second-order method: not the instruction set, the threads, the rows, nor a
  * resume. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "second_order.h"
 
 #include "base/isa.h"

@@ -1,6 +1,6 @@
 /* What the second-order contact method does where matter ends and where it meets again: the force that is expected at free
  * surfaces, thin plates that ring out, and density that follows the packing of particles. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "second_order.h"
 #include "sph/kernel.h"
 

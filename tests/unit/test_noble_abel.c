@@ -1,6 +1,6 @@
 /* Noble and Abel's stiffened gas: values worked out by hand, the ideal gas as a limit, and shocks.
  * */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 #include "source_folder.h"
 
@@ -111,7 +111,7 @@ static uint64_t blast(const char *const settings[2], int count)
     assert_success(simulation_create(run->input, &run->ranks, 1, &run->simulation));
     run->solver = run->input->solver.choice->thing;
     assert_success(run->solver->create(&run->sph, &run->simulation, run->input->solver.value));
-    assert_success(generate_particles(&run->simulation));
+    assert_success(generate_particles(&run->simulation, particles_of(&run->simulation)));
     assert_success(run->solver->start(&run->sph, &run->simulation));
     const double until = run->input->run.until;
     while (run->simulation.time < until * (1.0 - 1e-12))

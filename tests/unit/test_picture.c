@@ -14,9 +14,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "model/particle_population.h"
 #include "output/picture.h"
 #include "output/picture_scale.h"
+#include "populations.h"
 
 static const char path[] = "picture.png";
 
@@ -29,7 +29,7 @@ static struct simulation *lattice(int dimension, int nx, int ny, int nz, double 
     simulation->ranks = &alone;
     simulation->dimension = dimension;
     simulation->time = 3.1e-6;
-    assert_null(particles_add(simulation, 4.0 * spacing, NULL, 0));
+    assert_null(give_particles(simulation, 4.0 * spacing, NULL, 0));
     struct particles *p = particles_of(simulation);
     assert_null(particles_append(p, count, &first));
     p->count = count;
@@ -48,7 +48,7 @@ static struct simulation *lattice(int dimension, int nx, int ny, int nz, double 
 
 static void drop(struct simulation *simulation)
 {
-    simulation_depopulate(simulation);
+    free_particles(simulation);
     free(simulation);
 }
 

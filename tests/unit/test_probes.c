@@ -14,7 +14,7 @@
 #include "build_case.h"
 #include "measure/probes.h"
 #include "measure/profiles.h"
-#include "model/particle_population.h"
+#include "populations.h"
 #include "run/catalogue.h"
 #include "run/checks.h"
 #include "shape/kinds.h"
@@ -43,7 +43,7 @@ static void place_particles(struct bench *b, int dimension)
 {
     int each = dimension == 3 ? EACH * EACH * EACH : EACH * EACH;
     int32_t first;
-    assert_null(particles_add(&b->simulation, 1.0, NULL, 0));
+    assert_null(give_particles(&b->simulation, 1.0, NULL, 0));
     struct particles *p = particles_of(&b->simulation);
     assert_null(particles_append(p, BODIES * each, &first));
     for (int i = 0; i < BODIES * each; i++) {
@@ -105,7 +105,7 @@ static void drop_bench(struct bench *b)
     snprintf(command, sizeof command, "rm -r '%s'", b->folder);
     assert_int_equal(system(command), 0);
     probes_free(&b->probes);
-    simulation_depopulate(&b->simulation);
+    free_particles(&b->simulation);
     free(b);
 }
 

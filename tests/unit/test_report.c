@@ -71,7 +71,7 @@ static void progress_is_one_line(void **state)
     simulation->input = &input;
     simulation->time = 3.1e-6;
     simulation->step = 1200;
-    const struct limit limit = {2.1e-9, "sound", 0};
+    const struct limit limit = {2.1e-9, "sound", 0, INFINITY};
     char text[160];
     progress_text(simulation, &limit, 1.3e6, 12.2, text, sizeof text);
     assert_string_equal(text, "step 1200  t 3.10 us of 5.00 us (62 %)  dt 2.1 ns (sound)  1.3 M "

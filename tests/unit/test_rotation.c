@@ -1,5 +1,5 @@
 /* Velocities corrected to the contact point (`rotation: corrected`): a body that turns as a whole feels nothing of it. */
-#include "model/particle_population.h"
+#include "populations.h"
 #include "running.h"
 
 #define HEAD(dimension)                                                          \

@@ -13,7 +13,9 @@
 
 #include "base/results.h"
 #include "model/generate.h"
+#include "model/held.h"
 #include "model/solver.h"
+#include "populations.h"
 #include "run/catalogue.h"
 #include "run/estimate.h"
 #include "run/run.h"
@@ -50,11 +52,22 @@ static const struct parameter flight_table[] = {
     PARAMETER_END,
 };
 
+struct flight {
+    struct flight_parameters parameters; /* first: what the steps read */
+    struct particles *particles;
+};
+
 static struct error *flight_create(void *solver, struct simulation *simulation,
                                    const void *parameters)
 {
-    *(struct flight_parameters *)solver = *(const struct flight_parameters *)parameters;
-    return particles_add(simulation, 1.0, NULL, 0);
+    struct flight *flight = solver;
+    flight->parameters = *(const struct flight_parameters *)parameters;
+    return particles_add(simulation, 1.0, NULL, 0, &flight->particles);
+}
+
+static struct error *flight_fill(void *solver, struct simulation *simulation)
+{
+    return generate_particles(simulation, ((struct flight *)solver)->particles);
 }
 
 static struct error *flight_start(void *solver, struct simulation *simulation)
@@ -69,7 +82,7 @@ static struct error *flight_prepare(void *solver, struct simulation *simulation,
 {
     const struct flight_parameters *flight = solver;
     *limit = (struct limit){simulation->step ? flight->later : flight->step, "wish",
-                            particles_of(simulation)->id[0]};
+                            particles_of(simulation)->id[0], next_event(simulation)};
     return NULL;
 }
 
@@ -100,7 +113,7 @@ static void flight_observe(const void *solver, const struct simulation *simulati
     views_of_population(views, simulation);
 }
 
-static void flight_destroy(void *solver) { (void)solver; }
+static void flight_destroy(void *solver) { particles_drop(((struct flight *)solver)->particles); }
 
 static double flight_bytes(const void *parameters, int dimension)
 {
@@ -118,22 +131,17 @@ static double flight_step(const void *parameters, int dimension, const struct ma
     return ((const struct flight_parameters *)parameters)->step;
 }
 
-static const struct solver_class flight_class = {sizeof(struct flight_parameters),
-                                                 flight_create,
-                                                 particles_fill,
-                                                 flight_start,
-                                                 flight_prepare,
-                                                 flight_advance,
-                                                 flight_state,
-                                                 flight_observe,
-                                                 flight_destroy,
-                                                 flight_bytes,
-                                                 flight_step,
-                                                 NULL,
-                                                 NULL,
-                                                 NULL,
-                                                 NULL,
-                                                 false};
+static const struct solver_class flight_class = {.size = sizeof(struct flight),
+                                                 .create = flight_create,
+                                                 .fill = flight_fill,
+                                                 .start = flight_start,
+                                                 .prepare = flight_prepare,
+                                                 .advance = flight_advance,
+                                                 .state = flight_state,
+                                                 .observe = flight_observe,
+                                                 .destroy = flight_destroy,
+                                                 .bytes = flight_bytes,
+                                                 .step = flight_step};
 
 static const struct choice flight_choice = {"flight", "free flight", flight_table,
                                             sizeof(struct flight_parameters), &flight_class};

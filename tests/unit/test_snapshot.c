@@ -15,8 +15,8 @@
 #include <unistd.h>
 
 #include "build_simulation.h"
-#include "model/particle_population.h"
 #include "output/snapshot.h"
+#include "populations.h"
 
 static char folder[64];
 static char path[96];

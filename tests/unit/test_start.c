@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "case/internal.h"
-#include "model/particle_population.h"
+#include "populations.h"
 #include "workshop.h"
 
 static const struct start_given nothing = {

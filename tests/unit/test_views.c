@@ -7,8 +7,8 @@
 #include <cmocka.h>
 #include <string.h>
 
-#include "model/particle_population.h"
 #include "model/views.h"
+#include "populations.h"
 
 enum { COUNT = 700 };
 
@@ -22,7 +22,7 @@ static void set_up(struct simulation *simulation, struct views *views)
     *simulation = (struct simulation){.dimension = 3};
     *views = (struct views){0};
     int32_t first;
-    assert_null(particles_add(simulation, 1.0, solver_fields, (int)COUNT_OF(solver_fields)));
+    assert_null(give_particles(simulation, 1.0, solver_fields, (int)COUNT_OF(solver_fields)));
     struct particles *p = particles_of(simulation);
     assert_null(particles_append(p, COUNT, &first));
     double *sound_speed = particles_field(p, "sound_speed");
@@ -56,7 +56,7 @@ static void every_double_field_with_a_unit_is_a_view(void **state)
     assert_ptr_equal(views_find(&views, "pressure", &component)->data,
                      particles_of(&simulation)->pressure);
     assert_string_equal(views_find(&views, "sound_speed", &component)->unit, "m/s");
-    simulation_depopulate(&simulation);
+    free_particles(&simulation);
 }
 
 static void names_that_are_no_view_are_not_found(void **state)
@@ -71,7 +71,7 @@ static void names_that_are_no_view_are_not_found(void **state)
     int component;
     for (size_t i = 0; i < COUNT_OF(unknown); i++)
         assert_null(views_find(&views, unknown[i], &component));
-    simulation_depopulate(&simulation);
+    free_particles(&simulation);
 }
 
 static void a_component_reads_as_a_column_of_the_whole(void **state)
@@ -93,7 +93,7 @@ static void a_component_reads_as_a_column_of_the_whole(void **state)
         for (int64_t i = 0; i < end - begin; i++)
             assert_true(column[i] == whole[i * view->components + (component < 0 ? 0 : component)]);
     }
-    simulation_depopulate(&simulation);
+    free_particles(&simulation);
 }
 
 static void stress_and_speed_follow_from_the_fields(void **state)
@@ -113,7 +113,7 @@ static void stress_and_speed_follow_from_the_fields(void **state)
     const double square_sum = 4.0 + 16.0 + 36.0 + 2.0 * (64.0 + 100.0 + 144.0);
     assert_true(fabs(mises - sqrt(1.5 * square_sum)) < 1e-12);
     assert_true(fabs(speed - 3.0 * sqrt(14.0)) < 1e-12);
-    simulation_depopulate(&simulation);
+    free_particles(&simulation);
 }
 
 static void a_field_that_cannot_be_chosen_is_told_with_what_could(void **state)
@@ -150,7 +150,7 @@ static void a_field_that_cannot_be_chosen_is_told_with_what_could(void **state)
     assert_int_equal(component, 0);
     assert_null(views_choose(&views, "stress.zx", NULL, 0, &view, &component));
     assert_int_equal(component, 5);
-    simulation_depopulate(&simulation);
+    free_particles(&simulation);
 }
 
 static void only_components_that_a_case_has_are_offered(void **state)
@@ -174,13 +174,13 @@ static void only_components_that_a_case_has_are_offered(void **state)
         struct views views = {0};
         const struct view *view;
         int component;
-        assert_null(particles_add(&simulation, 1.0, NULL, 0));
+        assert_null(give_particles(&simulation, 1.0, NULL, 0));
         views_of_population(&views, &simulation);
         struct error *error = views_choose(&views, cases[i].field, NULL, 0, &view, &component);
         assert_non_null(error);
         assert_string_equal(error_message(error, 0), cases[i].told);
         error_free(error);
-        simulation_depopulate(&simulation);
+        free_particles(&simulation);
     }
 }
 
@@ -200,10 +200,10 @@ static void a_particle_has_a_mass_in_the_unit_of_the_totals(void **state)
                                         .geometry = cases[i].geometry};
         struct views views = {0};
         int component;
-        assert_null(particles_add(&simulation, 1.0, NULL, 0));
+        assert_null(give_particles(&simulation, 1.0, NULL, 0));
         views_of_population(&views, &simulation);
         assert_string_equal(views_find(&views, "mass", &component)->unit, cases[i].unit);
-        simulation_depopulate(&simulation);
+        free_particles(&simulation);
     }
 }
 

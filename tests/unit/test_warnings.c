@@ -11,7 +11,9 @@
 
 #include "messages.h"
 #include "model/generate.h"
+#include "model/held.h"
 #include "model/solver.h"
+#include "populations.h"
 #include "run/catalogue.h"
 #include "run/run.h"
 #include "run/verify.h"
@@ -55,11 +57,22 @@ static const struct parameter nonsense_table[] = {
     PARAMETER_END,
 };
 
+struct nonsense {
+    struct nonsense_parameters parameters; /* first: what the steps read */
+    struct particles *particles;
+};
+
 static struct error *nonsense_create(void *solver, struct simulation *simulation,
                                      const void *parameters)
 {
-    *(struct nonsense_parameters *)solver = *(const struct nonsense_parameters *)parameters;
-    return particles_add(simulation, 1.0, NULL, 0);
+    struct nonsense *nonsense = solver;
+    nonsense->parameters = *(const struct nonsense_parameters *)parameters;
+    return particles_add(simulation, 1.0, NULL, 0, &nonsense->particles);
+}
+
+static struct error *nonsense_fill(void *solver, struct simulation *simulation)
+{
+    return generate_particles(simulation, ((struct nonsense *)solver)->particles);
 }
 
 static struct error *nonsense_start(void *solver, struct simulation *simulation)
@@ -73,7 +86,7 @@ static struct error *nonsense_prepare(void *solver, struct simulation *simulatio
                                       struct limit *limit)
 {
     (void)solver;
-    *limit = (struct limit){0.1, "wish", particles_of(simulation)->id[0]};
+    *limit = (struct limit){0.1, "wish", particles_of(simulation)->id[0], next_event(simulation)};
     return NULL;
 }
 
@@ -120,7 +133,10 @@ static void nonsense_observe(const void *solver, const struct simulation *simula
     views_of_population(views, simulation);
 }
 
-static void nonsense_destroy(void *solver) { (void)solver; }
+static void nonsense_destroy(void *solver)
+{
+    particles_drop(((struct nonsense *)solver)->particles);
+}
 
 static double nonsense_bytes(const void *parameters, int dimension)
 {
@@ -139,9 +155,9 @@ static double nonsense_step(const void *parameters, int dimension, const struct 
     return 0.1;
 }
 
-static const struct solver_class nonsense_class = {sizeof(struct nonsense_parameters),
+static const struct solver_class nonsense_class = {sizeof(struct nonsense),
                                                    nonsense_create,
-                                                   particles_fill,
+                                                   nonsense_fill,
                                                    nonsense_start,
                                                    nonsense_prepare,
                                                    nonsense_advance,

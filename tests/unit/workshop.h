@@ -7,6 +7,7 @@
 #include "build_case.h"
 #include "material/material.h"
 #include "model/generate.h"
+#include "populations.h"
 
 enum { BODIES = 3, WALLS = 2 };
 
@@ -53,8 +54,8 @@ static inline struct error *generate(const struct workshop *w, const struct rank
                                      struct simulation *simulation)
 {
     assert_null(simulation_create(&w->input, ranks, 1, simulation));
-    assert_null(particles_add(simulation, 4.0 * largest_diameter(&w->input), NULL, 0));
-    return generate_particles(simulation);
+    assert_null(give_particles(simulation, 4.0 * largest_diameter(&w->input), NULL, 0));
+    return generate_particles(simulation, particles_of(simulation));
 }
 
 static inline void assert_made(const struct workshop *w, const struct ranks *ranks,

@@ -67,9 +67,9 @@ struct error *conduction_create(struct sph *sph, const struct simulation *simula
     return error;
 }
 
-struct error *conduction_reserve(struct sph *sph, const struct simulation *simulation)
+struct error *conduction_reserve(struct sph *sph)
 {
-    int64_t count = (int64_t)particles_of(simulation)->count + sph->neighbours.ghosts.count + 1;
+    int64_t count = (int64_t)sph->particles->count + sph->neighbours.ghosts.count + 1;
     if (!memory_reserve((void **)&sph->conduction.record, &sph->conduction.capacity, count, 0,
                         HEAT_STRIDE * sizeof(double)))
         return error_new(ERROR_SYSTEM, "out of memory for the heat of %lld particles",
@@ -81,7 +81,7 @@ struct error *conduction_reserve(struct sph *sph, const struct simulation *simul
 static void pack_owned(const struct simulation *simulation, const struct sph_fields *f, bool deep,
                        int32_t i, double *record)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = f->particles;
     const struct material *material = &simulation->material[p->material[i]];
     const struct heat *heat = &material->heat;
     int k = 0;
@@ -133,7 +133,7 @@ static void rates_of_block(const void *of, const struct block *blocks, int32_t b
 void conduction_prepare(struct sph *sph, struct simulation *simulation,
                         const struct sph_fields *fields, struct limit *limit)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = sph->particles;
     const struct sph_records records = {sph->conduction.record, HEAT_STRIDE, reflect, NULL};
     const struct heat_loop loop = {.kind = {simulation->dimension, sph_deep(simulation),
                                             sph->parameters.conduction == SPH_CONDUCTION_CONTACT

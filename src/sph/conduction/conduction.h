@@ -26,7 +26,7 @@ double conduction_step(const struct sph_parameters *parameters, int dimension,
 struct error *conduction_create(struct sph *sph, const struct simulation *simulation);
 
 /* Room for the records of all particles and ghosts. */
-struct error *conduction_reserve(struct sph *sph, const struct simulation *simulation);
+struct error *conduction_reserve(struct sph *sph);
 
 /* Collective: heat rates of all particles as they stand, and lowers LIMIT to what they allow. */
 void conduction_prepare(struct sph *sph, struct simulation *simulation,

@@ -10,7 +10,7 @@ BOLIDE_INLINE void pack_owned(const struct contact_state *state,
                               struct pair_kind kind, int32_t i, double *record)
 {
     bool shear = kind.shear;
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = f->particles;
     int dimension = simulation->dimension, k = 0;
     for (int axis = 0; axis < dimension; axis++)
         record[k++] = p->position[i][axis];
@@ -85,7 +85,7 @@ void contact_pack(struct sph *sph, const struct simulation *simulation,
     const struct sph_records records = contact_records(sph);
     const bool plain = !kind.depth && !kind.turn;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < particles_of(simulation)->count; i++) {
+    for (int32_t i = 0; i < sph->particles->count; i++) {
         double *record = sph->record + (size_t)i * sph->stride;
         if (plain) {
             const struct pair_kind same = {kind.dimension, kind.shear, kind.star,

@@ -22,7 +22,7 @@ void contact_sum_pairs(struct sph *sph, const struct simulation *simulation,
                        const struct sph_fields *fields)
 {
     const struct contact_state *state = sph->state;
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = sph->particles;
     const struct sph_records records = contact_records(sph);
     const struct contact_sweep sweep = {.pairs = {.kind = state->kind,
                                                   .record = sph->record,

@@ -57,7 +57,7 @@ BOLIDE_INLINE bool step_from_level(const struct simulation *simulation,
     const struct hllc_fields *f = stage->fields;
     const struct hllc_derivative *rate = &stage->rate;
     const double dt = stage->dt;
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = f->sph.particles;
     const struct hllc_level *n = &f->own.level[i];
     for (int axis = 0; axis < simulation->dimension; axis++) {
         p->position[i][axis] = n->position[axis] + dt * stage->velocity[axis];
@@ -102,7 +102,8 @@ static __attribute__((noinline)) bool step_rare(const struct simulation *simulat
 
 static bool step_particle(const struct simulation *simulation, const struct stage *stage, int32_t i)
 {
-    const struct material *material = &simulation->material[particles_of(simulation)->material[i]];
+    const struct material *material =
+        &simulation->material[stage->fields->sph.particles->material[i]];
     if (!material_is_plain(material))
         return step_rare(simulation, material, stage, i);
     return step_from_level(simulation, material, true, stage, i);
@@ -113,7 +114,7 @@ static bool step_particle(const struct simulation *simulation, const struct stag
 static struct error *take_stage(struct simulation *simulation, const struct hllc_fields *f,
                                 bool second, double dt)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = f->sph.particles;
     double begin = clock_seconds();
     int32_t failed = -1;
     if (f->sph.rates.wall)
@@ -154,6 +155,6 @@ struct error *hllc_advance(struct sph *sph, struct simulation *simulation, doubl
     hllc_find_rates(sph, simulation, &f);
     TRY(take_stage(simulation, &f, true, dt));
     if (f.sph.rates.wall)
-        sph_return_strays(simulation);
+        sph_return_strays(simulation, sph->particles);
     return NULL;
 }

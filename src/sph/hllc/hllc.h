@@ -92,9 +92,9 @@ void hllc_pack(struct sph *sph, const struct simulation *simulation, const struc
 void hllc_find_rates(struct sph *sph, struct simulation *simulation, const struct hllc_fields *f);
 
 /* The section of particle I, which a stage may have taken through the axis. */
-BOLIDE_INLINE double hllc_volume(const struct simulation *simulation, int32_t i)
+BOLIDE_INLINE double hllc_volume(const struct simulation *simulation, const struct particles *p,
+                                 int32_t i)
 {
-    const struct particles *p = particles_of(simulation);
     double depth = sph_axisymmetric(simulation) ? sph_ring(p, i).depth : 1.0;
     return p->mass[i] / (p->density[i] * depth);
 }

@@ -9,11 +9,11 @@
 static double *pack_plain(const struct simulation *simulation, const struct hllc_fields *f,
                           int32_t i, double *record)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = f->sph.particles;
     int dimension = simulation->dimension;
     memcpy(record, p->position[i], (size_t)dimension * sizeof *record);
     record[dimension] = f->sph.diameter[i];
-    record[dimension + 1] = hllc_volume(simulation, i);
+    record[dimension + 1] = hllc_volume(simulation, p, i);
     memcpy(record + dimension + 2, p->velocity[i], (size_t)dimension * sizeof *record);
     return record + 2 * dimension + 2;
 }
@@ -38,7 +38,7 @@ static double *pack_tensor(int dimension, const double *tensor, double less, dou
 static void pack_for_gradients(const struct simulation *simulation, const struct hllc_fields *f,
                                int32_t i, double *record)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = f->sph.particles;
     double *next = pack_plain(simulation, f, i, record);
     if (simulation->dimension == 1) {
         next[0] = p->density[i];
@@ -50,7 +50,7 @@ static void pack_for_gradients(const struct simulation *simulation, const struct
 static void pack_for_forces(const struct hllc_kind kind, const struct simulation *simulation,
                             const struct hllc_fields *f, int32_t i, double *record)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = f->sph.particles;
     const struct material *material = &simulation->material[p->material[i]];
     int dimension = simulation->dimension;
     double *next = pack_plain(simulation, f, i, record);
@@ -120,7 +120,7 @@ void hllc_pack(struct sph *sph, const struct simulation *simulation, const struc
     const struct hllc_kind kind = state->kind;
     const struct sph_records records = hllc_records(sph, forces);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < particles_of(simulation)->count; i++) {
+    for (int32_t i = 0; i < sph->particles->count; i++) {
         double *record = records.first + (size_t)i * records.stride;
         if (forces)
             pack_for_forces(kind, simulation, f, i, record);

@@ -41,13 +41,13 @@ void hllc_start(const struct sph *sph, struct simulation *simulation)
 {
     struct hllc_fields f = hllc_fields_of(sph, simulation);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < particles_of(simulation)->count; i++) {
+    for (int32_t i = 0; i < sph->particles->count; i++) {
         struct response r = sph_evaluate_point(simulation, &f.sph, i);
         f.own.dp_drho[i] = r.dp_drho;
         f.own.dp_de[i] = r.dp_de;
         if (f.sph.diameter[i] == 0.0) /* fresh */
-            f.sph.diameter[i] =
-                diameter_of_volume(hllc_volume(simulation, i), simulation->dimension);
+            f.sph.diameter[i] = diameter_of_volume(hllc_volume(simulation, sph->particles, i),
+                                                   simulation->dimension);
     }
 }
 
@@ -56,7 +56,7 @@ void hllc_start(const struct sph *sph, struct simulation *simulation)
 static void add_hoop(const struct sph *sph, const struct simulation *simulation,
                      const struct hllc_fields *f)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = sph->particles;
     for (int32_t i = 0; i < p->count; i++)
         f->sph.rates.hoop_strain[i] = 1.0;
     sph_add_hoop(sph, simulation, &f->sph, NULL);
@@ -76,7 +76,7 @@ static void forces_of_block(const void *of, const struct block *blocks, int32_t 
 
 void hllc_find_rates(struct sph *sph, struct simulation *simulation, const struct hllc_fields *f)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = sph->particles;
     const struct pair_rates *rates = &f->sph.rates;
     const struct hllc_state *state = sph->state;
     const struct hllc_loop loop = {.kind = state->kind,

@@ -23,7 +23,7 @@ static uint16_t body_of(const struct neighbours *n, const struct particles *p, u
 
 struct error *frozen_find(struct sph *sph, const struct simulation *simulation)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = sph->particles;
     const struct neighbours *n = &sph->neighbours;
     struct muscl_state *state = sph->state;
     state->ends = 0;
@@ -80,8 +80,7 @@ static bool look_at(const struct sph *sph, const struct simulation *simulation,
         return false;
     look->e = vec3_scale(1.0 / r, look->x);
     look->near = 2.0 * look->own[d] / both;
-    look->frozen =
-        body_is_frozen(simulation, body_of(&sph->neighbours, particles_of(simulation), entry));
+    look->frozen = body_is_frozen(simulation, body_of(&sph->neighbours, sph->particles, entry));
     const double volume =
         look->frozen ? pow(look->other[d], dimension) : look->other[record_volume(dimension)];
     look->weight = volume * kernel_slope(r, 2.0 / (sph->parameters.smoothing * both), dimension);
@@ -259,7 +258,7 @@ static struct vec3 divergence_of_stress(struct muscl_kind kind, const struct nea
 static void push(struct sph *sph, const struct simulation *simulation,
                  const struct muscl_fields *fields, struct muscl_kind kind, struct end *end)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = sph->particles;
     const int dimension = kind.dimension;
     const int32_t i = end->index;
     const double *own = sph->record + (size_t)i * (size_t)muscl_stride(kind);
@@ -314,7 +313,7 @@ static void push(struct sph *sph, const struct simulation *simulation,
 void frozen_push(struct sph *sph, const struct simulation *simulation,
                  const struct muscl_fields *fields)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = sph->particles;
     const struct muscl_kind kind = muscl_kind_of(sph);
     struct muscl_state *state = sph->state;
     if (!any_body(simulation, body_is_frozen))
@@ -338,7 +337,7 @@ void frozen_book(const struct sph *sph, struct simulation *simulation, double dt
     const struct muscl_state *state = sph->state;
     for (int32_t k = 0; k < state->ends; k++) {
         const double *force = state->end[k].force,
-                     *x = particles_of(simulation)->position[state->end[k].index];
+                     *x = sph->particles->position[state->end[k].index];
         ledger_book(&simulation->ledger, LEDGER_PISTONS, 0.0,
                     vec3_scale(dt, vec3_make(force[0], force[1], force[2])),
                     vec3_make(x[0], x[1], x[2]), dt * state->end[k].power);

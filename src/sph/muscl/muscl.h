@@ -55,7 +55,7 @@ struct muscl_fields muscl_fields_of(const struct sph *sph, const struct simulati
 BOLIDE_INLINE double muscl_divergence(const struct simulation *simulation,
                                       const struct muscl_fields *f, int32_t i)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = f->sph.particles;
     const int dimension = p->dimension;
     if (body_is_frozen(simulation, p->body[i]))
         return 0.0;

@@ -16,7 +16,7 @@ BOLIDE_INLINE struct expected expected_rates(const struct simulation *simulation
                                              const struct muscl_fields *f, struct muscl_kind kind,
                                              int32_t i)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = f->sph.particles;
     const int dimension = kind.dimension;
     struct expected rates = {{0.0}, {{0.0}}};
     if (body_is_frozen(simulation, p->body[i]))
@@ -55,7 +55,7 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
                                        const struct muscl_fields *f, struct muscl_kind kind,
                                        double ahead, int32_t i, double velocity[3])
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = f->sph.particles;
     const struct strength *strength = &simulation->material[p->material[i]].strength;
     const struct expected rates = expected_rates(simulation, f, kind, i);
     const double(*u)[3] = rates.gradient, *s = p->deviator[i];
@@ -121,7 +121,7 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
                               const struct muscl_fields *f, struct muscl_kind kind, int32_t i,
                               double *record)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = sph->particles;
     const struct muscl_state *state = sph->state;
     int dimension = kind.dimension, stresses = muscl_stresses(kind), k = 0;
     double velocity[3];
@@ -213,7 +213,7 @@ BOLIDE_INLINE void pack_all(const struct sph *sph, const struct simulation *simu
 {
     size_t stride = (size_t)muscl_stride(kind);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < particles_of(simulation)->count; i++) {
+    for (int32_t i = 0; i < sph->particles->count; i++) {
         pack_owned(sph, simulation, f, kind, i, sph->record + (size_t)i * stride);
         place_record(sph, kind.dimension, i, stride);
     }

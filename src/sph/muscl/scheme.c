@@ -55,7 +55,7 @@ static void rates_of_block(const void *of, const struct block *blocks, int32_t b
 static void sum_pairs(struct sph *sph, struct simulation *simulation,
                       const struct muscl_fields *fields, double step)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = sph->particles;
     double begin = clock_seconds();
     sph->ahead = 0.5 * step;
     muscl_pack(sph, simulation);
@@ -92,7 +92,7 @@ static struct ranked limit_of_particle(const struct sph *sph, const struct simul
     const struct muscl_fields *f = context;
     struct ranked limit = sph_courant_limit(sph, &f->sph, muscl_divergence(simulation, f, i), i);
     if (sph_axisymmetric(simulation)) { /* a ring wider than its radius vibrates faster */
-        const double depth = sph_ring(particles_of(simulation), i).depth;
+        const double depth = sph_ring(sph->particles, i).depth;
         const double narrow = sph->parameters.courant * 2.0 * depth / f->sph.sound_long[i];
         limit.what = narrow < limit.value ? SPH_LIMIT_SOUND : limit.what;
         limit.value = minimum(narrow, limit.value);
@@ -128,12 +128,12 @@ static void start(const struct sph *sph, struct simulation *simulation)
 {
     const struct muscl_fields f = muscl_fields_of(sph, simulation);
     int dimension = simulation->dimension, tensors = tensor_components(dimension);
-    for (int32_t i = 0; i < particles_of(simulation)->count; i++) {
+    for (int32_t i = 0; i < sph->particles->count; i++) {
         double *l = f.own.correction + (size_t)i * (size_t)tensors;
         for (int a = 0; a < dimension && l[0] == 0.0; a++) /* fresh */
             l[dimension - 1 - a] = 1.0;
         if (f.sph.density_start && f.sph.density_start[i] == 0.0) /* fresh */
-            f.sph.density_start[i] = particles_of(simulation)->density[i];
+            f.sph.density_start[i] = sph->particles->density[i];
     }
     sph_evaluate(sph, simulation);
 }

@@ -8,7 +8,7 @@
 static void find_viscosity(const struct standard_options *options,
                            const struct simulation *simulation, const struct sph_fields *f)
 {
-    const struct particles *p = particles_of(simulation);
+    const struct particles *p = f->particles;
     const double quadratic = options->viscosity_quadratic, linear = options->viscosity_linear;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
@@ -23,7 +23,7 @@ static void prepare(struct sph *sph, struct simulation *simulation, struct limit
     const struct sph_fields fields = sph_fields_of(sph, simulation);
     const double begin = clock_seconds();
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t i = 0; i < particles_of(simulation)->count; i++)
+    for (int32_t i = 0; i < sph->particles->count; i++)
         fields.viscosity[i] = 0.0;
     contact_pack(sph, simulation, &fields);
     contact_sum_pairs(sph, simulation, &fields);

@@ -1,0 +1,31 @@
+/* The particles of a simulation, as tests reach them, and particles without a solver. */
+#ifndef BOLIDE_TEST_POPULATIONS_H
+#define BOLIDE_TEST_POPULATIONS_H
+
+#include "model/particle_population.h"
+
+/* The particles of SIMULATION, whose first population they are. */
+static inline struct particles *particles_of(const struct simulation *simulation)
+{
+    return particles_in(&simulation->population[0]);
+}
+
+/* Gives SIMULATION particles that no solver owns. */
+static inline struct error *give_particles(struct simulation *simulation, double cell,
+                                           const struct field_declaration *more, int count)
+{
+    struct particles *particles;
+    return particles_add(simulation, cell, more, count, &particles);
+}
+
+/* Takes them away again; nothing where there are none. */
+static inline void free_particles(struct simulation *simulation)
+{
+    if (!simulation->populations)
+        return;
+    struct particles *particles = particles_of(simulation);
+    simulation_remove_population(simulation, particles);
+    particles_drop(particles);
+}
+
+#endif
