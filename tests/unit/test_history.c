@@ -173,7 +173,7 @@ static void missing_rows_are_an_error(void **state)
     struct error *error = history_open(path, 3, NULL, &history);
     assert_non_null(error);
     assert_int_equal(error_kind(error), ERROR_INPUT);
-    assert_non_null(strstr(error_message(error, 0), "has 2 rows where 3 were written"));
+    assert_non_null(strstr(error_message(error, 0), "has 2 rows, but 3 were written"));
     error_free(error);
     error = history_open("/nowhere/history.csv", 3, NULL, &history);
     assert_non_null(strstr(error_message(error, 0), "/nowhere/history.csv: No such file"));

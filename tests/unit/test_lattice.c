@@ -269,7 +269,7 @@ static void what_cannot_have_a_lattice_is_told(void **state)
     struct lattice_rings rings = {.count = 0}, oblique = {.center = VECTOR(1.0, 2.0, 3.0)};
     assert_lattice_wrong(LATTICE_HEXAGONAL, NULL, "box", &box, 3, "two dimensions");
     assert_lattice_wrong(LATTICE_RINGS, &rings, "box", &box, 3, "two dimensions");
-    assert_lattice_wrong(LATTICE_RINGS, &rings, "box", &box, 2, "no middle");
+    assert_lattice_wrong(LATTICE_RINGS, &rings, "box", &box, 2, "no center");
     assert_lattice_wrong(LATTICE_RINGS, &oblique, "box", &box, 2, "two numbers");
 }
 

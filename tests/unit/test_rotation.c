@@ -134,7 +134,7 @@ static void it_is_refused_where_it_means_nothing(void **state)
     (void)state;
     static const struct {
         const char *setting, *words;
-    } wrong[] = {{"solver.sph.method.contact.riemann=dukowicz", "rotation: corrected goes with"},
+    } wrong[] = {{"solver.sph.method.contact.riemann=dukowicz", "rotation: corrected"},
                  {"materials.metal.strength=none", "needs a material with strength"}};
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         const struct variant variant = {"", 1, 1.0, wrong[k].setting, false};

@@ -265,7 +265,7 @@ static void parameters_that_make_no_cut_are_told(void **state)
     struct shape_half_space half = {VECTOR(0.0, 0.0), VECTOR(1.0, 0.0)};
     struct shape_repeat halves = {shape_of("half_space", &half), VECTOR(2.0, 1.0), VECTOR(1.0, 0.0),
                                   0};
-    assert_wrong("repeat", &halves, 2, "without end");
+    assert_wrong("repeat", &halves, 2, "an infinite shape");
 }
 
 int main(void)
