@@ -29,6 +29,13 @@ BOLIDE_INLINE size_t field_bytes(const struct field *field)
     return number_size(field->declaration.number) * (size_t)field->declaration.components;
 }
 
+/* One number for the bits of the STATE ones of FIELDS of COUNT members, whatever their order. */
+uint64_t fields_hash(const struct field *field, int fields, int64_t count);
+
+/* Shows the STATE ones of FIELDS of COUNT members to VISITOR, as "STORE/NAME". */
+struct error *fields_visit(const char *store, const struct field *field, int fields, int64_t count,
+                           struct visitor *visitor);
+
 /* An id tells what made the particle: a body and the index of its lattice site. */
 enum { PARTICLE_SITE_BITS = 48 };
 #define PARTICLE_SITE (((uint64_t)1 << PARTICLE_SITE_BITS) - 1)

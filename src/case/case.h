@@ -72,6 +72,32 @@ struct outflow_input {
     double pressure; /* of what is behind it; NAN: that of what leaves */
 };
 
+/* domain: {low: [0 m, 0 m], high: [1 m, 1 m]}: the box that a solver on a grid computes. */
+struct domain_input {
+    struct vector_value low, high; /* count 0: where walls are, else the bounds of all bodies */
+};
+
+/* boundaries: NAME: {axis: x, side: low, kind: inflow, density: ...}: what is outside a face of the
+ * domain. A face with a wall is reflecting; one that nothing names is transmitting. */
+enum boundary_kind {
+    BOUNDARY_TRANSMITTING,
+    BOUNDARY_REFLECTING,
+    BOUNDARY_INFLOW,
+    BOUNDARY_PERIODIC
+};
+struct boundary_input {
+    int axis, side;     /* side: enum wall_side; -1: not given, both of a periodic axis */
+    int kind;           /* enum boundary_kind */
+    struct one_of part; /* "shape", which holds the part of the face; not given: all of it */
+    struct field_value density, pressure, energy; /* of what flows in, at a place and time */
+    struct field_list velocity;
+};
+
+/* obstacles: NAME: {box: ...}: a rigid body at rest, which blocks the cells whose centres it holds. */
+struct obstacle_input {
+    struct one_of shape; /* "shape", inline */
+};
+
 /* loads: NAME: {on: bar, pressure: 1 MPa}: what pushes on the surface of a body. */
 struct load_input {
     char *on;
@@ -206,11 +232,14 @@ struct simulation_case {
     int64_t dimension;
     int geometry; /* enum case_geometry; plane strain unless the dimension is 2 */
     double resolution;
-    struct one_of solver;         /* "solver" */
-    struct named_map materials;   /* struct material_input */
-    struct named_map bodies;      /* struct body_input */
-    struct named_map walls;       /* struct wall_input */
-    struct named_map outflows;    /* struct outflow_input */
+    struct one_of solver;       /* "solver" */
+    struct named_map materials; /* struct material_input */
+    struct named_map bodies;    /* struct body_input */
+    struct named_map walls;     /* struct wall_input */
+    struct named_map outflows;  /* struct outflow_input */
+    struct domain_input domain;
+    struct named_map boundaries;  /* struct boundary_input */
+    struct named_map obstacles;   /* struct obstacle_input */
     struct named_map loads;       /* struct load_input */
     struct named_map contacts;    /* struct contact_input */
     struct named_map detonations; /* struct detonation_input */
@@ -268,6 +297,12 @@ void sweep_values_free(struct sweep_value *values, int count);
 /* Writes the case as run: YAML with every default filled in, that case_read takes again. */
 struct error *case_write(const struct simulation_case *input, FILE *file);
 
+/* The state and the velocity of what flows in through BOUNDARY at PLACE and TIME: NULL, or what is wrong,
+ * and *key the key that it is about. */
+const char *boundary_state_at(const struct boundary_input *boundary,
+                              const struct material *material, struct vec3 place, double time,
+                              struct point *point, double velocity[3], const char **key);
+
 /* The index of the body called NAME; -1 when there is none, or NAME is NULL. */
 int case_find_body(const struct simulation_case *input, const char *name);
 
@@ -304,6 +339,14 @@ static inline struct wall_input *case_wall(const struct simulation_case *c, int 
 static inline struct outflow_input *case_outflow(const struct simulation_case *c, int index)
 {
     return (struct outflow_input *)c->outflows.items + index;
+}
+static inline struct obstacle_input *case_obstacle(const struct simulation_case *c, int index)
+{
+    return (struct obstacle_input *)c->obstacles.items + index;
+}
+static inline struct boundary_input *case_boundary(const struct simulation_case *c, int index)
+{
+    return (struct boundary_input *)c->boundaries.items + index;
 }
 static inline struct load_input *case_load(const struct simulation_case *c, int index)
 {

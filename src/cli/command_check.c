@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "cli/cli.h"
+#include "model/solver.h"
 #include "run/estimate.h"
 #include "run/sweep.h"
 
@@ -11,10 +12,17 @@ static const char *mass_unit(const struct simulation_case *input)
     return ledger_unit(LEDGER_MASS, (int)input->dimension, (enum case_geometry)input->geometry);
 }
 
+/* What the solver of the case computes with. */
+static const char *members_of(const struct simulation_case *input)
+{
+    const struct solver_class *class = input->solver.choice->thing;
+    return class->members ? class->members : "particles";
+}
+
 static void print_bodies(const struct simulation_case *input, const struct estimate *estimate)
 {
-    printf("  %-20s %-16s %12s %16s %12s %12s %12s %12s\n", "body", "material", "particles", "mass",
-           "diameter", "density", "C_long", "C_shear");
+    printf("  %-20s %-16s %12s %16s %12s %12s %12s %12s\n", "body", "material", members_of(input),
+           "mass", "diameter", "density", "C_long", "C_shear");
     for (int i = 0; i < estimate->bodies; i++) {
         const struct body_input *body = case_body(input, i);
         const struct body_estimate *of = &estimate->body[i];
@@ -94,8 +102,8 @@ static void print_run(const struct simulation_case *input, const struct estimate
     readable(input->run.until, "s", until, sizeof until);
     readable(estimate->bytes, "B", memory, sizeof memory);
     readable(estimate->seconds, "s", seconds, sizeof seconds);
-    printf("  %lld particles, %.6g %s; %d checks\n", (long long)estimate->particles, estimate->mass,
-           mass_unit(input), input->checks.count);
+    printf("  %lld %s, %.6g %s; %d checks\n", (long long)estimate->particles, members_of(input),
+           estimate->mass, mass_unit(input), input->checks.count);
     printf("  until %s; first step about %s (body %s); about %lld steps\n", until, step,
            input->bodies.names[estimate->step_body], (long long)estimate->steps);
     printf("  about %s of memory, roughly %s on %d thread%s\n", memory, seconds, threads,

@@ -11,9 +11,9 @@
 
 static void print_commands(void)
 {
-    printf(
-        "bolide %s: shocks in solids, liquids and gases, with SPH or the material point method\n\n",
-        BOLIDE_VERSION);
+    printf("bolide %s: shocks in solids, liquids and gases, with SPH, the material point method or "
+           "a grid\n\n",
+           BOLIDE_VERSION);
     for (int i = 0; i < command_count; i++)
         printf("  bolide %-9s %-16s %s\n", commands[i].name, commands[i].usage, commands[i].help);
     printf("\nbolide help TOPIC explains a command, `case` (the keys of a case file), `units`, "

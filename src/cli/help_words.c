@@ -74,8 +74,9 @@ static const struct answer answers[] = {
      "`geometry: axisymmetric` makes bodies of revolution in 2-D: x is the radius, y the axis.",
      "case.md"},
     {" periodic periodicity ",
-     "Periodic boundaries are not available. Two mirror walls repeat a cell that is symmetric.",
-     "case.md"},
+     "With gas: `boundaries: {x: {axis: x, kind: periodic}}`. Not available for particles: two\n"
+     "mirror walls repeat a cell that is symmetric.",
+     "gas.md"},
     {" absorbing transmitting non.reflecting nonreflecting infinite ",
      "With SPH: a few particles of the same material with `frozen: yes` at the end of a body\n"
      "let waves leave. With MPM: `outflows`.",
@@ -88,10 +89,15 @@ static const struct answer answers[] = {
      "`bolide help units` lists the symbols.",
      NULL},
     {" blast air.blast airblast kingery conwep afterburn fireball ",
-     "Blast in air is not usable yet: it needs a gas solver on a grid, which is not available.\n"
-     "Instead: a pressure over time on a surface (`loads`, with MPM), or explosive in contact\n"
-     "(bolide help burn).",
-     "materials.md"},
+     "A charge in air is not available: the solver gas computes one gas, and products in air are\n"
+     "two. Instead: hot air in place of the products (`solver: gas`), a pressure over time on a\n"
+     "surface (`loads`, with MPM), or explosive in contact (bolide help burn).",
+     "gas.md"},
+    {" shock.tube sod gas.dynamics cfd euler wind.tunnel air grid cells fdm ",
+     "`solver: gas` computes a gas in cells, with walls, inflow, outflow, periodic faces and "
+     "rigid\n"
+     "obstacles.",
+     "gas.md"},
     {" explosive detonation tnt charge detonate ",
      "An explosive is a material with `burn` (bolide help burn; library: tnt), lit by\n"
      "`detonations`.",

@@ -10,7 +10,8 @@
  *
  * with r = dt/h. As printed the viscosity has theta of the cell at both faces, which does not
  * conserve, and the scheme r^2/2 (f_next - 2 f + f_last) for its second order, which lacks the
- * Jacobian. */
+ * Jacobian. A cell that a sweep would leave without density or energy has the fluxes of Lax and
+ * Friedrichs, f = (f + f_next)/2 - s/2 (U_next - U) with s the fastest |u| + c, at both its faces. */
 #ifndef BOLIDE_GAS_LAX_WENDROFF_H
 #define BOLIDE_GAS_LAX_WENDROFF_H
 
@@ -22,6 +23,7 @@ enum lax_wendroff_viscosity { VISCOSITY_OF_FACES, VISCOSITY_OF_CELLS };
 struct lax_wendroff {
     int form, viscosity; /* enum lax_wendroff_form, _viscosity */
     double eta;          /* of the viscosity */
+    bool guarded;        /* against cells without density or energy */
 };
 
 /* theta of the cells FIRST to LAST. */
@@ -36,8 +38,8 @@ BOLIDE_INLINE void row_theta(const struct gas_numbers *u, int first, int last, d
     }
 }
 
-/* Smooths cells -1 .. cells of a row. SMOOTHED may not be its own numbers. What the viscosity
- * carries through the faces 0 .. cells, per area and time, goes to FLUX; nothing where it is that
+/* Smooths cells -2 .. cells + 1 of a row. SMOOTHED may not be its own numbers. What the viscosity
+ * carries through the faces -1 .. cells + 1, per area and time, goes to FLUX; nothing where it is that
  * of cells. */
 BOLIDE_INLINE void row_smooth(const struct gas_row *row, const struct lax_wendroff *scheme,
                               double r, struct gas_numbers *smoothed, struct gas_numbers *flux)
@@ -45,47 +47,133 @@ BOLIDE_INLINE void row_smooth(const struct gas_row *row, const struct lax_wendro
     const int cells = row->cells;
     const bool faces = scheme->viscosity == VISCOSITY_OF_FACES;
     double theta[ROW_ROOM], low[ROW_ROOM], high[ROW_ROOM];
-    row_theta(&row->u, -2, cells + 1, theta);
-    FOR_ROW(k, -1, cells)
+    row_theta(&row->u, -3, cells + 2, theta);
+    FOR_ROW(k, -2, cells + 1)
     {
         low[k] = 0.5 * scheme->eta * (faces ? maximum(theta[k - 1], theta[k]) : theta[k]);
         high[k] = 0.5 * scheme->eta * (faces ? maximum(theta[k], theta[k + 1]) : theta[k]);
     }
     for (int n = 0; n < GAS_NUMBERS; n++) {
         const double *u = row->u.of[n];
-        FOR_ROW(k, -1, cells)
+        if (row->around && faces)
+            FOR_ROW(k, -2, cells + 1)
+            {
+                const double at = row_radius(row, k);
+                smoothed->of[n][k] = u[k] + ((at + 1.0) * high[k] * (u[k + 1] - u[k]) -
+                                             at * low[k] * (u[k] - u[k - 1])) /
+                                                (at + 0.5);
+            }
+        else
+            FOR_ROW(k, -2, cells + 1)
         smoothed->of[n][k] = u[k] + (high[k] * (u[k + 1] - u[k]) - low[k] * (u[k] - u[k - 1]));
-        FOR_ROW(k, 0, cells)
+        FOR_ROW(k, -1, cells + 1)
         flux->of[n][k] = faces ? -low[k] * (u[k] - u[k - 1]) / r : 0.0;
     }
 }
 
+/* What flows through the faces -1 .. cells + 1 of SMOOTHED cells in which FLOW flows, and the mean
+ * pressures of cells -1 .. cells. */
+BOLIDE_INLINE void row_through(const struct gas_row *row, const struct lax_wendroff *scheme,
+                               double r, const struct gas_numbers *smoothed,
+                               const struct gas_numbers *flow, const double *pressure,
+                               struct gas_numbers *through, double *push)
+{
+    const int cells = row->cells;
+    struct gas_numbers half;
+    double middle[ROW_ROOM];
+    if (scheme->form == LAX_WENDROFF_PRINTED) {
+        for (int n = 0; n < GAS_NUMBERS; n++)
+            FOR_ROW(k, -1, cells + 1)
+        through->of[n][k] = 0.5 * (flow->of[n][k - 1] + flow->of[n][k]) -
+                            0.5 * r * (flow->of[n][k] - flow->of[n][k - 1]);
+        FOR_ROW(k, -1, cells) push[k] = pressure[k];
+        return;
+    }
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        FOR_ROW(k, -1, cells + 1)
+        {
+            half.of[n][k] = 0.5 * (smoothed->of[n][k - 1] + smoothed->of[n][k]) -
+                            0.5 * r * (flow->of[n][k] - flow->of[n][k - 1]);
+            if (row->around && row_radius(row, k) > 0.0) {
+                double spread = 0.5 * (flow->of[n][k - 1] + flow->of[n][k]);
+                if (n == GAS_MOMENTUM + row->axis)
+                    spread -= 0.5 * (pressure[k - 1] + pressure[k]);
+                half.of[n][k] -= 0.5 * r * spread / row_radius(row, k);
+            }
+        }
+    row_pressures(row->eos, &half, -1, cells + 1, middle);
+    row_flows(&half, middle, row->axis, -1, cells + 1, through);
+    FOR_ROW(k, -1, cells) push[k] = 0.5 * (middle[k] + middle[k + 1]);
+}
+
+/* Energy per volume, less that of the motion, in cell K. */
+BOLIDE_INLINE double gas_heat(const struct gas_numbers *u, int k)
+{
+    double momentum = 0.0;
+    for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
+        momentum += square(u->of[n][k]);
+    return u->of[GAS_ENERGY][k] - 0.5 * momentum / u->of[GAS_DENSITY][k];
+}
+
+/* Whether a cell with the numbers TO, which had FROM, has lost its density or its energy. */
+BOLIDE_INLINE bool gas_is_lost(const struct gas_numbers *from, const struct gas_numbers *to, int k)
+{
+    return !(to->of[GAS_DENSITY][k] > 0.2 * from->of[GAS_DENSITY][k]) ||
+           (!(gas_heat(to, k) > 0.0) && gas_heat(from, k) > 0.0);
+}
+
+/* Puts Lax and Friedrichs' fluxes through both faces of the cells -1 .. cells that are lost; whether
+ * there are any. */
+BOLIDE_INLINE bool row_guard(const struct gas_row *row, const struct gas_numbers *smoothed,
+                             const struct gas_numbers *flow, const struct gas_numbers *to,
+                             struct gas_numbers *through)
+{
+    const double none[POINT_HISTORY] = {0.0};
+    bool any = false;
+    FOR_ROW(k, -1, row->cells) any |= gas_is_lost(smoothed, to, k);
+    if (!any)
+        return false;
+    FOR_ROW(k, 0, row->cells)
+    {
+        double speed = 0.0;
+        if (!gas_is_lost(smoothed, to, k - 1) && !gas_is_lost(smoothed, to, k))
+            continue;
+        for (int side = k - 1; side <= k; side++) {
+            const double density = smoothed->of[GAS_DENSITY][side],
+                         u = smoothed->of[GAS_MOMENTUM + row->axis][side] / density;
+            double kinetic = 0.0;
+            for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
+                kinetic += 0.5 * square(smoothed->of[n][side] / density);
+            const double energy = smoothed->of[GAS_ENERGY][side] / density - kinetic;
+            const struct eos_value value = eos_evaluate(row->eos, density, energy, none);
+            const double sound = value.dp_drho + value.pressure / square(density) * value.dp_de;
+            speed = maximum(speed, fabs(u) + sqrt(maximum(sound, 0.0)));
+        }
+        for (int n = 0; n < GAS_NUMBERS; n++)
+            through->of[n][k] = 0.5 * (flow->of[n][k - 1] + flow->of[n][k]) -
+                                0.5 * speed * (smoothed->of[n][k] - smoothed->of[n][k - 1]);
+    }
+    return true;
+}
+
 /* Takes the cells of a row through a sweep of R = dt/h, and gives what flows through the faces
- * 0 .. cells, per area and time, in FLUX. Cells -3 .. cells + 2 are known. */
+ * 0 .. cells, per area and time, in FLUX. Cells -4 .. cells + 3 are known. */
 BOLIDE_INLINE void row_lax_wendroff(struct gas_row *row, const struct lax_wendroff *scheme,
                                     double r, struct gas_numbers *flux)
 {
-    const int cells = row->cells;
-    struct gas_numbers smoothed, flow, half, through;
-    double pressure[ROW_ROOM];
+    const int cells = row->cells, more = scheme->guarded ? 1 : 0;
+    struct gas_numbers smoothed, flow, through, to;
+    double pressure[ROW_ROOM], push[ROW_ROOM];
     row_smooth(row, scheme, r, &smoothed, flux);
-    row_pressures(row->eos, &smoothed, -1, cells, pressure);
-    row_flows(&smoothed, pressure, row->axis, -1, cells, &flow);
-    if (scheme->form == LAX_WENDROFF_RICHTMYER) {
-        for (int n = 0; n < GAS_NUMBERS; n++)
-            FOR_ROW(k, 0, cells)
-        half.of[n][k] = 0.5 * (smoothed.of[n][k - 1] + smoothed.of[n][k]) -
-                        0.5 * r * (flow.of[n][k] - flow.of[n][k - 1]);
-        row_pressures(row->eos, &half, 0, cells, pressure);
-        row_flows(&half, pressure, row->axis, 0, cells, &through);
-    } else
-        for (int n = 0; n < GAS_NUMBERS; n++)
-            FOR_ROW(k, 0, cells)
-    through.of[n][k] =
-        0.5 * (flow.of[n][k - 1] + flow.of[n][k]) - 0.5 * r * (flow.of[n][k] - flow.of[n][k - 1]);
+    row_pressures(row->eos, &smoothed, -2, cells + 1, pressure);
+    row_flows(&smoothed, pressure, row->axis, -2, cells + 1, &flow);
+    row_through(row, scheme, r, &smoothed, &flow, pressure, &through, push);
+    row_advance(row, &smoothed, &through, push, r, -more, cells - 1 + more, &to);
+    if (scheme->guarded && row_guard(row, &smoothed, &flow, &to, &through))
+        row_advance(row, &smoothed, &through, push, r, 0, cells - 1, &to);
     for (int n = 0; n < GAS_NUMBERS; n++) {
         FOR_ROW(k, 0, cells - 1)
-        row->u.of[n][k] = smoothed.of[n][k] - r * (through.of[n][k + 1] - through.of[n][k]);
+        row->u.of[n][k] = to.of[n][k];
         FOR_ROW(k, 0, cells)
         flux->of[n][k] += through.of[n][k];
     }

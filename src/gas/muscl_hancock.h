@@ -3,7 +3,11 @@
  * HLLC fluxes (Toro, Spruce and Speares, Shock Waves 4 (1994) 25) with the fastest waves after
  * Einfeldt (SIAM J. Numer. Anal. 25 (1988) 294), for any equation of state. Density, velocity
  * and pressure are reconstructed, so that both sides of a contact have one pressure; the energy
- * of a face follows from the equation of state, which is linear in it. */
+ * of a face follows from the equation of state, which is linear in it.
+ *
+ * A face whose flux would take too much out of either cell in half a cell's width has the first-order
+ * flux of the cells themselves (after Hu, Adams and Shu, J. Comput. Phys. 242 (2013) 169): both
+ * cells and all ranks decide alike, since nothing but the two cells counts. */
 #ifndef BOLIDE_GAS_MUSCL_HANCOCK_H
 #define BOLIDE_GAS_MUSCL_HANCOCK_H
 
@@ -19,19 +23,24 @@ struct row_states {
     double energy[ROW_ROOM], sound[ROW_ROOM];
 };
 
-/* (d p / d rho)_s from the derivatives of an equation of state. */
-BOLIDE_INLINE double sound_square(struct eos_value value, double density)
+/* How far density and specific energy may fall at once: the density to this part of itself, the energy
+ * by as much of what an ideal gas of the same sound speed c and G = (dp/de)/rho has, c^2/(G (G + 1)). */
+static const double GAS_LEAST = 0.2;
+
+/* (d p / d rho)_s at K; PRESSURE is the pressure there. */
+BOLIDE_INLINE double row_sound_square(const struct row_values *values, double pressure,
+                                      double density, int k)
 {
-    return value.dp_drho + value.pressure / square(density) * value.dp_de;
+    return values->dp_drho[k] + pressure / square(density) * values->dp_de[k];
 }
 
-/* The states of cells FIRST to LAST. */
+/* The states of cells FIRST to LAST, and by how much their energies may FALL. */
 BOLIDE_INLINE void row_states(const struct gas_row *row, int first, int last,
-                              struct row_states *states)
+                              struct row_states *states, double *fall)
 {
-    const double none[POINT_HISTORY] = {0.0};
     const struct gas_numbers *u = &row->u;
     struct gas_numbers *w = &states->of;
+    struct row_values values;
     FOR_ROW(k, first, last)
     {
         const double density = u->of[GAS_DENSITY][k];
@@ -42,9 +51,17 @@ BOLIDE_INLINE void row_states(const struct gas_row *row, int first, int last,
         }
         w->of[PRIMITIVE_DENSITY][k] = density;
         states->energy[k] = u->of[GAS_ENERGY][k] / density - kinetic;
-        const struct eos_value value = eos_evaluate(row->eos, density, states->energy[k], none);
-        w->of[PRIMITIVE_PRESSURE][k] = value.pressure;
-        states->sound[k] = sqrt(maximum(sound_square(value, density), 0.0));
+    }
+    row_evaluate(row->eos, w->of[PRIMITIVE_DENSITY], states->energy, first, last, &values);
+    FOR_ROW(k, first, last)
+    {
+        const double density = w->of[PRIMITIVE_DENSITY][k], gamma = values.dp_de[k] / density;
+        const double square_of_sound =
+            maximum(row_sound_square(&values, values.pressure[k], density, k), 0.0);
+        w->of[PRIMITIVE_PRESSURE][k] = values.pressure[k];
+        states->sound[k] = sqrt(square_of_sound);
+        fall[k] = gamma > 0.0 ? (1.0 - GAS_LEAST) * square_of_sound / (gamma * (gamma + 1.0))
+                              : (double)INFINITY;
     }
 }
 
@@ -57,33 +74,45 @@ BOLIDE_INLINE double limited(double past, double next)
 }
 
 /* On the low and the high faces of cells -1 .. cells, half a step of R = dt/h on: of face k the
- * state ABOVE it is that of cell k, the state BELOW it that of cell k - 1. */
+ * state ABOVE it is that of cell k, the state BELOW it that of cell k - 1. PUSH are the pressures in the
+ * middle of the step. */
 BOLIDE_INLINE void row_faces(const struct gas_row *row, const struct row_states *cell, double r,
-                             struct row_states *below, struct row_states *above)
+                             struct row_states *below, struct row_states *above, double *push)
 {
-    const int normal = PRIMITIVE_VELOCITY + row->axis;
+    const int cells = row->cells, normal = PRIMITIVE_VELOCITY + row->axis;
+    const double *u = cell->of.of[normal], *density = cell->of.of[PRIMITIVE_DENSITY];
     struct gas_numbers slope;
+    double rate[GAS_NUMBERS][ROW_ROOM], spread[ROW_ROOM];
     for (int n = 0; n < GAS_NUMBERS; n++) {
         const double *w = cell->of.of[n];
-        FOR_ROW(k, -1, row->cells)
-        slope.of[n][k] = limited(w[k] - w[k - 1], w[k + 1] - w[k]);
+        FOR_ROW(k, -1, cells)
+        {
+            slope.of[n][k] = limited(w[k] - w[k - 1], w[k + 1] - w[k]);
+            rate[n][k] = u[k] * slope.of[n][k];
+        }
+    }
+    if (row->around)
+        FOR_ROW(k, -1, cells) spread[k] = u[k] / (row_radius(row, k) + 0.5);
+    else
+        FOR_ROW(k, -1, cells) spread[k] = 0.0;
+    FOR_ROW(k, -1, cells)
+    {
+        const double widens = slope.of[normal][k] + spread[k];
+        rate[PRIMITIVE_DENSITY][k] += density[k] * widens;
+        rate[PRIMITIVE_PRESSURE][k] += density[k] * square(cell->sound[k]) * widens;
+        rate[normal][k] += slope.of[PRIMITIVE_PRESSURE][k] / density[k];
     }
     for (int n = 0; n < GAS_NUMBERS; n++) {
-        const double *w = cell->of.of[n], *density = cell->of.of[PRIMITIVE_DENSITY];
-        FOR_ROW(k, -1, row->cells)
+        const double *w = cell->of.of[n];
+        FOR_ROW(k, -1, cells)
         {
-            double rate = cell->of.of[normal][k] * slope.of[n][k];
-            if (n == PRIMITIVE_DENSITY)
-                rate += density[k] * slope.of[normal][k];
-            if (n == normal)
-                rate += slope.of[PRIMITIVE_PRESSURE][k] / density[k];
-            if (n == PRIMITIVE_PRESSURE)
-                rate += density[k] * square(cell->sound[k]) * slope.of[normal][k];
-            const double middle = w[k] - 0.5 * r * rate;
+            const double middle = w[k] - 0.5 * r * rate[n][k];
             above->of.of[n][k] = middle - 0.5 * slope.of[n][k];
             below->of.of[n][k + 1] = middle + 0.5 * slope.of[n][k];
         }
     }
+    FOR_ROW(k, -1, cells)
+    push[k] = cell->of.of[PRIMITIVE_PRESSURE][k] - 0.5 * r * rate[PRIMITIVE_PRESSURE][k];
 }
 
 /* Energies and sound speeds of the states FACE on faces 0 .. cells, beside cells that are OFFSET
@@ -91,100 +120,170 @@ BOLIDE_INLINE void row_faces(const struct gas_row *row, const struct row_states 
 BOLIDE_INLINE void row_close_faces(const struct gas_row *row, const struct row_states *cell,
                                    int offset, struct row_states *face)
 {
-    const double none[POINT_HISTORY] = {0.0};
+    struct row_values values;
+    row_evaluate(row->eos, face->of.of[PRIMITIVE_DENSITY], cell->energy + offset, 0, row->cells,
+                 &values);
     FOR_ROW(k, 0, row->cells)
     {
-        const double density = face->of.of[PRIMITIVE_DENSITY][k];
-        const struct eos_value value =
-            eos_evaluate(row->eos, density, cell->energy[k + offset], none);
-        face->energy[k] = cell->energy[k + offset] +
-                          (face->of.of[PRIMITIVE_PRESSURE][k] - value.pressure) / value.dp_de;
-        struct eos_value there = value;
-        there.pressure = face->of.of[PRIMITIVE_PRESSURE][k];
-        face->sound[k] = sqrt(maximum(sound_square(there, density), 0.0));
+        const double density = face->of.of[PRIMITIVE_DENSITY][k],
+                     pressure = face->of.of[PRIMITIVE_PRESSURE][k],
+                     lacks = pressure - values.pressure[k];
+        face->energy[k] =
+            cell->energy[k + offset] + (values.dp_de[k] > 0.0 ? lacks / values.dp_de[k] : 0.0);
+        face->sound[k] = sqrt(maximum(row_sound_square(&values, pressure, density, k), 0.0));
     }
 }
 
-/* A side of a face: what HLLC needs of it. */
+/* A side of a face: what HLLC needs of it. Velocities: normal to the face, then across. */
 struct gas_side {
-    double density, velocity[3], pressure, energy, sound;
+    double density, normal, across[2], pressure, energy, sound;
 };
 
-BOLIDE_INLINE struct gas_side gas_side_of(const struct row_states *states, int k)
+/* Where the numbers of a row along an axis are: normal first. */
+struct gas_axes {
+    int normal, across[2];
+};
+
+BOLIDE_INLINE struct gas_axes gas_axes_of(int axis)
+{
+    const struct gas_axes axes = {axis, {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2}};
+    return axes;
+}
+
+BOLIDE_INLINE struct gas_side gas_side_of(const struct row_states *states, struct gas_axes axes,
+                                          int k)
 {
     struct gas_side side;
     side.density = states->of.of[PRIMITIVE_DENSITY][k];
-    for (int n = 0; n < 3; n++)
-        side.velocity[n] = states->of.of[PRIMITIVE_VELOCITY + n][k];
+    side.normal = states->of.of[PRIMITIVE_VELOCITY + axes.normal][k];
+    for (int n = 0; n < 2; n++)
+        side.across[n] = states->of.of[PRIMITIVE_VELOCITY + axes.across[n]][k];
     side.pressure = states->of.of[PRIMITIVE_PRESSURE][k];
     side.energy = states->energy[k];
     side.sound = states->sound[k];
     return side;
 }
 
-/* What flows through a face normal to AXIS: that of SIDE, or, BEYOND the wave of SIDE that runs at
- * SPEED, that between this wave and the contact that moves at CONTACT. */
-BOLIDE_INLINE void gas_flow(const struct gas_side *side, int axis, double speed, double contact,
-                            bool beyond, double flow[GAS_NUMBERS])
+/* What flows through a face: mass, momentum normal to it and across, energy. */
+struct gas_flow {
+    double mass, normal, across[2], energy;
+};
+
+/* HLLC: what flows between the gases LOW and HIGH. Without branches: loops over faces call it. */
+BOLIDE_INLINE struct gas_flow gas_hllc(struct gas_side low, struct gas_side high)
 {
-    const double u = side->velocity[axis], density = side->density,
-                 total =
-                     side->energy + 0.5 * (square(side->velocity[0]) + square(side->velocity[1]) +
-                                           square(side->velocity[2]));
-    const double star = density * (speed - u) / (speed - contact),
-                 gain = (contact - u) * (contact + side->pressure / (density * (speed - u)));
-    const double jump = beyond ? speed : 0.0;
-    flow[GAS_DENSITY] = density * u + jump * (star - density);
-    for (int n = 0; n < 3; n++) {
-        const double behind = n == axis ? contact : side->velocity[n];
-        flow[GAS_MOMENTUM + n] = density * u * side->velocity[n] +
-                                 (n == axis ? side->pressure : 0.0) +
-                                 jump * (star * behind - density * side->velocity[n]);
-    }
-    flow[GAS_ENERGY] =
-        u * (density * total + side->pressure) + jump * (star * (total + gain) - density * total);
+    const double a = sqrt(low.density), b = sqrt(high.density), part = b / (a + b);
+    const double apart = high.normal - low.normal, mean = low.normal + part * apart,
+                 sound = sqrt(square(low.sound) + part * (square(high.sound) - square(low.sound)) +
+                              0.5 * part * (1.0 - part) * square(apart));
+    const double slow = minimum(low.normal - low.sound, mean - sound),
+                 fast = maximum(high.normal + high.sound, mean + sound);
+    const double ml = low.density * (slow - low.normal), mh = high.density * (fast - high.normal);
+    const double contact =
+        (high.pressure - low.pressure + ml * low.normal - mh * high.normal) / (ml - mh);
+    const bool from_low = contact >= 0.0;
+    const double density = from_low ? low.density : high.density,
+                 u = from_low ? low.normal : high.normal,
+                 first = from_low ? low.across[0] : high.across[0],
+                 second = from_low ? low.across[1] : high.across[1],
+                 pressure = from_low ? low.pressure : high.pressure,
+                 energy = from_low ? low.energy : high.energy, speed = from_low ? slow : fast;
+    /* beyond the wave of that side the flux is that between the wave and the contact */
+    const double jump = from_low ? minimum(speed, 0.0) : maximum(speed, 0.0);
+    const double total = energy + 0.5 * (square(u) + square(first) + square(second));
+    /* in this order the flux between equal gases at rest is exactly their pressure */
+    const double star = density * ((speed - u) / (speed - contact)),
+                 gain = (contact - u) * (contact + pressure / (density * (speed - u)));
+    const double more = jump * (star - density), mass = density * u + more;
+    struct gas_flow flow;
+    flow.mass = mass;
+    flow.normal = density * u * u + pressure + jump * (star * contact - density * u);
+    flow.across[0] = mass * first;
+    flow.across[1] = mass * second;
+    flow.energy =
+        u * (density * total + pressure) + jump * (star * (total + gain) - density * total);
+    return flow;
 }
 
-/* HLLC: what flows between the gases LOW and HIGH. */
-BOLIDE_INLINE void gas_hllc(const struct gas_side *low, const struct gas_side *high, int axis,
-                            double flow[GAS_NUMBERS])
+/* Fluxes through the faces FIRST to LAST, between states that are those of LOW at k + OFFSET and of
+ * HIGH at k. */
+BOLIDE_INLINE void row_hllc(const struct gas_row *row, const struct row_states *low, int offset,
+                            const struct row_states *high, int first, int last,
+                            struct gas_numbers *flux)
 {
-    const double a = sqrt(low->density), b = sqrt(high->density), part = b / (a + b);
-    const double ul = low->velocity[axis], uh = high->velocity[axis], apart = uh - ul;
-    const double mean = ul + part * apart,
-                 sound =
-                     sqrt(square(low->sound) + part * (square(high->sound) - square(low->sound)) +
-                          0.5 * part * (1.0 - part) * square(apart));
-    const double slow = minimum(ul - low->sound, mean - sound),
-                 fast = maximum(uh + high->sound, mean + sound);
-    const double ml = low->density * (slow - ul), mh = high->density * (fast - uh);
-    const double contact = (high->pressure - low->pressure + ml * ul - mh * uh) / (ml - mh);
-    if (contact >= 0.0)
-        gas_flow(low, axis, slow, contact, slow < 0.0, flow);
-    else
-        gas_flow(high, axis, fast, contact, fast > 0.0, flow);
+    const struct gas_axes axes = gas_axes_of(row->axis);
+    double *mass = flux->of[GAS_DENSITY], *normal = flux->of[GAS_MOMENTUM + axes.normal],
+           *one = flux->of[GAS_MOMENTUM + axes.across[0]],
+           *other = flux->of[GAS_MOMENTUM + axes.across[1]], *energy = flux->of[GAS_ENERGY];
+    FOR_ROW(k, first, last)
+    {
+        const struct gas_flow flow =
+            gas_hllc(gas_side_of(low, axes, k + offset), gas_side_of(high, axes, k));
+        mass[k] = flow.mass;
+        normal[k] = flow.normal;
+        one[k] = flow.across[0];
+        other[k] = flow.across[1];
+        energy[k] = flow.energy;
+    }
+}
+
+/* Marks in LOST the faces 0 .. cells whose FLUX would take too much out of half of the cell that is
+ * OFFSET from them, on its side that SIDE names: 1 for the high, -1 for the low one. */
+BOLIDE_INLINE void row_mark_lost(const struct gas_row *row, const struct row_states *cell,
+                                 const double *fall, int offset, double side, double r,
+                                 const struct gas_numbers *flux, double *lost)
+{
+    const struct gas_numbers *u = &row->u, *w = &cell->of;
+    const double *velocity = w->of[PRIMITIVE_VELOCITY + row->axis] + offset,
+                 *pressure = w->of[PRIMITIVE_PRESSURE] + offset,
+                 *density = u->of[GAS_DENSITY] + offset, *energy = u->of[GAS_ENERGY] + offset,
+                 *heat = cell->energy + offset, *least = fall + offset;
+    double momentum[ROW_ROOM];
+    FOR_ROW(k, 0, row->cells) momentum[k] = 0.0;
+    for (int n = 0; n < 3; n++) {
+        const double *of = u->of[GAS_MOMENTUM + n] + offset, *flow = flux->of[GAS_MOMENTUM + n];
+        const double pushes = n == row->axis ? 1.0 : 0.0;
+        FOR_ROW(k, 0, row->cells)
+        momentum[k] +=
+            square(of[k] - 2.0 * side * r * (flow[k] - velocity[k] * of[k] - pushes * pressure[k]));
+    }
+    FOR_ROW(k, 0, row->cells)
+    {
+        const double mass =
+            density[k] - 2.0 * side * r * (flux->of[GAS_DENSITY][k] - velocity[k] * density[k]);
+        const double total =
+            energy[k] -
+            2.0 * side * r * (flux->of[GAS_ENERGY][k] - velocity[k] * (energy[k] + pressure[k]));
+        const bool stays = (mass > GAS_LEAST * density[k]) &
+                           ((total - 0.5 * momentum[k] / mass) / mass > heat[k] - least[k]);
+        lost[k] = stays ? lost[k] : 1.0;
+    }
 }
 
 /* Takes the cells of a row through a sweep of R = dt/h, and gives what flows through the faces
  * 0 .. cells, per area and time, in FLUX. Cells -2 .. cells + 1 are known. */
 BOLIDE_INLINE void row_muscl_hancock(struct gas_row *row, double r, struct gas_numbers *flux)
 {
-    struct row_states cell, below, above;
-    row_states(row, -2, row->cells + 1, &cell);
-    row_faces(row, &cell, r, &below, &above);
+    struct row_states cell = {0}, below = {0}, above = {0};
+    struct gas_numbers to;
+    double fall[ROW_ROOM], push[ROW_ROOM], lost[ROW_ROOM], any = 0.0;
+    row_states(row, -2, row->cells + 1, &cell, fall);
+    row_faces(row, &cell, r, &below, &above, push);
     row_close_faces(row, &cell, -1, &below);
     row_close_faces(row, &cell, 0, &above);
-    FOR_ROW(k, 0, row->cells)
-    {
-        const struct gas_side low = gas_side_of(&below, k), high = gas_side_of(&above, k);
-        double flow[GAS_NUMBERS];
-        gas_hllc(&low, &high, row->axis, flow);
-        for (int n = 0; n < GAS_NUMBERS; n++)
-            flux->of[n][k] = flow[n];
-    }
+    row_hllc(row, &below, 0, &above, 0, row->cells, flux);
+    FOR_ROW(k, 0, row->cells) lost[k] = 0.0;
+    row_mark_lost(row, &cell, fall, -1, 1.0, r, flux, lost);
+    row_mark_lost(row, &cell, fall, 0, -1.0, r, flux, lost);
+    FOR_ROW(k, 0, row->cells) any = maximum(any, lost[k]);
+    if (any > 0.0)
+        for (int k = 0; k <= row->cells; k++)
+            if (lost[k + ROW_GHOSTS] > 0.0)
+                row_hllc(row, &cell, -1, &cell, k, k, flux);
+    row_advance(row, &row->u, flux, push, r, 0, row->cells - 1, &to);
     for (int n = 0; n < GAS_NUMBERS; n++)
         FOR_ROW(k, 0, row->cells - 1)
-    row->u.of[n][k] -= r * (flux->of[n][k + 1] - flux->of[n][k]);
+    row->u.of[n][k] = to.of[n][k];
 }
 
 #endif

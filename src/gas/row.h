@@ -3,6 +3,12 @@
  *
  *   U = (rho, rho u, E)   E = rho e + rho u^2/2   f = (rho u_n, rho u u_n + p n, (E + p) u_n)
  *
+ * About an axis of symmetry, along the radius r, a sweep is
+ *
+ *   d(r U)/dt + d(r f)/dr = p n
+ *
+ * whose right side takes a mean pressure of the cell: then a uniform pressure pushes nothing.
+ *
  * For files that are compiled once an instruction set: a loop here runs over the cells of a row. */
 #ifndef BOLIDE_GAS_ROW_H
 #define BOLIDE_GAS_ROW_H
@@ -12,7 +18,7 @@
 enum { GAS_DENSITY, GAS_MOMENTUM, GAS_ENERGY = 4, GAS_NUMBERS = 5 };
 
 /* Cells of a row at most, and those known beyond either end of it. */
-enum { ROW_CELLS = 64, ROW_GHOSTS = 3, ROW_ROOM = ROW_CELLS + 2 * ROW_GHOSTS };
+enum { ROW_CELLS = 64, ROW_GHOSTS = 4, ROW_ROOM = ROW_CELLS + 2 * ROW_GHOSTS };
 
 /* Numbers of a row: cell c is at [c + ROW_GHOSTS], the face below it too. */
 struct gas_numbers {
@@ -22,18 +28,57 @@ struct gas_numbers {
 struct gas_row {
     const struct eos *eos;
     int cells, axis; /* the axis that it runs along */
+    bool around;     /* it runs along the radius */
+    double first;    /* radius of the face below its first cell, in cells */
     struct gas_numbers u;
 };
 
 /* Where the cells or faces FIRST to LAST are in the numbers of a row. */
 #define FOR_ROW(k, first, last) for (int k = (first) + ROW_GHOSTS; k <= (last) + ROW_GHOSTS; k++)
 
-/* Pressures of the cells FIRST to LAST of a row, whose numbers are U. */
-BOLIDE_INLINE void row_pressures(const struct eos *eos, const struct gas_numbers *u, int first,
-                                 int last, double *pressure)
+/* What the equation of state says of the cells or faces of a row. */
+struct row_values {
+    double pressure[ROW_ROOM], dp_drho[ROW_ROOM], dp_de[ROW_ROOM];
+};
+
+/* Evaluates EOS at FIRST to LAST. The loops evaluate the form of the source, which has no branches;
+ * the few places beyond it are done once more. */
+static inline void row_evaluate(const struct eos *eos, const double *density, const double *energy,
+                                int first, int last, struct row_values *values)
 {
     const double none[POINT_HISTORY] = {0.0};
-    double energy[ROW_ROOM];
+    uint64_t beyond[ROW_ROOM], any = 0;
+    switch (eos->kind) {
+#define ROW_CASE(name)                                                                             \
+    case EOS_##name:                                                                               \
+        FOR_ROW(k, first, last)                                                                    \
+        {                                                                                          \
+            const struct eos_value value = eos_##name(&eos->of.name, density[k], energy[k], none); \
+            values->pressure[k] = value.pressure;                                                  \
+            values->dp_drho[k] = value.dp_drho;                                                    \
+            values->dp_de[k] = value.dp_de;                                                        \
+            beyond[k] = value.status & POINT_BEYOND;                                               \
+            any |= beyond[k];                                                                      \
+        }                                                                                          \
+        break;
+        EOS_LIST(ROW_CASE)
+#undef ROW_CASE
+    default:
+        break;
+    }
+    if (any)
+        FOR_ROW(k, first, last)
+    if (beyond[k]) {
+        const struct eos_value value = eos_beyond(eos, density[k], energy[k]);
+        values->pressure[k] = value.pressure;
+        values->dp_drho[k] = value.dp_drho;
+        values->dp_de[k] = value.dp_de;
+    }
+}
+
+/* The specific energies of the cells FIRST to LAST, whose numbers are U, less that of their motion. */
+BOLIDE_INLINE void row_energies(const struct gas_numbers *u, int first, int last, double *energy)
+{
     FOR_ROW(k, first, last)
     energy[k] = (u->of[GAS_ENERGY][k] -
                  0.5 *
@@ -41,18 +86,48 @@ BOLIDE_INLINE void row_pressures(const struct eos *eos, const struct gas_numbers
                       square(u->of[GAS_MOMENTUM + 2][k])) /
                      u->of[GAS_DENSITY][k]) /
                 u->of[GAS_DENSITY][k];
-    switch (eos->kind) {
-#define ROW_CASE(name)                                                                            \
-    case EOS_##name:                                                                              \
-        FOR_ROW(k, first, last)                                                                   \
-        pressure[k] = eos_##name(&eos->of.name, u->of[GAS_DENSITY][k], energy[k], none).pressure; \
-        break;
-        ROW_CASE(ideal_gas)
-        ROW_CASE(noble_abel)
-#undef ROW_CASE
-    default:
-        FOR_ROW(k, first, last)
-        pressure[k] = eos_evaluate(eos, u->of[GAS_DENSITY][k], energy[k], none).pressure;
+}
+
+/* Pressures of the cells FIRST to LAST of a row, whose numbers are U. */
+BOLIDE_INLINE void row_pressures(const struct eos *eos, const struct gas_numbers *u, int first,
+                                 int last, double *pressure)
+{
+    struct row_values values;
+    double energy[ROW_ROOM] = {0.0};
+    row_energies(u, first, last, energy);
+    row_evaluate(eos, u->of[GAS_DENSITY], energy, first, last, &values);
+    FOR_ROW(k, first, last) pressure[k] = values.pressure[k];
+}
+
+/* The radius of the face below cell k, in cells; the sources want k as FOR_ROW counts it. */
+BOLIDE_INLINE double row_radius(const struct gas_row *row, int k)
+{
+    return row->first + (double)(k - ROW_GHOSTS);
+}
+
+/* What FROM become where FLUX leaves through the faces of cells FIRST to LAST in a step of R = dt/h.
+ * PUSH, the mean pressures of cells, counts along the radius alone. */
+BOLIDE_INLINE void row_advance(const struct gas_row *row, const struct gas_numbers *from,
+                               const struct gas_numbers *flux, const double *push, double r,
+                               int first, int last, struct gas_numbers *to)
+{
+    for (int n = 0; n < GAS_NUMBERS; n++) {
+        const double *f = flux->of[n], *u = from->of[n];
+        if (!row->around)
+            FOR_ROW(k, first, last)
+        to->of[n][k] = u[k] - r * (f[k + 1] - f[k]);
+        else if (n == GAS_MOMENTUM + row->axis) FOR_ROW(k, first, last)
+        {
+            const double low = row_radius(row, k);
+            to->of[n][k] =
+                u[k] -
+                r * ((low + 1.0) * (f[k + 1] - push[k]) - low * (f[k] - push[k])) / (low + 0.5);
+        }
+        else FOR_ROW(k, first, last)
+        {
+            const double low = row_radius(row, k);
+            to->of[n][k] = u[k] - r * ((low + 1.0) * f[k + 1] - low * f[k]) / (low + 0.5);
+        }
     }
 }
 

@@ -12,7 +12,7 @@ struct ratio {
 static void add_ratio(const struct measurement *measurement, const struct sample *sample,
                       struct ratio *ratio)
 {
-    const enum exact_side side = measure_side(measurement, sample->body);
+    const enum exact_side side = measure_side(measurement, sample);
     const struct measure_field *parameters = measurement->check->measure.value;
     struct exact_state star = measurement->exact->star(measurement->solved, side);
     double off = fabs(sample->value / exact_field(&star, parameters->field) - 1.0);
@@ -29,11 +29,11 @@ static int take_nearest(const struct measurement *measurement, struct samples *s
     int found = 0;
     samples_sort(samples);
     for (int64_t i = samples->count; i-- > 0 && found < NEAREST;)
-        if (measure_side(measurement, samples->at[i].body) == SIDE_LEFT)
+        if (measure_side(measurement, &samples->at[i]) == SIDE_LEFT)
             near[found++] = samples->at[i];
     const int left = found;
     for (int64_t i = 0; i < samples->count && found < left + NEAREST; i++)
-        if (measure_side(measurement, samples->at[i].body) == SIDE_RIGHT)
+        if (measure_side(measurement, &samples->at[i]) == SIDE_RIGHT)
             near[found++] = samples->at[i];
     return found;
 }

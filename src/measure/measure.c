@@ -179,7 +179,7 @@ struct error *samples_select(struct population population, const struct view *vi
     view_read_component(view, component, 0, population.count, values);
     for (int32_t i = 0; i < population.count; i++) {
         double at = place_of(selection, population.position[i]);
-        if (selects(selection, at, population.body[i]))
+        if (population_has(&population, i) && selects(selection, at, population.body[i]))
             samples->at[samples->count++] = (struct sample){
                 at, values[i], population.mass[i] / population.density[i], population.body[i]};
     }
@@ -229,9 +229,12 @@ void samples_sort(struct samples *samples)
     qsort(samples->at, (size_t)samples->count, sizeof *samples->at, compare_samples);
 }
 
-enum exact_side measure_side(const struct measurement *measurement, int body)
+enum exact_side measure_side(const struct measurement *measurement, const struct sample *sample)
 {
-    const struct body_input *input = case_body(measurement->simulation->input, body);
+    const struct simulation *simulation = measurement->simulation;
+    if (simulation_population(simulation).kind == POPULATION_OF_CELLS)
+        return exact_side_at(measurement->exact, measurement->solved, sample->at, simulation->time);
+    const struct body_input *input = case_body(simulation->input, sample->body);
     struct bounds bounds = shape_bounds(&input->shape);
     double middle = 0.5 * (bounds.low.x + bounds.high.x);
     return exact_side_at(measurement->exact, measurement->solved, middle, 0.0);

@@ -182,9 +182,10 @@ struct error *front_place(const struct ranks *ranks, struct samples *own,
                           const struct measure_front *front, double time, double *place,
                           double *level);
 
-/* On which side of the contact a body started: the side of the middle of its shape. A particle is
- * compared with the exact state of its own body's side, wherever it drifted. */
-enum exact_side measure_side(const struct measurement *measurement, int body);
+/* The side of the contact that SAMPLE is compared with. A particle belongs to the side on which its
+ * body started, that of the middle of the body's shape, wherever it drifted; a cell to the side on
+ * which it lies now. */
+enum exact_side measure_side(const struct measurement *measurement, const struct sample *sample);
 
 /* The member of STATE that a field of particles corresponds to; NAN when it has none. */
 double exact_field(const struct exact_state *state, const char *field);

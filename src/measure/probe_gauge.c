@@ -57,7 +57,8 @@ static struct error *sample(struct probe *probe, const struct simulation *simula
     TRY(ranks_agree(simulation->ranks,
                     sums ? NULL : error_new(ERROR_SYSTEM, "out of memory for a gauge")));
     for (int32_t i = 0; i < particles->count; i++)
-        if (distance_square(&gauge->at, particles->position[i]) <= square(radius) &&
+        if (population_has(particles, i) &&
+            distance_square(&gauge->at, particles->position[i]) <= square(radius) &&
             (probe->selection.body < 0 || particles->body[i] == probe->selection.body))
             add_particle(probe, simulation, views, i, sums);
     ranks_sum_exact(simulation->ranks, sums, count + 2);

@@ -133,7 +133,8 @@ static bool is_seen(const struct profile *profile, const struct simulation *simu
     const struct population population = simulation_population(simulation),
                             *particles = &population;
     double at = particles->position[index][input->along];
-    return (!input->of || particles->body[index] == profile->body) &&
+    return population_has(particles, index) &&
+           (!input->of || particles->body[index] == profile->body) &&
            (input->between.count != 2 ||
             (at >= input->between.at[0] && at <= input->between.at[1]));
 }

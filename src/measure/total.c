@@ -49,7 +49,7 @@ static double volume_of(const struct simulation *simulation, int body)
     const struct population population = simulation_population(simulation), *p = &population;
     struct exact_sum sum = {0};
     for (int32_t i = 0; i < p->count; i++)
-        if (body < 0 || p->body[i] == body)
+        if (population_has(p, i) && (body < 0 || p->body[i] == body))
             exact_sum_add(&sum, p->mass[i] / p->density[i]);
     ranks_sum_exact(simulation->ranks, &sum, 1);
     return exact_sum_value(&sum);

@@ -10,7 +10,7 @@ extern const struct population_class particle_population;
 /* The particles that a population is of. */
 BOLIDE_INLINE struct particles *particles_in(const struct population_source *population)
 {
-    assert(population->class == &particle_population);
+    assert(population->type == &particle_population);
     return (struct particles *)population->store;
 }
 

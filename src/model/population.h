@@ -27,6 +27,18 @@ struct population {
     const struct field *field;
 };
 
+/* Whether member I holds matter: a cell that an obstacle blocks does not. */
+BOLIDE_INLINE bool population_has(const struct population *population, int32_t i)
+{
+    return population->mass[i] != 0.0;
+}
+
+/* What its members are called. */
+BOLIDE_INLINE const char *population_members(const struct population *population)
+{
+    return population->kind == POPULATION_OF_CELLS ? "cells" : "particles";
+}
+
 /* What the run loop does with a store of members, whatever they are. */
 struct population_class {
     struct population (*members)(const void *store);

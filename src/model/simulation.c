@@ -200,6 +200,23 @@ static struct error *set_contacts(struct simulation *simulation)
     return error;
 }
 
+struct error *refuse_boundaries(const struct simulation_case *input)
+{
+    struct error *error = NULL;
+    if (input->domain.low.count || input->domain.high.count)
+        error = input_error(input, "domain", NULL,
+                            "only the solver gas computes a domain: particles have none");
+    if (input->boundaries.count)
+        error = error_join(error, input_error(input, "boundaries", input->boundaries.names[0],
+                                              "only the solver gas has a domain with boundaries: "
+                                              "a wall is a mirror for particles"));
+    if (input->obstacles.count)
+        error = error_join(error, input_error(input, "obstacles", input->obstacles.names[0],
+                                              "only the solver gas has obstacles: a body that is "
+                                              "`driven` or `frozen` serves particles"));
+    return error;
+}
+
 /* The store keeps the number of a body in 16 bits. */
 static struct error *check_counts(const struct simulation_case *input)
 {
@@ -255,11 +272,11 @@ int simulation_history(const struct simulation *simulation, struct field_declara
 }
 
 void simulation_add_population(struct simulation *simulation, const char *name,
-                               const struct population_class *class, void *store)
+                               const struct population_class *type, void *store)
 {
     assert(simulation->populations < POPULATIONS_MAX);
     simulation->population[simulation->populations++] =
-        (struct population_source){name, class, store};
+        (struct population_source){name, type, store};
 }
 
 void simulation_remove_population(struct simulation *simulation, const void *store)
@@ -275,7 +292,7 @@ bool simulation_changed(const struct simulation *simulation)
 {
     bool changed = false;
     for (int k = 0; k < simulation->populations; k++)
-        changed |= simulation->population[k].class->changed(simulation->population[k].store);
+        changed |= simulation->population[k].type->changed(simulation->population[k].store);
     return changed;
 }
 
@@ -283,25 +300,25 @@ struct error *simulation_commit(struct simulation *simulation)
 {
     struct error *error = NULL;
     for (int k = 0; k < simulation->populations; k++)
-        error = error_join(
-            error, simulation->population[k].class->commit(simulation->population[k].store));
+        error = error_join(error,
+                           simulation->population[k].type->commit(simulation->population[k].store));
     return error;
 }
 
 struct error *simulation_distribute(struct simulation *simulation)
 {
     for (int k = 0; k < simulation->populations; k++)
-        TRY(simulation->population[k].class->distribute(simulation->population[k].store));
+        TRY(simulation->population[k].type->distribute(simulation->population[k].store));
     return NULL;
 }
 
 uint64_t simulation_hash(const struct simulation *simulation)
 {
     const struct population_source *first = simulation->population;
-    uint64_t hash = first->class->hash(first->store);
+    uint64_t hash = first->type->hash(first->store);
     for (int k = 1; k < simulation->populations; k++)
         hash = hash * 0x9e3779b97f4a7c15u +
-               simulation->population[k].class->hash(simulation->population[k].store);
+               simulation->population[k].type->hash(simulation->population[k].store);
     return hash;
 }
 
@@ -309,7 +326,7 @@ int64_t simulation_members(const struct simulation *simulation)
 {
     int64_t own = 0;
     for (int k = 0; k < simulation->populations; k++)
-        own += simulation->population[k].class->members(simulation->population[k].store).count;
+        own += simulation->population[k].type->members(simulation->population[k].store).count;
     return ranks_sum(simulation->ranks, own);
 }
 
@@ -368,7 +385,7 @@ struct error *simulation_visit(struct simulation *simulation, struct visitor *vi
     TRY(visitor->visit(visitor, "step", NUMBER_INT64, &simulation->step, 1, 1));
     TRY(ledger_visit(&simulation->ledger, simulation->ranks, visitor));
     for (int k = 0; k < simulation->populations; k++)
-        TRY(simulation->population[k].class->visit(simulation->population[k].store, visitor));
+        TRY(simulation->population[k].type->visit(simulation->population[k].store, visitor));
     return NULL;
 }
 

@@ -27,7 +27,7 @@ struct phase {
 /* A population by its NAME, as `of:` of a case has it. The solver owns its STORE. */
 struct population_source {
     const char *name;
-    const struct population_class *class;
+    const struct population_class *type;
     void *store;
 };
 enum { POPULATIONS_MAX = 4 };
@@ -61,16 +61,19 @@ struct simulation {
 struct error *input_error(const struct simulation_case *input, const char *section,
                           const char *name, const char *format, ...) BOLIDE_PRINTF(4, 5);
 
+/* That a case for particles names a domain, boundaries of one or obstacles, which are for cells. */
+struct error *refuse_boundaries(const struct simulation_case *input);
+
 /* Prepares a run of INPUT without members: materials, walls, contact laws. The solver's create adds
  * their store, since it knows the fields; its fill puts the bodies into it. */
 struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
                                 int threads, struct simulation *simulation);
 void simulation_destroy(struct simulation *simulation);
 
-/* Shows STORE, of CLASS, to all that watches the run, until the population is removed. NAME must
+/* Shows STORE, of TYPE, to all that watches the run, until the population is removed. NAME must
  * last as long. */
 void simulation_add_population(struct simulation *simulation, const char *name,
-                               const struct population_class *class, void *store);
+                               const struct population_class *type, void *store);
 void simulation_remove_population(struct simulation *simulation, const void *store);
 
 /* The fields for what the case's materials remember beyond the core's, POINT_HISTORY at most: the solver adds them to its
@@ -81,7 +84,7 @@ int simulation_history(const struct simulation *simulation, struct field_declara
 BOLIDE_INLINE struct population simulation_population(const struct simulation *simulation)
 {
     assert(simulation->populations);
-    return simulation->population[0].class->members(simulation->population[0].store);
+    return simulation->population[0].type->members(simulation->population[0].store);
 }
 
 /* Of all populations: whether members are to be taken in or out; takes them in and out; brings each

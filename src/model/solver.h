@@ -31,7 +31,8 @@ BOLIDE_INLINE struct limit limit_of_ranks(const struct ranks *ranks, struct rank
 }
 
 struct solver_class {
-    size_t size; /* bytes of the solver's own state, zeroed before create */
+    const char *members; /* what it computes with: "cells"; NULL: particles */
+    size_t size;         /* bytes of the solver's own state, zeroed before create */
     /* Makes the solver's stores, with fields by the case's parameters PARAMETERS, and shows them as
      * populations (simulation_add_population). Members come after, from `fill` or from a checkpoint; `start` is called once they
      * are there. */

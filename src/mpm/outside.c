@@ -123,6 +123,7 @@ enum { FACE_AREA, FACE_IMPEDANCE, FACE_PUSH, FACE_FORCE };
 static struct given by_outflow(const struct mpm *mpm, const struct simulation *simulation,
                                const struct surface *surface, int32_t i)
 {
+    (void)simulation;
     const struct particles *p = mpm->particles;
     const struct mpm_fields fields = mpm_fields_of(mpm);
     const double gauge = mpm->gauge[p->material[i]], volume = p->mass[i] / p->density[i];

@@ -140,6 +140,7 @@ struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
     error = error_join(error, refuse_order(given, simulation));
     error = error_join(error, refuse_contacts(input));
     error = error_join(error, refuse_wide_cell(edge, simulation));
+    error = error_join(error, refuse_boundaries(input));
     return error_join(error, refuse_far_bodies(edge, simulation));
 }
 

@@ -110,6 +110,7 @@ static void range_columns(struct line *line, const char *name, const char *unit,
 /* What a row says; write_line shows it as the head or as numbers. */
 struct row {
     const struct simulation *simulation;
+    const char *members;
     double dt, drift;
     int64_t count;
     struct totals now, booked[LEDGER_CAUSES];
@@ -130,6 +131,8 @@ static void find_extremes(const struct simulation *simulation, struct row *row)
     struct range density = {INFINITY, -INFINITY}, pressure = density, speed = density;
     for (int32_t i = 0; i < particles->count; i++) {
         const double *u = particles->velocity[i];
+        if (!population_has(particles, i))
+            continue;
         widen(&density, particles->density[i]);
         widen(&pressure, particles->pressure[i]);
         widen(&speed, sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
@@ -142,9 +145,11 @@ static void find_extremes(const struct simulation *simulation, struct row *row)
 static struct row find_row(const struct simulation *simulation, double dt,
                            const struct totals *start)
 {
-    struct row row = {.simulation = simulation, .dt = dt};
-    row.count = ranks_sum(simulation->ranks, simulation_population(simulation).count);
-    row.now = population_totals(simulation_population(simulation), simulation->ranks, -1);
+    const struct population population = simulation_population(simulation);
+    struct row row = {
+        .simulation = simulation, .members = population_members(&population), .dt = dt};
+    row.count = ranks_sum(simulation->ranks, population.count);
+    row.now = population_totals(population, simulation->ranks, -1);
     for (int i = 0; i < LEDGER_CAUSES; i++)
         row.booked[i] = ledger_totals(&simulation->ledger, simulation->ranks, (enum ledger_cause)i);
     struct totals all = ledger_totals(&simulation->ledger, simulation->ranks, LEDGER_CAUSES);
@@ -161,7 +166,7 @@ static void write_line(FILE *file, bool head, const struct row *row)
     column(&line, "time", "", "s", simulation->time);
     column(&line, "step", "", "", (double)simulation->step);
     column(&line, "dt", "", "s", row->dt);
-    column(&line, "particles", "", "", (double)row->count);
+    column(&line, row->members, "", "", (double)row->count);
     totals_columns(&line, "", &row->now, simulation);
     column(&line, "kinetic_energy", "", joule, row->now.kinetic);
     column(&line, "internal_energy", "", joule, row->now.internal);

@@ -40,7 +40,7 @@ static void put_header(const struct page *page, const char *title)
     static const char *const words[][3] = {
         {"name", "", ""},        {"dimension", "", "-D"},
         {"method", "", ""},      {"particles", "", " particles"},
-        {"until", "until ", ""},
+        {"cells", "", " cells"}, {"until", "until ", ""},
     };
     fputs("<header><h1>", page->file);
     page_text(page->file, title);

@@ -225,7 +225,7 @@ static struct error *put_players(const struct page *page, const struct pictures 
     if (!any)
         return NULL;
     double part = frames_within(pictures);
-    fputs("<section id=\"fields\"><h2>Particles over time</h2>\n", page->file);
+    fputs("<section id=\"fields\"><h2>Fields over time</h2>\n", page->file);
     for (int i = 0, next; i < pictures->count; i = next) {
         next = behind_field(pictures, i);
         if (pictures->item[i].field_length)
@@ -248,7 +248,7 @@ static struct error *put_single(const struct page *page, const struct pictures *
     if (name && is_png(bytes, size) && size <= PICTURE_BYTES_MAX) {
         fputs("<figure><img alt=\"", page->file);
         page_text(page->file, name);
-        fputs(profile ? ": particles over the exact solution" : "", page->file);
+        fputs(profile ? ": the run over the exact solution" : "", page->file);
         page_png(page->file, bytes, size);
         fputs("<figcaption>", page->file);
         page_text(page->file, name);

@@ -315,11 +315,16 @@ static void put_method(const struct page *page)
 
 static void put_bodies(const struct page *page)
 {
-    static const struct {
+    const char *members =
+        *summary_value(&page->summary, "run", NULL, "cells") ? "cells" : "particles";
+    const struct {
         const char *quantity, *label;
-    } columns[] = {{"particles", "particles"},    {"mass", "mass"},
-                   {"resolution", "resolution"},  {"density", "density"},
-                   {"sound_long", "sound speed"}, {"sound_shear", "shear wave speed"}};
+    } columns[] = {{members, members},
+                   {"mass", "mass"},
+                   {"resolution", "resolution"},
+                   {"density", "density"},
+                   {"sound_long", "sound speed"},
+                   {"sound_shear", "shear wave speed"}};
     const struct csv *summary = &page->summary;
     fputs("<table class=\"cards\"><caption>Bodies; density and sound speeds as at the "
           "start</caption>\n<thead><tr><th "

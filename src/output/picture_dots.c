@@ -13,6 +13,9 @@
  * behind them fill the gaps, which a lattice of discs has at its corners, and wherever it is compressed along one axis. */
 static const double square_factor = 1.3, disc_factor = 1.05;
 
+/* Cells touch; their places are rounded to floats. */
+static const double cell_factor = 1.001;
+
 static struct error *out_of_memory(void)
 {
     return error_new(ERROR_SYSTEM, "picture: out of memory");
@@ -175,8 +178,10 @@ struct error *dots_paint(const struct ranks *ranks, struct dots *dots,
                                       .top = first,
                                       .bottom = end};
         if (viewport->squares)
-            paint_layer(&pixels, viewport, dots, order, square_factor, paint_square);
-        paint_layer(&pixels, viewport, dots, order, disc_factor, paint_disc);
+            paint_layer(&pixels, viewport, dots, order,
+                        viewport->cells ? cell_factor : square_factor, paint_square);
+        if (!viewport->cells)
+            paint_layer(&pixels, viewport, dots, order, disc_factor, paint_disc);
         error = ranks_gather(ranks, 0, own, end - first, bytes, (void **)image, &total);
     }
     free(own);

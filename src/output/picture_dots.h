@@ -7,6 +7,7 @@
 /* The plane of the picture, and what of space is in it. */
 struct plane {
     bool rings;             /* the particles are those of axisymmetry */
+    bool cells;             /* the members are cells of a grid, squares that leave no gap */
     int across, up, normal; /* axes of space; normal -1: none */
     struct range extent[3]; /* of the particles with their size */
     bool wall[3][2];        /* the low, the high end of the extent is a mirror wall */
@@ -43,7 +44,8 @@ struct error *dots_take(struct population population, const struct shown *shown,
 struct viewport {
     int left, right, top, bottom;
     double x, y, scale;
-    bool squares;
+    bool squares; /* and CELLS are squares of their own size */
+    bool cells;
     const struct colour_scale *colours; /* NULL: values are categories */
 };
 

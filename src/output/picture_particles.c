@@ -200,7 +200,9 @@ static struct viewport viewport_of(const struct page *page, const struct plane *
                              .x = page->middle_x * PIXELS_PER_POINT,
                              .y = page->middle_y * PIXELS_PER_POINT,
                              .scale = page->scale * PIXELS_PER_POINT,
-                             .squares = plane->diameter * page->scale * PIXELS_PER_POINT < 14.0,
+                             .squares = plane->diameter * page->scale * PIXELS_PER_POINT < 14.0 ||
+                                        plane->cells,
+                             .cells = plane->cells,
                              .colours = colours};
 }
 

@@ -5,9 +5,11 @@
 
 enum { SLICE = 4096 };
 
-/* The edge of the square or cube that a particle fills; of RINGS that of their section. */
+/* The edge of the square or cube that a member fills; of RINGS that of their section. */
 static double particle_diameter(struct population population, bool rings, int64_t i)
 {
+    if (population.kind == POPULATION_OF_CELLS)
+        return population.edge;
     double volume = population.mass[i] / population.density[i];
     if (rings) /* mass is that of a radian */
         volume /= fabs(population.position[i][0]);
@@ -52,6 +54,7 @@ static void measure(struct population population, const struct ranks *ranks, str
 struct plane plane_find(const struct simulation *simulation)
 {
     struct plane plane = {.rings = simulation->geometry == GEOMETRY_AXISYMMETRIC,
+                          .cells = simulation_population(simulation).kind == POPULATION_OF_CELLS,
                           .across = 0,
                           .up = 1,
                           .normal = -1,
@@ -88,8 +91,11 @@ static bool take_one(struct population population, const struct plane *plane, in
     double diameter = particle_diameter(population, plane->rings, i);
     /* A particle blown to next to nothing would cover all others. */
     diameter = minimum(isfinite(diameter) ? diameter : plane->diameter, 4.0 * plane->diameter);
+    const double reach = plane->cells ? 0.500001 : 0.75; /* one layer of cells; two of a tie */
     if (!isfinite(position[plane->across]) || !isfinite(position[plane->up]) ||
-        !(fabs(depth) <= 0.75 * diameter || plane->normal < 0))
+        !(fabs(depth) <= reach * diameter || plane->normal < 0))
+        return true;
+    if (plane->cells && !(population.density[i] > 0.0)) /* blocked */
         return true;
     if (dots->count == dots->capacity &&
         !memory_reserve((void **)&dots->dot, &dots->capacity, dots->count + 1, dots->count,

@@ -1,5 +1,7 @@
-/* Snapshots as VTKHDF 1.0, an UnstructuredGrid in one piece whose cells are vertices; see
- * snapshot.h. Points are 64-bit floats; the fields, which are there to be looked at, 32-bit. */
+/* Snapshots as VTKHDF 1.0, an UnstructuredGrid in one piece; see snapshot.h. Its cells are
+ * vertices where members are particles, with the fields on the points, and lines, pixels or voxels
+ * where members are cells, each with corners of its own and the fields on the cells. Points are
+ * 64-bit floats; the fields, which are there to be looked at, 32-bit. */
 #include "output/snapshot.h"
 
 #include <stdlib.h>
@@ -10,7 +12,7 @@
 #include "output/hdf5_file.h"
 #include "output/rows.h"
 
-enum { VTK_VERTEX = 1 };
+enum { VTK_VERTEX = 1, VTK_LINE = 3, VTK_PIXEL = 8, VTK_VOXEL = 11 };
 
 /* A snapshot in the making: rank 0 writes, the others hand their rows over. The first error stays, and lets nobody
  * wait. */
@@ -27,6 +29,7 @@ struct column {
     hid_t type;
     int64_t rows;     /* of all ranks */
     int components;   /* 1: a plain list of numbers */
+    int each;         /* rows of the dataset that a row found by FILL makes */
     bool distributed; /* over the ranks, a row a particle; otherwise rank 0 knows all */
     void (*fill)(const void *context, int64_t begin, int64_t end, void *out);
     const void *context;
@@ -60,8 +63,9 @@ static struct error *put_rows(void *context, int64_t at, int64_t count, const vo
     const struct column *column = sink->column;
     if (sink->dataset < 0)
         return hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", column->name);
-    hsize_t start[2] = {(hsize_t)at, 0};
-    hsize_t part[2] = {(hsize_t)count, (hsize_t)column->components};
+    const hsize_t each = (hsize_t)column->each;
+    hsize_t start[2] = {(hsize_t)at * each, 0};
+    hsize_t part[2] = {(hsize_t)count * each, (hsize_t)column->components};
     hid_t memory = H5Screate_simple(column->components > 1 ? 2 : 1, part, NULL);
     struct error *error = NULL;
     if (memory < 0 ||
@@ -74,7 +78,7 @@ static struct error *put_rows(void *context, int64_t at, int64_t count, const vo
 
 static struct sink open_sink(const struct writing *w, const struct column *column)
 {
-    hsize_t size[2] = {(hsize_t)column->rows, (hsize_t)column->components};
+    hsize_t size[2] = {(hsize_t)(column->rows * column->each), (hsize_t)column->components};
     struct sink sink = {H5I_INVALID_HID, H5I_INVALID_HID, column};
     if (!w->here || w->error)
         return sink;
@@ -94,7 +98,7 @@ static struct sink open_sink(const struct writing *w, const struct column *colum
 static void write_column(struct writing *w, const struct column *column)
 {
     static const struct ranks alone = {0, 1, false};
-    const size_t components = (size_t)column->components;
+    const size_t components = (size_t)(column->components * column->each);
     const struct rows rows = {column->distributed ? simulation_population(w->simulation).count
                                                   : column->rows,
                               components * H5Tget_size(column->type), components * sizeof(double),
@@ -117,16 +121,44 @@ static void fill_counting(const void *context, int64_t begin, int64_t end, void 
         ((int64_t *)out)[i - begin] = i;
 }
 
-static void fill_types(const void *context, int64_t begin, int64_t end, void *out)
+/* The corners that a member has: of a particle its position. */
+static int corners_of(const struct population *population)
 {
-    (void)context;
-    memset(out, VTK_VERTEX, (size_t)(end - begin));
+    return population->kind == POPULATION_OF_CELLS ? 1 << population->dimension : 1;
 }
 
+static void fill_types(const void *context, int64_t begin, int64_t end, void *out)
+{
+    static const char types[] = {VTK_VERTEX, VTK_LINE, VTK_PIXEL, VTK_VOXEL};
+    const struct population *population = context;
+    const bool cells = population->kind == POPULATION_OF_CELLS;
+    memset(out, types[cells ? population->dimension : 0], (size_t)(end - begin));
+}
+
+/* Where the corners of each VTK cell begin in the list of them. */
+static void fill_offsets(const void *context, int64_t begin, int64_t end, void *out)
+{
+    const int corners = corners_of(context);
+    for (int64_t i = begin; i < end; i++)
+        ((int64_t *)out)[i - begin] = i * corners;
+}
+
+/* Corner K of a cell lies above its centre along axis A where bit A of K is set: the order of VTK's
+ * pixels and voxels. */
 static void fill_positions(const void *context, int64_t begin, int64_t end, void *out)
 {
-    const struct population *particles = context;
-    memcpy(out, particles->position[begin], (size_t)(end - begin) * sizeof *particles->position);
+    const struct population *population = context;
+    const int corners = corners_of(population);
+    const double half = 0.5 * population->edge;
+    double(*point)[3] = out;
+    for (int64_t i = begin; i < end; i++)
+        for (int k = 0; k < corners; k++, point++)
+            for (int axis = 0; axis < 3; axis++) {
+                const double off = axis >= population->dimension || corners == 1 ? 0.0
+                                   : k >> axis & 1                               ? half
+                                                                                 : -half;
+                (*point)[axis] = population->position[i][axis] + off;
+            }
 }
 
 static void fill_ids(const void *context, int64_t begin, int64_t end, void *out)
@@ -164,7 +196,7 @@ static void fill_view(const void *context, int64_t begin, int64_t end, void *out
 
 static void write_view(struct writing *w, const struct view *view, int64_t count)
 {
-    write_column(w, &(struct column){view->name, H5T_NATIVE_FLOAT, count, view->components, true,
+    write_column(w, &(struct column){view->name, H5T_NATIVE_FLOAT, count, view->components, 1, true,
                                      fill_view, view, view->unit});
 }
 
@@ -191,27 +223,29 @@ static void write_geometry(struct writing *w, int64_t count)
 {
     const struct population population = simulation_population(w->simulation),
                             *particles = &population;
+    const int each = corners_of(particles);
+    const int64_t points = count * each;
     const struct column columns[] = {
-        {"NumberOfPoints", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count, NULL},
-        {"NumberOfCells", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count, NULL},
-        {"NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, 1, false, fill_one, &count, NULL},
-        {"Points", H5T_NATIVE_DOUBLE, count, 3, true, fill_positions, particles, NULL},
-        {"Connectivity", H5T_NATIVE_INT64, count, 1, false, fill_counting, NULL, NULL},
-        {"Offsets", H5T_NATIVE_INT64, count + 1, 1, false, fill_counting, NULL, NULL},
-        {"Types", H5T_NATIVE_UINT8, count, 1, false, fill_types, NULL, NULL},
+        {"NumberOfPoints", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &points, NULL},
+        {"NumberOfCells", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &count, NULL},
+        {"NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &points, NULL},
+        {"Points", H5T_NATIVE_DOUBLE, count, 3, each, true, fill_positions, particles, NULL},
+        {"Connectivity", H5T_NATIVE_INT64, points, 1, 1, false, fill_counting, NULL, NULL},
+        {"Offsets", H5T_NATIVE_INT64, count + 1, 1, 1, false, fill_offsets, particles, NULL},
+        {"Types", H5T_NATIVE_UINT8, count, 1, 1, false, fill_types, particles, NULL},
     };
     for (size_t i = 0; i < COUNT_OF(columns); i++)
         write_column(w, &columns[i]);
 }
 
-static void write_points(struct writing *w, const struct views *views, int64_t count)
+static void write_fields(struct writing *w, const struct views *views, int64_t count)
 {
     const struct population population = simulation_population(w->simulation),
                             *particles = &population;
     const struct column columns[] = {
-        {"id", H5T_NATIVE_INT64, count, 1, true, fill_ids, particles, NULL},
-        {"material", H5T_NATIVE_UINT16, count, 1, true, fill_numbers, particles->material, NULL},
-        {"body", H5T_NATIVE_UINT16, count, 1, true, fill_numbers, particles->body, NULL},
+        {"id", H5T_NATIVE_INT64, count, 1, 1, true, fill_ids, particles, NULL},
+        {"material", H5T_NATIVE_UINT16, count, 1, 1, true, fill_numbers, particles->material, NULL},
+        {"body", H5T_NATIVE_UINT16, count, 1, 1, true, fill_numbers, particles->body, NULL},
     };
     for (size_t i = 0; i < COUNT_OF(columns); i++)
         write_column(w, &columns[i]);
@@ -223,8 +257,8 @@ static void write_points(struct writing *w, const struct views *views, int64_t c
 static void write_moment(struct writing *w)
 {
     const struct column columns[] = {
-        {"time", H5T_NATIVE_DOUBLE, 1, 1, false, fill_one, &w->simulation->time, "s"},
-        {"step", H5T_NATIVE_INT64, 1, 1, false, fill_one, &w->simulation->step, NULL},
+        {"time", H5T_NATIVE_DOUBLE, 1, 1, 1, false, fill_one, &w->simulation->time, "s"},
+        {"step", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &w->simulation->step, NULL},
     };
     const struct simulation_case *input = w->simulation->input;
     for (size_t i = 0; i < COUNT_OF(columns); i++)
@@ -266,8 +300,9 @@ static void write_all(struct writing *w, hid_t file, const struct views *views)
         w->error = hdf5_error(ERROR_SYSTEM, "the group VTKHDF cannot be made");
     w->group = group[ROOT];
     write_geometry(w, count);
-    w->group = group[POINTS];
-    write_points(w, views, count);
+    const struct population population = simulation_population(w->simulation);
+    w->group = group[population.kind == POPULATION_OF_CELLS ? CELLS : POINTS];
+    write_fields(w, views, count);
     w->group = group[FIELDS];
     write_moment(w);
     for (int i = 0; i < GROUPS; i++)

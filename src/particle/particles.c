@@ -153,51 +153,17 @@ static struct error *visit_count(struct particles *particles, struct visitor *vi
 struct error *particles_visit(struct particles *particles, struct visitor *visitor)
 {
     struct error *error = visit_count(particles, visitor);
-    for (int k = 0; k < particles->fields && !error; k++) {
-        const struct field_declaration *field = &particles->field[k].declaration;
-        if (!(field->kind & FIELD_STATE))
-            continue;
-        char *name = text_format("particles/%s", field->name);
-        if (!name)
-            error = error_new(ERROR_SYSTEM, "out of memory");
-        else
-            error = visitor->visit(visitor, name, field->number, particles->field[k].data,
-                                   particles->count, field->components);
-        free(name);
-    }
+    if (!error)
+        error = fields_visit("particles", particles->field, particles->fields, particles->count,
+                             visitor);
     visitor->first = visitor->total = 0;
     return error;
 }
 
-/* The finaliser of splitmix64: every bit of WORD reaches every bit of the result. */
-static uint64_t mix(uint64_t word)
-{
-    word = (word ^ word >> 30) * 0xbf58476d1ce4e5b9u;
-    word = (word ^ word >> 27) * 0x94d049bb133111ebu;
-    return word ^ word >> 31;
-}
-
 uint64_t particles_hash(const struct particles *particles)
 {
-    uint64_t sum = 0;
-    for (int32_t i = 0; i < particles->count; i++) {
-        uint64_t hash = 0;
-        for (int k = 0; k < particles->fields; k++) {
-            const struct field *field = &particles->field[k];
-            if (!(field->declaration.kind & FIELD_STATE))
-                continue;
-            size_t size = number_size(field->declaration.number);
-            int components = field->declaration.components;
-            const char *data = (const char *)field->data + (size_t)i * field_bytes(field);
-            for (int c = 0; c < components; c++) {
-                uint64_t word = 0;
-                memcpy(&word, data + (size_t)c * size, size);
-                hash = mix(hash * 0x9e3779b97f4a7c15u + word + 1);
-            }
-        }
-        sum += hash;
-    }
-    return (uint64_t)ranks_sum(particles->ranks, (int64_t)sum);
+    const uint64_t own = fields_hash(particles->field, particles->fields, particles->count);
+    return (uint64_t)ranks_sum(particles->ranks, (int64_t)own);
 }
 
 size_t particles_bytes(const struct particles *particles)

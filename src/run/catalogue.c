@@ -2,6 +2,7 @@
 #include "run/catalogue.h"
 
 #include "exact/choices.h"
+#include "gas/gas.h"
 #include "material/choices.h"
 #include "measure/measure.h"
 #include "measure/probes.h"
@@ -18,10 +19,13 @@ static const struct choice solver_choices[] = {
      sizeof(struct sph_parameters), &sph_class},
     {"mpm", "the material point method: particles on a background grid that is reset each step",
      mpm_table, sizeof(struct mpm_parameters), &mpm_class},
+    {"gas", "gas dynamics on a grid that stays: no particles, no strength", gas_table,
+     sizeof(struct gas_parameters), &gas_class},
 };
 
 static const struct choice_list lists[] = {
     {"solver", "the solver", solver_choices, COUNT_OF(solver_choices)},
+    {"gas-method", "the method of the solver gas", gas_method_choices, GAS_METHODS},
     {"scheme", "the interaction of neighbours in SPH", sph_scheme_choices, SPH_SCHEMES},
     {"eos", "the equation of state of a material", eos_choices, EOS_KINDS},
     {"strength", "the shear strength of a material", strength_choices, STRENGTH_KINDS},

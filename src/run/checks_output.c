@@ -144,11 +144,13 @@ static struct error *draw(const struct measurement *m, const struct scatter *par
     static const char *const axes[] = {"x", "y", "z"};
     const struct measure_field *parameters = m->check->measure.value;
     struct scatter curve;
+    const struct population population = simulation_population(m->simulation);
     struct error *error = NULL;
     if (find_curve(m, particles, &curve)) {
         struct series series[] = {
             {"exact", curve.count, curve.x, curve.y, LINE_PLAIN},
-            {"particles", particles->count, particles->x, particles->y, LINE_NONE},
+            {population_members(&population), particles->count, particles->x, particles->y,
+             LINE_NONE},
         };
         struct plot plot = {.title = m->simulation->input->title,
                             .x_name = m->check->about.count ? "distance" : axes[m->check->axis],

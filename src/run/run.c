@@ -125,6 +125,8 @@ static double released_energy(const struct run *run)
     const struct population population = simulation_population(&run->simulation), *p = &population;
     struct exact_sum sum = {0};
     for (int32_t i = 0; i < p->count; i++) {
+        if (!population_has(p, i))
+            continue;
         struct point point = {.density = p->density[i], .energy = p->energy[i]};
         if (p->deviator)
             memcpy(&point.deviator, p->deviator[i], sizeof point.deviator);
@@ -169,7 +171,7 @@ static struct error *make_solver(struct run *run)
 static struct error *make_particles(struct run *run)
 {
     if (!run->options->resume && generate_work(run->input, &run->ranks) > GENERATE_LONG)
-        run_say(run, "making particles, which may take minutes");
+        run_say(run, "filling the bodies, which may take minutes");
     TRY(run->options->resume ? run_load(run) : run->method->fill(run->solver, &run->simulation));
     if (run->ranks.joined)
         TRY(simulation_distribute(&run->simulation));
@@ -227,8 +229,9 @@ static void tell_beginning(struct run *run)
     readable(run->input->run.until, "s", until, sizeof until);
     run_say(run, "%s: %s", run->input->name ? run->input->name : "case",
             run->input->title ? run->input->title : "");
-    run_say(run, "%lld particles, %d-D, %s, until %s, %s%d thread%s%s",
-            (long long)simulation_members(s), s->dimension, run->input->solver.choice->name, until,
+    const struct population population = simulation_population(s);
+    run_say(run, "%lld %s, %d-D, %s, until %s, %s%d thread%s%s", (long long)simulation_members(s),
+            population_members(&population), s->dimension, run->input->solver.choice->name, until,
             workers, threads, threads == 1 ? "" : "s", run->options->resume ? ", resumed" : "");
     struct error *warnings = estimate_warnings(run->input);
     for (int i = 0; warnings && i < error_count(warnings); i++)

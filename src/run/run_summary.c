@@ -93,7 +93,8 @@ static void put_body(FILE *file, const struct run *run, int index)
     for (int32_t i = 0; i < particles->count; i++)
         count += particles->body[i] == index;
     put_text(file, "body", name, "material", body->material);
-    put_number(file, "body", name, "particles", ranks_sum(&run->ranks, (double)count), "");
+    put_number(file, "body", name, population_members(particles),
+               ranks_sum(&run->ranks, (double)count), "");
     put_number(file, "body", name, "mass", totals.entry[LEDGER_MASS], mass);
     put_number(file, "body", name, "resolution",
                isnan(body->resolution) ? input->resolution : body->resolution, "m");
@@ -148,7 +149,8 @@ static void put_run(FILE *file, const struct run *run, const char *status,
         put_text(file, "run", "", "title", input->title);
     put_number(file, "run", "", "dimension", (double)input->dimension, "");
     put_text(file, "run", "", "method", input->solver.choice->name);
-    put_number(file, "run", "", "particles", simulation_members(s), "");
+    const struct population population = simulation_population(s);
+    put_number(file, "run", "", population_members(&population), (double)simulation_members(s), "");
     put_number(file, "run", "", "threads", run->threads.most, "");
     if (run->ranks.size > 1)
         put_number(file, "run", "", "ranks", run->ranks.size, "");

@@ -127,7 +127,8 @@ void warnings_start(struct warnings *warnings, const struct simulation *simulati
     const struct population population = simulation_population(simulation), *p = &population;
     double largest = 0.0;
     for (int32_t i = 0; i < p->count; i++)
-        largest = maximum(largest, maximum(speed_of(p, i), released_speed(simulation, p, i)));
+        if (population_has(p, i))
+            largest = maximum(largest, maximum(speed_of(p, i), released_speed(simulation, p, i)));
     warnings->speed = ranks_maximum(simulation->ranks, largest);
 }
 
@@ -232,7 +233,7 @@ static bool search(const struct warnings *w, const struct simulation *simulation
         struct found *own = calloc((size_t)count, sizeof *own);
 #pragma omp for schedule(static)
         for (int32_t i = 0; i < p->count; i++)
-            if (own)
+            if (own && population_has(p, i))
                 look_at(w, simulation, p, i, own);
 #pragma omp critical(bolide_warnings)
         {

@@ -34,7 +34,7 @@ struct error *sph_refuse(const struct simulation *simulation)
         error = error_join(error, input_error(input, "loads", NULL, "%s", text));
     if (input->outflows.count)
         error = error_join(error, input_error(input, "outflows", NULL, "%s", text));
-    return error;
+    return error_join(error, refuse_boundaries(input));
 }
 
 /* The fields of a step of DT, or of a part of it; gravity acts where particles are AHEAD of time n.

@@ -131,6 +131,45 @@ def check_series(folder, snapshots, time):
     expect(times[-1] == time, "the series tells another time than the snapshot")
 
 
+GRID_CASE = """\
+format: 1
+dimension: %d
+resolution: 10 mm
+solver: gas
+materials: {air: {eos: {ideal-gas: {density: 1.2 kg/m^3, gamma: 1.4}}}}
+bodies:
+  air: {material: air, pressure: 0.1 MPa, box: {from: [%s], to: [%s]}}
+run: {until: 1 s, max_steps: 2}
+output: {every: 1 us}
+"""
+GRID_TYPES = {1: 3, 2: 8, 3: 11}  # lines, pixels, voxels
+
+
+def check_grids(program, folder):
+    """Cells of the solver gas, in each dimension, fill the domain with the fields on them."""
+    high = ["0.07 m", "0.2 m", "0.05 m"]
+    for dimension in 1, 2, 3:
+        case = os.path.join(folder, "grid.yaml")
+        with open(case, "w", encoding="utf-8") as file:
+            file.write(GRID_CASE % (dimension, ", ".join(["0 m"] * dimension),
+                                    ", ".join(high[:dimension])))
+        results = os.path.join(folder, "grid")
+        subprocess.run([program, "run", case, "--output", results, "--overwrite"], check=True,
+                       stdout=subprocess.DEVNULL)
+        grid = read_grid(sorted(glob.glob(os.path.join(results, "snapshots", "*.vtkhdf")))[-1])
+        cells = round(math.prod(float(text.split()[0]) / 0.01 for text in high[:dimension]))
+        expect(grid.GetNumberOfCells() == cells, f"{dimension}-D: not {cells} cells")
+        types = vtk_to_numpy(grid.GetCellTypesArray())
+        expect((types == GRID_TYPES[dimension]).all(), f"{dimension}-D: cells of another type")
+        bounds = grid.GetBounds()
+        for axis in range(dimension):
+            expect(close(bounds[2 * axis + 1], float(high[axis].split()[0])) and
+                   abs(bounds[2 * axis]) < 1e-12, f"{dimension}-D: bounds {bounds}")
+        density = vtk_to_numpy(grid.GetCellData().GetArray("density"))
+        expect(len(density) == cells and numpy.allclose(density, 1.2), "density of the cells")
+        expect(grid.GetPointData().GetNumberOfArrays() == 0, "fields on the corners of cells")
+
+
 def main():
     program = os.environ["BOLIDE"]
     case = os.path.join(os.environ["BOLIDE_SOURCE_DIR"], "examples/riemann/gas/case.yaml")
@@ -142,6 +181,8 @@ def main():
         fields, time = check_snapshot(snapshots[-1])
         check_history(folder, fields, time)
         check_series(folder, snapshots, time)
+    with tempfile.TemporaryDirectory() as folder:
+        check_grids(program, folder)
     print(f"VTK reads {len(fields['id'])} particles with {len(fields)} fields")
 
 

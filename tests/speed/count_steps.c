@@ -5,7 +5,6 @@
 #include "bench.h"
 
 #include "base/isa.h"
-#include "gas_kernel.h"
 #include "model/simulation.h"
 
 enum { FIELDS_MAX = 8, LINE_MAX_LENGTH = 512 };
@@ -44,60 +43,6 @@ static void count_case(const struct entry *entry)
     report(entry, (int32_t)simulation_members(s.simulation));
     counted(steps, &s, entry->steps);
     finish(&s);
-}
-
-ISA_CHOOSE(void, gas_lax_wendroff,
-           (struct gas_row * row, const struct lax_wendroff *scheme, double r,
-            struct gas_numbers *flux),
-           (row, scheme, r, flux))
-ISA_CHOOSE(void, gas_muscl_hancock, (struct gas_row * row, double r, struct gas_numbers *flux),
-           (row, r, flux))
-
-/* A row of gas at two pressures that moves along it and across. */
-static struct gas_row row_of_gas(const struct eos *eos)
-{
-    struct gas_row row = {.eos = eos, .cells = ROW_CELLS};
-    for (int k = 0; k < ROW_ROOM; k++) {
-        const double density = k < ROW_ROOM / 2 ? 1.0 : 0.125, pressure = density;
-        row.u.of[GAS_DENSITY][k] = density;
-        row.u.of[GAS_MOMENTUM][k] = 0.1 * density;
-        row.u.of[GAS_MOMENTUM + 1][k] = 0.2 * density;
-        row.u.of[GAS_ENERGY][k] = pressure / 0.4 + 0.5 * density * (square(0.1) + square(0.2));
-    }
-    return row;
-}
-
-/* A row and the scheme of its sweeps, or NULL for MUSCL-Hancock. */
-struct swept {
-    struct gas_row row;
-    const struct lax_wendroff *scheme;
-};
-
-static void sweeps(void *of, int times)
-{
-    struct swept *swept = of;
-    struct gas_numbers flux;
-    for (int k = 0; k < times; k++)
-        if (swept->scheme)
-            gas_lax_wendroff(&swept->row, swept->scheme, 0.01, &flux);
-        else
-            gas_muscl_hancock(&swept->row, 0.01, &flux);
-}
-
-/* The file of ENTRY is the name of a sweep. */
-static void count_sweeps(const struct entry *entry)
-{
-    const struct eos_ideal_gas ideal = {1.0, 1.4};
-    const struct eos eos = eos_make_ideal_gas(&ideal);
-    const struct lax_wendroff richtmyer = {LAX_WENDROFF_RICHTMYER, VISCOSITY_OF_FACES, 0.5},
-                              printed = {LAX_WENDROFF_PRINTED, VISCOSITY_OF_CELLS, 0.5};
-    struct swept swept = {.row = row_of_gas(&eos)};
-    if (!strcmp(entry->file, "lax-wendroff"))
-        swept.scheme = &richtmyer;
-    if (!strcmp(entry->file, "lax-wendroff-printed"))
-        swept.scheme = &printed;
-    report(entry, swept.row.cells);
-    counted(sweeps, &swept, entry->steps);
 }
 
 /* NAME | STEPS | FILE [| SETTING]..., cut up in place; false for comments and empty lines. */
@@ -141,10 +86,7 @@ int main(int count, char **arguments)
         struct entry entry;
         if (!parse(line, &entry) || strncmp(entry.name, arguments[2], strlen(arguments[2])) != 0)
             continue;
-        if (!strncmp(entry.name, "gas/", 4))
-            count_sweeps(&entry);
-        else
-            count_case(&entry);
+        count_case(&entry);
     }
     fclose(table);
     return 0;

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "gas/gas_internal.h"
 #include "model/generate.h"
 #include "mpm/mpm_internal.h"
 #include "output/checkpoint.h"
@@ -49,6 +50,7 @@ struct running {
     union { /* the solver's state */
         struct sph sph;
         struct mpm mpm;
+        struct gas gas;
     };
     struct limit limit;
     int most_threads; /* 0: their number stays */
@@ -72,7 +74,8 @@ static inline struct running *open_case(const char *text, const struct variant *
         simulation_create(run->input, &run->ranks, abs(variant->threads), &run->simulation));
     run->most_threads = variant->threads < 0 ? -variant->threads : 0;
     run->solver = run->input->solver.choice->thing;
-    assert_true(run->solver->size == sizeof run->sph || run->solver->size == sizeof run->mpm);
+    assert_true(run->solver->size == sizeof run->sph || run->solver->size == sizeof run->mpm ||
+                run->solver->size == sizeof run->gas);
     return run;
 }
 
@@ -80,7 +83,8 @@ static inline struct running *begin(const char *text, const struct variant *vari
 {
     struct running *run = open_case(text, variant);
     assert_success(run->solver->create(&run->sph, &run->simulation, run->input->solver.value));
-    particles_of(&run->simulation)->cell *= variant->cell;
+    if (variant->cell != 1.0)
+        particles_of(&run->simulation)->cell *= variant->cell;
     return run;
 }
 
@@ -127,13 +131,13 @@ static inline struct running *resume(struct running *run, const char *text,
     struct checkpoint checkpoint = {&run->simulation, run->solver, &run->sph,
                                     nothing_more,     NULL,        text};
     assert_success(checkpoint_write(path, &checkpoint));
-    uint64_t hash = particles_hash(particles_of(&run->simulation));
+    uint64_t hash = simulation_hash(&run->simulation);
     end(run);
     run = begin(text, variant);
     checkpoint.simulation = &run->simulation;
     checkpoint.solver = &run->sph;
     assert_success(checkpoint_read(path, &checkpoint));
-    assert_true(particles_hash(particles_of(&run->simulation)) == hash);
+    assert_true(simulation_hash(&run->simulation) == hash);
     assert_success(run->solver->start(&run->sph, &run->simulation));
     return run;
 }
@@ -142,7 +146,7 @@ static inline struct running *resume(struct running *run, const char *text,
 static inline struct running *begin_fresh(const char *text, const struct variant *variant)
 {
     struct running *run = begin(text, variant);
-    assert_success(generate_particles(&run->simulation, particles_of(&run->simulation)));
+    assert_success(run->solver->fill(&run->sph, &run->simulation));
     assert_success(run->solver->start(&run->sph, &run->simulation));
     return run;
 }
@@ -156,7 +160,7 @@ static inline uint64_t hash_after(const char *text, const struct variant *first,
     if (variant->resumed)
         run = resume(run, text, variant);
     step(run, steps - steps / 2);
-    uint64_t hash = particles_hash(particles_of(&run->simulation));
+    uint64_t hash = simulation_hash(&run->simulation);
     end(run);
     return hash;
 }

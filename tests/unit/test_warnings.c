@@ -155,22 +155,18 @@ static double nonsense_step(const void *parameters, int dimension, const struct 
     return 0.1;
 }
 
-static const struct solver_class nonsense_class = {sizeof(struct nonsense),
-                                                   nonsense_create,
-                                                   nonsense_fill,
-                                                   nonsense_start,
-                                                   nonsense_prepare,
-                                                   nonsense_advance,
-                                                   nonsense_state,
-                                                   nonsense_observe,
-                                                   nonsense_destroy,
-                                                   nonsense_bytes,
-                                                   nonsense_step,
-                                                   NULL,
-                                                   NULL,
-                                                   NULL,
-                                                   NULL,
-                                                   true};
+static const struct solver_class nonsense_class = {.size = sizeof(struct nonsense),
+                                                   .create = nonsense_create,
+                                                   .fill = nonsense_fill,
+                                                   .start = nonsense_start,
+                                                   .prepare = nonsense_prepare,
+                                                   .advance = nonsense_advance,
+                                                   .state = nonsense_state,
+                                                   .observe = nonsense_observe,
+                                                   .destroy = nonsense_destroy,
+                                                   .bytes = nonsense_bytes,
+                                                   .step = nonsense_step,
+                                                   .loses_tension = true};
 
 static const struct choice nonsense_choice = {"nonsense", "nonsense", nonsense_table,
                                               sizeof(struct nonsense_parameters), &nonsense_class};

@@ -1,0 +1,58 @@
+/* Loops over the fields of a store; see field.h. */
+#include "base/field.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* The finaliser of splitmix64: every bit of WORD reaches every bit of the result. */
+static uint64_t mix(uint64_t word)
+{
+    word = (word ^ word >> 30) * 0xbf58476d1ce4e5b9u;
+    word = (word ^ word >> 27) * 0x94d049bb133111ebu;
+    return word ^ word >> 31;
+}
+
+static uint64_t member_hash(const struct field *field, int fields, int64_t i)
+{
+    uint64_t hash = 0;
+    for (int k = 0; k < fields; k++) {
+        const struct field_declaration *declaration = &field[k].declaration;
+        if (!(declaration->kind & FIELD_STATE))
+            continue;
+        const size_t size = number_size(declaration->number);
+        const char *data = (const char *)field[k].data + (size_t)i * field_bytes(&field[k]);
+        for (int c = 0; c < declaration->components; c++) {
+            uint64_t word = 0;
+            memcpy(&word, data + (size_t)c * size, size);
+            hash = mix(hash * 0x9e3779b97f4a7c15u + word + 1);
+        }
+    }
+    return hash;
+}
+
+uint64_t fields_hash(const struct field *field, int fields, int64_t count)
+{
+    uint64_t sum = 0;
+    for (int64_t i = 0; i < count; i++)
+        sum += member_hash(field, fields, i);
+    return sum;
+}
+
+struct error *fields_visit(const char *store, const struct field *field, int fields, int64_t count,
+                           struct visitor *visitor)
+{
+    struct error *error = NULL;
+    for (int k = 0; k < fields && !error; k++) {
+        const struct field_declaration *declaration = &field[k].declaration;
+        if (!(declaration->kind & FIELD_STATE))
+            continue;
+        char *name = text_format("%s/%s", store, declaration->name);
+        error = name ? visitor->visit(visitor, name, declaration->number, field[k].data, count,
+                                      declaration->components)
+                     : error_new(ERROR_SYSTEM, "out of memory");
+        free(name);
+    }
+    return error;
+}

@@ -1,0 +1,288 @@
+/* The box that the gas solver computes, in cells, what is outside its faces, the planes there that no
+ * rule of the halo fills, and what leaves through faces. */
+#include "case/internal.h"
+#include "gas/gas_internal.h"
+#include "material/material.h"
+#include "shape/shape.h"
+
+/* Where a face of the domain stands in the case, for messages. */
+struct face_place {
+    double at; /* m */
+    const char *section, *name;
+};
+
+static double end_of(struct vec3 place, int axis)
+{
+    return axis == 0 ? place.x : axis == 1 ? place.y : place.z;
+}
+
+static struct face_place face_place_of(const struct simulation_case *input, int axis, int side)
+{
+    const struct vector_value *given = side ? &input->domain.high : &input->domain.low;
+    if (given->count > axis)
+        return (struct face_place){given->at[axis], "domain", side ? "high" : "low"};
+    for (int w = 0; w < input->walls.count; w++)
+        if (case_wall(input, w)->axis == axis && case_wall(input, w)->side == side)
+            return (struct face_place){case_wall(input, w)->at, "walls", input->walls.names[w]};
+    struct face_place place = {side ? -INFINITY : INFINITY, "bodies", NULL};
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
+        double at = end_of(side ? bounds.high : bounds.low, axis);
+        if (input->geometry == GEOMETRY_AXISYMMETRIC && axis == 0 && !side)
+            at = maximum(at, 0.0);
+        if (side ? at > place.at : at < place.at)
+            place = (struct face_place){at, "bodies", input->bodies.names[b]};
+    }
+    return place;
+}
+
+/* A wall inside the domain, or a second one of a face, would close nothing. */
+static struct error *check_walls(const struct simulation_case *input,
+                                 const struct face_place (*face)[2], double edge)
+{
+    struct error *error = NULL;
+    for (int w = 0; w < input->walls.count; w++) {
+        const struct wall_input *wall = case_wall(input, w);
+        const double at = face[wall->axis][wall->side].at;
+        if (wall->axis < input->dimension && fabs(wall->at - at) > 1e-6 * edge)
+            error = error_join(error, input_error(input, "walls", input->walls.names[w],
+                                                  "in the solver gas a wall is a face of the "
+                                                  "domain, which lies at %.6g m",
+                                                  at));
+    }
+    return error;
+}
+
+struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells)
+{
+    static const double reach = 1e9; /* cells; beyond, places lose too many digits */
+    const struct simulation_case *input = simulation->input;
+    const double edge = cells->edge;
+    struct face_place face[3][2];
+    struct error *error = NULL;
+    for (int axis = 0; axis < 3; axis++) {
+        cells->low[axis] = 0;
+        cells->high[axis] = 1;
+    }
+    for (int axis = 0; axis < cells->dimension; axis++)
+        for (int side = 0; side < 2; side++) {
+            const struct face_place place = face[axis][side] = face_place_of(input, axis, side);
+            const double planes = place.at / edge, nearest = nearbyint(planes);
+            if (!(fabs(planes) < reach))
+                error = error_join(error, input_error(input, place.section, place.name,
+                                                      "the face of the domain at %g m along %c is "
+                                                      "beyond the grid: give a `domain`",
+                                                      place.at, "xyz"[axis]));
+            else if (fabs(planes - nearest) > 1e-6)
+                error = error_join(
+                    error, input_error(input, place.section, place.name,
+                                       "the face of the domain at %.9g m along %c does not lie on "
+                                       "a plane of the grid, whose cells are %.9g m wide from 0 "
+                                       "on; the nearest is at %.9g m",
+                                       place.at, "xyz"[axis], edge, nearest * edge));
+            else
+                (side ? cells->high : cells->low)[axis] = (int64_t)nearest;
+        }
+    if (error)
+        return error;
+    for (int axis = 0; axis < cells->dimension; axis++)
+        if (cells->high[axis] <= cells->low[axis])
+            return input_error(input, face[axis][1].section, face[axis][1].name,
+                               "the domain has no cell along %c", "xyz"[axis]);
+    if (simulation->geometry == GEOMETRY_AXISYMMETRIC && cells->low[0] < 0)
+        return input_error(input, face[0][0].section, face[0][0].name,
+                           "x is the radius: the domain may begin at the axis, x = 0");
+    return check_walls(input, (const struct face_place(*)[2])face, edge);
+}
+
+void gas_find_faces(const struct simulation *simulation, const struct cell_blocks *cells,
+                    struct cell_halo *halo)
+{
+    const struct simulation_case *input = simulation->input;
+    for (int w = 0; w < input->walls.count; w++)
+        halo->face[case_wall(input, w)->axis][case_wall(input, w)->side] = CELL_FACE_MIRROR;
+    if (simulation->geometry == GEOMETRY_AXISYMMETRIC && cells->low[0] == 0)
+        halo->face[0][0] = CELL_FACE_MIRROR;
+    for (int b = 0; b < input->boundaries.count; b++) {
+        const struct boundary_input *boundary = case_boundary(input, b);
+        enum cell_face *face = halo->face[boundary->axis];
+        if (boundary->kind == BOUNDARY_PERIODIC)
+            face[0] = face[1] = CELL_FACE_PERIODIC;
+        else if (boundary->kind == BOUNDARY_INFLOW || boundary->part.choice)
+            face[boundary->side] = CELL_FACE_FILLED;
+        else if (face[boundary->side] != CELL_FACE_FILLED)
+            face[boundary->side] =
+                boundary->kind == BOUNDARY_REFLECTING ? CELL_FACE_MIRROR : CELL_FACE_COPIES;
+    }
+}
+
+/* What is outside a face at PLACE: the last boundary that names it, -1 for none. */
+static int boundary_at(const struct simulation_case *input, int axis, int side, struct vec3 place)
+{
+    for (int b = input->boundaries.count - 1; b >= 0; b--) {
+        const struct boundary_input *boundary = case_boundary(input, b);
+        if (boundary->axis == axis && boundary->side == side &&
+            (!boundary->part.choice || shape_inside(&boundary->part, place)))
+            return b;
+    }
+    return -1;
+}
+
+/* Whether a place of a face with parts is closed where no boundary names it. */
+static bool is_closed(const struct simulation *simulation, const struct cell_blocks *cells,
+                      int axis, int side)
+{
+    const struct simulation_case *input = simulation->input;
+    for (int w = 0; w < input->walls.count; w++)
+        if (case_wall(input, w)->axis == axis && case_wall(input, w)->side == side)
+            return true;
+    return simulation->geometry == GEOMETRY_AXISYMMETRIC && axis == 0 && side == 0 &&
+           cells->low[0] == 0;
+}
+
+/* Conserved numbers of what flows in. */
+static struct error *inflow(const struct simulation *simulation, int material, int boundary,
+                            struct vec3 place, double time, double *number)
+{
+    const struct simulation_case *input = simulation->input;
+    struct point point;
+    const char *key = "";
+    double velocity[3] = {0.0}, kinetic = 0.0;
+    const char *wrong =
+        boundary_state_at(case_boundary(input, boundary), &simulation->material[material], place,
+                          time, &point, velocity, &key);
+    if (wrong)
+        return error_new(ERROR_STATE, "boundaries.%s.%s: %s (at t = %.6g s)",
+                         input->boundaries.names[boundary], key, wrong, time);
+    for (int axis = 0; axis < 3; axis++) {
+        number[GAS_MOMENTUM + axis] = point.density * velocity[axis];
+        kinetic += 0.5 * square(velocity[axis]);
+    }
+    number[GAS_DENSITY] = point.density;
+    number[GAS_ENERGY] = point.density * (point.energy + kinetic);
+    number[GAS_OPEN] = 1.0;
+    return NULL;
+}
+
+/* The value of number N at place C of a plane from a cell inside the domain. */
+static double from_source(const struct gas *gas, const struct cell_blocks *cells, int axis,
+                          const struct cell_source *source, int i, int j, int rows, int n)
+{
+    double value;
+    if (source->block >= 0) {
+        const struct cell_block *block = &cells->block[source->block];
+        const int first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
+        value = gas->u[n][block->first + source->at * cell_stride(block, axis) +
+                          i * cell_stride(block, first) + j * cell_stride(block, second)];
+    } else
+        value = cell_plane(&gas->halo, cells->dimension, axis, source->at, n)[i + j * rows];
+    return source->turned && n == GAS_MOMENTUM + axis ? -value : value;
+}
+
+/* The place of a row across an axis, at its first two other axes FIRST and SECOND. */
+static void row_place(const struct cell_blocks *cells, const struct cell_block *block, int first,
+                      int second, int row, double at[3])
+{
+    const int64_t cell[2] = {block->corner[first] + row % block->count[first],
+                             block->corner[second] + row / block->count[first]};
+    at[first] = first < cells->dimension ? ((double)cell[0] + 0.5) * cells->edge : 0.0;
+    at[second] = second < cells->dimension ? ((double)cell[1] + 0.5) * cells->edge : 0.0;
+}
+
+static struct error *fill_plane(const struct gas *gas, const struct simulation *simulation,
+                                int axis, const struct cell_filled *filled, double time)
+{
+    const struct simulation_case *input = simulation->input;
+    const struct cell_blocks *cells = gas->cells;
+    const struct cell_block *block = &cells->block[filled->block];
+    const int first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2, rows = block->count[first];
+    const double edge = cells->edge;
+    const bool closed = is_closed(simulation, cells, axis, filled->side);
+    for (int j = 0; j < block->count[second]; j++)
+        for (int i = 0; i < rows; i++) {
+            double at[3] = {0.0, 0.0, 0.0}, number[GAS_FIELDS];
+            row_place(cells, block, first, second, i + j * rows, at);
+            at[axis] = (double)(filled->side ? cells->high : cells->low)[axis] * edge;
+            const int b = boundary_at(input, axis, filled->side, vec3_make(at[0], at[1], at[2]));
+            const int kind = b < 0 ? (closed ? BOUNDARY_REFLECTING : BOUNDARY_TRANSMITTING)
+                                   : case_boundary(input, b)->kind;
+            if (kind == BOUNDARY_INFLOW) {
+                /* the state is one of the cell outside */
+                at[axis] = ((double)filled->at + 0.5) * edge;
+                TRY(inflow(simulation, gas->material, b, vec3_make(at[0], at[1], at[2]), time,
+                           number));
+            } else
+                for (int n = 0; n < gas->halo.numbers; n++)
+                    number[n] =
+                        from_source(gas, cells, axis,
+                                    kind == BOUNDARY_REFLECTING ? &filled->mirror : &filled->copy,
+                                    i, j, rows, n);
+            for (int n = 0; n < gas->halo.numbers; n++)
+                cell_plane(&gas->halo, cells->dimension, axis, filled->plane, n)[i + j * rows] =
+                    number[n];
+        }
+    return NULL;
+}
+
+struct error *gas_fill_planes(const struct gas *gas, const struct simulation *simulation, int axis,
+                              double time)
+{
+    const struct cell_halo_axis *halo = &gas->halo.axis[axis];
+    for (int32_t f = 0; f < halo->fills; f++)
+        TRY(fill_plane(gas, simulation, axis, &halo->filled[f], time));
+    return NULL;
+}
+
+/* The area of a face whose centre is AT; of a radian about an axis of symmetry. */
+static double area_of(const struct simulation *simulation, double edge, const double at[3])
+{
+    const double area = simulation->dimension == 1   ? 1.0
+                        : simulation->dimension == 2 ? edge
+                                                     : edge * edge;
+    return simulation->geometry == GEOMETRY_AXISYMMETRIC ? area * at[0] : area;
+}
+
+/* Books what a FLUX has brought to the gas above a face at AT, or, with SIGN -1, to that below. */
+static void book(const struct simulation *simulation, double edge, const double at[3],
+                 const double *flux, double sign, double dt, enum ledger_cause cause,
+                 struct ledger *ledger)
+{
+    const double amount = sign * dt * area_of(simulation, edge, at);
+    const struct vec3 momentum =
+        vec3_make(amount * flux[GAS_MOMENTUM], amount * flux[GAS_MOMENTUM + 1],
+                  amount * flux[GAS_MOMENTUM + 2]);
+    if (amount != 0.0)
+        ledger_book(ledger, cause, amount * flux[GAS_DENSITY], momentum,
+                    vec3_make(at[0], at[1], at[2]), amount * flux[GAS_ENERGY]);
+}
+
+void gas_book(const struct gas *gas, const struct simulation *simulation,
+              const struct gas_strip *strip, const struct gas_through *through, int axis, double dt,
+              struct ledger *ledger)
+{
+    const struct cell_blocks *cells = gas->cells;
+    const struct cell_block *low = &cells->block[strip->block[0]],
+                            *high = &cells->block[strip->block[strip->count - 1]];
+    const int first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2, rows = low->count[first];
+    const double edge = cells->edge;
+    const int64_t end = high->corner[axis] + high->count[axis];
+    for (int row = 0; row < rows * low->count[second]; row++)
+        for (int side = 0; side < 2; side++) {
+            const enum cell_face face = gas->halo.face[axis][side];
+            if ((side ? end != cells->high[axis] : low->corner[axis] != cells->low[axis]) ||
+                face == CELL_FACE_PERIODIC)
+                continue;
+            double at[3] = {0.0, 0.0, 0.0};
+            row_place(cells, low, first, second, row, at);
+            at[axis] = (double)(side ? cells->high : cells->low)[axis] * edge;
+            book(simulation, edge, at, through->end[side][row], side ? -1.0 : 1.0, dt,
+                 face == CELL_FACE_MIRROR ? LEDGER_WALLS : LEDGER_OUTFLOWS, ledger);
+        }
+    for (int k = 0; k < through->obstacles; k++) {
+        double at[3] = {0.0, 0.0, 0.0};
+        row_place(cells, low, first, second, through->obstacle[k].row, at);
+        at[axis] = (double)(low->corner[axis] + through->obstacle[k].face) * edge;
+        book(simulation, edge, at, through->obstacle[k].flux, (double)through->obstacle[k].side, dt,
+             LEDGER_WALLS, ledger);
+    }
+}

@@ -1,0 +1,269 @@
+/* What the bodies of a case put into cells: means over cells of mass, momentum and energy. A cell that
+ * lies in one body has those of its Gauss points, one that more bodies share those of its parts. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "case/internal.h"
+#include "gas/gas_internal.h"
+#include "material/material.h"
+#include "shape/shape.h"
+
+/* Points along an axis of a cell that bodies share: some thousand of a cell. */
+static int parts_of(int dimension) { return dimension == 1 ? 1024 : dimension == 2 ? 32 : 10; }
+
+struct filling {
+    const struct simulation *simulation;
+    struct gas *gas;
+    struct replacements replacements;
+    struct bounds *bounds; /* of each body */
+    int *near, nears;      /* bodies that meet the block */
+    int *here, heres;      /* bodies among them that meet the cell */
+    struct error *error;
+};
+
+static struct vec3 place_of(const double at[3]) { return vec3_make(at[0], at[1], at[2]); }
+
+static bool meets(const struct bounds *bounds, const double low[3], const double high[3],
+                  int dimension)
+{
+    const double from[3] = {bounds->low.x, bounds->low.y, bounds->low.z},
+                 to[3] = {bounds->high.x, bounds->high.y, bounds->high.z};
+    bool meets = true;
+    for (int axis = 0; axis < dimension; axis++)
+        meets &= from[axis] < high[axis] && low[axis] < to[axis];
+    return meets;
+}
+
+static bool in_obstacle(const struct simulation_case *input, struct vec3 place)
+{
+    for (int i = 0; i < input->obstacles.count; i++)
+        if (shape_inside(&case_obstacle(input, i)->shape, place))
+            return true;
+    return false;
+}
+
+/* PLACE as the case writes it. */
+static struct error *tell(const struct filling *f, int body, const char *key, struct vec3 place,
+                          const char *text)
+{
+    const struct simulation_case *input = f->simulation->input;
+    const double at[3] = {place.x, place.y, place.z};
+    char name[128], where[96];
+    int used = 0;
+    for (int axis = 0; axis < input->dimension; axis++)
+        used += snprintf(where + used, sizeof where - (size_t)used, "%s%.6g m", axis ? ", " : "",
+                         at[axis]);
+    snprintf(name, sizeof name, "%.80s%s%.40s", body < 0 ? "" : input->bodies.names[body],
+             key[0] ? "." : "", key);
+    return input_error(input, "bodies", body < 0 ? NULL : name, "%s (at [%s])", text, where);
+}
+
+/* The body at PLACE, -1 for none: of several the one that replaces the others. */
+static int body_at(struct filling *f, struct vec3 place)
+{
+    const struct simulation_case *input = f->simulation->input;
+    int found = -1;
+    for (int k = 0; k < f->heres; k++) {
+        const int body = f->here[k];
+        if (!shape_inside(&case_body(input, body)->shape, place))
+            continue;
+        const bool wins = found >= 0 && replaces(&f->replacements, body, found);
+        if (found >= 0 && wins == replaces(&f->replacements, found, body) && !f->error) {
+            char text[160];
+            snprintf(text, sizeof text,
+                     "overlaps \"%.60s\": let one of the two, and only one, name the other in "
+                     "`replaces`",
+                     input->bodies.names[found]);
+            f->error = tell(f, body, "", place, text);
+        }
+        if (found < 0 || wins)
+            found = body;
+    }
+    return found;
+}
+
+/* Adds to SUM what BODY has at PLACE, as much as WEIGHT says. */
+static void add_state(struct filling *f, int body, struct vec3 place, double weight, double *sum)
+{
+    const struct simulation_case *input = f->simulation->input;
+    const struct body_input *of = case_body(input, body);
+    struct point point;
+    double velocity[3] = {0.0}, kinetic = 0.0;
+    const char *key = "";
+    const char *wrong = body_start_at(of, &f->simulation->material[of->material_index], place,
+                                      &point, velocity, &key);
+    if (wrong && !f->error)
+        f->error = tell(f, body, key, place, wrong);
+    if (wrong)
+        return;
+    sum[GAS_DENSITY] += weight * point.density;
+    for (int axis = 0; axis < 3; axis++) {
+        sum[GAS_MOMENTUM + axis] += weight * point.density * velocity[axis];
+        kinetic += 0.5 * square(velocity[axis]);
+    }
+    sum[GAS_ENERGY] += weight * point.density * (point.energy + kinetic);
+}
+
+/* The K-th of POINTS^dimension points of a cell, at PART of its edge along each axis. */
+static struct vec3 point_of(const struct cell_blocks *cells, const double centre[3],
+                            const double *part, int points, int64_t k)
+{
+    double at[3] = {0.0, 0.0, 0.0};
+    for (int axis = 0; axis < cells->dimension; axis++) {
+        at[axis] = centre[axis] + part[k % points] * cells->edge;
+        k /= points;
+    }
+    return place_of(at);
+}
+
+static int64_t points_in(int64_t base, int exponent)
+{
+    int64_t result = 1;
+    for (int i = 0; i < exponent; i++)
+        result *= base;
+    return result;
+}
+
+/* The weight of a place: about an axis its radius. */
+static double weight_of(const struct filling *f, struct vec3 place)
+{
+    return f->simulation->geometry == GEOMETRY_AXISYMMETRIC ? place.x : 1.0;
+}
+
+/* Whether BODY, that of the centre, has the whole cell: its corners lie in it, and no body is so small
+ * that it might lie between them. */
+static bool has_all(struct filling *f, int body, const double centre[3])
+{
+    static const double corner[2] = {-0.5 + 1e-6, 0.5 - 1e-6};
+    const struct cell_blocks *cells = f->gas->cells;
+    const struct simulation_case *input = f->simulation->input;
+    for (int k = 0; k < f->heres; k++) {
+        const struct bounds *b = &f->bounds[f->here[k]];
+        const double size[3] = {b->high.x - b->low.x, b->high.y - b->low.y, b->high.z - b->low.z};
+        for (int axis = 0; axis < cells->dimension && f->heres > 1; axis++)
+            if (size[axis] < 2.0 * cells->edge)
+                return false;
+    }
+    for (int64_t k = 0; k < points_in(2, cells->dimension); k++) {
+        const struct vec3 place = point_of(cells, centre, corner, 2, k);
+        if (body_at(f, place) != body && !in_obstacle(input, place))
+            return false;
+    }
+    return true;
+}
+
+/* The mean over a cell that lies in BODY. */
+static void fill_whole(struct filling *f, int body, const double centre[3], double *sum)
+{
+    static const double middle[1] = {0.0}, gauss[2] = {-0.28867513459481287, 0.28867513459481287};
+    const struct cell_blocks *cells = f->gas->cells;
+    const int points = case_body(f->simulation->input, body)->varies ? 2 : 1;
+    double all = 0.0;
+    for (int64_t k = 0; k < points_in(points, cells->dimension); k++) {
+        const struct vec3 place = point_of(cells, centre, points == 2 ? gauss : middle, points, k);
+        const double weight = points == 1 ? 1.0 : weight_of(f, place); /* exact where it can be */
+        add_state(f, body, place, weight, sum);
+        all += weight;
+    }
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        sum[n] /= all;
+}
+
+static void fill_parts(struct filling *f, const double centre[3], double *sum)
+{
+    const struct cell_blocks *cells = f->gas->cells;
+    const int parts = parts_of(cells->dimension);
+    double part[1024], all = 0.0;
+    for (int k = 0; k < parts; k++)
+        part[k] = (k + 0.5) / parts - 0.5;
+    for (int64_t k = 0; k < points_in(parts, cells->dimension) && !f->error; k++) {
+        const struct vec3 place = point_of(cells, centre, part, parts, k);
+        const int body = body_at(f, place);
+        const double weight = weight_of(f, place);
+        if (body >= 0) {
+            add_state(f, body, place, weight, sum);
+            all += weight;
+        } else if (!in_obstacle(f->simulation->input, place))
+            f->error = tell(f, -1, "", place,
+                            "no body fills this place of the domain: a gas wants one everywhere, "
+                            "but for obstacles");
+    }
+    for (int n = 0; n < GAS_NUMBERS && all > 0.0; n++)
+        sum[n] /= all;
+}
+
+static void fill_cell(struct filling *f, int32_t i)
+{
+    struct cell_blocks *cells = f->gas->cells;
+    struct gas *gas = f->gas;
+    const double *centre = cells->position[i];
+    const struct vec3 place = place_of(centre);
+    double low[3], high[3], sum[GAS_NUMBERS] = {0.0};
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = centre[axis] - 0.5 * cells->edge;
+        high[axis] = centre[axis] + 0.5 * cells->edge;
+    }
+    f->heres = 0;
+    for (int k = 0; k < f->nears; k++)
+        if (meets(&f->bounds[f->near[k]], low, high, cells->dimension))
+            f->here[f->heres++] = f->near[k];
+    const int body = body_at(f, place);
+    cells->body[i] = (uint16_t)(body < 0 ? 0 : body);
+    cells->material[i] = (uint16_t)gas->material;
+    if (gas->blocked) {
+        gas->u[GAS_OPEN][i] = in_obstacle(f->simulation->input, place) ? 0.0 : 1.0;
+        if (gas->u[GAS_OPEN][i] == 0.0)
+            return;
+    }
+    if (body >= 0 && has_all(f, body, centre))
+        fill_whole(f, body, centre, sum);
+    else
+        fill_parts(f, centre, sum);
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        gas->u[n][i] = sum[n];
+}
+
+static void fill_block(struct filling *f, const struct cell_block *block)
+{
+    const struct cell_blocks *cells = f->gas->cells;
+    double low[3], high[3];
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = (double)block->corner[axis] * cells->edge;
+        high[axis] = (double)(block->corner[axis] + block->count[axis]) * cells->edge;
+    }
+    f->nears = 0;
+    for (int b = 0; b < f->simulation->input->bodies.count; b++)
+        if (meets(&f->bounds[b], low, high, cells->dimension))
+            f->near[f->nears++] = b;
+    const int32_t end = block->first + block->count[0] * block->count[1] * block->count[2];
+    for (int32_t i = block->first; i < end && !f->error; i++)
+        fill_cell(f, i);
+}
+
+struct error *gas_fill(void *solver, struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->input;
+    const size_t bodies = (size_t)input->bodies.count;
+    struct gas *gas = solver;
+    struct cell_blocks *cells = gas->cells;
+    struct filling f = {.simulation = simulation, .gas = gas};
+    TRY(ranks_agree(simulation->ranks, cell_blocks_fill(cells)));
+    gas_bind(f.gas, cells);
+    struct error *error = case_replacements(input, &f.replacements);
+    f.bounds = memory_allocate(bodies * sizeof *f.bounds);
+    f.near = memory_allocate(bodies * sizeof *f.near);
+    f.here = memory_allocate(bodies * sizeof *f.here);
+    if (!error && (!f.bounds || !f.near || !f.here))
+        error = error_new(ERROR_SYSTEM, "out of memory");
+    for (size_t b = 0; b < bodies && !error; b++)
+        f.bounds[b] = shape_bounds(&case_body(input, (int)b)->shape);
+    for (int32_t b = 0; b < cells->blocks && !error && !f.error; b++)
+        fill_block(&f, &cells->block[b]);
+    free(f.replacements.at);
+    free(f.bounds);
+    free(f.near);
+    free(f.here);
+    return ranks_agree(simulation->ranks, error ? error : f.error);
+}

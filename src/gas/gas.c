@@ -1,0 +1,359 @@
+/* The gas solver as the run loop sees it: its parameters, its parts from create to destroy, and the
+ * forecast of `bolide check`. The sweeps themselves are in strips.c. */
+#include "gas/gas.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "gas/gas_internal.h"
+#include "material/any.h"
+#include "material/material.h"
+#include "model/held.h"
+
+static const char *const form_names[] = {"richtmyer", "printed", NULL};
+static const char *const viscosity_names[] = {"faces", "cells", NULL};
+
+static const struct parameter muscl_hancock_table[] = {PARAMETER_END};
+
+static const struct parameter lax_wendroff_table[] = {
+    {.key = "viscosity",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct lax_wendroff_options, viscosity),
+     .standard = "0.25",
+     .below = 1.0,
+     .closed = true,
+     .help = "eta, the factor of the adaptive viscosity"},
+    {.key = "viscosity_of",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct lax_wendroff_options, viscosity_of),
+     .standard = "faces",
+     .names = viscosity_names,
+     .help = "faces: the larger of both cells' theta; cells: each cell's own, as printed in the "
+             "source, which does not conserve"},
+    {.key = "form",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct lax_wendroff_options, form),
+     .standard = "richtmyer",
+     .names = form_names,
+     .help = "richtmyer: two steps; printed: as printed in the source, without the Jacobian, which "
+             "does not converge"},
+    PARAMETER_END,
+};
+
+const struct choice gas_method_choices[GAS_METHODS] = {
+    {"muscl-hancock", "second order, positive: limited slopes and HLLC fluxes", muscl_hancock_table,
+     0, NULL},
+    {"lax-wendroff", "Lax-Wendroff with adaptive viscosity (Cui 2014, 2.6), restored",
+     lax_wendroff_table, sizeof(struct lax_wendroff_options), NULL},
+};
+
+const struct parameter gas_table[] = {
+    {.key = "method",
+     .kind = PARAMETER_ONE_OF,
+     .offset = offsetof(struct gas_parameters, method),
+     .standard = "muscl-hancock",
+     .kind_of_thing = "gas-method",
+     .help = "of the sweeps along the axes; its name, or {NAME: {options}}"},
+    {.key = "courant",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct gas_parameters, courant),
+     .standard = PARAMETER_OPTIONAL,
+     .above = 1e-6, /* a smaller step adds less than rounding takes, and no run of it ends */
+     .below = 1.0,
+     .help = "K of dt = min K h/(|u_i| + c); default 0.8, with lax-wendroff 0.4"},
+    PARAMETER_END,
+};
+
+static const struct field_row field_rows[] = {
+    {.field = {"sound_long", "m/s", "longitudinal sound speed", NUMBER_DOUBLE, 1, FIELD_DERIVED}},
+    {.field = {"momentum_x", NULL, "momentum per volume", NUMBER_DOUBLE, 1, FIELD_STATE}},
+    {.field = {"momentum_y", NULL, "momentum per volume", NUMBER_DOUBLE, 1, FIELD_STATE}},
+    {.field = {"momentum_z", NULL, "momentum per volume", NUMBER_DOUBLE, 1, FIELD_STATE}},
+    {.field = {"total_energy", NULL, "energy per volume, with that of the motion", NUMBER_DOUBLE, 1,
+               FIELD_STATE}},
+    {.field = {"open", NULL, "1, or 0 where an obstacle blocks the cell", NUMBER_DOUBLE, 1,
+               FIELD_STATE}},
+    FIELD_ROWS_END,
+};
+enum { OWN_FIELDS = COUNT_OF(field_rows) - 1 };
+
+/* The last row counts where obstacles have BLOCKED cells. */
+static struct error *make_store(struct cell_blocks *cells, bool blocked)
+{
+    struct field_declaration own[OWN_FIELDS];
+    for (int k = 0; k < OWN_FIELDS; k++)
+        own[k] = field_rows[k].field;
+    return cell_blocks_create(cells, own, OWN_FIELDS - !blocked);
+}
+
+static double courant_of(const struct gas_parameters *parameters)
+{
+    if (!isnan(parameters->courant))
+        return parameters->courant;
+    return parameters->method.index == GAS_LAX_WENDROFF ? 0.4 : 0.8;
+}
+
+static void choose_scheme(struct gas *gas)
+{
+    const struct lax_wendroff_options *options = gas->parameters.method.value;
+    gas->second_order = gas->parameters.method.index == GAS_MUSCL_HANCOCK;
+    if (gas->second_order)
+        return;
+    gas->scheme = (struct lax_wendroff){.form = options->form,
+                                        .viscosity = options->viscosity_of,
+                                        .eta = options->viscosity,
+                                        .guarded = true};
+}
+
+static struct error *gas_create(void *solver, struct simulation *simulation, const void *parameters)
+{
+    struct gas *gas = solver;
+    const struct simulation_case *input = simulation->input;
+    gas->parameters = *(const struct gas_parameters *)parameters;
+    gas->parameters.courant = courant_of(&gas->parameters);
+    choose_scheme(gas);
+    TRY(gas_refuse(simulation));
+    gas->material = case_body(input, 0)->material_index;
+    gas->eos = simulation->material[gas->material].eos;
+    gas->blocked = input->obstacles.count > 0;
+    gas->sleepless = simulation_has_gravity(simulation);
+    struct cell_blocks *cells = gas->cells = memory_allocate(sizeof *cells);
+    if (!cells)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    cells->dimension = simulation->dimension;
+    cells->edge = input->resolution;
+    cells->ranks = simulation->ranks;
+    cells->partition = &simulation->partition;
+    cells->threads = simulation->threads;
+    TRY(gas_find_domain(simulation, cells));
+    gas_find_faces(simulation, cells, &gas->halo);
+    gas->halo.depth = gas->second_order ? 2 : CELL_GHOSTS;
+    gas->halo.numbers = gas->blocked ? GAS_FIELDS : GAS_NUMBERS;
+    TRY(make_store(cells, gas->blocked));
+    simulation_add_population(simulation, "gas", &cell_population, cells);
+    return NULL;
+}
+
+void gas_bind(struct gas *gas, const struct cell_blocks *cells)
+{
+    gas->u[GAS_DENSITY] = cells->density;
+    gas->u[GAS_MOMENTUM] = cell_blocks_field(cells, "momentum_x");
+    gas->u[GAS_MOMENTUM + 1] = cell_blocks_field(cells, "momentum_y");
+    gas->u[GAS_MOMENTUM + 2] = cell_blocks_field(cells, "momentum_z");
+    gas->u[GAS_ENERGY] = cell_blocks_field(cells, "total_energy");
+    gas->u[GAS_OPEN] = gas->blocked ? cell_blocks_field(cells, "open") : NULL;
+    gas->sound = cell_blocks_field(cells, "sound_long");
+}
+
+/* Derived fields of the blocks that are awake, which of them are still, and the fastest cell. */
+static struct error *look(struct gas *gas, const struct simulation *simulation)
+{
+    const struct cell_blocks *cells = gas->cells;
+    struct gas_look look = {.cells = cells,
+                            .eos = &gas->eos,
+                            .sound = gas->sound,
+                            .around = simulation->geometry == GEOMETRY_AXISYMMETRIC};
+    struct ranked first = {INFINITY, UINT64_MAX, 0};
+    memcpy(look.u, gas->u, sizeof look.u);
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct ranked own = {INFINITY, UINT64_MAX, 0};
+#pragma omp for schedule(static)
+        for (int32_t b = 0; b < cells->blocks; b++) {
+            struct gas_block *block = &gas->block[b];
+            if (block->awake)
+                block->fastest = gas_look_at_block(&look, b);
+            block->awake = gas->sleepless || !block->fastest.still;
+            const struct gas_fastest fastest = block->fastest;
+            const struct ranked found = {-fastest.speed, cells->id[fastest.cell], fastest.cell};
+            if (ranked_before(&found, &own))
+                own = found;
+        }
+#pragma omp critical(bolide_gas_look)
+        if (ranked_before(&own, &first))
+            first = own;
+    }
+    gas->fastest = -first.value;
+    gas->fastest_id = first.id;
+    return isnan(first.value) ? simulation_impossible(simulation, (int32_t)first.what) : NULL;
+}
+
+struct error *gas_plan(struct gas *gas, struct simulation *simulation)
+{
+    struct cell_blocks *cells = gas->cells;
+    struct error *error = NULL;
+    for (int n = 0; n < GAS_NUMBERS && cells->count > gas->room; n++) {
+        free(gas->other[n]);
+        gas->other[n] = memory_allocate(((size_t)cells->count + 1) * sizeof(double));
+        if (!gas->other[n])
+            error = error_new(ERROR_SYSTEM, "out of memory for cells");
+    }
+    gas->room = cells->count > gas->room ? cells->count : gas->room;
+    if (!memory_reserve((void **)&gas->block, &gas->block_capacity, cells->blocks + 1, 0,
+                        sizeof *gas->block))
+        error = error_join(error, error_new(ERROR_SYSTEM, "out of memory for blocks of cells"));
+    for (int32_t b = 0; !error && b < cells->blocks; b++)
+        gas->block[b] = (struct gas_block){.awake = true};
+    gas_bind(gas, cells);
+    TRY(ranks_agree(simulation->ranks, error));
+    return cell_halo_plan(&gas->halo, cells);
+}
+
+static struct error *gas_start(void *solver, struct simulation *simulation)
+{
+    struct gas *gas = solver;
+    gas->cells->threads = simulation->threads;
+    gas->since = clock_seconds();
+    TRY(gas_plan(gas, simulation));
+    return look(gas, simulation);
+}
+
+/* Blocks go to other ranks where the case has space divided anew, or one has worked longer. */
+static struct error *balance(struct gas *gas, struct simulation *simulation)
+{
+    enum { STEPS = 50 };
+    const int64_t every = simulation->input->run.rebalance;
+    const int64_t step = simulation->step;
+    if (simulation->ranks->size < 2 || step == 0 || step % (every > 0 ? every : STEPS) != 0)
+        return NULL;
+    struct cell_blocks *cells = gas->cells;
+    const uint64_t order = cells->order;
+    TRY(cell_blocks_distribute(cells, clock_seconds() - gas->since, every > 0));
+    gas->since = clock_seconds();
+    if (ranks_maximum(simulation->ranks, cells->order != order) == 0.0)
+        return NULL;
+    gas->room = 0; /* all of them may have moved */
+    TRY(gas_plan(gas, simulation));
+    return ranks_agree(simulation->ranks, look(gas, simulation));
+}
+
+static struct error *gas_prepare(void *solver, struct simulation *simulation, struct limit *limit)
+{
+    static const char *const reasons[] = {"a wave that crosses a cell"};
+    struct gas *gas = solver;
+    TRY(balance(gas, simulation));
+    const double edge = gas->cells->edge;
+    const struct ranked own = {gas->parameters.courant * edge / gas->fastest, gas->fastest_id, 0};
+    *limit = limit_of_ranks(simulation->ranks, own, reasons);
+    return NULL;
+}
+
+/* Gravity acts on all open cells for DT: the internal energy stays. */
+static void pull(const struct gas *gas, struct simulation *simulation, double dt)
+{
+    const struct cell_blocks *cells = gas->cells;
+    const double *g = simulation->gravity;
+    const double volume = pow(cells->edge, simulation->dimension);
+    const bool around = simulation->geometry == GEOMETRY_AXISYMMETRIC;
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct ledger own = {0};
+#pragma omp for schedule(static)
+        for (int32_t i = 0; i < cells->count; i++) {
+            double work = 0.0, impulse[3];
+            if (gas->blocked && gas->u[GAS_OPEN][i] == 0.0)
+                continue;
+            for (int axis = 0; axis < 3; axis++) {
+                double *momentum = &gas->u[GAS_MOMENTUM + axis][i];
+                impulse[axis] = dt * gas->u[GAS_DENSITY][i] * g[axis];
+                work += dt * g[axis] * (*momentum + 0.5 * impulse[axis]);
+                *momentum += impulse[axis];
+            }
+            gas->u[GAS_ENERGY][i] += work;
+            const double size = around ? volume * cells->position[i][0] : volume;
+            ledger_book(&own, LEDGER_GRAVITY, 0.0,
+                        vec3_make(size * impulse[0], size * impulse[1], size * impulse[2]),
+                        vector_at(cells->position[i]), size * work);
+        }
+#pragma omp critical(bolide_gas_pull)
+        ledger_join(&simulation->ledger, &own);
+    }
+}
+
+/* MUSCL-Hancock sweeps along the axes in one order and in the next step back (Strang, SIAM J. Numer.
+ * Anal. 5 (1968) 506); Lax-Wendroff in both halves of each step (2-52). */
+static struct error *gas_advance(void *solver, struct simulation *simulation, double dt)
+{
+    struct gas *gas = solver;
+    const int last = simulation->dimension - 1;
+    const bool heavy = simulation_has_gravity(simulation);
+    double begin = clock_seconds();
+    if (heavy)
+        pull(gas, simulation, 0.5 * dt);
+    for (int k = 0; k <= last && gas->second_order; k++)
+        TRY(gas_sweep(gas, simulation, simulation->step % 2 ? last - k : k, dt));
+    for (int k = -last; k <= last && !gas->second_order; k++)
+        TRY(gas_sweep(gas, simulation, k < 0 ? -k : k, k == 0 ? dt : 0.5 * dt));
+    if (heavy)
+        pull(gas, simulation, 0.5 * dt);
+    simulation_spend(simulation, "sweeps", clock_seconds() - begin);
+    begin = clock_seconds();
+    struct error *error = look(gas, simulation);
+    simulation_spend(simulation, "states", clock_seconds() - begin);
+    return error;
+}
+
+static struct error *gas_state(void *solver, struct visitor *visitor)
+{
+    (void)solver;
+    (void)visitor;
+    return NULL;
+}
+
+static void gas_observe(const void *solver, const struct simulation *simulation,
+                        struct views *views)
+{
+    (void)solver;
+    views_of_population(views, simulation);
+}
+
+static void gas_destroy(void *solver)
+{
+    struct gas *gas = solver;
+    gas_free_strips(gas);
+    cell_halo_free(&gas->halo);
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        free(gas->other[n]);
+    free(gas->block);
+    free(gas->through);
+    if (gas->cells)
+        cell_blocks_destroy(gas->cells);
+    free(gas->cells);
+}
+
+static double gas_bytes(const void *parameters, int dimension)
+{
+    (void)parameters;
+    struct cell_blocks store = {.dimension = dimension};
+    error_free(make_store(&store, false));
+    const double bytes = (double)cell_blocks_bytes(&store);
+    cell_blocks_destroy(&store);
+    return bytes + GAS_NUMBERS * sizeof(double);
+}
+
+static double gas_step(const void *parameters, int dimension, const struct material *material,
+                       const struct point *point, double diameter)
+{
+    const struct gas_parameters *of = parameters;
+    struct point at = *point;
+    (void)dimension;
+    return courant_of(of) * diameter / any_material_evaluate(material, &at).sound_long;
+}
+
+static const struct field_row *const field_tables[] = {field_rows, NULL};
+
+const struct solver_class gas_class = {.members = "cells",
+                                       .size = sizeof(struct gas),
+                                       .create = gas_create,
+                                       .fill = gas_fill,
+                                       .start = gas_start,
+                                       .prepare = gas_prepare,
+                                       .advance = gas_advance,
+                                       .state = gas_state,
+                                       .observe = gas_observe,
+                                       .destroy = gas_destroy,
+                                       .bytes = gas_bytes,
+                                       .step = gas_step,
+                                       .fields = field_tables};

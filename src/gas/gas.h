@@ -1,0 +1,21 @@
+/* Gas dynamics on a grid: sweeps along the axes, one after another, over cells that stay. The default
+ * is MUSCL-Hancock with HLLC; `method: lax-wendroff` is that of Cui, dissertation (2014), section 2.6,
+ * restored. */
+#ifndef BOLIDE_GAS_H
+#define BOLIDE_GAS_H
+
+#include "model/solver.h"
+
+struct gas_parameters {
+    struct one_of method; /* "gas-method" */
+    double courant;       /* NAN: by the method */
+};
+
+/* `solver: {gas: {...}}`. */
+extern const struct parameter gas_table[];
+extern const struct solver_class gas_class;
+
+enum gas_method { GAS_MUSCL_HANCOCK, GAS_LAX_WENDROFF, GAS_METHODS };
+extern const struct choice gas_method_choices[GAS_METHODS];
+
+#endif

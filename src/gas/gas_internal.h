@@ -1,0 +1,87 @@
+/* The state of the gas solver. Private to gas/. */
+#ifndef BOLIDE_GAS_INTERNAL_H
+#define BOLIDE_GAS_INTERNAL_H
+
+#include "gas/gas.h"
+#include "gas/sweep.h"
+#include "model/cell_population.h"
+
+struct lax_wendroff_options {
+    int form, viscosity_of; /* enum lax_wendroff_form, _viscosity */
+    double viscosity;       /* NAN: by the speed of waves */
+};
+
+/* Strips of an axis, those that need no planes of other ranks or faces first. */
+struct gas_strips {
+    int32_t count, early;
+    int32_t *block; /* of all strips, one behind the other */
+    struct gas_strip *strip;
+};
+
+/* What is known of a block, so that gas at rest costs nothing. */
+struct gas_block {
+    struct gas_fastest fastest;
+    bool awake; /* a sweep of this step took it, or it was not still at its start */
+    bool same;  /* what sweeps wrote last is its state */
+};
+
+struct gas {
+    struct gas_parameters parameters;
+    struct cell_blocks *cells;
+    bool second_order;
+    struct lax_wendroff scheme;
+    struct eos eos;
+    int material;
+    bool blocked; /* some cells are */
+    struct cell_halo halo;
+    uint64_t order; /* of the blocks when the strips were made */
+    int32_t room;   /* cells for which `other` has room */
+    struct gas_block *block;
+    int64_t block_capacity;
+    bool sleepless; /* all blocks are swept always: gravity pulls them, or a test wants it */
+    struct gas_through *through; /* one a thread */
+    int throughs;
+    struct gas_strips strips[3];
+    double *u[GAS_FIELDS];      /* conserved numbers, as the store has them */
+    double *other[GAS_NUMBERS]; /* where sweeps write */
+    double *sound;
+    double fastest; /* |u_i| + c of all of this rank's cells, m/s */
+    uint64_t fastest_id;
+    double since; /* clock_seconds() of the last look at the balance of ranks */
+};
+
+/* What the gas solver cannot do of a case, located. */
+struct error *gas_refuse(const struct simulation *simulation);
+
+/* The domain of a case in CELLS of an edge: as it says, else where its walls are, else the bounds of its
+ * bodies. ERROR_INPUT: a face does not lie on a plane of the grid. */
+struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells);
+
+/* What is outside the faces of the domain. */
+void gas_find_faces(const struct simulation *simulation, const struct cell_blocks *cells,
+                    struct cell_halo *halo);
+
+/* Fills the planes of AXIS outside faces with parts or inflow, as they are at TIME. ERROR_STATE: what
+ * flows in has no state. */
+struct error *gas_fill_planes(const struct gas *gas, const struct simulation *simulation, int axis,
+                              double time);
+
+/* Collective: what the bodies of the case put into the cells. */
+struct error *gas_fill(void *solver, struct simulation *simulation);
+
+/* The sweeps' pointers to the fields of the store. */
+void gas_bind(struct gas *gas, const struct cell_blocks *cells);
+
+/* Arrays, pointers, halo and strips for the blocks as they are. Collective. */
+struct error *gas_plan(struct gas *gas, struct simulation *simulation);
+void gas_free_strips(struct gas *gas);
+
+/* Collective: a sweep along AXIS over DT. */
+struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis, double dt);
+
+/* Books what left STRIP of a sweep along AXIS in DT. */
+void gas_book(const struct gas *gas, const struct simulation *simulation,
+              const struct gas_strip *strip, const struct gas_through *through, int axis, double dt,
+              struct ledger *ledger);
+
+#endif

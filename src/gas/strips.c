@@ -1,0 +1,225 @@
+/* Strips of blocks, and a sweep over all of them: those that need nothing of other ranks while planes
+ * of these are under way, then the others. */
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "gas/gas_internal.h"
+
+static struct error *out_of_memory(void)
+{
+    return error_new(ERROR_SYSTEM, "out of memory for strips of cells");
+}
+
+static void free_strips(struct gas_strips *strips)
+{
+    free(strips->block);
+    free(strips->strip);
+    memset(strips, 0, sizeof *strips);
+}
+
+void gas_free_strips(struct gas *gas)
+{
+    for (int axis = 0; axis < 3; axis++)
+        free_strips(&gas->strips[axis]);
+}
+
+/* The block behind B along AXIS, -1 where it is not this rank's or begins a new strip. */
+static int32_t next_block(const struct cell_blocks *cells, const struct cell_block *b, int axis)
+{
+    int64_t at[3] = {b->corner[0], b->corner[1], b->corner[2]};
+    at[axis] += b->count[axis];
+    const bool ends = at[axis] >= cells->high[axis] || at[axis] % ROW_CELLS == 0;
+    const struct cell_block *next =
+        ends ? NULL : cell_block_find(cells, cell_block_key(cells->dimension, at));
+    return next ? (int32_t)(next - cells->block) : -1;
+}
+
+/* Whether B continues the strip of the block before it. */
+static bool is_continued(const struct cell_blocks *cells, const struct cell_block *b, int axis)
+{
+    int64_t at[3] = {b->corner[0], b->corner[1], b->corner[2]};
+    if (at[axis] == cells->low[axis] || at[axis] % ROW_CELLS == 0)
+        return false;
+    at[axis]--;
+    return cell_block_find(cells, cell_block_key(cells->dimension, at)) != NULL;
+}
+
+/* Strips begin at multiples of the longest row, where the domain does, and after blocks of others. */
+static void make_strips(const struct cell_blocks *cells, const struct cell_halo_axis *halo,
+                        int axis, struct gas_strips *strips)
+{
+    int32_t blocks = 0;
+    for (int32_t b = 0; b < cells->blocks; b++) {
+        if (is_continued(cells, &cells->block[b], axis))
+            continue;
+        struct gas_strip *strip = &strips->strip[strips->count++];
+        strip->block = &strips->block[blocks];
+        int32_t last = b;
+        for (int32_t at = b; at >= 0; at = next_block(cells, &cells->block[at], axis)) {
+            strips->block[blocks++] = at;
+            strip->count++;
+            last = at;
+        }
+        strip->waits = halo->waits[b][0] || halo->waits[last][1];
+        const struct cell_block *low = &cells->block[b], *high = &cells->block[last];
+        strip->bounds = low->corner[axis] == cells->low[axis] ||
+                        high->corner[axis] + high->count[axis] == cells->high[axis];
+    }
+    assert(blocks == cells->blocks);
+    struct gas_strip *sorted = strips->strip + strips->count; /* the room is double */
+    int32_t late = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int32_t s = 0; s < strips->count; s++)
+            if (strips->strip[s].waits == (pass == 1))
+                sorted[late++] = strips->strip[s];
+        strips->early = pass ? strips->early : late;
+    }
+    memmove(strips->strip, sorted, (size_t)strips->count * sizeof *sorted);
+}
+
+/* Room for what leaves a strip on each of so many THREADS. */
+static struct error *reserve_through(struct gas *gas, int threads)
+{
+    if (gas->throughs >= threads)
+        return NULL;
+    free(gas->through);
+    gas->through = memory_allocate((size_t)threads * sizeof *gas->through);
+    gas->throughs = gas->through ? threads : 0;
+    return gas->through ? NULL : out_of_memory();
+}
+
+static struct error *plan_strips(struct gas *gas, const struct cell_blocks *cells, int threads)
+{
+    TRY(reserve_through(gas, threads));
+    if (gas->order == cells->order)
+        return NULL;
+    gas->order = cells->order;
+    for (int axis = 0; axis < cells->dimension; axis++) {
+        struct gas_strips *strips = &gas->strips[axis];
+        free_strips(strips);
+        const size_t room = (size_t)cells->blocks + 1;
+        strips->block = memory_allocate(room * sizeof *strips->block);
+        strips->strip = memory_allocate(2 * room * sizeof *strips->strip);
+        if (!strips->block || !strips->strip)
+            return out_of_memory();
+        make_strips(cells, &gas->halo.axis[axis], axis, strips);
+    }
+    return NULL;
+}
+
+/* Whether block B holds the same gas at rest as block A, which is still. */
+static bool is_alike(const struct gas *gas, int32_t a, int32_t b)
+{
+    const int32_t i = gas->cells->block[a].first, j = gas->cells->block[b].first;
+    return !gas->block[b].awake && gas->u[GAS_DENSITY][i] == gas->u[GAS_DENSITY][j] &&
+           gas->u[GAS_ENERGY][i] == gas->u[GAS_ENERGY][j];
+}
+
+/* A sweep leaves one gas at rest as it is, to the bit, whatever the step is: fluxes are its pressure
+ * everywhere. What it knows of the blocks is as they are before the sweep. */
+static bool may_sleep(const struct gas *gas, const struct gas_strip *strip, int axis)
+{
+    const struct cell_halo_axis *halo = &gas->halo.axis[axis];
+    const int32_t first = strip->block[0], last = strip->block[strip->count - 1];
+    if (strip->waits || gas->block[first].awake)
+        return false;
+    for (int k = 1; k < strip->count; k++)
+        if (!is_alike(gas, first, strip->block[k]))
+            return false;
+    for (int depth = 0; depth < gas->halo.depth; depth++)
+        if (!is_alike(gas, first, halo->beyond[first][0][depth].block) ||
+            !is_alike(gas, first, halo->beyond[last][1][depth].block))
+            return false;
+    return true;
+}
+
+static void copy_block(struct gas *gas, int32_t b)
+{
+    const struct cell_block *block = &gas->cells->block[b];
+    const size_t cells = (size_t)(block->count[0] * block->count[1] * block->count[2]);
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        memcpy(gas->other[n] + block->first, gas->u[n] + block->first, cells * sizeof(double));
+    gas->block[b].same = true;
+}
+
+/* Which strips of a sweep along AXIS sleep; blocks of the others are awake for the rest of the step. */
+static void choose_strips(struct gas *gas, const struct simulation *simulation, int axis)
+{
+    struct gas_strips *strips = &gas->strips[axis];
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t s = 0; s < strips->count; s++)
+        strips->strip[s].sleeps = may_sleep(gas, &strips->strip[s], axis);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t s = 0; s < strips->count; s++)
+        for (int k = 0; k < strips->strip[s].count; k++) {
+            const int32_t b = strips->strip[s].block[k];
+            if (!strips->strip[s].sleeps) {
+                gas->block[b].awake = true;
+                gas->block[b].same = false;
+            } else if (!gas->block[b].same)
+                copy_block(gas, b);
+        }
+}
+
+/* The strips FIRST .. END - 1 of a sweep over DT. */
+static void sweep_strips(const struct gas *gas, struct simulation *simulation,
+                         const struct gas_sweep *sweep, int32_t first, int32_t end, double dt)
+{
+    const struct gas_strips *strips = &gas->strips[sweep->axis];
+#pragma omp parallel num_threads(simulation->threads)
+    {
+        struct ledger own = {0};
+        struct gas_through *of = &gas->through[omp_get_thread_num()];
+#pragma omp for schedule(dynamic)
+        for (int32_t s = first; s < end; s++) {
+            if (strips->strip[s].sleeps && !strips->strip[s].bounds)
+                continue;
+            gas_sweep_strip(sweep, &strips->strip[s], of);
+            gas_book(gas, simulation, &strips->strip[s], of, sweep->axis, dt, &own);
+        }
+#pragma omp critical(bolide_gas_sweep)
+        ledger_join(&simulation->ledger, &own);
+    }
+}
+
+/* What sweeps have written becomes the state. */
+static void take_written(struct gas *gas, struct cell_blocks *cells)
+{
+    for (int n = 0; n < GAS_NUMBERS; n++) {
+        for (int k = 0; k < cells->fields; k++)
+            if (cells->field[k].data == (void *)gas->u[n])
+                cells->field[k].data = gas->other[n];
+        double *written = gas->other[n];
+        gas->other[n] = gas->u[n];
+        gas->u[n] = written;
+    }
+    cells->density = gas->u[GAS_DENSITY];
+}
+
+struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis, double dt)
+{
+    struct cell_blocks *cells = gas->cells;
+    struct gas_sweep sweep = {.cells = cells,
+                              .halo = &gas->halo,
+                              .eos = &gas->eos,
+                              .axis = axis,
+                              .r = dt / cells->edge,
+                              .around = axis == 0 && simulation->geometry == GEOMETRY_AXISYMMETRIC,
+                              .second_order = gas->second_order,
+                              .scheme = gas->scheme};
+    memcpy(sweep.from, gas->u, sizeof sweep.from);
+    memcpy(sweep.to, gas->other, sizeof sweep.to);
+    TRY(ranks_agree(simulation->ranks, plan_strips(gas, cells, simulation->threads)));
+    const struct gas_strips *strips = &gas->strips[axis];
+    choose_strips(gas, simulation, axis);
+    cell_halo_start(&gas->halo, cells, axis, sweep.from);
+    sweep_strips(gas, simulation, &sweep, 0, strips->early, dt);
+    cell_halo_finish(&gas->halo, axis);
+    TRY(ranks_agree(simulation->ranks,
+                    gas_fill_planes(gas, simulation, axis, simulation->time + 0.5 * dt)));
+    sweep_strips(gas, simulation, &sweep, strips->early, strips->count, dt);
+    take_written(gas, cells);
+    return NULL;
+}

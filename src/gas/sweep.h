@@ -1,0 +1,73 @@
+/* Sweeps over strips: blocks that follow one another along an axis, whose cells make rows. For files
+ * that are compiled once an instruction set, and for those that call them. */
+#ifndef BOLIDE_GAS_SWEEP_H
+#define BOLIDE_GAS_SWEEP_H
+
+#include "gas/lax_wendroff.h"
+#include "grid/cell_halo.h"
+
+/* Conserved numbers of a cell, and behind them whether it is open, 1, or blocked by a rigid body, 0. */
+enum { GAS_OPEN = GAS_NUMBERS, GAS_FIELDS };
+
+/* A sweep along an axis: what all strips share. */
+struct gas_sweep {
+    const struct cell_blocks *cells;
+    const struct cell_halo *halo;
+    const struct eos *eos;
+    const double *from[GAS_FIELDS]; /* [GAS_OPEN] is NULL where no cell is blocked */
+    double *to[GAS_NUMBERS];
+    int axis;
+    double r;          /* dt/h */
+    bool around;       /* the axis is a radius */
+    bool second_order; /* MUSCL-Hancock, else Lax-Wendroff */
+    struct lax_wendroff scheme;
+};
+
+/* `count` blocks, one behind the other. */
+struct gas_strip {
+    const int32_t *block;
+    int count;
+    bool waits;  /* it needs planes */
+    bool bounds; /* an end of it is a face of the domain, across which something is booked */
+    bool sleeps; /* all of it and what is beyond its ends is one gas at rest: it stays as it is */
+};
+
+enum { STRIP_ROWS = 64, STRIP_OBSTACLES = STRIP_ROWS * (ROW_CELLS + 2) };
+
+/* What leaves a strip through its ends, per area and time: of each row, the lower of the two other axes
+ * first; and through the faces of blocked cells, whose cell is the one on its low side, counted from
+ * the strip's first, and whose flux counts for the gas on its SIDE, -1 below, 1 above. */
+struct gas_through {
+    double end[2][STRIP_ROWS][GAS_NUMBERS];
+    int obstacles;
+    struct {
+        int row, face, side;
+        double flux[GAS_NUMBERS];
+    } obstacle[STRIP_OBSTACLES];
+};
+
+/* Of a strip that sleeps, whose rows are alike, one row tells what leaves the others. */
+void gas_sweep_strip(const struct gas_sweep *sweep, const struct gas_strip *strip,
+                     struct gas_through *through);
+
+/* Cells whose derived fields are to be found. */
+struct gas_look {
+    const struct cell_blocks *cells;
+    const struct eos *eos;
+    const double *u[GAS_FIELDS];
+    double *sound; /* m/s */
+    bool around;
+};
+
+/* The fastest |u_i| + c of a block, and the cell with it; a cell whose state is impossible comes before
+ * all others, with a speed that is not a number. */
+struct gas_fastest {
+    double speed;
+    int32_t cell;
+    bool still; /* all its cells are open and hold one gas at rest */
+};
+
+/* Mass, velocity, energy, pressure and sound speed of the cells of block B. */
+struct gas_fastest gas_look_at_block(const struct gas_look *look, int32_t b);
+
+#endif

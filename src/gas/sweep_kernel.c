@@ -1,0 +1,362 @@
+/* Sweeps over strips and the state of blocks for one instruction set, named by BOLIDE_ISA; see
+ * sweep.h. */
+#include "gas/sweep.h"
+
+#include "base/isa.h"
+#include "gas/muscl_hancock.h"
+
+/* The axes across a sweep, the lower first. */
+struct across {
+    int first, second;
+};
+
+static struct across across_of(int axis)
+{
+    const struct across across = {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2};
+    return across;
+}
+
+/* A row: its place across the strip, and where its cells are, by segments of blocks. */
+struct gather {
+    const struct gas_sweep *sweep;
+    const struct gas_strip *strip;
+    int i, j; /* across, the lower axis first */
+    int rows; /* along the lower axis */
+};
+
+static int32_t place_of(const struct gather *g, const struct cell_block *block)
+{
+    const struct across across = across_of(g->sweep->axis);
+    return block->first + g->i * cell_stride(block, across.first) +
+           g->j * cell_stride(block, across.second);
+}
+
+/* The NUMBERS of a ghost of the row into place K. */
+static void load_ghost(const struct gather *g, const struct cell_source *source, int numbers, int k,
+                       double (*out)[ROW_ROOM])
+{
+    const struct gas_sweep *sweep = g->sweep;
+    const int dimension = sweep->cells->dimension;
+    if (source->block >= 0) {
+        const struct cell_block *block = &sweep->cells->block[source->block];
+        const int32_t at = place_of(g, block) + source->at * cell_stride(block, sweep->axis);
+        for (int n = 0; n < numbers; n++)
+            out[n][k] = sweep->from[n][at];
+    } else
+        for (int n = 0; n < numbers; n++)
+            out[n][k] = cell_plane(sweep->halo, dimension, sweep->axis, source->at,
+                                   n)[g->i + g->j * g->rows];
+    if (source->turned)
+        out[GAS_MOMENTUM + sweep->axis][k] = -out[GAS_MOMENTUM + sweep->axis][k];
+}
+
+/* The cells of a row and those beyond its ends. Returns the number of its cells. */
+static int load_row(const struct gather *g, int numbers, double (*out)[ROW_ROOM])
+{
+    const struct gas_sweep *sweep = g->sweep;
+    const struct gas_strip *strip = g->strip;
+    const struct cell_halo_axis *halo = &sweep->halo->axis[sweep->axis];
+    int k = ROW_GHOSTS;
+    for (int s = 0; s < strip->count; s++) {
+        const struct cell_block *block = &sweep->cells->block[strip->block[s]];
+        const int32_t at = place_of(g, block), stride = cell_stride(block, sweep->axis);
+        const int count = block->count[sweep->axis];
+        for (int n = 0; n < numbers; n++) {
+            const double *in = sweep->from[n] + at;
+            for (int c = 0; c < count; c++)
+                out[n][k + c] = in[c * stride];
+        }
+        k += count;
+    }
+    const int32_t low = strip->block[0], high = strip->block[strip->count - 1];
+    for (int depth = 0; depth < sweep->halo->depth; depth++) {
+        load_ghost(g, &halo->beyond[low][0][depth], numbers, ROW_GHOSTS - 1 - depth, out);
+        load_ghost(g, &halo->beyond[high][1][depth], numbers, k + depth, out);
+    }
+    return k - ROW_GHOSTS;
+}
+
+/* The cells of a row that begins with cell FIRST of the strip. */
+static void store_row(const struct gather *g, const struct gas_row *row, int first)
+{
+    const struct gas_sweep *sweep = g->sweep;
+    int k = 0;
+    for (int s = 0; s < g->strip->count; s++) {
+        const struct cell_block *block = &sweep->cells->block[g->strip->block[s]];
+        const int32_t at = place_of(g, block), stride = cell_stride(block, sweep->axis);
+        const int count = block->count[sweep->axis], begin = first > k ? first - k : 0,
+                  end = first + row->cells < k + count ? first + row->cells - k : count;
+        for (int n = 0; n < GAS_NUMBERS && begin < end; n++) {
+            double *out = sweep->to[n] + at;
+            const double *in = &row->u.of[n][ROW_GHOSTS + k - first];
+            for (int c = begin; c < end; c++)
+                out[c * stride] = in[c];
+        }
+        k += count;
+    }
+}
+
+static void sweep_row(const struct gas_sweep *sweep, struct gas_row *row, struct gas_numbers *flux)
+{
+    if (sweep->second_order)
+        row_muscl_hancock(row, sweep->r, flux);
+    else
+        row_lax_wendroff(row, &sweep->scheme, sweep->r, flux);
+}
+
+static void note_end(const struct gas_numbers *flux, int face, double *out)
+{
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        out[n] = flux->of[n][face + ROW_GHOSTS];
+}
+
+static void note_obstacle(const struct gas_numbers *flux, int face, int row, int at, int side,
+                          struct gas_through *through)
+{
+    through->obstacle[through->obstacles].row = row;
+    through->obstacle[through->obstacles].face = at;
+    through->obstacle[through->obstacles].side = side;
+    note_end(flux, face, through->obstacle[through->obstacles].flux);
+    through->obstacles++;
+}
+
+/* Copies cell FROM of ALL to place TO of a row, turned where it is an image. */
+static void copy_cell(double (*all)[ROW_ROOM], int from, bool turned, int axis,
+                      struct gas_numbers *to, int k)
+{
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        to->of[n][k] = turned && n == GAS_MOMENTUM + axis ? -all[n][from] : all[n][from];
+}
+
+/* The place in a run LOW .. HIGH of open cells that stands for place K outside it, reflected at its
+ * ends as often as it takes. */
+static int reflected(int k, int low, int high, bool *turned)
+{
+    *turned = false;
+    while (k < low || k > high) {
+        k = k < low ? 2 * low - 1 - k : 2 * high + 1 - k;
+        *turned = !*turned;
+    }
+    return k;
+}
+
+/* A row of CELLS cells some of which, or of their ghosts, are blocked: each run of open cells between
+ * blocked ones is a row of its own, whose ghosts beyond a blocked cell are images. */
+static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cells, int number,
+                       struct gas_row *row, struct gas_through *through)
+{
+    const int depth = g->sweep->halo->depth, axis = g->sweep->axis;
+    const int begin = ROW_GHOSTS, end = ROW_GHOSTS + cells; /* of the row's own cells */
+    const double *open = all[GAS_OPEN], first = row->first;
+    const int32_t low_block = g->strip->block[0];
+    struct gas_numbers flux;
+    (void)low_block;
+    for (int k = begin - depth; k < end + depth;) {
+        if (open[k] == 0.0) {
+            if (k >= begin && k < end) { /* as it was */
+                row->cells = 1;
+                copy_cell(all, k, false, axis, &row->u, ROW_GHOSTS);
+                store_row(g, row, k - begin);
+            }
+            k++;
+            continue;
+        }
+        int last = k;
+        while (last + 1 < end + depth && open[last + 1] != 0.0)
+            last++;
+        const int from = k > begin ? k : begin, to = last < end ? last + 1 : end;
+        if (from < to) {
+            const bool closed_low = k > begin - depth, closed_high = last < end + depth - 1;
+            row->cells = to - from;
+            row->first = first + (from - begin);
+            for (int at = from - depth; at < to + depth; at++) {
+                bool turned = false;
+                int source = at;
+                if ((closed_low && at < k) || (closed_high && at > last))
+                    source =
+                        reflected(at, closed_low ? k : -1000, closed_high ? last : 1000, &turned);
+                copy_cell(all, source, turned, axis, &row->u, at - from + ROW_GHOSTS);
+            }
+            sweep_row(g->sweep, row, &flux);
+            store_row(g, row, from - begin);
+            if (from == begin)
+                note_end(&flux, 0, through->end[0][number]);
+            if (to == end)
+                note_end(&flux, row->cells, through->end[1][number]);
+            if (closed_low && from == k)
+                note_obstacle(&flux, 0, number, from - begin, 1, through);
+            if (closed_high && to == last + 1)
+                note_obstacle(&flux, row->cells, number, to - begin, -1, through);
+        }
+        k = last + 1;
+    }
+    row->first = first;
+}
+
+static bool any_blocked(const double *open, int cells, int depth)
+{
+    bool any = false;
+    FOR_ROW(k, -depth, cells - 1 + depth) any |= open[k] == 0.0;
+    return any;
+}
+
+ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct gas_strip *strip,
+           struct gas_through *through)
+{
+    const struct cell_block *block = &sweep->cells->block[strip->block[0]];
+    const struct across across = across_of(sweep->axis);
+    const int rows = block->count[across.first], columns = block->count[across.second];
+    const int numbers = sweep->from[GAS_OPEN] ? GAS_FIELDS : GAS_NUMBERS;
+    struct gas_row row;
+    row.eos = sweep->eos;
+    row.axis = sweep->axis;
+    row.around = sweep->around;
+    row.first = (double)block->corner[sweep->axis];
+    through->obstacles = 0;
+    for (int j = 0; j < columns; j++)
+        for (int i = 0; i < rows; i++) {
+            if (strip->sleeps && i + j > 0) {
+                for (int side = 0; side < 2; side++)
+                    for (int n = 0; n < GAS_NUMBERS; n++)
+                        through->end[side][i + j * rows][n] = through->end[side][0][n];
+                continue;
+            }
+            const struct gather g = {sweep, strip, i, j, rows};
+            const int number = i + j * rows;
+            double all[GAS_FIELDS][ROW_ROOM];
+            struct gas_numbers flux;
+            const int cells = load_row(&g, numbers, numbers == GAS_FIELDS ? all : row.u.of);
+            row.cells = cells;
+            if (numbers == GAS_FIELDS) {
+                if (any_blocked(all[GAS_OPEN], cells, sweep->halo->depth)) {
+                    for (int n = 0; n < GAS_NUMBERS; n++)
+                        through->end[0][number][n] = through->end[1][number][n] = 0.0;
+                    sweep_runs(&g, all, cells, number, &row, through);
+                    continue;
+                }
+                for (int n = 0; n < GAS_NUMBERS; n++)
+                    FOR_ROW(k, -sweep->halo->depth, cells - 1 + sweep->halo->depth)
+                row.u.of[n][k] = all[n][k];
+            }
+            sweep_row(sweep, &row, &flux);
+            store_row(&g, &row, 0);
+            note_end(&flux, 0, through->end[0][number]);
+            note_end(&flux, cells, through->end[1][number]);
+        }
+}
+
+/* Cells of a block, ROW_CELLS at most, as the equation of state and the store take them. */
+struct run {
+    int32_t first;
+    int count;
+    double density[ROW_ROOM], energy[ROW_ROOM], velocity[3][ROW_ROOM], fastest[ROW_ROOM];
+};
+
+static bool is_closed(const struct gas_look *look, int32_t i)
+{
+    return look->u[GAS_OPEN] && look->u[GAS_OPEN][i] == 0.0;
+}
+
+/* Velocities and specific energies of the cells; closed ones get a density that can be divided by. */
+static void take_run(const struct gas_look *look, struct run *run)
+{
+    const double *const *u = look->u;
+    const int32_t first = run->first;
+    FOR_ROW(k, 0, run->count - 1)
+    {
+        const int32_t i = first + k - ROW_GHOSTS;
+        run->density[k] = u[GAS_DENSITY][i];
+        double kinetic = 0.0, fastest = 0.0;
+        for (int axis = 0; axis < 3; axis++) {
+            const double v = u[GAS_MOMENTUM + axis][i] / u[GAS_DENSITY][i];
+            run->velocity[axis][k] = v;
+            kinetic += 0.5 * v * v;
+            fastest = maximum(fastest, fabs(v));
+        }
+        run->energy[k] = u[GAS_ENERGY][i] / u[GAS_DENSITY][i] - kinetic;
+        run->fastest[k] = fastest;
+    }
+    for (int k = 0; k < run->count && look->u[GAS_OPEN]; k++)
+        if (is_closed(look, first + k)) {
+            const int at = k + ROW_GHOSTS;
+            run->density[at] = eos_reference_density(look->eos);
+            run->energy[at] = run->fastest[at] = 0.0;
+            for (int axis = 0; axis < 3; axis++)
+                run->velocity[axis][at] = 0.0;
+        }
+}
+
+/* What the store shows of the cells, whose volume is VOLUME, per radian that of the plane. */
+static void put_run(const struct gas_look *look, const struct run *run,
+                    const struct row_values *values, double volume)
+{
+    const struct cell_blocks *cells = look->cells;
+    for (int k = 0; k < run->count; k++) {
+        const int32_t i = run->first + k;
+        const int at = k + ROW_GHOSTS;
+        const bool open = !is_closed(look, i);
+        const double density = run->density[at],
+                     sound = values->dp_drho[at] +
+                             values->pressure[at] / square(density) * values->dp_de[at];
+        for (int axis = 0; axis < 3; axis++)
+            cells->velocity[i][axis] = run->velocity[axis][at];
+        cells->energy[i] = run->energy[at];
+        cells->mass[i] =
+            open ? density * (look->around ? volume * cells->position[i][0] : volume) : 0.0;
+        cells->pressure[i] = open ? values->pressure[at] : 0.0;
+        look->sound[i] = open ? sqrt(sound) : 0.0;
+    }
+}
+
+static void find_fastest(const struct gas_look *look, const struct run *run,
+                         struct gas_fastest *fastest)
+{
+    for (int k = 0; k < run->count; k++) {
+        const int32_t i = run->first + k;
+        if (is_closed(look, i))
+            continue;
+        const double speed = run->density[k + ROW_GHOSTS] > 0.0
+                                 ? run->fastest[k + ROW_GHOSTS] + look->sound[i]
+                                 : (double)NAN;
+        if (!(speed <= fastest->speed) && !isnan(fastest->speed)) {
+            fastest->speed = speed;
+            fastest->cell = i;
+        }
+    }
+}
+
+/* Whether the cells FIRST .. END - 1 are open and hold one gas at rest. */
+static bool is_still(const struct gas_look *look, int32_t first, int32_t end)
+{
+    bool still = true;
+    for (int32_t i = first; i < end && look->u[GAS_OPEN]; i++)
+        still &= !is_closed(look, i);
+    for (int n = 0; n < GAS_NUMBERS && still; n++) {
+        const bool rests = n >= GAS_MOMENTUM && n < GAS_ENERGY;
+        const double *u = look->u[n], value = rests ? 0.0 : u[first];
+        for (int32_t i = first; i < end; i++)
+            still &= u[i] == value;
+    }
+    return still;
+}
+
+ISA_KERNEL(struct gas_fastest, gas_look_at_block, const struct gas_look *look, int32_t b)
+{
+    const struct cell_block *block = &look->cells->block[b];
+    const double h = look->cells->edge;
+    const double volume = look->cells->dimension == 1   ? h
+                          : look->cells->dimension == 2 ? h * h
+                                                        : h * h * h;
+    const int32_t end = block->first + block->count[0] * block->count[1] * block->count[2];
+    struct gas_fastest fastest = {-1.0, block->first, is_still(look, block->first, end)};
+    struct row_values values;
+    struct run run;
+    for (run.first = block->first; run.first < end; run.first += run.count) {
+        run.count = end - run.first < ROW_CELLS ? end - run.first : ROW_CELLS;
+        take_run(look, &run);
+        row_evaluate(look->eos, run.density, run.energy, 0, run.count - 1, &values);
+        put_run(look, &run, &values, volume);
+        find_fastest(look, &run, &fastest);
+    }
+    return fastest;
+}

@@ -1,0 +1,345 @@
+/* The cell store; see cell_blocks.h. */
+#include "grid/cell_blocks.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "parallel/block.h"
+#include "parallel/exchange.h"
+
+static const struct field_declaration core_fields[] = {
+    {"id", NULL, "number in the domain", NUMBER_UINT64, 1, FIELD_STATE},
+    {"material", NULL, "material", NUMBER_UINT16, 1, FIELD_STATE},
+    {"body", NULL, "body that filled it", NUMBER_UINT16, 1, FIELD_STATE},
+    {"mass", "kg", "mass", NUMBER_DOUBLE, 1, FIELD_DERIVED},
+    {"density", "kg/m^3", "density", NUMBER_DOUBLE, 1, FIELD_STATE},
+    {"energy", "J/kg", "specific internal energy", NUMBER_DOUBLE, 1, FIELD_DERIVED},
+    {"pressure", "Pa", "pressure, positive in compression", NUMBER_DOUBLE, 1, FIELD_DERIVED},
+    {"position", "m", "centre", NUMBER_DOUBLE, 3, FIELD_DERIVED},
+    {"velocity", "m/s", "velocity", NUMBER_DOUBLE, 3, FIELD_DERIVED},
+};
+
+static struct error *out_of_memory(void)
+{
+    return error_new(ERROR_SYSTEM, "out of memory for cells");
+}
+
+static void bind_core(struct cell_blocks *cells)
+{
+    cells->id = cell_blocks_field(cells, "id");
+    cells->material = cell_blocks_field(cells, "material");
+    cells->body = cell_blocks_field(cells, "body");
+    cells->mass = cell_blocks_field(cells, "mass");
+    cells->density = cell_blocks_field(cells, "density");
+    cells->energy = cell_blocks_field(cells, "energy");
+    cells->pressure = cell_blocks_field(cells, "pressure");
+    cells->position = cell_blocks_field(cells, "position");
+    cells->velocity = cell_blocks_field(cells, "velocity");
+}
+
+void *cell_blocks_field(const struct cell_blocks *cells, const char *name)
+{
+    for (int k = 0; k < cells->fields; k++)
+        if (strcmp(cells->field[k].declaration.name, name) == 0)
+            return cells->field[k].data;
+    assert(!"a field of the cells");
+    return NULL;
+}
+
+/* Arrays for the blocks that are there, cleared. */
+static struct error *allocate(struct cell_blocks *cells)
+{
+    for (int k = 0; k < cells->fields; k++) {
+        struct field *field = &cells->field[k];
+        free(field->data);
+        field->data = memory_allocate(((size_t)cells->count + 1) * field_bytes(field));
+        if (!field->data)
+            return out_of_memory();
+    }
+    bind_core(cells);
+    return NULL;
+}
+
+struct error *cell_blocks_create(struct cell_blocks *cells, const struct field_declaration *more,
+                                 int count)
+{
+    const int core = (int)COUNT_OF(core_fields);
+    assert(core + count <= CELL_BLOCK_FIELDS);
+    for (int k = 0; k < core + count; k++)
+        cells->field[k].declaration = k < core ? core_fields[k] : more[k - core];
+    cells->fields = core + count;
+    return allocate(cells);
+}
+
+void cell_blocks_destroy(struct cell_blocks *cells)
+{
+    for (int k = 0; k < cells->fields; k++)
+        free(cells->field[k].data);
+    free(cells->block);
+    block_table_free(&cells->table);
+    memset(cells, 0, sizeof *cells);
+}
+
+static int64_t block_index(const struct cell_blocks *cells, int axis, int64_t cell)
+{
+    return axis < cells->dimension ? block_of_cell(cell, cell_block_side(cells->dimension)) : 0;
+}
+
+uint64_t cell_block_key(int dimension, const int64_t at[3])
+{
+    const int side = cell_block_side(dimension), blocks = side / block_cells(dimension);
+    int64_t block[3] = {0, 0, 0};
+    for (int axis = 0; axis < dimension; axis++)
+        block[axis] = block_of_cell(at[axis], side) * blocks;
+    return block_key(block);
+}
+
+const struct cell_block *cell_block_find(const struct cell_blocks *cells, uint64_t key)
+{
+    const int32_t number = cells->table.slots ? block_table_find(&cells->table, key) : -1;
+    return number < 0 ? NULL : &cells->block[number];
+}
+
+static int by_key(const void *a, const void *b)
+{
+    const struct cell_block *first = a, *second = b;
+    return first->key < second->key ? -1 : first->key > second->key;
+}
+
+/* The block of the domain with index AT along each axis. */
+static struct cell_block block_at(const struct cell_blocks *cells, const int64_t at[3])
+{
+    const int side = cell_block_side(cells->dimension);
+    struct cell_block block = {0};
+    for (int axis = 0; axis < 3; axis++) {
+        const int64_t begin = axis < cells->dimension ? at[axis] * side : 0,
+                      end = axis < cells->dimension ? begin + side : 1;
+        block.corner[axis] = begin > cells->low[axis] ? begin : cells->low[axis];
+        block.count[axis] =
+            (int)((end < cells->high[axis] ? end : cells->high[axis]) - block.corner[axis]);
+    }
+    block.key = cell_block_key(cells->dimension, block.corner);
+    return block;
+}
+
+/* All blocks of the domain by their keys. Free *list. */
+static struct error *list_blocks(const struct cell_blocks *cells, struct cell_block **list,
+                                 int64_t *count)
+{
+    int64_t low[3], high[3];
+    double all = 1.0;
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = block_index(cells, axis, cells->low[axis]);
+        high[axis] = block_index(cells, axis, cells->high[axis] - 1);
+        all *= (double)(high[axis] - low[axis] + 1);
+    }
+    *list = all < INT32_MAX ? memory_allocate((size_t)(all + 1.0) * sizeof **list) : NULL;
+    if (!*list)
+        return out_of_memory();
+    *count = 0;
+    int64_t at[3];
+    for (at[2] = low[2]; at[2] <= high[2]; at[2]++)
+        for (at[1] = low[1]; at[1] <= high[1]; at[1]++)
+            for (at[0] = low[0]; at[0] <= high[0]; at[0]++)
+                (*list)[(*count)++] = block_at(cells, at);
+    qsort(*list, (size_t)*count, sizeof **list, by_key);
+    return NULL;
+}
+
+/* Where the cells of blocks are, which have just come: in the arrays, in the table. */
+static struct error *place_blocks(struct cell_blocks *cells)
+{
+    int64_t count = 0;
+    if (!block_table_clear(&cells->table, cells->blocks + 1))
+        return out_of_memory();
+    for (int32_t b = 0; b < cells->blocks; b++) {
+        struct cell_block *block = &cells->block[b];
+        block->first = (int32_t)count;
+        count += (int64_t)block->count[0] * block->count[1] * block->count[2];
+        block_table_add(&cells->table, block->key);
+        if (count > INT32_MAX)
+            return error_new(ERROR_STATE, "more than %d cells on one rank", INT32_MAX);
+    }
+    cells->count = (int32_t)count;
+    cells->order++;
+    return NULL;
+}
+
+/* The cells' ids and centres. */
+static void place_cells(struct cell_blocks *cells)
+{
+    for (int32_t b = 0; b < cells->blocks; b++) {
+        const struct cell_block *block = &cells->block[b];
+        int32_t i = block->first;
+        int64_t at[3];
+        for (at[2] = 0; at[2] < block->count[2]; at[2]++)
+            for (at[1] = 0; at[1] < block->count[1]; at[1]++)
+                for (at[0] = 0; at[0] < block->count[0]; at[0]++, i++) {
+                    uint64_t id = 0;
+                    for (int axis = 2; axis >= 0; axis--) {
+                        const int64_t cell = block->corner[axis] + at[axis];
+                        id = id * (uint64_t)(cells->high[axis] - cells->low[axis]) +
+                             (uint64_t)(cell - cells->low[axis]);
+                        cells->position[i][axis] =
+                            axis < cells->dimension ? ((double)cell + 0.5) * cells->edge : 0.0;
+                    }
+                    cells->id[i] = id;
+                }
+    }
+}
+
+struct error *cell_blocks_fill(struct cell_blocks *cells)
+{
+    struct cell_block *list;
+    int64_t count = 0;
+    TRY(list_blocks(cells, &list, &count));
+    const struct slice slice = ranks_slice(cells->ranks, count);
+    cells->blocks = (int32_t)(slice.end - slice.begin);
+    free(cells->block);
+    cells->block = memory_allocate(((size_t)cells->blocks + 1) * sizeof *cells->block);
+    if (cells->block)
+        memcpy(cells->block, list + slice.begin, (size_t)cells->blocks * sizeof *list);
+    free(list);
+    if (!cells->block)
+        return out_of_memory();
+    TRY(place_blocks(cells));
+    TRY(allocate(cells));
+    place_cells(cells);
+    return NULL;
+}
+
+struct error *cell_blocks_visit(struct cell_blocks *cells, struct visitor *visitor)
+{
+    if (ranks_sum(cells->ranks, cells->blocks) == 0) /* they are to be loaded */
+        TRY(ranks_agree(cells->ranks, cell_blocks_fill(cells)));
+    visitor->first = ranks_before(cells->ranks, cells->count);
+    visitor->total = ranks_sum(cells->ranks, cells->count);
+    struct error *error = fields_visit("cells", cells->field, cells->fields, cells->count, visitor);
+    visitor->first = visitor->total = 0;
+    return error;
+}
+
+uint64_t cell_blocks_hash(const struct cell_blocks *cells)
+{
+    const uint64_t own = fields_hash(cells->field, cells->fields, cells->count);
+    return (uint64_t)ranks_sum(cells->ranks, (int64_t)own);
+}
+
+size_t cell_blocks_bytes(const struct cell_blocks *cells)
+{
+    size_t bytes = 0;
+    for (int k = 0; k < cells->fields; k++)
+        bytes += field_bytes(&cells->field[k]);
+    return bytes;
+}
+
+/* What goes with a block that moves to another rank: the block, then of each STATE field its cells. */
+static size_t bytes_that_go(const struct cell_blocks *cells)
+{
+    size_t bytes = 0;
+    for (int k = 0; k < cells->fields; k++)
+        if (cells->field[k].declaration.kind & FIELD_STATE)
+            bytes += field_bytes(&cells->field[k]);
+    return sizeof(struct cell_block) + bytes * (size_t)cell_block_room(cells->dimension);
+}
+
+static int32_t cells_of(const struct cell_block *block)
+{
+    return block->count[0] * block->count[1] * block->count[2];
+}
+
+static void pack(const struct cell_blocks *cells, const struct cell_block *block, char *out)
+{
+    memcpy(out, block, sizeof *block);
+    out += sizeof *block;
+    for (int k = 0; k < cells->fields; k++) {
+        const size_t bytes = field_bytes(&cells->field[k]), all = bytes * (size_t)cells_of(block);
+        if (!(cells->field[k].declaration.kind & FIELD_STATE))
+            continue;
+        memcpy(out, (const char *)cells->field[k].data + (size_t)block->first * bytes, all);
+        out += all;
+    }
+}
+
+static void unpack(struct cell_blocks *cells, const struct cell_block *block, const char *in)
+{
+    in += sizeof *block;
+    for (int k = 0; k < cells->fields; k++) {
+        const size_t bytes = field_bytes(&cells->field[k]), all = bytes * (size_t)cells_of(block);
+        if (!(cells->field[k].declaration.kind & FIELD_STATE))
+            continue;
+        memcpy((char *)cells->field[k].data + (size_t)block->first * bytes, in, all);
+        in += all;
+    }
+}
+
+/* COUNT packed blocks at PACKED become the rank's own. */
+static struct error *take_in(struct cell_blocks *cells, const char *packed, int32_t count)
+{
+    const size_t bytes = bytes_that_go(cells);
+    struct cell_block *block = memory_allocate(((size_t)count + 1) * sizeof *block);
+    if (!block)
+        return out_of_memory();
+    for (int32_t b = 0; b < count; b++)
+        memcpy(&block[b], packed + (size_t)b * bytes, sizeof *block);
+    qsort(block, (size_t)count, sizeof *block, by_key);
+    free(cells->block);
+    cells->block = block;
+    cells->blocks = count;
+    TRY(place_blocks(cells));
+    TRY(allocate(cells));
+    for (int32_t b = 0; b < count; b++) {
+        struct cell_block came;
+        memcpy(&came, packed + (size_t)b * bytes, sizeof came);
+        unpack(cells, cell_block_find(cells, came.key), packed + (size_t)b * bytes);
+    }
+    place_cells(cells);
+    return NULL;
+}
+
+static struct error *divide(struct cell_blocks *cells)
+{
+    struct block_weight *own = memory_allocate(((size_t)cells->blocks + 1) * sizeof *own);
+    struct error *error = ranks_agree(cells->ranks, own ? NULL : out_of_memory());
+    for (int32_t b = 0; b < cells->blocks && !error; b++)
+        own[b] = (struct block_weight){cells->block[b].key, cells_of(&cells->block[b])};
+    if (!error)
+        error = partition_divide(cells->partition, own, cells->blocks);
+    free(own);
+    return error;
+}
+
+/* All blocks go to their owners, packed; those that stay too. */
+static struct error *migrate(struct cell_blocks *cells)
+{
+    const size_t bytes = bytes_that_go(cells), blocks = (size_t)cells->blocks;
+    struct send_item *send = memory_allocate((blocks + 1) * sizeof *send);
+    char *packed = memory_allocate((blocks + 1) * bytes);
+    struct error *error = ranks_agree(cells->ranks, send && packed ? NULL : out_of_memory());
+    void *came = NULL;
+    int32_t count = 0;
+    for (int32_t b = 0; b < cells->blocks && !error; b++) {
+        send[b] = (struct send_item){partition_owner(cells->partition, cells->block[b].key), b};
+        pack(cells, &cells->block[b], packed + (size_t)b * bytes);
+    }
+    if (!error)
+        error = exchange_once(cells->ranks, send, cells->blocks, packed, bytes, &came, &count);
+    free(packed);
+    free(send);
+    if (!error)
+        error = ranks_agree(cells->ranks, take_in(cells, came, count));
+    free(came);
+    return error;
+}
+
+struct error *cell_blocks_distribute(struct cell_blocks *cells, double seconds, bool recut)
+{
+    if (!cells->ranks->joined)
+        return NULL;
+    cells->partition->work += seconds;
+    if (!recut && !partition_is_uneven(cells->partition))
+        return NULL;
+    TRY(divide(cells));
+    return migrate(cells);
+}

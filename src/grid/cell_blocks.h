@@ -1,0 +1,101 @@
+/* The cell store: every field of the cells that a rank owns, one array each, block after block.
+ *
+ * Cells are those of the global grid, whose planes lie at the multiples of its edge, within a box,
+ * the domain. A block holds 64, 16 x 16 or 8 x 8 x 8 of them, fewer where the domain ends; in a block
+ * x runs fastest. Blocks lie in the order of their keys. A block of cells is made of whole blocks of
+ * particles, whose first gives it its key, so that one partition serves both. Vectors have three
+ * components in every dimension. */
+#ifndef BOLIDE_CELL_BLOCKS_H
+#define BOLIDE_CELL_BLOCKS_H
+
+#include "base/field.h"
+#include "grid/block_table.h"
+#include "parallel/partition.h"
+
+enum { CELL_BLOCK_FIELDS = 24 };
+
+/* The cells corner .. corner + count - 1 of the global grid, whose first has index `first`. */
+struct cell_block {
+    uint64_t key;
+    int64_t corner[3];
+    int count[3];
+    int32_t first;
+};
+
+struct cell_blocks {
+    int dimension;
+    double edge; /* m */
+    int64_t low[3],
+        high[3]; /* of the domain along each axis: its first cell, the one after its last */
+    const struct ranks *ranks;
+    struct partition *partition;
+    int threads;
+    int32_t blocks, count; /* of blocks and of cells */
+    struct cell_block *block;
+    struct block_table table; /* of the blocks by their keys */
+    uint64_t order;           /* grows whenever blocks come or go */
+    int fields;
+    struct field field[CELL_BLOCK_FIELDS];
+
+    /* The core's fields, as field[].data. */
+    uint64_t *id; /* the number of the cell in the domain, x fastest */
+    uint16_t *material, *body;
+    double *mass, *density, *energy, *pressure;
+    double (*position)[3], (*velocity)[3];
+};
+
+/* Cells of a block along each axis. */
+BOLIDE_INLINE int cell_block_side(int dimension)
+{
+    return dimension == 1 ? 64 : dimension == 2 ? 16 : 8;
+}
+
+/* Cells of a block, and of a plane of it. */
+BOLIDE_INLINE int cell_block_room(int dimension)
+{
+    return dimension == 3 ? 512 : dimension == 2 ? 256 : 64;
+}
+BOLIDE_INLINE int cell_plane_room(int dimension)
+{
+    return dimension == 3 ? 64 : dimension == 2 ? 16 : 1;
+}
+
+/* From a cell to the next along AXIS. */
+BOLIDE_INLINE int32_t cell_stride(const struct cell_block *block, int axis)
+{
+    return axis == 0 ? 1 : axis == 1 ? block->count[0] : block->count[0] * block->count[1];
+}
+
+/* A store without blocks, with the core's fields and COUNT more. The caller has set dimension, edge,
+ * domain, ranks, partition and threads. */
+struct error *cell_blocks_create(struct cell_blocks *cells, const struct field_declaration *more,
+                                 int count);
+void cell_blocks_destroy(struct cell_blocks *cells);
+
+/* Gives this rank its slice of the blocks of the domain, all zero but ids and places. ERROR_STATE: the
+ * domain has more cells than can be counted. */
+struct error *cell_blocks_fill(struct cell_blocks *cells);
+
+/* The data of field NAME, which must exist; it holds until blocks come or go. */
+void *cell_blocks_field(const struct cell_blocks *cells, const char *name);
+
+/* The key of the block that holds the cell AT of the global grid. */
+uint64_t cell_block_key(int dimension, const int64_t at[3]);
+
+/* The block with KEY, NULL where this rank does not own it. */
+const struct cell_block *cell_block_find(const struct cell_blocks *cells, uint64_t key);
+
+/* Collective: every block goes to the rank that owns it. With RECUT, or where the ranks' work since the
+ * cut, SECONDS of it new, differs by too much, blocks are divided anew. */
+struct error *cell_blocks_distribute(struct cell_blocks *cells, double seconds, bool recut);
+
+/* Collective: loads or saves every STATE field, as "cells/NAME", in the order of keys. */
+struct error *cell_blocks_visit(struct cell_blocks *cells, struct visitor *visitor);
+
+/* Collective: one number for the bits of all STATE fields. */
+uint64_t cell_blocks_hash(const struct cell_blocks *cells);
+
+/* Bytes that the store holds for each cell. */
+size_t cell_blocks_bytes(const struct cell_blocks *cells);
+
+#endif
