@@ -30,8 +30,7 @@ struct lax_wendroff {
 BOLIDE_INLINE void row_theta(const struct gas_numbers *u, int first, int last, double *theta)
 {
     const double *density = u->of[GAS_DENSITY];
-    FOR_ROW(k, first, last)
-    {
+    FOR_ROW (k, first, last) {
         const double next = fabs(density[k + 1] - density[k]),
                      past = fabs(density[k] - density[k - 1]);
         theta[k] = fabs((next - past) / (next + past + 1e-30));
@@ -48,26 +47,25 @@ BOLIDE_INLINE void row_smooth(const struct gas_row *row, const struct lax_wendro
     const bool faces = scheme->viscosity == VISCOSITY_OF_FACES;
     double theta[ROW_ROOM], low[ROW_ROOM], high[ROW_ROOM];
     row_theta(&row->u, -3, cells + 2, theta);
-    FOR_ROW(k, -2, cells + 1)
-    {
+    FOR_ROW (k, -2, cells + 1) {
         low[k] = 0.5 * scheme->eta * (faces ? maximum(theta[k - 1], theta[k]) : theta[k]);
         high[k] = 0.5 * scheme->eta * (faces ? maximum(theta[k], theta[k + 1]) : theta[k]);
     }
     for (int n = 0; n < GAS_NUMBERS; n++) {
         const double *u = row->u.of[n];
         if (row->around && faces)
-            FOR_ROW(k, -2, cells + 1)
-            {
+            FOR_ROW (k, -2, cells + 1) {
                 const double at = row_radius(row, k);
                 smoothed->of[n][k] = u[k] + ((at + 1.0) * high[k] * (u[k + 1] - u[k]) -
                                              at * low[k] * (u[k] - u[k - 1])) /
                                                 (at + 0.5);
             }
         else
-            FOR_ROW(k, -2, cells + 1)
-        smoothed->of[n][k] = u[k] + (high[k] * (u[k + 1] - u[k]) - low[k] * (u[k] - u[k - 1]));
-        FOR_ROW(k, -1, cells + 1)
-        flux->of[n][k] = faces ? -low[k] * (u[k] - u[k - 1]) / r : 0.0;
+            FOR_ROW (k, -2, cells + 1)
+                smoothed->of[n][k] =
+                    u[k] + (high[k] * (u[k + 1] - u[k]) - low[k] * (u[k] - u[k - 1]));
+        FOR_ROW (k, -1, cells + 1)
+            flux->of[n][k] = faces ? -low[k] * (u[k] - u[k - 1]) / r : 0.0;
     }
 }
 
@@ -83,15 +81,15 @@ BOLIDE_INLINE void row_through(const struct gas_row *row, const struct lax_wendr
     double middle[ROW_ROOM];
     if (scheme->form == LAX_WENDROFF_PRINTED) {
         for (int n = 0; n < GAS_NUMBERS; n++)
-            FOR_ROW(k, -1, cells + 1)
-        through->of[n][k] = 0.5 * (flow->of[n][k - 1] + flow->of[n][k]) -
-                            0.5 * r * (flow->of[n][k] - flow->of[n][k - 1]);
-        FOR_ROW(k, -1, cells) push[k] = pressure[k];
+            FOR_ROW (k, -1, cells + 1)
+                through->of[n][k] = 0.5 * (flow->of[n][k - 1] + flow->of[n][k]) -
+                                    0.5 * r * (flow->of[n][k] - flow->of[n][k - 1]);
+        FOR_ROW (k, -1, cells)
+            push[k] = pressure[k];
         return;
     }
     for (int n = 0; n < GAS_NUMBERS; n++)
-        FOR_ROW(k, -1, cells + 1)
-        {
+        FOR_ROW (k, -1, cells + 1) {
             half.of[n][k] = 0.5 * (smoothed->of[n][k - 1] + smoothed->of[n][k]) -
                             0.5 * r * (flow->of[n][k] - flow->of[n][k - 1]);
             if (row->around && row_radius(row, k) > 0.0) {
@@ -103,7 +101,8 @@ BOLIDE_INLINE void row_through(const struct gas_row *row, const struct lax_wendr
         }
     row_pressures(row->eos, &half, -1, cells + 1, middle);
     row_flows(&half, middle, row->axis, -1, cells + 1, through);
-    FOR_ROW(k, -1, cells) push[k] = 0.5 * (middle[k] + middle[k + 1]);
+    FOR_ROW (k, -1, cells)
+        push[k] = 0.5 * (middle[k] + middle[k + 1]);
 }
 
 /* Energy per volume, less that of the motion, in cell K. */
@@ -130,11 +129,11 @@ BOLIDE_INLINE bool row_guard(const struct gas_row *row, const struct gas_numbers
 {
     const double none[POINT_HISTORY] = {0.0};
     bool any = false;
-    FOR_ROW(k, -1, row->cells) any |= gas_is_lost(smoothed, to, k);
+    FOR_ROW (k, -1, row->cells)
+        any |= gas_is_lost(smoothed, to, k);
     if (!any)
         return false;
-    FOR_ROW(k, 0, row->cells)
-    {
+    FOR_ROW (k, 0, row->cells) {
         double speed = 0.0;
         if (!gas_is_lost(smoothed, to, k - 1) && !gas_is_lost(smoothed, to, k))
             continue;
@@ -172,10 +171,10 @@ BOLIDE_INLINE void row_lax_wendroff(struct gas_row *row, const struct lax_wendro
     if (scheme->guarded && row_guard(row, &smoothed, &flow, &to, &through))
         row_advance(row, &smoothed, &through, push, r, 0, cells - 1, &to);
     for (int n = 0; n < GAS_NUMBERS; n++) {
-        FOR_ROW(k, 0, cells - 1)
-        row->u.of[n][k] = to.of[n][k];
-        FOR_ROW(k, 0, cells)
-        flux->of[n][k] += through.of[n][k];
+        FOR_ROW (k, 0, cells - 1)
+            row->u.of[n][k] = to.of[n][k];
+        FOR_ROW (k, 0, cells)
+            flux->of[n][k] += through.of[n][k];
     }
 }
 

@@ -41,8 +41,7 @@ BOLIDE_INLINE void row_states(const struct gas_row *row, int first, int last,
     const struct gas_numbers *u = &row->u;
     struct gas_numbers *w = &states->of;
     struct row_values values;
-    FOR_ROW(k, first, last)
-    {
+    FOR_ROW (k, first, last) {
         const double density = u->of[GAS_DENSITY][k];
         double kinetic = 0.0;
         for (int n = 0; n < 3; n++) {
@@ -53,8 +52,7 @@ BOLIDE_INLINE void row_states(const struct gas_row *row, int first, int last,
         states->energy[k] = u->of[GAS_ENERGY][k] / density - kinetic;
     }
     row_evaluate(row->eos, w->of[PRIMITIVE_DENSITY], states->energy, first, last, &values);
-    FOR_ROW(k, first, last)
-    {
+    FOR_ROW (k, first, last) {
         const double density = w->of[PRIMITIVE_DENSITY][k], gamma = values.dp_de[k] / density;
         const double square_of_sound =
             maximum(row_sound_square(&values, values.pressure[k], density, k), 0.0);
@@ -85,18 +83,18 @@ BOLIDE_INLINE void row_faces(const struct gas_row *row, const struct row_states 
     double rate[GAS_NUMBERS][ROW_ROOM], spread[ROW_ROOM];
     for (int n = 0; n < GAS_NUMBERS; n++) {
         const double *w = cell->of.of[n];
-        FOR_ROW(k, -1, cells)
-        {
+        FOR_ROW (k, -1, cells) {
             slope.of[n][k] = limited(w[k] - w[k - 1], w[k + 1] - w[k]);
             rate[n][k] = u[k] * slope.of[n][k];
         }
     }
     if (row->around)
-        FOR_ROW(k, -1, cells) spread[k] = u[k] / (row_radius(row, k) + 0.5);
+        FOR_ROW (k, -1, cells)
+            spread[k] = u[k] / (row_radius(row, k) + 0.5);
     else
-        FOR_ROW(k, -1, cells) spread[k] = 0.0;
-    FOR_ROW(k, -1, cells)
-    {
+        FOR_ROW (k, -1, cells)
+            spread[k] = 0.0;
+    FOR_ROW (k, -1, cells) {
         const double widens = slope.of[normal][k] + spread[k];
         rate[PRIMITIVE_DENSITY][k] += density[k] * widens;
         rate[PRIMITIVE_PRESSURE][k] += density[k] * square(cell->sound[k]) * widens;
@@ -104,15 +102,14 @@ BOLIDE_INLINE void row_faces(const struct gas_row *row, const struct row_states 
     }
     for (int n = 0; n < GAS_NUMBERS; n++) {
         const double *w = cell->of.of[n];
-        FOR_ROW(k, -1, cells)
-        {
+        FOR_ROW (k, -1, cells) {
             const double middle = w[k] - 0.5 * r * rate[n][k];
             above->of.of[n][k] = middle - 0.5 * slope.of[n][k];
             below->of.of[n][k + 1] = middle + 0.5 * slope.of[n][k];
         }
     }
-    FOR_ROW(k, -1, cells)
-    push[k] = cell->of.of[PRIMITIVE_PRESSURE][k] - 0.5 * r * rate[PRIMITIVE_PRESSURE][k];
+    FOR_ROW (k, -1, cells)
+        push[k] = cell->of.of[PRIMITIVE_PRESSURE][k] - 0.5 * r * rate[PRIMITIVE_PRESSURE][k];
 }
 
 /* Energies and sound speeds of the states FACE on faces 0 .. cells, beside cells that are OFFSET
@@ -123,8 +120,7 @@ BOLIDE_INLINE void row_close_faces(const struct gas_row *row, const struct row_s
     struct row_values values;
     row_evaluate(row->eos, face->of.of[PRIMITIVE_DENSITY], cell->energy + offset, 0, row->cells,
                  &values);
-    FOR_ROW(k, 0, row->cells)
-    {
+    FOR_ROW (k, 0, row->cells) {
         const double density = face->of.of[PRIMITIVE_DENSITY][k],
                      pressure = face->of.of[PRIMITIVE_PRESSURE][k],
                      lacks = pressure - values.pressure[k];
@@ -215,8 +211,7 @@ BOLIDE_INLINE void row_hllc(const struct gas_row *row, const struct row_states *
     double *mass = flux->of[GAS_DENSITY], *normal = flux->of[GAS_MOMENTUM + axes.normal],
            *one = flux->of[GAS_MOMENTUM + axes.across[0]],
            *other = flux->of[GAS_MOMENTUM + axes.across[1]], *energy = flux->of[GAS_ENERGY];
-    FOR_ROW(k, first, last)
-    {
+    FOR_ROW (k, first, last) {
         const struct gas_flow flow =
             gas_hllc(gas_side_of(low, axes, k + offset), gas_side_of(high, axes, k));
         mass[k] = flow.mass;
@@ -239,16 +234,16 @@ BOLIDE_INLINE void row_mark_lost(const struct gas_row *row, const struct row_sta
                  *density = u->of[GAS_DENSITY] + offset, *energy = u->of[GAS_ENERGY] + offset,
                  *heat = cell->energy + offset, *least = fall + offset;
     double momentum[ROW_ROOM];
-    FOR_ROW(k, 0, row->cells) momentum[k] = 0.0;
+    FOR_ROW (k, 0, row->cells)
+        momentum[k] = 0.0;
     for (int n = 0; n < 3; n++) {
         const double *of = u->of[GAS_MOMENTUM + n] + offset, *flow = flux->of[GAS_MOMENTUM + n];
         const double pushes = n == row->axis ? 1.0 : 0.0;
-        FOR_ROW(k, 0, row->cells)
-        momentum[k] +=
-            square(of[k] - 2.0 * side * r * (flow[k] - velocity[k] * of[k] - pushes * pressure[k]));
+        FOR_ROW (k, 0, row->cells)
+            momentum[k] += square(
+                of[k] - 2.0 * side * r * (flow[k] - velocity[k] * of[k] - pushes * pressure[k]));
     }
-    FOR_ROW(k, 0, row->cells)
-    {
+    FOR_ROW (k, 0, row->cells) {
         const double mass =
             density[k] - 2.0 * side * r * (flux->of[GAS_DENSITY][k] - velocity[k] * density[k]);
         const double total =
@@ -272,18 +267,20 @@ BOLIDE_INLINE void row_muscl_hancock(struct gas_row *row, double r, struct gas_n
     row_close_faces(row, &cell, -1, &below);
     row_close_faces(row, &cell, 0, &above);
     row_hllc(row, &below, 0, &above, 0, row->cells, flux);
-    FOR_ROW(k, 0, row->cells) lost[k] = 0.0;
+    FOR_ROW (k, 0, row->cells)
+        lost[k] = 0.0;
     row_mark_lost(row, &cell, fall, -1, 1.0, r, flux, lost);
     row_mark_lost(row, &cell, fall, 0, -1.0, r, flux, lost);
-    FOR_ROW(k, 0, row->cells) any = maximum(any, lost[k]);
+    FOR_ROW (k, 0, row->cells)
+        any = maximum(any, lost[k]);
     if (any > 0.0)
         for (int k = 0; k <= row->cells; k++)
             if (lost[k + ROW_GHOSTS] > 0.0)
                 row_hllc(row, &cell, -1, &cell, k, k, flux);
     row_advance(row, &row->u, flux, push, r, 0, row->cells - 1, &to);
     for (int n = 0; n < GAS_NUMBERS; n++)
-        FOR_ROW(k, 0, row->cells - 1)
-    row->u.of[n][k] = to.of[n][k];
+        FOR_ROW (k, 0, row->cells - 1)
+            row->u.of[n][k] = to.of[n][k];
 }
 
 #endif

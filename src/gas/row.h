@@ -51,8 +51,7 @@ static inline void row_evaluate(const struct eos *eos, const double *density, co
     switch (eos->kind) {
 #define ROW_CASE(name)                                                                             \
     case EOS_##name:                                                                               \
-        FOR_ROW(k, first, last)                                                                    \
-        {                                                                                          \
+        FOR_ROW (k, first, last) {                                                                 \
             const struct eos_value value = eos_##name(&eos->of.name, density[k], energy[k], none); \
             values->pressure[k] = value.pressure;                                                  \
             values->dp_drho[k] = value.dp_drho;                                                    \
@@ -67,25 +66,25 @@ static inline void row_evaluate(const struct eos *eos, const double *density, co
         break;
     }
     if (any)
-        FOR_ROW(k, first, last)
-    if (beyond[k]) {
-        const struct eos_value value = eos_beyond(eos, density[k], energy[k]);
-        values->pressure[k] = value.pressure;
-        values->dp_drho[k] = value.dp_drho;
-        values->dp_de[k] = value.dp_de;
-    }
+        FOR_ROW (k, first, last)
+            if (beyond[k]) {
+                const struct eos_value value = eos_beyond(eos, density[k], energy[k]);
+                values->pressure[k] = value.pressure;
+                values->dp_drho[k] = value.dp_drho;
+                values->dp_de[k] = value.dp_de;
+            }
 }
 
 /* The specific energies of the cells FIRST to LAST, whose numbers are U, less that of their motion. */
 BOLIDE_INLINE void row_energies(const struct gas_numbers *u, int first, int last, double *energy)
 {
-    FOR_ROW(k, first, last)
-    energy[k] = (u->of[GAS_ENERGY][k] -
-                 0.5 *
-                     (square(u->of[GAS_MOMENTUM][k]) + square(u->of[GAS_MOMENTUM + 1][k]) +
-                      square(u->of[GAS_MOMENTUM + 2][k])) /
-                     u->of[GAS_DENSITY][k]) /
-                u->of[GAS_DENSITY][k];
+    FOR_ROW (k, first, last)
+        energy[k] = (u->of[GAS_ENERGY][k] -
+                     0.5 *
+                         (square(u->of[GAS_MOMENTUM][k]) + square(u->of[GAS_MOMENTUM + 1][k]) +
+                          square(u->of[GAS_MOMENTUM + 2][k])) /
+                         u->of[GAS_DENSITY][k]) /
+                    u->of[GAS_DENSITY][k];
 }
 
 /* Pressures of the cells FIRST to LAST of a row, whose numbers are U. */
@@ -96,7 +95,8 @@ BOLIDE_INLINE void row_pressures(const struct eos *eos, const struct gas_numbers
     double energy[ROW_ROOM] = {0.0};
     row_energies(u, first, last, energy);
     row_evaluate(eos, u->of[GAS_DENSITY], energy, first, last, &values);
-    FOR_ROW(k, first, last) pressure[k] = values.pressure[k];
+    FOR_ROW (k, first, last)
+        pressure[k] = values.pressure[k];
 }
 
 /* The radius of the face below cell k, in cells; the sources want k as FOR_ROW counts it. */
@@ -114,20 +114,20 @@ BOLIDE_INLINE void row_advance(const struct gas_row *row, const struct gas_numbe
     for (int n = 0; n < GAS_NUMBERS; n++) {
         const double *f = flux->of[n], *u = from->of[n];
         if (!row->around)
-            FOR_ROW(k, first, last)
-        to->of[n][k] = u[k] - r * (f[k + 1] - f[k]);
-        else if (n == GAS_MOMENTUM + row->axis) FOR_ROW(k, first, last)
-        {
-            const double low = row_radius(row, k);
-            to->of[n][k] =
-                u[k] -
-                r * ((low + 1.0) * (f[k + 1] - push[k]) - low * (f[k] - push[k])) / (low + 0.5);
-        }
-        else FOR_ROW(k, first, last)
-        {
-            const double low = row_radius(row, k);
-            to->of[n][k] = u[k] - r * ((low + 1.0) * f[k + 1] - low * f[k]) / (low + 0.5);
-        }
+            FOR_ROW (k, first, last)
+                to->of[n][k] = u[k] - r * (f[k + 1] - f[k]);
+        else if (n == GAS_MOMENTUM + row->axis)
+            FOR_ROW (k, first, last) {
+                const double low = row_radius(row, k);
+                to->of[n][k] =
+                    u[k] -
+                    r * ((low + 1.0) * (f[k + 1] - push[k]) - low * (f[k] - push[k])) / (low + 0.5);
+            }
+        else
+            FOR_ROW (k, first, last) {
+                const double low = row_radius(row, k);
+                to->of[n][k] = u[k] - r * ((low + 1.0) * f[k + 1] - low * f[k]) / (low + 0.5);
+            }
     }
 }
 
@@ -136,8 +136,7 @@ BOLIDE_INLINE void row_flows(const struct gas_numbers *u, const double *pressure
                              int first, int last, struct gas_numbers *flow)
 {
     for (int n = 0; n < GAS_NUMBERS; n++)
-        FOR_ROW(k, first, last)
-        {
+        FOR_ROW (k, first, last) {
             const double velocity = u->of[GAS_MOMENTUM + axis][k] / u->of[GAS_DENSITY][k];
             flow->of[n][k] = velocity * u->of[n][k];
             if (n == GAS_MOMENTUM + axis)

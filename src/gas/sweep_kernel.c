@@ -196,7 +196,8 @@ static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cell
 static bool any_blocked(const double *open, int cells, int depth)
 {
     bool any = false;
-    FOR_ROW(k, -depth, cells - 1 + depth) any |= open[k] == 0.0;
+    FOR_ROW (k, -depth, cells - 1 + depth)
+        any |= open[k] == 0.0;
     return any;
 }
 
@@ -235,8 +236,8 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
                     continue;
                 }
                 for (int n = 0; n < GAS_NUMBERS; n++)
-                    FOR_ROW(k, -sweep->halo->depth, cells - 1 + sweep->halo->depth)
-                row.u.of[n][k] = all[n][k];
+                    FOR_ROW (k, -sweep->halo->depth, cells - 1 + sweep->halo->depth)
+                        row.u.of[n][k] = all[n][k];
             }
             sweep_row(sweep, &row, &flux);
             store_row(&g, &row, 0);
@@ -262,8 +263,7 @@ static void take_run(const struct gas_look *look, struct run *run)
 {
     const double *const *u = look->u;
     const int32_t first = run->first;
-    FOR_ROW(k, 0, run->count - 1)
-    {
+    FOR_ROW (k, 0, run->count - 1) {
         const int32_t i = first + k - ROW_GHOSTS;
         run->density[k] = u[GAS_DENSITY][i];
         double kinetic = 0.0, fastest = 0.0;

@@ -109,15 +109,15 @@ BOLIDE_INLINE void add_node_record(const struct transfer *t, struct kind kind,
 BOLIDE_INLINE void add_sums8(const struct transfer *t, struct kind kind, size_t base,
                              const vector8 *sum, double *patch)
 {
-    FOR_NODES(kind, a, b, c)
-    vector8_add_to(patch + node_of(t, kind, base, a, b, c) * NODE_STRIDE, *sum++);
+    FOR_NODES (kind, a, b, c)
+        vector8_add_to(patch + node_of(t, kind, base, a, b, c) * NODE_STRIDE, *sum++);
 }
 
 BOLIDE_INLINE void add_sums4(const struct transfer *t, struct kind kind, size_t base,
                              const vector4 *sum, double *patch)
 {
-    FOR_NODES(kind, a, b, c)
-    vector4_add_to(patch + node_of(t, kind, base, a, b, c) * BACK_STRIDE, *sum++);
+    FOR_NODES (kind, a, b, c)
+        vector4_add_to(patch + node_of(t, kind, base, a, b, c) * BACK_STRIDE, *sum++);
 }
 
 /* Adds what the lanes of a chunk have to the sums of their nodes; by faces without forces. */
@@ -175,8 +175,7 @@ BOLIDE_INLINE void bin_scatter(const struct transfer *t, struct kind kind, int32
             } else
                 scatter_forces(t, kind, &chunk, record, sum);
             for (int lane = 0; lane < chunk.count && t->affine; lane++)
-                FOR_NODES(kind, a, b, c)
-                {
+                FOR_NODES (kind, a, b, c) {
                     const int at[3] = {a, b, c};
                     double *node = patch + node_of(t, kind, walk.base, a, b, c) * NODE_STRIDE;
                     add_affine(t, kind, &chunk, lane, at, node + NODE_MOMENTUM);
@@ -201,8 +200,7 @@ BOLIDE_INLINE void bin_slopes(const struct transfer *t, struct kind kind, int32_
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             for (int lane = 0; lane < chunk.count; lane++)
-                FOR_NODES(kind, a, b, c)
-                {
+                FOR_NODES (kind, a, b, c) {
                     const struct weight w = weight_of(kind, &chunk, lane, a, b, c);
                     double *node = patch + node_of(t, kind, walk.base, a, b, c) * BACK_STRIDE;
                     for (int k = 0; k < kind.dimension; k++)
@@ -219,22 +217,20 @@ BOLIDE_INLINE void gather_slopes(const struct transfer *t, struct kind kind,
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            FOR_LANES(kind, lane)
-    sum[i][j][lane] = 0.0;
-    FOR_NODES(kind, a, b, c)
-    {
+            FOR_LANES (kind, lane)
+                sum[i][j][lane] = 0.0;
+    FOR_NODES (kind, a, b, c) {
         const double *node = numbers_at(t, kind, from, a, b, c);
         ALIGNED double slope[3][LANES];
-        FOR_LANES(kind, lane)
-        {
+        FOR_LANES (kind, lane) {
             const struct weight w = weight_of(kind, chunk, lane, a, b, c);
             for (int j = 0; j < kind.dimension; j++)
                 slope[j][lane] = w.slope[j];
         }
         for (int i = 0; i < kind.dimension; i++)
             for (int j = 0; j < kind.dimension; j++)
-                FOR_LANES(kind, lane)
-        sum[i][j][lane] += slope[j][lane] * node[i];
+                FOR_LANES (kind, lane)
+                    sum[i][j][lane] += slope[j][lane] * node[i];
     }
 }
 
@@ -249,28 +245,26 @@ BOLIDE_INLINE void keep_gradient(const struct transfer *t, struct kind kind,
     if (t->by_moments && kind.window > 2) {
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
-                FOR_LANES(kind, lane)
-        sum[i][j][lane] = 0.0;
-        FOR_NODES(kind, a, b, c)
-        {
+                FOR_LANES (kind, lane)
+                    sum[i][j][lane] = 0.0;
+        FOR_NODES (kind, a, b, c) {
             const int at[3] = {a, b, c};
             const double *node = numbers_at(t, kind, velocity, a, b, c);
-            FOR_LANES(kind, lane)
-            {
+            FOR_LANES (kind, lane) {
                 const double w = weight_of(kind, chunk, lane, a, b, c).value;
                 for (int i = 0; i < kind.dimension; i++)
                     for (int j = 0; j < kind.dimension; j++)
                         sum[i][j][lane] += w * node[i] * chunk->away[j][at[j]][lane];
             }
         }
-        FOR_LANES(kind, lane)
-        for (int j = 0; j < kind.dimension; j++) {
-            double second = 0.0;
-            for (int k = 0; k < kind.window; k++)
-                second += chunk->value[j][k][lane] * square(chunk->away[j][k][lane]);
-            for (int i = 0; i < kind.dimension; i++)
-                sum[i][j][lane] /= second;
-        }
+        FOR_LANES (kind, lane)
+            for (int j = 0; j < kind.dimension; j++) {
+                double second = 0.0;
+                for (int k = 0; k < kind.window; k++)
+                    second += chunk->value[j][k][lane] * square(chunk->away[j][k][lane]);
+                for (int i = 0; i < kind.dimension; i++)
+                    sum[i][j][lane] /= second;
+            }
     }
     for (int lane = 0; lane < chunk->count; lane++)
         for (int i = 0; i < 3; i++)
@@ -358,8 +352,7 @@ BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int3
                 continue;
             add_momenta(t, kind, &chunk, weight, sum);
             for (int lane = 0; lane < chunk.count && t->affine; lane++)
-                FOR_NODES(kind, a, b, c)
-                {
+                FOR_NODES (kind, a, b, c) {
                     const int at[3] = {a, b, c};
                     add_affine(t, kind, &chunk, lane, at,
                                back + node_of(t, kind, walk.base, a, b, c) * BACK_STRIDE);
@@ -417,8 +410,7 @@ BOLIDE_INLINE void keep_rates(const struct transfer *t, struct kind kind, const 
     double *row[RATES];
     for (int c = 0; c < RATES; c++)
         row[c] = rates.to + (size_t)c * rates.stride;
-    FOR_LANES(kind, lane)
-    {
+    FOR_LANES (kind, lane) {
         row[0][lane] = sum[0][0][lane];
         row[1][lane] = sum[1][1][lane];
         row[2][lane] = round ? around[lane] / t->position[chunk->index[lane]][0] : sum[2][2][lane];
@@ -441,8 +433,8 @@ BOLIDE_INLINE void filter_divergence(const struct transfer *t, struct kind kind,
     ALIGNED double mean[1][LANES];
     double *unresolved = rates.to + (size_t)RATE_UNRESOLVED * rates.stride;
     gather(t, kind, weight, back, 1, mean);
-    FOR_LANES(kind, lane)
-    unresolved[lane] = t->divergence[chunk->index[lane]] - mean[0][lane];
+    FOR_LANES (kind, lane)
+        unresolved[lane] = t->divergence[chunk->index[lane]] - mean[0][lane];
     for (int lane = 0; lane < chunk->count; lane++)
         t->divergence[chunk->index[lane]] =
             rates.to[lane] + rates.to[rates.stride + lane] + rates.to[2 * rates.stride + lane];

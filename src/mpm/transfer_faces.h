@@ -44,10 +44,8 @@ BOLIDE_INLINE void find_face_weights(struct kind kind, const struct chunk *chunk
 {
     const double(*wa)[LANES] = factors_of(chunk, across, 0),
           (*wb)[LANES] = factors_of(chunk, across, 1), (*wc)[LANES] = factors_of(chunk, across, 2);
-    FOR_FACES(kind, across, a, b, c)
-    {
-        FOR_LANES(kind, lane)
-        {
+    FOR_FACES (kind, across, a, b, c) {
+        FOR_LANES (kind, lane) {
             double w = wa[a][lane];
             if (kind.dimension > 1)
                 w *= wb[b][lane];
@@ -145,17 +143,16 @@ BOLIDE_INLINE void keep_faces(const struct transfer *t, struct kind kind, size_t
 {
     for (int d = 0; d < kind.dimension; d++) {
         const vector4 *sum = sums->of[d];
-        FOR_FACES(kind, d, a, b, c)
-        vector4_add_to(stress +
-                           (node_of(t, kind, base, a, b, c) * (size_t)kind.dimension + (size_t)d) *
-                               FACE_STRIDE,
-                       *sum++);
+        FOR_FACES (kind, d, a, b, c)
+            vector4_add_to(
+                stress + (node_of(t, kind, base, a, b, c) * (size_t)kind.dimension + (size_t)d) *
+                             FACE_STRIDE,
+                *sum++);
     }
     if (!(kind.dimension == 2 && t->axisymmetric))
         return;
     const double *sum = (const double *)sums->ring;
-    FOR_NODES(kind, a, b, c)
-    {
+    FOR_NODES (kind, a, b, c) {
         double *node = stress + node_of(t, kind, base, a, b, c) * 2 * FACE_STRIDE;
         node[FACE_RING] += sum[0];
         node[FACE_HOOP] += sum[1];
@@ -257,16 +254,15 @@ BOLIDE_INLINE void gather_faces(const struct transfer *t, struct kind kind,
     const double(*w)[LANES] = weight;
     find_face_weights(kind, chunk, across, weight);
     for (int k = 0; k < kind.dimension; k++)
-        FOR_LANES(kind, lane)
-    sum[k][lane] = 0.0;
-    FOR_FACES(kind, across, a, b, c)
-    {
+        FOR_LANES (kind, lane)
+            sum[k][lane] = 0.0;
+    FOR_FACES (kind, across, a, b, c) {
         const double *face =
             stretch + (node_of(t, kind, base, a, b, c) * (size_t)kind.dimension + (size_t)across) *
                           FACE_STRIDE;
         for (int k = 0; k < kind.dimension; k++)
-            FOR_LANES(kind, lane)
-        sum[k][lane] += (*w)[lane] * face[k];
+            FOR_LANES (kind, lane)
+                sum[k][lane] += (*w)[lane] * face[k];
         w++;
     }
 }

@@ -53,13 +53,11 @@ BOLIDE_INLINE void gather_heat(const struct transfer *t, struct kind kind,
     ALIGNED double weight[NODES_MAX][LANES], energy[LANES] = {0.0};
     const double(*w)[LANES] = weight;
     find_weights(kind, chunk, weight);
-    FOR_LANES(kind, lane)
-    {
+    FOR_LANES (kind, lane) {
         energy[lane] = t->energy[chunk->index[lane]];
         gain[lane] = 0.0;
     }
-    FOR_NODES(kind, a, b, c)
-    {
+    FOR_NODES (kind, a, b, c) {
         const double *node = numbers_at(t, kind, nodes, a, b, c),
                      *heat = numbers_at(t, kind, heats, a, b, c);
         for (int lane = 0; lane < kind.lanes && node[NODE_MIXING] > 0.0; lane++)

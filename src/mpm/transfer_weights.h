@@ -89,8 +89,7 @@ BOLIDE_INLINE void weigh_axis(struct kind kind, enum grid_shape shape, const dou
                               const double *half, double (*value)[LANES], double (*slope)[LANES])
 {
     for (int k = 0; k < kind.window; k++)
-        FOR_LANES(kind, lane)
-        {
+        FOR_LANES (kind, lane) {
             const double r = xi[lane] - (double)(k - 1);
             value[k][lane] = shape_value(shape, r, half[lane]);
             slope[k][lane] = shape_slope(shape, r, half[lane]);
@@ -101,8 +100,7 @@ BOLIDE_INLINE void weigh_axis(struct kind kind, enum grid_shape shape, const dou
 BOLIDE_INLINE void weigh_centred(struct kind kind, const double *xi, double (*value)[LANES],
                                  double (*slope)[LANES])
 {
-    FOR_LANES(kind, lane)
-    {
+    FOR_LANES (kind, lane) {
         const double low = 0.5 - xi[lane], high = 0.5 + xi[lane];
         value[0][lane] = 0.5 * square(low);
         value[1][lane] = 0.75 - square(xi[lane]);
@@ -119,8 +117,8 @@ BOLIDE_INLINE void weigh_faces(struct kind kind, const double (*slope)[LANES],
                                double (*face)[LANES])
 {
     for (int k = 0; k + 1 < kind.window; k++)
-        FOR_LANES(kind, lane)
-    face[k][lane] = (k > 0 ? face[k - 1][lane] : 0.0) - slope[k][lane];
+        FOR_LANES (kind, lane)
+            face[k][lane] = (k > 0 ? face[k - 1][lane] : 0.0) - slope[k][lane];
 }
 
 BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
@@ -129,8 +127,8 @@ BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
 {
     const double per_edge = 1.0 / t->edge;
     ALIGNED double place[3][LANES], half[LANES];
-    FOR_LANES(kind, lane)
-    chunk->index[lane] = walk->list[begin + (lane < count ? lane : count - 1)];
+    FOR_LANES (kind, lane)
+        chunk->index[lane] = walk->list[begin + (lane < count ? lane : count - 1)];
     const bool sized = t->shape == SHAPE_GIMP || t->axisymmetric;
     for (int lane = 0; lane < kind.lanes && sized; lane++)
         half[lane] = t->half_size[t->body[chunk->index[lane]]];
@@ -140,11 +138,10 @@ BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
     for (int axis = 0; axis < kind.dimension; axis++) {
         double(*value)[LANES] = chunk->value[axis], (*slope)[LANES] = chunk->slope[axis],
         *xi = place[axis];
-        FOR_LANES(kind, lane)
-        xi[lane] = xi[lane] * per_edge - (double)walk->index[axis];
+        FOR_LANES (kind, lane)
+            xi[lane] = xi[lane] * per_edge - (double)walk->index[axis];
         if (kind.window == 2)
-            FOR_LANES(kind, lane)
-            {
+            FOR_LANES (kind, lane) {
                 value[0][lane] = 1.0 - xi[lane];
                 value[1][lane] = xi[lane];
                 slope[0][lane] = -1.0;
@@ -160,18 +157,18 @@ BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
             weigh_axis(kind, SHAPE_CUBIC, xi, half, value, slope);
         const double first = kind.window == 2 ? 0.0 : -1.0;
         for (int k = 0; axis == 0 && t->axisymmetric && k < kind.window; k++)
-            FOR_LANES(kind, lane)
-        chunk->around[k][lane] = t->by_faces
-                                     ? value[k][lane]
-                                     : shape_around(t->shape, xi[lane] - (first + k), half[lane]);
+            FOR_LANES (kind, lane)
+                chunk->around[k][lane] =
+                    t->by_faces ? value[k][lane]
+                                : shape_around(t->shape, xi[lane] - (first + k), half[lane]);
         if (t->by_faces)
             weigh_faces(kind, slope, chunk->face[axis]);
         for (int k = 0; k < kind.window; k++)
-            FOR_LANES(kind, lane)
-        slope[k][lane] *= per_edge;
+            FOR_LANES (kind, lane)
+                slope[k][lane] *= per_edge;
         for (int k = 0; t->affine && k < kind.window; k++)
-            FOR_LANES(kind, lane)
-        chunk->away[axis][k][lane] = ((first + k) - xi[lane]) * t->edge;
+            FOR_LANES (kind, lane)
+                chunk->away[axis][k][lane] = ((first + k) - xi[lane]) * t->edge;
     }
 }
 
@@ -270,10 +267,8 @@ BOLIDE_INLINE struct weight weight_of(struct kind kind, const struct chunk *chun
 BOLIDE_INLINE void find_weights(struct kind kind, const struct chunk *chunk,
                                 double (*weight)[LANES])
 {
-    FOR_NODES(kind, a, b, c)
-    {
-        FOR_LANES(kind, lane)
-        {
+    FOR_NODES (kind, a, b, c) {
+        FOR_LANES (kind, lane) {
             double w = chunk->value[0][a][lane];
             if (kind.dimension > 1)
                 w *= chunk->value[1][b][lane];
@@ -290,14 +285,13 @@ BOLIDE_INLINE void gather(const struct transfer *t, struct kind kind, const doub
                           struct window from, int count, double (*sum)[LANES])
 {
     for (int k = 0; k < count; k++)
-        FOR_LANES(kind, lane)
-    sum[k][lane] = 0.0;
-    FOR_NODES(kind, a, b, c)
-    {
+        FOR_LANES (kind, lane)
+            sum[k][lane] = 0.0;
+    FOR_NODES (kind, a, b, c) {
         const double *node = numbers_at(t, kind, from, a, b, c);
         for (int k = 0; k < count; k++)
-            FOR_LANES(kind, lane)
-        sum[k][lane] += (*weight)[lane] * node[k];
+            FOR_LANES (kind, lane)
+                sum[k][lane] += (*weight)[lane] * node[k];
         weight++;
     }
 }

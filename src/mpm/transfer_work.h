@@ -16,8 +16,8 @@ struct given {
 BOLIDE_INLINE bool window_mixes(const struct transfer *t, struct kind kind, struct window nodes)
 {
     bool mixes = false;
-    FOR_NODES(kind, a, b, c)
-    mixes |= numbers_at(t, kind, nodes, a, b, c)[NODE_MIXING] > 0.0;
+    FOR_NODES (kind, a, b, c)
+        mixes |= numbers_at(t, kind, nodes, a, b, c)[NODE_MIXING] > 0.0;
     return mixes;
 }
 
@@ -30,15 +30,13 @@ BOLIDE_INLINE void gather_mixed(const struct transfer *t, struct kind kind,
 {
     ALIGNED double velocity[3][LANES];
     for (int k = 0; k < kind.dimension; k++)
-        FOR_LANES(kind, lane)
-    velocity[k][lane] = t->velocity[chunk->index[lane]][k];
-    FOR_NODES(kind, a, b, c)
-    {
+        FOR_LANES (kind, lane)
+            velocity[k][lane] = t->velocity[chunk->index[lane]][k];
+    FOR_NODES (kind, a, b, c) {
         const double *node = numbers_at(t, kind, nodes, a, b, c);
         for (int k = 0; k < kind.dimension && node[NODE_MIXING] > 0.0; k++) {
             const double before = node[NODE_VELOCITY + k] - dt * node[NODE_ACCELERATION + k];
-            FOR_LANES(kind, lane)
-            {
+            FOR_LANES (kind, lane) {
                 const double part = (*weight)[lane] * node[NODE_MIXING],
                              off = before - velocity[k][lane];
                 given->velocity[k][lane] += part * off;
@@ -48,22 +46,22 @@ BOLIDE_INLINE void gather_mixed(const struct transfer *t, struct kind kind,
         weight++;
     }
     for (int k = 0; k < kind.dimension; k++)
-        FOR_LANES(kind, lane)
-    given->energy[lane] -=
-        given->velocity[k][lane] * (0.5 * given->velocity[k][lane] + dt * push[k][lane]);
+        FOR_LANES (kind, lane)
+            given->energy[lane] -=
+                given->velocity[k][lane] * (0.5 * given->velocity[k][lane] + dt * push[k][lane]);
 }
 
 /* The radial component of the numbers of nodes, as the hoop strain of the lanes of a chunk sees it. */
 BOLIDE_INLINE void gather_around(const struct transfer *t, struct kind kind,
                                  const struct chunk *chunk, struct window velocity, double *sum)
 {
-    FOR_LANES(kind, lane)
-    sum[lane] = 0.0;
+    FOR_LANES (kind, lane)
+        sum[lane] = 0.0;
     for (int a = 0; a < kind.window; a++)
         for (int b = 0; b < kind.window; b++) {
             const double *node = numbers_at(t, kind, velocity, a, b, 0);
-            FOR_LANES(kind, lane)
-            sum[lane] += chunk->around[a][lane] * chunk->value[1][b][lane] * node[0];
+            FOR_LANES (kind, lane)
+                sum[lane] += chunk->around[a][lane] * chunk->value[1][b][lane] * node[0];
         }
 }
 
@@ -75,8 +73,7 @@ BOLIDE_INLINE double work_of_gauge(const struct transfer *t, struct kind kind,
 {
     const int32_t i = chunk->index[lane];
     double grown = 0.0;
-    FOR_NODES(kind, a, b, c)
-    {
+    FOR_NODES (kind, a, b, c) {
         const double *node = numbers_at(t, kind, nodes, a, b, c);
         const struct weight w = weight_of(kind, chunk, lane, a, b, c);
         for (int k = 0; k < kind.dimension; k++) {
@@ -99,8 +96,7 @@ struct lane_stress {
 BOLIDE_INLINE void load_stress(const struct transfer *t, struct kind kind,
                                const struct chunk *chunk, struct lane_stress *stress)
 {
-    FOR_LANES(kind, lane)
-    {
+    FOR_LANES (kind, lane) {
         const int32_t i = chunk->index[lane];
         const double *s = t->deviator[i], p = t->pressure[i] + t->viscosity[i],
                      v = 1.0 / t->density[i];
@@ -121,14 +117,12 @@ BOLIDE_INLINE void work_at_nodes(const struct transfer *t, struct kind kind,
 {
     struct lane_stress stress;
     load_stress(t, kind, chunk, &stress);
-    FOR_NODES(kind, a, b, c)
-    {
+    FOR_NODES (kind, a, b, c) {
         const double *node = numbers_at(t, kind, nodes, a, b, c);
         double mean[3] = {0.0};
         for (int k = 0; k < kind.dimension; k++)
             mean[k] = dt * (node[NODE_VELOCITY + k] - 0.5 * dt * node[NODE_ACCELERATION + k]);
-        FOR_LANES(kind, lane)
-        {
+        FOR_LANES (kind, lane) {
             const struct weight w = weight_of(kind, chunk, lane, a, b, c);
             double sum = 0.0;
             for (int j = 0; j < kind.dimension; j++) {
@@ -157,25 +151,23 @@ BOLIDE_INLINE void work_at_faces(const struct transfer *t, struct kind kind,
     load_stress(t, kind, chunk, &stress);
     for (int d = 0; d < kind.dimension; d++) {
         gather_faces(t, kind, chunk, stretch, base, d, sum);
-        FOR_LANES(kind, lane)
-        {
+        FOR_LANES (kind, lane) {
             for (int k = 0; k < kind.dimension; k++)
                 work[lane] += stress.of[k][d][lane] * sum[k][lane];
             grown[lane] += sum[d][lane];
         }
     }
     if (kind.dimension == 2 && t->axisymmetric) {
-        FOR_LANES(kind, lane)
-        sum[0][lane] = 0.0;
+        FOR_LANES (kind, lane)
+            sum[0][lane] = 0.0;
         for (int a = 0; a < kind.window; a++)
             for (int b = 0; b < kind.window; b++) {
                 const double out =
                     stretch[node_of(t, kind, base, a, b, 0) * 2 * FACE_STRIDE + FACE_HOOP];
-                FOR_LANES(kind, lane)
-                sum[0][lane] += chunk->value[0][a][lane] * chunk->value[1][b][lane] * out;
+                FOR_LANES (kind, lane)
+                    sum[0][lane] += chunk->value[0][a][lane] * chunk->value[1][b][lane] * out;
             }
-        FOR_LANES(kind, lane)
-        {
+        FOR_LANES (kind, lane) {
             work[lane] += stress.hoop[lane] * sum[0][lane];
             grown[lane] += sum[0][lane] / t->position[chunk->index[lane]][0];
         }
@@ -204,18 +196,16 @@ BOLIDE_INLINE void gather_work(const struct transfer *t, struct kind kind,
         work_at_faces(t, kind, chunk, bin, nodes.base, work);
     else
         work_at_nodes(t, kind, chunk, nodes, dt, work);
-    FOR_NODES(kind, a, b, c)
-    {
+    FOR_NODES (kind, a, b, c) {
         const double *node = numbers_at(t, kind, nodes, a, b, c);
         double kick = 0.0;
         for (int k = 0; k < kind.dimension; k++)
             kick += 0.5 * square(dt * node[NODE_ACCELERATION + k]);
-        FOR_LANES(kind, lane)
-        work[lane] += (*weight)[lane] * kick;
+        FOR_LANES (kind, lane)
+            work[lane] += (*weight)[lane] * kick;
         weight++;
     }
-    FOR_LANES(kind, lane)
-    {
+    FOR_LANES (kind, lane) {
         double dv2 = 0.0;
         for (int k = 0; k < kind.dimension; k++)
             dv2 += square(dt * push[k][lane]);

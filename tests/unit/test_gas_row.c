@@ -267,8 +267,7 @@ static void all_axes_are_alike(void **state)
     (void)state;
     struct tube tube = run_tube(&standard, ROW_CELLS, ROW_CELLS);
     struct gas_row x = row_at(&tube, 0, 0);
-    FOR_ROW(k, -ROW_GHOSTS, x.cells + ROW_GHOSTS - 1)
-    {
+    FOR_ROW (k, -ROW_GHOSTS, x.cells + ROW_GHOSTS - 1) {
         x.u.of[GAS_DENSITY][k] = maximum(x.u.of[GAS_DENSITY][k], 0.1);
         x.u.of[GAS_ENERGY][k] = maximum(x.u.of[GAS_ENERGY][k], 1.0);
         x.u.of[GAS_MOMENTUM + 1][k] = 0.1 * x.u.of[GAS_DENSITY][k];
@@ -282,8 +281,7 @@ static void all_axes_are_alike(void **state)
     row_lax_wendroff(&x, &standard, 0.2, &along_x);
     row_lax_wendroff(&z, &standard, 0.2, &along_z);
     close_tube(&tube);
-    FOR_ROW(k, 0, x.cells - 1)
-    {
+    FOR_ROW (k, 0, x.cells - 1) {
         assert_near(x.u.of[GAS_MOMENTUM][k], z.u.of[GAS_MOMENTUM + 2][k], 1.0, 1e-14);
         assert_near(x.u.of[GAS_MOMENTUM + 1][k], 0.1 * x.u.of[GAS_DENSITY][k], 1.0, 1e-14);
         assert_near(z.u.of[GAS_MOMENTUM][k], 0.1 * z.u.of[GAS_DENSITY][k], 1.0, 1e-14);
@@ -350,8 +348,7 @@ static void a_contact_that_moves_keeps_its_pressure(void **state)
         struct gas_row row = {.eos = &eos[kind], .cells = ROW_CELLS, .axis = 1};
         struct gas_numbers flux;
         for (int step = 0; step < 10; step++) {
-            FOR_ROW(k, -ROW_GHOSTS, row.cells + ROW_GHOSTS - 1)
-            {
+            FOR_ROW (k, -ROW_GHOSTS, row.cells + ROW_GHOSTS - 1) {
                 if (step && k >= ROW_GHOSTS && k < ROW_GHOSTS + row.cells)
                     continue;
                 const double density = k < ROW_GHOSTS + 20 ? 900.0 : 300.0;
@@ -367,8 +364,7 @@ static void a_contact_that_moves_keeps_its_pressure(void **state)
         struct row_states states = {0};
         double fall[ROW_ROOM];
         row_states(&row, 0, row.cells - 1, &states, fall);
-        FOR_ROW(k, 0, row.cells - 1)
-        {
+        FOR_ROW (k, 0, row.cells - 1) {
             assert_near(states.of.of[PRIMITIVE_PRESSURE][k], pressure, pressure, 1e-9);
             assert_near(states.of.of[PRIMITIVE_VELOCITY + 1][k], speed, speed, 1e-10);
             assert_near(states.of.of[PRIMITIVE_VELOCITY][k], 10.0, 10.0, 1e-12);
