@@ -139,6 +139,9 @@ static void check_state(struct checking *checking, const struct boundary_input *
     if (!field_is_given(&boundary->pressure) && !field_is_given(&boundary->energy))
         case_wrong(checking, "pressure",
                    "an inflow needs the pressure or the energy of what flows in");
+    if (field_is_given(&boundary->density) && field_is_given(&boundary->pressure) &&
+        field_is_given(&boundary->energy))
+        case_wrong(checking, "energy", "give two of density, pressure and energy, not all three");
     if (case_dimension_known(checking) && boundary->velocity.count != dimension)
         case_wrong(checking, "velocity",
                    "expected %d component%s, one for each dimension; found %d", (int)dimension,

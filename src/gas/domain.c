@@ -1,5 +1,7 @@
 /* The box that the gas solver computes, in cells, what is outside its faces, the planes there that no
  * rule of the halo fills, and what leaves through faces. */
+#include <stdio.h>
+
 #include "case/internal.h"
 #include "gas/gas_internal.h"
 #include "material/material.h"
@@ -53,6 +55,31 @@ static struct error *check_walls(const struct simulation_case *input,
     return error;
 }
 
+/* The error of a domain that ends beyond all bodies; obstacles may fill what is there. */
+static struct error *check_filled(const struct simulation_case *input,
+                                  const struct face_place (*face)[2], double edge)
+{
+    struct error *error = NULL;
+    if (!input->domain.low.count && !input->domain.high.count)
+        return NULL;
+    for (int axis = 0; axis < input->dimension && !input->obstacles.count; axis++)
+        for (int side = 0; side < 2; side++) {
+            double reached = side ? -INFINITY : INFINITY;
+            for (int b = 0; b < input->bodies.count; b++) {
+                const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
+                const double at = end_of(side ? bounds.high : bounds.low, axis);
+                reached = side ? maximum(reached, at) : minimum(reached, at);
+            }
+            const double lacks = side ? face[axis][1].at - reached : reached - face[axis][0].at;
+            if (lacks > 1e-6 * edge)
+                error = error_join(
+                    error, input_error(input, face[axis][side].section, face[axis][side].name,
+                                       "no body fills the domain beyond %.6g m along %c", reached,
+                                       "xyz"[axis]));
+        }
+    return error;
+}
+
 struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells)
 {
     static const double reach = 1e9; /* cells; beyond, places lose too many digits */
@@ -92,7 +119,37 @@ struct error *gas_find_domain(const struct simulation *simulation, struct cell_b
     if (simulation->geometry == GEOMETRY_AXISYMMETRIC && cells->low[0] < 0)
         return input_error(input, face[0][0].section, face[0][0].name,
                            "x is the radius: the domain may begin at the axis, x = 0");
-    return check_walls(input, (const struct face_place(*)[2])face, edge);
+    double all = 1.0;
+    for (int axis = 0; axis < cells->dimension; axis++)
+        all *= (double)(cells->high[axis] - cells->low[axis]);
+    if (all > 2e9 * simulation->ranks->size)
+        return input_error(input, "resolution", NULL,
+                           "the domain has %.3g cells, and a rank computes 2e9 at most", all);
+    const struct face_place(*faces)[2] = (const struct face_place(*)[2])face;
+    return error_join(check_walls(input, faces, edge), check_filled(input, faces, edge));
+}
+
+struct error *gas_check_inflows(const struct simulation *simulation, int material)
+{
+    const struct simulation_case *input = simulation->input;
+    struct error *error = NULL;
+    for (int b = 0; b < input->boundaries.count; b++) {
+        const struct boundary_input *boundary = case_boundary(input, b);
+        const bool varies =
+            boundary->density.varying || boundary->pressure.varying || boundary->energy.varying;
+        struct point point;
+        double velocity[3];
+        const char *key = "", *wrong = NULL;
+        char name[160];
+        if (boundary->kind == BOUNDARY_INFLOW && !varies)
+            wrong = boundary_state_at(boundary, &simulation->material[material],
+                                      vec3_make(0.0, 0.0, 0.0), 0.0, &point, velocity, &key);
+        if (!wrong)
+            continue;
+        snprintf(name, sizeof name, "%.100s%s%s", input->boundaries.names[b], *key ? "." : "", key);
+        error = error_join(error, input_error(input, "boundaries", name, "%s", wrong));
+    }
+    return error;
 }
 
 void gas_find_faces(const struct simulation *simulation, const struct cell_blocks *cells,
@@ -152,8 +209,8 @@ static struct error *inflow(const struct simulation *simulation, int material, i
         boundary_state_at(case_boundary(input, boundary), &simulation->material[material], place,
                           time, &point, velocity, &key);
     if (wrong)
-        return error_new(ERROR_STATE, "boundaries.%s.%s: %s (at t = %.6g s)",
-                         input->boundaries.names[boundary], key, wrong, time);
+        return error_new(ERROR_STATE, "boundaries.%s%s%s: %s (at t = %.6g s)",
+                         input->boundaries.names[boundary], *key ? "." : "", key, wrong, time);
     for (int axis = 0; axis < 3; axis++) {
         number[GAS_MOMENTUM + axis] = point.density * velocity[axis];
         kinetic += 0.5 * square(velocity[axis]);

@@ -127,7 +127,8 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     cells->ranks = simulation->ranks;
     cells->partition = &simulation->partition;
     cells->threads = simulation->threads;
-    TRY(gas_find_domain(simulation, cells));
+    TRY(error_join(gas_find_domain(simulation, cells),
+                   gas_check_inflows(simulation, gas->material)));
     gas_find_faces(simulation, cells, &gas->halo);
     gas->halo.depth = gas->second_order ? 2 : CELL_GHOSTS;
     gas->halo.numbers = gas->blocked ? GAS_FIELDS : GAS_NUMBERS;

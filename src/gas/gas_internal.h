@@ -57,6 +57,9 @@ struct error *gas_refuse(const struct simulation *simulation);
  * bodies. ERROR_INPUT: a face does not lie on a plane of the grid. */
 struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells);
 
+/* Inflows of constant density, pressure and energy that have no state. */
+struct error *gas_check_inflows(const struct simulation *simulation, int material);
+
 /* What is outside the faces of the domain. */
 void gas_find_faces(const struct simulation *simulation, const struct cell_blocks *cells,
                     struct cell_halo *halo);
