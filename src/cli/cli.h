@@ -74,6 +74,8 @@ int verify_convergence(const char *const *paths, int count, bool of_all,
 /* Lists what has TEXT in its name or its help; false when nothing has. */
 bool help_search(const char *text);
 
+bool is_library_material(const char *name);
+
 /* help_words.c */
 
 /* Prints what to do about TOPIC, a word of users that is no name of the program; false if there is

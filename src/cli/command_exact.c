@@ -172,7 +172,9 @@ static struct error *solve_case(const char *given, const struct cli_options *opt
     error = input->exact.choice
                 ? print_solution(input->exact.choice, input->exact.value,
                                  options->time ? time : input->run.until, options->points)
-                : input_error(input, "exact", NULL, "the case has no exact solution");
+                : input_error(input, "exact", NULL,
+                              "the case has no exact solution; add one, such as "
+                              "`exact: {impedance-match: {...}}`; `bolide help exact` lists them");
     case_free(input);
     return error;
 }

@@ -357,7 +357,7 @@ static int unknown_topic(const char *topic)
         if (p->key)
             names[count++] = p->key;
     const char *nearest = nearest_name(topic, names, count);
-    if (!nearest && help_search(topic))
+    if ((!nearest || is_library_material(topic)) && help_search(topic))
         return EXIT_OK;
     return report_error(
         nearest ? error_new(ERROR_INPUT, "no help on \"%s\" (did you mean \"%s\"?)", topic, nearest)

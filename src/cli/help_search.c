@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "base/memory.h"
+#include "case/library.h"
 #include "cli/cli.h"
 
 struct search {
@@ -53,6 +54,33 @@ static void try_table(struct search *search, const struct parameter *table, cons
     }
 }
 
+static void try_materials(struct search *search)
+{
+    struct name_list names = {0};
+    char *folder = share_folder("materials");
+    if (folder)
+        error_free(library_names(folder, &names)); /* the help does without a library */
+    for (int i = 0; i < names.count; i++) {
+        char *topic = text_format("bolide materials %s", names.names[i]);
+        if (topic)
+            try_entry(search, topic, names.names[i], "prints this material of the library");
+        free(topic);
+    }
+    library_names_free(&names);
+    free(folder);
+}
+
+bool is_library_material(const char *name)
+{
+    char *folder = share_folder("materials");
+    const char *const folders[] = {folder};
+    char *path = folder ? library_file(folders, 1, name) : NULL;
+    const bool found = path != NULL;
+    free(path);
+    free(folder);
+    return found;
+}
+
 bool help_search(const char *text)
 {
     struct search search = {text, 0};
@@ -74,5 +102,6 @@ bool help_search(const char *text)
             try_table(&search, choice->table, choice->name);
         }
     }
+    try_materials(&search);
     return search.found > 0;
 }

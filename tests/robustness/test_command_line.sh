@@ -47,6 +47,8 @@ expect 0 "--overwrite" "$BOLIDE" run case.yaml -h
 expect 2 "did you mean \"units\"" "$BOLIDE" help unit
 expect 0 "run --resume" "$BOLIDE" help restart
 expect 0 "tillotson.tension" "$BOLIDE" help tension
+expect 0 "bolide materials tungsten-alloy-johnson-cook" "$BOLIDE" help tungsten
+expect 0 "bolide materials rha-johnson-cook" "$BOLIDE" help rha-johnson-cook
 expect 2 "no help on \"qwertyuiop\"" "$BOLIDE" help qwertyuiop
 
 # Words of users that are no names of the program have an answer, which names a page that exists.
@@ -81,7 +83,8 @@ expect 2 '--set "left.density=... kg/m^3"' "$BOLIDE" exact gas-riemann
 expect 2 '"right" is missing' "$BOLIDE" exact gas-riemann \
     --set 'left={density: 1 kg/m^3, pressure: 1 Pa, gamma: 1.4}'
 expect 0 "star pressure" "$BOLIDE" exact "$cases/riemann/gas/case.yaml"
-expect 2 "the case has no exact solution" "$BOLIDE" exact "$cases/impact/steel-cube-0/case.yaml"
+expect 2 "the case has no exact solution; add one" \
+    "$BOLIDE" exact "$cases/impact/steel-cube-0/case.yaml"
 
 # Mistakes that only the particles and their fields show are found by check, and by run before it writes.
 cat >plate.yaml <<'END'
