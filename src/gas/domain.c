@@ -335,6 +335,14 @@ void gas_book(const struct gas *gas, const struct simulation *simulation,
             book(simulation, edge, at, through->end[side][row], side ? -1.0 : 1.0, dt,
                  face == CELL_FACE_MIRROR ? LEDGER_WALLS : LEDGER_OUTFLOWS, ledger);
         }
+    for (int row = 0; row < rows * low->count[second] && axis == 0 && gas->around; row++) {
+        double at[3] = {0.0, 0.0, 0.0};
+        row_place(cells, low, first, second, row, at);
+        for (int s = 0; s < strip->count; s++)
+            ledger_book(ledger, LEDGER_AXIS, 0.0,
+                        vec3_make(dt * edge * edge * through->push[row][s], 0.0, 0.0),
+                        vec3_make(at[0], at[1], at[2]), 0.0);
+    }
     for (int k = 0; k < through->obstacles; k++) {
         double at[3] = {0.0, 0.0, 0.0};
         row_place(cells, low, first, second, through->obstacle[k].row, at);

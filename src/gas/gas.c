@@ -118,6 +118,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     gas->material = case_body(input, 0)->material_index;
     gas->eos = simulation->material[gas->material].eos;
     gas->blocked = input->obstacles.count > 0;
+    gas->around = simulation->geometry == GEOMETRY_AXISYMMETRIC;
     gas->sleepless = simulation_has_gravity(simulation);
     struct cell_blocks *cells = gas->cells = memory_allocate(sizeof *cells);
     if (!cells)

@@ -33,6 +33,7 @@ struct gas {
     struct eos eos;
     int material;
     bool blocked; /* some cells are */
+    bool around;  /* the first axis is a radius */
     struct cell_halo halo;
     uint64_t order; /* of the blocks when the strips were made */
     int32_t room;   /* cells for which `other` has room */

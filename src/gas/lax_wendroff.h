@@ -145,7 +145,8 @@ BOLIDE_INLINE bool row_guard(const struct gas_row *row, const struct gas_numbers
                 kinetic += 0.5 * square(smoothed->of[n][side] / density);
             const double energy = smoothed->of[GAS_ENERGY][side] / density - kinetic;
             const struct eos_value value = eos_evaluate(row->eos, density, energy, none);
-            const double sound = value.dp_drho + value.pressure / square(density) * value.dp_de;
+            const double sound =
+                eos_sound_square(value.pressure, value.dp_drho, value.dp_de, density);
             speed = maximum(speed, fabs(u) + sqrt(maximum(sound, 0.0)));
         }
         for (int n = 0; n < GAS_NUMBERS; n++)
@@ -170,6 +171,7 @@ BOLIDE_INLINE void row_lax_wendroff(struct gas_row *row, const struct lax_wendro
     row_advance(row, &smoothed, &through, push, r, -more, cells - 1 + more, &to);
     if (scheme->guarded && row_guard(row, &smoothed, &flow, &to, &through))
         row_advance(row, &smoothed, &through, push, r, 0, cells - 1, &to);
+    row_keep_push(row, push);
     for (int n = 0; n < GAS_NUMBERS; n++) {
         FOR_ROW (k, 0, cells - 1)
             row->u.of[n][k] = to.of[n][k];

@@ -31,7 +31,7 @@ static const double GAS_LEAST = 0.2;
 BOLIDE_INLINE double row_sound_square(const struct row_values *values, double pressure,
                                       double density, int k)
 {
-    return values->dp_drho[k] + pressure / square(density) * values->dp_de[k];
+    return eos_sound_square(pressure, values->dp_drho[k], values->dp_de[k], density);
 }
 
 /* The states of cells FIRST to LAST, and by how much their energies may FALL. */
@@ -278,6 +278,7 @@ BOLIDE_INLINE void row_muscl_hancock(struct gas_row *row, double r, struct gas_n
             if (lost[k + ROW_GHOSTS] > 0.0)
                 row_hllc(row, &cell, -1, &cell, k, k, flux);
     row_advance(row, &row->u, flux, push, r, 0, row->cells - 1, &to);
+    row_keep_push(row, push);
     for (int n = 0; n < GAS_NUMBERS; n++)
         FOR_ROW (k, 0, row->cells - 1)
             row->u.of[n][k] = to.of[n][k];

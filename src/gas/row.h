@@ -31,6 +31,7 @@ struct gas_row {
     bool around;     /* it runs along the radius */
     double first;    /* radius of the face below its first cell, in cells */
     struct gas_numbers u;
+    double push[ROW_ROOM]; /* found along a radius: mean pressures in a sweep, Pa */
 };
 
 /* Where the cells or faces FIRST to LAST are in the numbers of a row. */
@@ -129,6 +130,14 @@ BOLIDE_INLINE void row_advance(const struct gas_row *row, const struct gas_numbe
                 to->of[n][k] = u[k] - r * ((low + 1.0) * f[k + 1] - low * f[k]) / (low + 0.5);
             }
     }
+}
+
+/* Along a radius the row keeps PUSH, for the ledger. */
+BOLIDE_INLINE void row_keep_push(struct gas_row *row, const double *push)
+{
+    if (row->around)
+        FOR_ROW (k, 0, row->cells - 1)
+            row->push[k] = push[k];
 }
 
 /* What flows along AXIS in cells FIRST to LAST with numbers U. */

@@ -28,17 +28,18 @@ struct gas_strip {
     const int32_t *block;
     int count;
     bool waits;  /* it needs planes */
-    bool bounds; /* an end of it is a face of the domain, across which something is booked */
+    bool bounds; /* what leaves it is booked: an end is a face of the domain, or it is a radius */
     bool sleeps; /* all of it and what is beyond its ends is one gas at rest: it stays as it is */
 };
 
-enum { STRIP_ROWS = 64, STRIP_OBSTACLES = STRIP_ROWS * (ROW_CELLS + 2) };
+enum { STRIP_ROWS = 64, STRIP_BLOCKS = 8, STRIP_OBSTACLES = STRIP_ROWS * (ROW_CELLS + 2) };
 
 /* What leaves a strip through its ends, per area and time: of each row, the lower of the two other axes
  * first; and through the faces of blocked cells, whose cell is the one on its low side, counted from
  * the strip's first, and whose flux counts for the gas on its SIDE, -1 below, 1 above. */
 struct gas_through {
     double end[2][STRIP_ROWS][GAS_NUMBERS];
+    double push[STRIP_ROWS][STRIP_BLOCKS]; /* along a radius: mean pressures, summed over a block */
     int obstacles;
     struct {
         int row, face, side;

@@ -110,6 +110,21 @@ static void note_end(const struct gas_numbers *flux, int face, double *out)
         out[n] = flux->of[n][face + ROW_GHOSTS];
 }
 
+/* Along a radius, the sums of PUSH over the cells of each block of the strip. */
+static void note_push(const struct gather *g, const double *push, int number,
+                      struct gas_through *through)
+{
+    int k = ROW_GHOSTS;
+    for (int s = 0; s < g->strip->count && g->sweep->around; s++) {
+        const int count = g->sweep->cells->block[g->strip->block[s]].count[g->sweep->axis];
+        double sum = 0.0;
+        for (int c = 0; c < count; c++)
+            sum += push[k + c];
+        through->push[number][s] = sum;
+        k += count;
+    }
+}
+
 static void note_obstacle(const struct gas_numbers *flux, int face, int row, int at, int side,
                           struct gas_through *through)
 {
@@ -148,9 +163,8 @@ static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cell
     const int depth = g->sweep->halo->depth, axis = g->sweep->axis;
     const int begin = ROW_GHOSTS, end = ROW_GHOSTS + cells; /* of the row's own cells */
     const double *open = all[GAS_OPEN], first = row->first;
-    const int32_t low_block = g->strip->block[0];
+    double push[ROW_ROOM] = {0.0};
     struct gas_numbers flux;
-    (void)low_block;
     for (int k = begin - depth; k < end + depth;) {
         if (open[k] == 0.0) {
             if (k >= begin && k < end) { /* as it was */
@@ -179,6 +193,8 @@ static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cell
             }
             sweep_row(g->sweep, row, &flux);
             store_row(g, row, from - begin);
+            for (int at = from; at < to && row->around; at++)
+                push[at] = row->push[at - from + ROW_GHOSTS];
             if (from == begin)
                 note_end(&flux, 0, through->end[0][number]);
             if (to == end)
@@ -190,6 +206,7 @@ static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cell
         }
         k = last + 1;
     }
+    note_push(g, push, number, through);
     row->first = first;
 }
 
@@ -220,6 +237,8 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
                 for (int side = 0; side < 2; side++)
                     for (int n = 0; n < GAS_NUMBERS; n++)
                         through->end[side][i + j * rows][n] = through->end[side][0][n];
+                for (int s = 0; s < strip->count && sweep->around; s++)
+                    through->push[i + j * rows][s] = through->push[0][s];
                 continue;
             }
             const struct gather g = {sweep, strip, i, j, rows};
@@ -241,6 +260,7 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
             }
             sweep_row(sweep, &row, &flux);
             store_row(&g, &row, 0);
+            note_push(&g, row.push, number, through);
             note_end(&flux, 0, through->end[0][number]);
             note_end(&flux, cells, through->end[1][number]);
         }
@@ -296,8 +316,8 @@ static void put_run(const struct gas_look *look, const struct run *run,
         const int at = k + ROW_GHOSTS;
         const bool open = !is_closed(look, i);
         const double density = run->density[at],
-                     sound = values->dp_drho[at] +
-                             values->pressure[at] / square(density) * values->dp_de[at];
+                     sound = eos_sound_square(values->pressure[at], values->dp_drho[at],
+                                              values->dp_de[at], density);
         for (int axis = 0; axis < 3; axis++)
             cells->velocity[i][axis] = run->velocity[axis][at];
         cells->energy[i] = run->energy[at];
