@@ -119,7 +119,6 @@ struct error *run_take_step(struct run *run)
 {
     struct simulation *simulation = &run->simulation;
     run->sound = false;
-    run->limit = limit_of_nothing();
     TRY(run->method->prepare(run->solver, simulation, &run->limit));
     const double event = minimum(run->limit.event, run->input->run.until);
     double dt = step_towards(run->limit.dt, simulation->time, event);

@@ -191,6 +191,7 @@ static struct error *sph_prepare(void *solver, struct simulation *simulation, st
             error = sph->scheme->rebuilt(sph, simulation);
         TRY(ranks_agree(simulation->ranks, error));
     }
+    *limit = limit_of_nothing();
     if (!sph_has(sph, SPH_STILL))
         sph->scheme->prepare(sph, simulation, limit);
     if (sph_has(sph, SPH_CONDUCTION)) {
