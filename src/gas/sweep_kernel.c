@@ -88,9 +88,8 @@ static void store_row(const struct gather *g, const struct gas_row *row, int fir
                   end = first + row->cells < k + count ? first + row->cells - k : count;
         for (int n = 0; n < GAS_NUMBERS && begin < end; n++) {
             double *out = sweep->to[n] + at;
-            const double *in = &row->u.of[n][ROW_GHOSTS + k - first];
             for (int c = begin; c < end; c++)
-                out[c * stride] = in[c];
+                out[c * stride] = row->u.of[n][ROW_GHOSTS + k - first + c];
         }
         k += count;
     }
