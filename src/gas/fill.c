@@ -187,8 +187,8 @@ static void fill_parts(struct filling *f, const double centre[3], double *sum)
             all += weight;
         } else if (!in_obstacle(f->simulation->input, place))
             f->error = tell(f, -1, "", place,
-                            "no body fills this place of the domain: a gas wants one everywhere, "
-                            "but for obstacles");
+                            "no body fills the domain here: bodies and obstacles must fill all of "
+                            "it");
     }
     for (int n = 0; n < GAS_NUMBERS && all > 0.0; n++)
         sum[n] /= all;

@@ -55,14 +55,14 @@ const struct parameter gas_table[] = {
      .offset = offsetof(struct gas_parameters, method),
      .standard = "muscl-hancock",
      .kind_of_thing = "gas-method",
-     .help = "of the sweeps along the axes; its name, or {NAME: {options}}"},
+     .help = "the method of the sweeps along the axes: its name, or {NAME: {options}}"},
     {.key = "courant",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct gas_parameters, courant),
      .standard = PARAMETER_OPTIONAL,
      .above = 1e-6, /* a smaller step adds less than rounding takes, and no run of it ends */
      .below = 1.0,
-     .help = "K of dt = min K h/(|u_i| + c); default 0.8, with lax-wendroff 0.4"},
+     .help = "K of dt = min K h/(|u_i| + c); default: 0.8, with lax-wendroff 0.4"},
     PARAMETER_END,
 };
 
@@ -71,7 +71,7 @@ static const struct field_row field_rows[] = {
     {.field = {"momentum_x", NULL, "momentum per volume", NUMBER_DOUBLE, 1, FIELD_STATE}},
     {.field = {"momentum_y", NULL, "momentum per volume", NUMBER_DOUBLE, 1, FIELD_STATE}},
     {.field = {"momentum_z", NULL, "momentum per volume", NUMBER_DOUBLE, 1, FIELD_STATE}},
-    {.field = {"total_energy", NULL, "energy per volume, with that of the motion", NUMBER_DOUBLE, 1,
+    {.field = {"total_energy", NULL, "energy per volume, kinetic energy included", NUMBER_DOUBLE, 1,
                FIELD_STATE}},
     {.field = {"open", NULL, "1, or 0 where an obstacle blocks the cell", NUMBER_DOUBLE, 1,
                FIELD_STATE}},

@@ -1,5 +1,5 @@
-/* Gas dynamics on a grid: sweeps along the axes, one after another, over cells that stay. The default
- * is MUSCL-Hancock with HLLC; `method: lax-wendroff` is that of Cui, dissertation (2014), section 2.6,
+/* Gas dynamics on a fixed grid, by sweeps along the axes, one after another. The default is
+ * MUSCL-Hancock with HLLC; `method: lax-wendroff` is that of Cui, dissertation (2014), section 2.6,
  * restored. */
 #ifndef BOLIDE_GAS_H
 #define BOLIDE_GAS_H

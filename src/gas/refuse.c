@@ -42,8 +42,7 @@ static struct error *refuse_materials(const struct simulation *simulation)
     else if (material_burns(material))
         text = "the solver gas does not burn explosives: leave `burn` out and begin with products";
     else if (material_history(material))
-        text =
-            "the solver gas remembers no history of a material: choose another equation of state";
+        text = "the solver gas keeps no history of a material: choose another equation of state";
     return text ? input_error(input, "materials", name, "%s", text) : NULL;
 }
 
@@ -52,15 +51,15 @@ struct error *gas_refuse(const struct simulation *simulation)
     const struct simulation_case *input = simulation->input;
     struct error *error = NULL;
     if (simulation->geometry == GEOMETRY_PLANE_STRESS)
-        error = input_error(input, "geometry", NULL, "a gas knows no plane stress");
+        error = input_error(input, "geometry", NULL, "the solver gas has no plane stress");
     error = error_join(error, refuse_map(input, "contacts", &input->contacts,
                                          "bodies of gas have no surfaces in the solver gas"));
     error = error_join(error, refuse_map(input, "loads", &input->loads,
                                          "bodies of gas have no surfaces in the solver gas; a "
                                          "boundary of kind inflow pushes"));
     error = error_join(error, refuse_map(input, "outflows", &input->outflows,
-                                         "for particles; in the solver gas a boundary of kind "
-                                         "transmitting lets gas out"));
+                                         "outflows are for particles: use a boundary of kind "
+                                         "transmitting"));
     error = error_join(error, refuse_map(input, "detonations", &input->detonations,
                                          "the solver gas does not burn explosives"));
     for (int b = 0; b < input->bodies.count; b++)

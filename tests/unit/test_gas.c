@@ -105,8 +105,17 @@ static void sleeping_blocks_change_no_bit(void **state)
 static void a_gas_at_rest_stays_at_rest(void **state)
 {
     (void)state;
-    for (size_t c = 0; c < COUNT_OF(cases) - 1; c++) {
-        struct running *run = begin_fresh(cases[c].text, &plain);
+    static const char *const eos[] = {
+        NULL,
+        "materials.air.eos={noble-abel: {density: 1.2 kg/m^3, gamma: 1.3, covolume: 1e-3 m^3/kg}}",
+        "materials.air.eos={stiffened-gas: {density: 1000 kg/m^3, sound: 1500 m/s, gamma: 3}}",
+        "materials.air.eos={jwl: {density: 1630 kg/m^3, a: 371.2 GPa, b: 3.231 GPa, r1: 4.15, "
+        "r2: 0.95, omega: 0.3, energy: 0 GPa}}",
+    };
+    for (size_t k = 0; k < (COUNT_OF(cases) - 1) * COUNT_OF(eos); k++) {
+        const size_t c = k / COUNT_OF(eos);
+        const struct variant variant = {"at rest", 1, 1.0, eos[k % COUNT_OF(eos)], false};
+        struct running *run = begin_fresh(cases[c].text, &variant);
         const int32_t last = run->gas.cells->count - 1;
         run->gas.sleepless = true;
         for (int n = 0; n < GAS_NUMBERS; n++)
