@@ -188,6 +188,8 @@ struct error *csv_visit_mark(struct csv_mark *mark, const char *name, struct vis
     char part[80];
     snprintf(part, sizeof part, "%s_bytes", name);
     TRY(visitor->visit(visitor, part, NUMBER_INT64, &mark->bytes, 1, 1));
+    if (mark->bytes < 0)
+        return error_new(ERROR_SYSTEM, "%s is %lld: it is negative", part, (long long)mark->bytes);
     snprintf(part, sizeof part, "%s_hash", name);
     return visitor->visit(visitor, part, NUMBER_UINT64, &mark->hash, 1, 1);
 }

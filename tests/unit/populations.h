@@ -28,4 +28,11 @@ static inline void free_particles(struct simulation *simulation)
     particles_drop(particles);
 }
 
+/* Ends SIMULATION and the particles that no solver owns. */
+static inline void end_simulation(struct simulation *simulation)
+{
+    free_particles(simulation);
+    simulation_destroy(simulation);
+}
+
 #endif

@@ -35,7 +35,7 @@ static void a_box_has_its_exact_mass_and_every_particle_its_start_state(void **s
         assert_true(p->position[i][1] == ((double)(site / 16 % 4) + 0.5) * 0.125);
         assert_true(p->position[i][2] == 2.0 + ((double)(site / 64) + 0.5) * 0.125);
     }
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 }
 
 static void the_spacing_is_adjusted_to_fill_the_bounds(void **state)
@@ -53,7 +53,7 @@ static void the_spacing_is_adjusted_to_fill_the_bounds(void **state)
     assert_true(largest_diameter(&w.input) == 1.0 / 3.0);
     for (int i = 0; i < p->count; i++)
         assert_true(p->position[i][1] == 0.0 && p->position[i][2] == 0.0);
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 
     w.bodies[0].resolution = 5.0;
     assert_true(body_lattice(&w.input, 0).sites == 1.0);
@@ -90,7 +90,7 @@ static void a_grain_that_replaces_its_matrix_cuts_a_hole_of_its_own_form(void **
         assert_true(fabs(summary[body].mass - mass) <= 1e-12 * mass);
         assert_true(fabs(summary[body].diameter - 0.01) < 1e-15);
     }
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 }
 
 static void an_overlap_without_replacement_is_told_once(void **state)
@@ -122,7 +122,7 @@ static void bodies_that_touch_do_not_overlap(void **state)
     assert_made(&w, &alone, &simulation);
     assert_int_equal(count_of_body(particles_of(&simulation), 0), 100);
     assert_int_equal(count_of_body(particles_of(&simulation), 1), 600);
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 }
 
 static void all_mistakes_of_a_case_come_in_one_go(void **state)
@@ -157,7 +157,7 @@ static void a_body_beyond_an_outflow_is_refused(void **state)
     const struct ranks alone = ranks_alone();
     struct simulation simulation;
     assert_made(&w, &alone, &simulation); /* the last row stands on the face */
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
     face.at = 0.85;
     assert_refused(&w, 1,
                    "bodies.matrix: the particle at [0.05 m, 0.95 m] lies behind outflow \"top\"");
@@ -217,7 +217,7 @@ static void a_body_too_far_from_the_origin_is_refused(void **state)
                 box.from.at[axis] = near - 2.0 * h;
                 box.to.at[axis] = near + 2.0 * h;
                 assert_made(&w, &alone, &simulation);
-                simulation_destroy(&simulation);
+                end_simulation(&simulation);
                 box.from.at[axis] = far - 2.0 * h;
                 box.to.at[axis] = far + 2.0 * h;
                 assert_refused(&w, 1, "move the case to within");
@@ -255,7 +255,7 @@ static void a_ball_on_the_axis_is_cut_there_and_has_its_mass(void **state)
         const double mass =
             population_totals(population_of_particles(p), &alone, -1).entry[LEDGER_MASS];
         assert_float_equal(mass, 3.0 * 2.0 / 3.0, 0.002 * 2.0); /* rho 4/3 pi R^3 over 2 pi */
-        simulation_destroy(&simulation);
+        end_simulation(&simulation);
     }
 }
 
@@ -274,7 +274,7 @@ static void a_bar_on_the_axis_is_cut_there_and_has_its_exact_mass(void **state)
         const double mass =
             population_totals(simulation_population(&simulation), &alone, -1).entry[LEDGER_MASS];
         assert_float_equal(mass, 8.0 * 3.0 * 0.5, 1e-12); /* rho pi R^2 L over 2 pi */
-        simulation_destroy(&simulation);
+        end_simulation(&simulation);
     }
 }
 
@@ -295,7 +295,7 @@ static void a_ring_lattice_is_cut_at_the_axis_too(void **state)
     const double mass =
         population_totals(simulation_population(&simulation), &alone, -1).entry[LEDGER_MASS];
     assert_float_equal(mass, 2.0, 0.01);
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 }
 
 static void a_body_beyond_the_axis_is_told_to_move(void **state)
@@ -343,7 +343,7 @@ static void a_ball_about_the_axis_is_cut_by_mirrors_too(void **state)
             const double mass =
                 population_totals(population_of_particles(p), &alone, -1).entry[LEDGER_MASS];
             assert_float_equal(mass, wanted, 0.01 * wanted);
-            simulation_destroy(&simulation);
+            end_simulation(&simulation);
         }
 }
 

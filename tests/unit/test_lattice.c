@@ -65,7 +65,7 @@ static void a_particle_of_a_hexagonal_lattice_has_six_neighbours(void **state)
         interior++;
     }
     assert_true(interior > 100);
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 }
 
 static void a_hexagonal_lattice_fills_any_box(void **state)
@@ -76,7 +76,7 @@ static void a_hexagonal_lattice_fills_any_box(void **state)
     struct shape_box box = {VECTOR(-1.0, 3.0), VECTOR(0.37, 4.1)};
     make_body(&w, &simulation, "box", &box, LATTICE_HEXAGONAL, NULL, 0.0213);
     assert_near(total_mass(particles_of(&simulation)), density * 1.37 * 1.1, 1e-12);
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 }
 
 /* The counts of the beryllium shell, 80 to 100 mm, that the literature's rings have. */
@@ -96,7 +96,7 @@ static void rings_have_the_count_and_the_mass_of_their_shell(void **state)
         assert_near(total_mass(p), density * M_PI * 3600.0, 1e-12);
         for (int k = 0; k < p->count; k++)
             assert_near(p->mass[k], density * square(resolution[i]), 2e-3);
-        simulation_destroy(&simulation);
+        end_simulation(&simulation);
     }
 }
 
@@ -120,13 +120,13 @@ static void rings_fill_a_disc_to_its_middle(void **state)
     }
     assert_true(fabs(moment[0]) < 1e-15 && fabs(moment[1]) < 1e-15);
     assert_near(inertia, 0.5 * total_mass(p) * 0.01, 1e-3);
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 
     struct shape_ball speck = {VECTOR(2.0, 3.0), 0.2};
     make_body(&w, &simulation, "ball", &speck, LATTICE_RINGS, &rings, 1.0);
     assert_int_equal(particles_of(&simulation)->count, 1);
     assert_true(particles_of(&simulation)->position[0][0] == 2.0);
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 }
 
 /* The cylinders of Parshikov (2013), 2.6: 135 = 3 x 45 and 540 = 6 x 90 sectors of one area. */
@@ -145,7 +145,7 @@ static void rings_of_one_count_have_particles_of_one_mass(void **state)
         for (int i = 0; i < p->count; i++)
             assert_near(p->mass[i], density * M_PI * 1050.0 / p->count, 1e-12);
         assert_near(largest_diameter(simulation.input), sqrt(M_PI * 1050.0 / p->count), 1e-12);
-        simulation_destroy(&simulation);
+        end_simulation(&simulation);
     }
 }
 
@@ -167,7 +167,7 @@ static void rings_are_mirror_images_about_their_start(void **state)
                                              p->position[j][1] - (s * x - c * y)));
         assert_true(nearest < 1e-12);
     }
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 }
 
 static void rings_may_stand_about_any_point(void **state)
@@ -186,7 +186,7 @@ static void rings_may_stand_about_any_point(void **state)
         assert_true(shape_inside(&(struct one_of){0, &shape_choices[0], &plate},
                                  vec3_make(p->position[i][0], p->position[i][1], 0.0)));
     }
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 }
 
 static void rings_follow_a_shell_that_is_cut(void **state)
@@ -210,7 +210,7 @@ static void rings_follow_a_shell_that_is_cut(void **state)
     }
     assert_near(low, 8.125, 1e-12);
     assert_near(high, 9.875, 1e-12);
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 }
 
 static void the_slices_of_every_lattice_agree(void **state)
@@ -249,7 +249,7 @@ static void rivals_are_found_from_every_lattice(void **state)
                 assert_false(shape_inside(&w.bodies[1].shape,
                                           vec3_make(p->position[i][0], p->position[i][1], 0.0)));
         assert_near(total_mass(p), density * M_PI, 0.02);
-        simulation_destroy(&simulation);
+        end_simulation(&simulation);
     }
 }
 

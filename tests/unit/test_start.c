@@ -131,7 +131,7 @@ static void every_particle_has_the_state_of_its_place(void **state)
             heat_temperature(&material->heat, &material->eos, density, p->energy[i]);
         assert_true(fabs(temperature - (300.0 + 100.0 * x[1])) < 1e-9);
     }
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
     struct body_summary summary;
     assert_null(generate_summary(&w.input, &summary));
     assert_true(fabs(summary.mass / 2740.0 - 1.0) < 1e-14);

@@ -82,7 +82,7 @@ static inline void assert_refused(const struct workshop *w, int count, const cha
         fail_msg("\"%s\" does not tell of \"%s\"", error_message(error, 0), words);
     assert_int_equal(particles_of(&simulation)->count, 0);
     error_free(error);
-    simulation_destroy(&simulation);
+    end_simulation(&simulation);
 }
 
 static inline int count_of_body(const struct particles *particles, int body)
@@ -115,7 +115,7 @@ static inline void assert_slices_agree(const struct workshop *w)
             assert_true(counts[run] + particles_of(&simulation)->count <= MOST);
             for (int i = 0; i < particles_of(&simulation)->count; i++)
                 ids[run][counts[run]++] = particles_of(&simulation)->id[i];
-            simulation_destroy(&simulation);
+            end_simulation(&simulation);
         }
         qsort(ids[run], (size_t)counts[run], sizeof ids[run][0], compare_ids);
         assert_int_equal(counts[run], counts[0]);
