@@ -5,7 +5,7 @@
 #include "cli/cli.h"
 #include "model/solver.h"
 #include "run/estimate.h"
-#include "run/sweep.h"
+#include "study/sweep.h"
 
 static const char *mass_unit(const struct simulation_case *input)
 {

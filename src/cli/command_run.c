@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "cli/cli.h"
-#include "run/verify.h"
+#include "study/verify.h"
 
 static struct run_options running_of(const struct cli_options *options, const char *folder,
                                      const struct listener *listener)

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "cli/cli.h"
-#include "run/verify.h"
+#include "study/verify.h"
 
 struct row {
     char measured[96], allowed[96];

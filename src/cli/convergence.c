@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "cli/cli.h"
-#include "run/convergence.h"
+#include "study/convergence.h"
 
 static void run_ended(void *context, const struct verify_case *verified)
 {

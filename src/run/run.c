@@ -18,7 +18,7 @@
 #include "model/generate.h"
 #include "output/picture.h"
 #include "run/estimate.h"
-#include "run/fits.h"
+#include "run/fit_axes.h"
 #include "run/run_internal.h"
 
 /* A thread with fewer particles costs more in waiting than it gains in work. The second number

@@ -12,8 +12,8 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "run/catalogue.h"
-#include "run/sweep.h"
 #include "source_folder.h"
+#include "study/sweep.h"
 
 #define BODIES                                                                                     \
     "format: 1\ndimension: 1\nresolution: 1 mm\nsolver: sph\n"                                     \

@@ -16,8 +16,8 @@
 #include "populations.h"
 #include "run/catalogue.h"
 #include "run/run.h"
-#include "run/verify.h"
 #include "source_folder.h"
+#include "study/verify.h"
 
 /* NAN: stays. */
 struct nonsense_parameters {

@@ -1,5 +1,5 @@
 /* Convergence studies; see convergence.h. The loop over the runs is verify's. */
-#include "run/convergence.h"
+#include "study/convergence.h"
 
 #include <stdlib.h>
 #include <string.h>

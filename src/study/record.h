@@ -1,8 +1,8 @@
 /* `bolide verify --record`: what cases measured, stored beside them; case/record.h has the file. */
-#ifndef BOLIDE_RUN_RECORD_H
-#define BOLIDE_RUN_RECORD_H
+#ifndef BOLIDE_STUDY_RECORD_H
+#define BOLIDE_STUDY_RECORD_H
 
-#include "run/verify.h"
+#include "study/verify.h"
 
 /* ERROR_SYSTEM where the record of the case at PATH could not be written when it has been run. */
 struct error *record_check(const char *path);

@@ -3,7 +3,7 @@
 #ifndef BOLIDE_SWEEP_H
 #define BOLIDE_SWEEP_H
 
-#include "run/verify.h"
+#include "study/verify.h"
 
 /* The table's file in the folder of a sweep. */
 extern const char sweep_table_name[];

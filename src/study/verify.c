@@ -1,5 +1,5 @@
 /* Verification of cases; see verify.h. */
-#include "run/verify.h"
+#include "study/verify.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,9 +9,9 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/results.h"
-#include "run/fits.h"
-#include "run/record.h"
-#include "run/sweep.h"
+#include "study/fits.h"
+#include "study/record.h"
+#include "study/sweep.h"
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 

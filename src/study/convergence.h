@@ -4,7 +4,7 @@
 #define BOLIDE_CONVERGENCE_H
 
 #include "output/study.h"
-#include "run/verify.h"
+#include "study/verify.h"
 
 /* Runs the study of the case at PATH as NAME, its runs into folders in FOLDER/convergence, and fills STUDY,
  * empty before, which the caller frees; study_write puts it into FOLDER. NULL when all wanted orders are there;

@@ -3,11 +3,7 @@
 #ifndef BOLIDE_FITS_H
 #define BOLIDE_FITS_H
 
-#include "run/verify.h"
-
-/* Compares the dimensions of the fits of INPUT, a run of a sweep with CHECKS. All mistakes come
- * joined in one ERROR_INPUT, located in the case. */
-struct error *fits_prepare(const struct simulation_case *input, const struct checks *checks);
+#include "study/verify.h"
 
 /* Fits what the COUNT runs of the sweep of INPUT measured: RESULTS, owned by the caller, gets an
  * item a fit. A fit through fewer runs than it has constants measures nothing (NAN) and fails. */

@@ -1,5 +1,5 @@
 /* What cases measured, stored beside them; see record.h. */
-#include "run/record.h"
+#include "study/record.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* The table and the plots of a sweep; see sweep.h. The loop over its runs is verify's. */
-#include "run/sweep.h"
+#include "study/sweep.h"
 
 #include <stdio.h>
 #include <stdlib.h>
