@@ -4,7 +4,7 @@
 
 #include "base/file.h"
 #include "cli/cli.h"
-#include "output/page.h"
+#include "page/page.h"
 
 static struct error *report_folder(const char *folder)
 {

@@ -8,7 +8,7 @@
 #include "base/csv.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/picture.h"
+#include "picture/picture.h"
 #include "run/checks_internal.h"
 
 enum { CURVE_POINTS = 2000 };

@@ -16,7 +16,7 @@
 #include "material/any.h"
 #include "material/material.h"
 #include "model/generate.h"
-#include "output/picture.h"
+#include "picture/picture.h"
 #include "run/estimate.h"
 #include "run/fit_axes.h"
 #include "run/run_internal.h"

@@ -9,8 +9,8 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/picture.h"
 #include "output/snapshot.h"
+#include "picture/picture.h"
 #include "run/run_internal.h"
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }

@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "material/any.h"
 #include "material/material.h"
-#include "output/page.h"
+#include "page/page.h"
 #include "run/run_internal.h"
 
 /* The first four columns but the value. */

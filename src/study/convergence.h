@@ -3,7 +3,7 @@
 #ifndef BOLIDE_CONVERGENCE_H
 #define BOLIDE_CONVERGENCE_H
 
-#include "output/study.h"
+#include "page/study.h"
 #include "study/verify.h"
 
 /* Runs the study of the case at PATH as NAME, its runs into folders in FOLDER/convergence, and fills STUDY,

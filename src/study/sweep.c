@@ -9,8 +9,8 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/visible.h"
-#include "output/page.h"
-#include "output/picture.h"
+#include "page/page.h"
+#include "picture/picture.h"
 
 const char sweep_table_name[] = "sweep.csv";
 

@@ -14,8 +14,8 @@
 #include "scratch_folder.h"
 
 #include "base/file.h"
-#include "output/page.h"
-#include "output/page_internal.h"
+#include "page/internal.h"
+#include "page/page.h"
 
 static void put_bytes(const char *name, const void *content, size_t size)
 {

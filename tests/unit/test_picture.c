@@ -14,8 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "output/picture.h"
-#include "output/picture_scale.h"
+#include "picture/picture.h"
+#include "picture/scale.h"
 #include "populations.h"
 
 static const char path[] = "picture.png";

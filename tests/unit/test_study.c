@@ -14,7 +14,7 @@
 
 #include "base/csv.h"
 #include "base/file.h"
-#include "output/study.h"
+#include "page/study.h"
 
 static double resolution[] = {4e-3, 2e-3, 1e-3};
 static struct study_run runs[] = {

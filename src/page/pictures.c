@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/page_internal.h"
+#include "page/internal.h"
 
 enum {
     FRAMES_MAX = 40,             /* of one field */

@@ -1,8 +1,8 @@
 /* Which field a picture shows: a component of a view, or what the particles belong to. */
 #include <string.h>
 
-#include "output/picture.h"
-#include "output/picture_internal.h"
+#include "picture/internal.h"
+#include "picture/picture.h"
 
 struct error *shown_find(const struct simulation *simulation, const struct views *views,
                          const char *field, struct shown *shown)

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "output/page_internal.h"
+#include "page/internal.h"
 
 /* The head of a column in parts: `pressure [Pa]`. */
 struct head {

@@ -2,7 +2,7 @@
  * Colours: viridis (S. van der Walt and N. Smith) and the diverging map of K. Moreland, "Diverging color
  * maps for scientific visualization" (2009), both sampled; the categories are those of M. Okabe and
  * K. Ito. */
-#include "output/picture_scale.h"
+#include "picture/scale.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "output/page_internal.h"
+#include "page/internal.h"
 
 static const char replacement[] = "\xEF\xBF\xBD";
 

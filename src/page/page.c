@@ -1,5 +1,5 @@
 /* report.html as a whole; see page.h. */
-#include "output/page.h"
+#include "page/page.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/page_internal.h"
+#include "page/internal.h"
 
 static struct error *out_of_memory(void)
 {

@@ -1,5 +1,5 @@
 /* The tables and the plot of a convergence study; see study.h. */
-#include "output/study.h"
+#include "page/study.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -7,8 +7,8 @@
 #include "base/csv.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/page_internal.h"
-#include "output/picture.h"
+#include "page/internal.h"
+#include "picture/picture.h"
 
 static struct error *out_of_memory(void)
 {

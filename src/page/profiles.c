@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/page_internal.h"
+#include "page/internal.h"
 
 /* The rows FIRST .. FIRST + COUNT - 1 of a table belong to the same material or body; all do where the
  * first column is no name. */

@@ -2,7 +2,7 @@
  * light, dark and paper; letters keep their size from a telephone to a desk. */
 #include <string.h>
 
-#include "output/page_internal.h"
+#include "page/internal.h"
 
 enum {
     WIDTH = 400,

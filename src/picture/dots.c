@@ -1,6 +1,6 @@
-/* Painting dots on all ranks; see picture_dots.h. A rank gets the dots that touch its rows; rows are dealt so that all
+/* Painting dots on all ranks; see dots.h. A rank gets the dots that touch its rows; rows are dealt so that all
  * ranks have about as many dots. */
-#include "output/picture_dots.h"
+#include "picture/dots.h"
 
 #include <stdlib.h>
 #include <string.h>

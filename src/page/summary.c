@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "output/page_internal.h"
+#include "page/internal.h"
 
 /* The columns of summary.csv. */
 enum summary_column { ABOUT, NAME, QUANTITY, VALUE, UNIT };

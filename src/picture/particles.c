@@ -6,8 +6,8 @@
 
 #include "base/memory.h"
 #include "base/units.h"
-#include "output/picture.h"
-#include "output/picture_dots.h"
+#include "picture/dots.h"
+#include "picture/picture.h"
 
 /* The layout, in points. */
 enum {

@@ -6,7 +6,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/picture_internal.h"
+#include "picture/internal.h"
 
 static const struct colour frame_colour = {0.35, 0.35, 0.35};
 static const struct colour grid_colour = {0.89, 0.89, 0.89};

@@ -2,8 +2,8 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "output/picture.h"
-#include "output/picture_scale.h"
+#include "picture/picture.h"
+#include "picture/scale.h"
 
 /* Of the points in one of so many by so many cells over the range of all the first is kept: a cell is about a pixel. */
 enum { CELLS = 1024 };

@@ -1,5 +1,5 @@
-/* The numbers behind a picture, without any drawing: readable multiples of units, ranges, ticks at round
- * values, colour maps. Private to the pictures. */
+/* The numbers behind pictures and plots, without any drawing: readable multiples of units, ranges,
+ * ticks at round values, colour maps. */
 #ifndef BOLIDE_PICTURE_SCALE_H
 #define BOLIDE_PICTURE_SCALE_H
 

@@ -1,4 +1,4 @@
-/* The parts of report.html; private to the page*.c files. Each writes its section to page->file, whose
+/* The parts of report.html; private to this folder. Each writes its section to page->file, whose
  * errors show when it is closed. */
 #ifndef BOLIDE_PAGE_INTERNAL_H
 #define BOLIDE_PAGE_INTERNAL_H
@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "base/csv.h"
-#include "output/picture_scale.h"
+#include "picture/scale.h"
 
 struct page {
     const char *folder;
@@ -21,7 +21,7 @@ struct page {
 void page_head(const struct page *page, const char *title);
 void page_foot(const struct page *page);
 
-/* page_text.c */
+/* text.c */
 
 /* TEXT with everything escaped that HTML could take for its own, in an attribute too. What is not UTF-8
  * and what no document may hold become replacement characters. */
@@ -36,7 +36,7 @@ void page_quantity(FILE *file, double value, const char *unit);
 /* SIZE bytes as base64. */
 void page_base64(FILE *file, const unsigned char *bytes, size_t size);
 
-/* page_summary.c */
+/* summary.c */
 
 /* The value that the summary has under these words, "" if there is none. NAME may be NULL: any. */
 const char *summary_value(const struct csv *summary, const char *about, const char *name,
@@ -51,29 +51,29 @@ void page_checks(const struct page *page, const char *caption);
 void page_about(const struct page *page);
 void page_speed(const struct page *page);
 
-/* page_sweep.c */
+/* sweep.c */
 void page_sweep(const struct page *page);
 
-/* page_history.c */
+/* history.c */
 struct error *page_history(const struct page *page);
 
-/* page_profiles.c */
+/* profiles.c */
 struct error *page_profiles(const struct page *page);
 
-/* page_pictures.c */
+/* pictures.c */
 struct error *page_pictures(const struct page *page);
 
 /* The end of an <img> whose alt text the caller has begun: its size, so that nothing jumps when it appears,
  * and the SIZE bytes of a PNG. */
 void page_png(FILE *file, const char *bytes, size_t size);
 
-/* page_study.c */
+/* study_page.c */
 struct study;
 
 /* Writes FOLDER/convergence.html, with the picture convergence.png that lies there. */
 struct error *page_study(const char *folder, const struct study *study);
 
-/* page_plot.c: a line plot as inline SVG. */
+/* plot.c: a line plot as inline SVG. */
 
 enum { PLOT_SERIES = 12 };
 struct page_series {
@@ -95,7 +95,7 @@ struct page_plot {
 /* Draws PLOT; nothing where it has less than two points or no series is left. */
 void page_plot(FILE *file, const struct page_plot *plot);
 
-/* page_style.c */
+/* style.c */
 extern const char page_style[], page_script[];
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef BOLIDE_PICTURE_DOTS_H
 #define BOLIDE_PICTURE_DOTS_H
 
-#include "output/picture_internal.h"
+#include "picture/internal.h"
 
 /* The plane of the picture, and what of space is in it. */
 struct plane {

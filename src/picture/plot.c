@@ -2,8 +2,8 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "output/picture.h"
-#include "output/picture_internal.h"
+#include "picture/internal.h"
+#include "picture/picture.h"
 
 enum { PLOT_WIDTH = 800, PLOT_HEIGHT = 520, LEFT = 76, RIGHT = 22, BOTTOM = 46 };
 

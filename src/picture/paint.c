@@ -1,6 +1,6 @@
 /* Painting particles straight into the pixels of an image: a vector drawing of a million particles takes
  * minutes. */
-#include "output/picture_internal.h"
+#include "picture/internal.h"
 
 static uint32_t pack(struct colour colour)
 {

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "model/views.h"
-#include "output/picture_scale.h"
+#include "picture/scale.h"
 
 enum { PIXELS_PER_POINT = 2, LEGEND_ROW = 18, LABEL_TEXT = 128 };
 

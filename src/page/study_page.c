@@ -3,8 +3,8 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/page_internal.h"
-#include "output/study.h"
+#include "page/internal.h"
+#include "page/study.h"
 
 static struct error *out_of_memory(void)
 {

@@ -1,7 +1,7 @@
 /* What of space is in a picture of particles, and which of them. */
 #include "base/memory.h"
-#include "output/picture_dots.h"
 #include "particle/particles.h"
+#include "picture/dots.h"
 
 enum { SLICE = 4096 };
 

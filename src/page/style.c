@@ -1,6 +1,6 @@
 /* The style of report.html, and the few lines that turn its rows of pictures into players. Without
  * them all pictures stand side by side. */
-#include "output/page_internal.h"
+#include "page/internal.h"
 
 const char page_style[] =
     ":root{--paper:#fff;--ink:#1c2126;--faint:#5b6570;--line:#d9dee3;--panel:#f5f7f9;\n"
