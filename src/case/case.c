@@ -7,9 +7,9 @@
 
 #include "base/memory.h"
 #include "base/visible.h"
-#include "case/document_internal.h"
 #include "case/internal.h"
 #include "case/library.h"
+#include "document/nodes.h"
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 

@@ -4,7 +4,7 @@
 #define BOLIDE_CASE_H
 
 #include "base/parameter.h"
-#include "case/document.h"
+#include "document/document.h"
 #include "material/eos/common.h"
 
 /* material/material.h, which few of those who read a case need: it has every model */

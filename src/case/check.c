@@ -5,7 +5,6 @@
 
 #include "base/memory.h"
 #include "case/checking.h"
-#include "case/document_internal.h"
 #include "material/material.h"
 #include "shape/lattice.h"
 

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "case/checking.h"
-#include "case/document_internal.h"
 
 static bool is_given(const struct quantity *quantity) { return !isnan(quantity->value); }
 

@@ -1,7 +1,6 @@
 /* What the tables cannot say of what acts on a case from outside: walls, outflows, loads, driven
  * bodies, gravity. */
 #include "case/checking.h"
-#include "case/document_internal.h"
 
 void case_check_wall(struct checking *checking, int index)
 {

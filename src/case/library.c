@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "base/memory.h"
-#include "case/document_internal.h"
 #include "case/internal.h"
 #include "material/any.h"
 #include "material/material.h"

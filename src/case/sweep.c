@@ -5,8 +5,8 @@
 
 #include "base/memory.h"
 #include "base/visible.h"
-#include "case/document_internal.h"
 #include "case/internal.h"
+#include "document/nodes.h"
 
 enum { SWEEP_RUNS_MAX = 10000, SWEEP_KEYS_MAX = 1000 };
 

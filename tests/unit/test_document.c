@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
-#include "case/document.h"
+#include "document/document.h"
 
 struct point {
     double x, y;

@@ -1,9 +1,12 @@
-/* A document as a tree of nodes, each of which knows where it stands in which file. Private to the
- * document_*.c files and to the reader of cases. */
-#ifndef BOLIDE_DOCUMENT_INTERNAL_H
-#define BOLIDE_DOCUMENT_INTERNAL_H
+/* A document as a tree of nodes, each with its place in a file: for what changes a document before
+ * it is read, as the sweep of a case does. */
+#ifndef BOLIDE_DOCUMENT_NODES_H
+#define BOLIDE_DOCUMENT_NODES_H
 
-#include "case/document.h"
+#include "document/document.h"
+
+/* Names that a map may have for its keys. */
+enum { KEYS_MAX = 64 };
 
 enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
 
@@ -35,13 +38,6 @@ struct document {
     int wrong_count, wrong_room;
     char **wrong;            /* paths that a reading complained about, and what they are in */
     struct name_index marks; /* of these */
-};
-
-/* A path as the reader descends: `bodies.flyer.velocity`, items of lists by number from 1. */
-struct path {
-    const struct path *parent;
-    const char *key; /* NULL: an item of a list */
-    int item;
 };
 
 /* Parses TEXT as one YAML document. LOCATED says whether lines of TEXT mean something to the user. */
@@ -101,60 +97,5 @@ struct place node_place(const struct node *node);
  * that another choice replaces the library's. LIBRARY is emptied, its places live on in DOCUMENT. */
 struct error *document_include(struct document *document, struct node *map,
                                struct document *library);
-
-/* A reading in progress: what it looks things up in, and the mistakes found so far. */
-struct reading {
-    struct document *document;
-    const struct catalogue *catalogue;
-    struct named_quantities names; /* of `let`; the value NAN: its expression is wrong */
-    struct named_quantity *name;   /* the same */
-    int wrong_names;               /* how many of them are wrong */
-    const struct node *let;        /* where they stand; NULL: nowhere */
-    struct error *error;
-};
-
-/* Names that a map may have for its keys, and bytes of a piece of a message. */
-enum { KEYS_MAX = 64, TEXT_MAX = 256 };
-
-/* Notes that PATH has a mistake, told here or elsewhere (document_is_wrong). */
-void mark_wrong(struct reading *reading, const struct path *path);
-
-/* Adds a mistake at PLACE of PATH. */
-void complain(struct reading *reading, struct place place, const struct path *path,
-              const char *format, ...) BOLIDE_PRINTF(4, 5);
-void complain_memory(struct reading *reading);
-
-/* "WANTED is wanted, found a list". */
-void complain_kind(struct reading *reading, const struct node *node, const struct path *path,
-                   const char *wanted);
-
-/* "WHAT "word" (did you mean "world"?)", or the names that are known. */
-void complain_unknown(struct reading *reading, struct place place, const struct path *path,
-                      const char *what, const char *word, const char *const *names, int count);
-
-/* The path that UNKNOWN, an entry at the top of a document that TABLE describes, may be meant for: that of
- * an entry or a key of its name further down. In fresh memory; NULL when there is none. */
-/* Writes PATH, of which NULL is the whole document, into the SIZE bytes of TEXT; returns the length. */
-size_t path_text(const struct path *path, char *text, size_t size);
-
-/* The path of a key NAME within the choices of TABLE, which is at PREFIX; NULL when there is none.
- * Owned by the caller. */
-char *document_suggest_inside(const struct reading *reading, const struct parameter *table,
-                              const char *name, const char *prefix);
-
-char *document_suggest(const struct reading *reading, const struct parameter *table,
-                       const struct node *unknown);
-
-/* Writes `material, box, velocity`. */
-void list_text(const char *const *names, int count, char *text, size_t size);
-
-/* Any expression. WANTED says what, for a node that is none. False after a complaint,
- * or where the expression rests on a name that was complained about. */
-bool read_quantity(struct reading *reading, const struct node *node, const struct path *path,
-                   const char *wanted, struct quantity *quantity);
-
-/* A value that stands by itself: every kind but TABLE, ONE_OF, LIST and MAP. */
-void read_scalar(struct reading *reading, const struct node *node, const struct path *path,
-                 const struct parameter *parameter, void *value);
 
 #endif

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
-#include "case/document_internal.h"
+#include "document/internal.h"
 
 static const char include_key[] = "include";
 

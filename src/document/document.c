@@ -1,12 +1,12 @@
 /* A document: lay the short or long form and the settings over it, find the node of a path, and tell where a
  * mistake stands. */
-#include "case/document.h"
+#include "document/document.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "case/document_internal.h"
+#include "document/internal.h"
 
 /* The overlays that a document may carry, taken away whether they are wanted or not. */
 static const char *const overlay_keys[] = {"short", "long"};

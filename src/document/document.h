@@ -52,4 +52,7 @@ bool document_has(const struct document *document, const char *path);
  * digits, so that reading the text gives the same bits. */
 struct error *document_write(FILE *file, const struct parameter *table, const void *values);
 
+/* Writes `material, box, velocity`. */
+void list_text(const char *const *names, int count, char *text, size_t size);
+
 #endif

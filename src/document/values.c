@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "case/document_internal.h"
+#include "document/internal.h"
 
 /* Writes PATH into the SIZE bytes of TEXT; returns the length. */
 size_t path_text(const struct path *path, char *text, size_t size)

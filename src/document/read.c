@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "case/document_internal.h"
+#include "document/internal.h"
 
 static const char let_key[] = "let";
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "case/document_internal.h"
+#include "document/internal.h"
 
 /* How deep keys lie that are suggested: bodies.flyer.box.from. */
 enum { DEEPEST = 4 };

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/name_index.h"
 #include "base/visible.h"
-#include "case/document_internal.h"
+#include "document/internal.h"
 
 enum { DEPTH_MAX = 48 };
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "case/document_internal.h"
+#include "document/internal.h"
 
 static void write_table(FILE *file, int indent, const struct parameter *table, const void *values);
 
