@@ -207,7 +207,6 @@ static struct error *gas_start(void *solver, struct simulation *simulation)
 {
     struct gas *gas = solver;
     gas->cells->threads = simulation->threads;
-    gas->since = clock_seconds();
     TRY(gas_plan(gas, simulation));
     return look(gas, simulation);
 }
@@ -222,8 +221,7 @@ static struct error *balance(struct gas *gas, struct simulation *simulation)
         return NULL;
     struct cell_blocks *cells = gas->cells;
     const uint64_t order = cells->order;
-    TRY(cell_blocks_distribute(cells, clock_seconds() - gas->since, every > 0));
-    gas->since = clock_seconds();
+    TRY(cell_blocks_distribute(cells, every > 0));
     if (ranks_maximum(simulation->ranks, cells->order != order) == 0.0)
         return NULL;
     gas->room = 0; /* all of them may have moved */
@@ -239,6 +237,7 @@ static struct error *gas_prepare(void *solver, struct simulation *simulation, st
     const double edge = gas->cells->edge;
     const struct ranked own = {gas->parameters.courant * edge / gas->fastest, gas->fastest_id, 0};
     *limit = limit_of_ranks(simulation->ranks, own, reasons);
+    simulation_end_phase(simulation, PHASE_SHARED, "limit");
     return NULL;
 }
 
@@ -281,7 +280,6 @@ static struct error *gas_advance(void *solver, struct simulation *simulation, do
     struct gas *gas = solver;
     const int last = simulation->dimension - 1;
     const bool heavy = simulation_has_gravity(simulation);
-    double begin = clock_seconds();
     if (heavy)
         pull(gas, simulation, 0.5 * dt);
     for (int k = 0; k <= last && gas->second_order; k++)
@@ -290,10 +288,9 @@ static struct error *gas_advance(void *solver, struct simulation *simulation, do
         TRY(gas_sweep(gas, simulation, k < 0 ? -k : k, k == 0 ? dt : 0.5 * dt));
     if (heavy)
         pull(gas, simulation, 0.5 * dt);
-    simulation_spend(simulation, "sweeps", clock_seconds() - begin);
-    begin = clock_seconds();
+    simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
     struct error *error = look(gas, simulation);
-    simulation_spend(simulation, "states", clock_seconds() - begin);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "states");
     return error;
 }
 

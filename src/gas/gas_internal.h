@@ -48,7 +48,6 @@ struct gas {
     double *sound;
     double fastest; /* |u_i| + c of all of this rank's cells, m/s */
     uint64_t fastest_id;
-    double since; /* clock_seconds() of the last look at the balance of ranks */
 };
 
 /* What the gas solver cannot do of a case, located. */

@@ -211,14 +211,19 @@ struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis
                               .scheme = gas->scheme};
     memcpy(sweep.from, gas->u, sizeof sweep.from);
     memcpy(sweep.to, gas->other, sizeof sweep.to);
-    TRY(ranks_agree(simulation->ranks, plan_strips(gas, cells, simulation->threads)));
+    struct error *error = plan_strips(gas, cells, simulation->threads);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
+    TRY(ranks_agree(simulation->ranks, error));
+    simulation_end_waiting(simulation);
     const struct gas_strips *strips = &gas->strips[axis];
     choose_strips(gas, simulation, axis);
     cell_halo_start(&gas->halo, cells, axis, sweep.from);
     sweep_strips(gas, simulation, &sweep, 0, strips->early, dt);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
     cell_halo_finish(&gas->halo, axis);
-    TRY(ranks_agree(simulation->ranks,
-                    gas_fill_planes(gas, simulation, axis, simulation->time + 0.5 * dt)));
+    error = gas_fill_planes(gas, simulation, axis, simulation->time + 0.5 * dt);
+    TRY(ranks_agree(simulation->ranks, error));
+    simulation_end_waiting(simulation);
     sweep_strips(gas, simulation, &sweep, strips->early, strips->count, dt);
     take_written(gas, cells);
     return NULL;

@@ -333,11 +333,10 @@ static struct error *migrate(struct cell_blocks *cells)
     return error;
 }
 
-struct error *cell_blocks_distribute(struct cell_blocks *cells, double seconds, bool recut)
+struct error *cell_blocks_distribute(struct cell_blocks *cells, bool recut)
 {
     if (!cells->ranks->joined)
         return NULL;
-    cells->partition->work += seconds;
     if (!recut && !partition_is_uneven(cells->partition))
         return NULL;
     TRY(divide(cells));

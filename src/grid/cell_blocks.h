@@ -87,7 +87,7 @@ const struct cell_block *cell_block_find(const struct cell_blocks *cells, uint64
 
 /* Collective: every block goes to the rank that owns it. With RECUT, or where the ranks' work since the
  * cut, SECONDS of it new, differs by too much, blocks are divided anew. */
-struct error *cell_blocks_distribute(struct cell_blocks *cells, double seconds, bool recut);
+struct error *cell_blocks_distribute(struct cell_blocks *cells, bool recut);
 
 /* Collective: loads or saves every STATE field, as "cells/NAME", in the order of keys. */
 struct error *cell_blocks_visit(struct cell_blocks *cells, struct visitor *visitor);

@@ -36,7 +36,7 @@ static bool changed(const void *store)
 
 static struct error *commit(void *store) { return particles_commit(store); }
 
-static struct error *distribute(void *store) { return particles_distribute(store, 0.0, true); }
+static struct error *distribute(void *store) { return particles_distribute(store, true); }
 
 static struct error *visit(void *store, struct visitor *visitor)
 {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "material/material.h"
 
@@ -340,15 +341,31 @@ void simulation_destroy(struct simulation *simulation)
     simulation->material = NULL;
 }
 
-void simulation_spend(struct simulation *simulation, const char *name, double seconds)
+void simulation_start_phase(struct simulation *simulation)
 {
+    simulation->phase_end = clock_seconds();
+}
+
+void simulation_end_phase(struct simulation *simulation, enum phase_kind kind, const char *name)
+{
+    const double now = clock_seconds();
+    const double seconds = simulation->phase_end > 0.0 ? now - simulation->phase_end : 0.0;
     int i = 0;
+    simulation->phase_end = now;
     while (i < simulation->phases && strcmp(simulation->phase[i].name, name) != 0)
         i++;
     assert(i < PHASES_MAX);
     if (i == simulation->phases)
         simulation->phase[simulation->phases++] = (struct phase){name, 0.0};
     simulation->phase[i].seconds += seconds;
+    if (kind == PHASE_BLOCKS)
+        simulation->partition.work += seconds;
+}
+
+void simulation_end_waiting(struct simulation *simulation)
+{
+    if (simulation->ranks->size > 1)
+        simulation_end_phase(simulation, PHASE_WAITING, "waiting");
 }
 
 struct error *simulation_impossible(const struct simulation *simulation, int32_t i)

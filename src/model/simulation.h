@@ -18,6 +18,13 @@ struct contact_surface {
 };
 enum { CONTACT_SURFACES = 60 };
 
+/* What the time of a phase is spent on. */
+enum phase_kind {
+    PHASE_BLOCKS, /* the members and nodes of this rank's blocks: what the partition weighs them by */
+    PHASE_WAITING, /* other ranks */
+    PHASE_SHARED,  /* what does not move with a block, or is mixed with waiting */
+};
+
 /* Wall-clock seconds spent in a named part of the step. */
 struct phase {
     const char *name;
@@ -54,6 +61,7 @@ struct simulation {
     int64_t step;
     int phases;
     struct phase phase[PHASES_MAX];
+    double phase_end; /* clock_seconds() when the last phase ended; 0: none has begun */
 };
 
 /* A mistake in the case at SECTION.NAME ("bodies", "flyer"; NAME may be NULL): located in its file,
@@ -103,8 +111,15 @@ BOLIDE_INLINE bool simulation_has_gravity(const struct simulation *simulation)
     return g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0;
 }
 
-/* Adds SECONDS to phase NAME. */
-void simulation_spend(struct simulation *simulation, const char *name, double seconds);
+/* Starts the clock of the phases: the time up to now counts for none. */
+void simulation_start_phase(struct simulation *simulation);
+
+/* Ends a phase: the time since the last one ended, or since simulation_start_phase, is added to phase
+ * NAME of KIND. */
+void simulation_end_phase(struct simulation *simulation, enum phase_kind kind, const char *name);
+
+/* The same for the time that this rank has waited for others; nothing where it has none. */
+void simulation_end_waiting(struct simulation *simulation);
 
 /* The error that names member INDEX, whose new state is impossible. */
 struct error *simulation_impossible(const struct simulation *simulation, int32_t index);

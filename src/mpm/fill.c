@@ -149,7 +149,7 @@ static void find_factors(const struct mpm *mpm, const struct simulation *simulat
     }
 }
 
-void mpm_push_faces(struct mpm *mpm, const struct simulation *simulation)
+void mpm_push_faces(struct mpm *mpm, struct simulation *simulation)
 {
     if (!mpm_is_by_faces(&mpm->parameters))
         return;

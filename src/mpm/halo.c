@@ -252,7 +252,7 @@ static double *patch_of(struct mpm *mpm, int32_t bin, size_t field)
                       bin - mpm->halo.begin[g]);
 }
 
-void mpm_exchange(struct mpm *mpm, const struct simulation *simulation, size_t field)
+void mpm_exchange(struct mpm *mpm, struct simulation *simulation, size_t field)
 {
     struct halo *halo = &mpm->halo;
     if (simulation->ranks->size < 2)
@@ -262,8 +262,10 @@ void mpm_exchange(struct mpm *mpm, const struct simulation *simulation, size_t f
     for (int32_t k = 0; k < halo->exchange.goes; k++)
         memcpy((char *)halo->exchange.buffer + (size_t)k * bytes,
                patch_of(mpm, halo->goes[k], field), bytes);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "nodes");
     exchange_start(&halo->exchange, NULL, bytes, halo->received);
     exchange_finish(&halo->exchange);
+    simulation_end_waiting(simulation);
     for (int32_t k = 0; k < halo->exchange.comes; k++)
         memcpy(patch_of(mpm, halo->comes[k], field), (char *)halo->received + (size_t)k * bytes,
                bytes);

@@ -78,7 +78,6 @@ struct mpm {
     double limit, limit_before; /* of this step, and of the one before; 0 for none yet */
     bool shocks;                /* anywhere, on any rank */
     struct halo halo;           /* of several ranks only */
-    double work; /* seconds that this rank's particles have taken since they were distributed */
 };
 
 /* Whether particles carry a gradient of velocity. */
@@ -138,7 +137,7 @@ struct error *mpm_find_halo(struct mpm *mpm, const struct simulation *simulation
                             struct error *error);
 /* Room to exchange patches. Collective: brings the patches of a field. */
 struct error *mpm_reserve_halo(struct mpm *mpm);
-void mpm_exchange(struct mpm *mpm, const struct simulation *simulation, size_t field);
+void mpm_exchange(struct mpm *mpm, struct simulation *simulation, size_t field);
 void mpm_free_halo(struct mpm *mpm);
 
 /* What the case leaves to the method. */
@@ -184,7 +183,7 @@ bool mpm_covers(const struct layer *layer, int32_t bin, const bool *of);
 struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulation);
 
 /* Collective, by faces: patches of stresses become forces in those of nodes, see fill.c. */
-void mpm_push_faces(struct mpm *mpm, const struct simulation *simulation);
+void mpm_push_faces(struct mpm *mpm, struct simulation *simulation);
 
 /* Sums of patches at all nodes of a layer; mass, momentum and force then know of walls. */
 struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simulation,

@@ -127,11 +127,9 @@ void mpm_raise_order(struct mpm *mpm, struct simulation *simulation, double dt, 
         if (!mpm->layer[g].held)
             start_series(simulation, &mpm->layer[g], accelerations);
     for (int64_t order = 1; order < mpm->parameters.order; order++) {
-        const double started = clock_seconds();
         for (int g = 0; g < mpm->layers; g++)
             if (!mpm->layer[g].held)
                 map_left(mpm, simulation, &mpm->layer[g], accelerations);
-        mpm->work += clock_seconds() - started;
         mpm_exchange(mpm, simulation, offsetof(struct layer, mapped));
         for (int g = 0; g < mpm->layers; g++)
             if (!mpm->layer[g].held) {

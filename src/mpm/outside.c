@@ -181,7 +181,7 @@ static void give_bin(const struct mpm *mpm, const struct simulation *simulation,
 }
 
 /* Collective: the sums of a surface at the nodes of all layers that move. */
-static void sum_surface(struct mpm *mpm, const struct simulation *simulation,
+static void sum_surface(struct mpm *mpm, struct simulation *simulation,
                         const struct surface *surface)
 {
     for (int g = 0; g < mpm->layers; g++) {

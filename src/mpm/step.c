@@ -142,8 +142,7 @@ static struct error *place_particles(struct mpm *mpm, struct simulation *simulat
     double goes = several && !error && (recut || has_left(mpm, simulation));
     TRY(ranks_agree_on(simulation->ranks, error, &goes, 1));
     if (goes > 0.0) {
-        TRY(particles_distribute(p, mpm->work, recut));
-        mpm->work = 0.0;
+        TRY(particles_distribute(p, recut));
         return find_bins(mpm, simulation);
     }
     return (double)mpm->bins.moved > moved_limit * p->count ? store_by_bins(mpm, simulation) : NULL;
@@ -202,7 +201,6 @@ static struct error *refresh_grid(struct mpm *mpm, struct simulation *simulation
 /* Collective: mass, momentum and force of all nodes, and where shocks are. */
 static struct error *sum_particles(struct mpm *mpm, struct simulation *simulation)
 {
-    const double begin = clock_seconds();
     struct error *error = NULL;
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];
@@ -213,7 +211,7 @@ static struct error *sum_particles(struct mpm *mpm, struct simulation *simulatio
                 transfer_scatter(&transfer, b);
     }
     mpm_push_faces(mpm, simulation);
-    mpm->work += clock_seconds() - begin;
+    simulation_end_phase(simulation, PHASE_BLOCKS, "scatter");
     mpm_exchange(mpm, simulation, offsetof(struct layer, main));
     double shocks = 0.0;
     for (int g = 0; g < mpm->layers && !error; g++) {
@@ -221,7 +219,9 @@ static struct error *sum_particles(struct mpm *mpm, struct simulation *simulatio
         if (!error && mpm_find_shocks(mpm, simulation, &mpm->layer[g]))
             shocks = 1.0;
     }
+    simulation_end_phase(simulation, PHASE_BLOCKS, "nodes");
     TRY(ranks_agree_on(simulation->ranks, error, &shocks, 1));
+    simulation_end_waiting(simulation);
     mpm->shocks = shocks > 0.0;
     return NULL;
 }
@@ -275,13 +275,9 @@ struct error *mpm_prepare(void *solver, struct simulation *simulation, struct li
 {
     struct mpm *mpm = solver;
     mpm_stop_bodies(mpm, simulation);
-    double begin = clock_seconds();
     TRY(refresh_grid(mpm, simulation));
-    simulation_spend(simulation, "cells", clock_seconds() - begin);
-    begin = clock_seconds();
+    simulation_end_phase(simulation, PHASE_SHARED, "cells");
     TRY(sum_particles(mpm, simulation));
-    simulation_spend(simulation, "scatter", clock_seconds() - begin);
-    begin = clock_seconds();
     *limit = limit_step(mpm, simulation);
     const double allowed = mpm->limit_before > 0.0
                                ? step_growth * mpm->limit_before
@@ -290,7 +286,7 @@ struct error *mpm_prepare(void *solver, struct simulation *simulation, struct li
     if (allowed < limit->dt)
         *limit = (struct limit){allowed, "growth of the step", limit->id, INFINITY};
     limit->event = next_event(simulation);
-    simulation_spend(simulation, "limit", clock_seconds() - begin);
+    simulation_end_phase(simulation, PHASE_SHARED, "limit");
     return NULL;
 }
 
@@ -299,7 +295,6 @@ struct error *mpm_prepare(void *solver, struct simulation *simulation, struct li
 static void find_velocities(struct mpm *mpm, struct simulation *simulation,
                             struct transfer_step step, bool scatter)
 {
-    const double begin = clock_seconds();
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];
         const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
@@ -312,10 +307,9 @@ static void find_velocities(struct mpm *mpm, struct simulation *simulation,
                 transfer_velocity(&transfer, b, step, scatter);
         }
     }
-    mpm->work += clock_seconds() - begin;
+    simulation_end_phase(simulation, PHASE_BLOCKS, "velocities");
     if (scatter)
         mpm_exchange(mpm, simulation, offsetof(struct layer, back));
-    simulation_spend(simulation, "velocities", clock_seconds() - begin);
 }
 
 /* New states of all particles of a layer from nodal velocities: those of the second field or,
@@ -359,7 +353,6 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
 static struct error *update_states(struct mpm *mpm, struct simulation *simulation, double dt,
                                    bool first)
 {
-    const double begin = clock_seconds();
     const bool of_main = mpm->parameters.scheme == MPM_USL;
     int32_t failed = -1;
     for (int g = 0; g < mpm->layers && !of_main; g++)
@@ -368,12 +361,11 @@ static struct error *update_states(struct mpm *mpm, struct simulation *simulatio
         mpm_raise_order(mpm, simulation, dt, false);
     if (mpm->layers > 1 && !of_main)
         mpm_join_velocities(mpm, simulation);
-    const double started = clock_seconds();
+    simulation_end_phase(simulation, PHASE_BLOCKS, "nodes");
     for (int g = 0; g < mpm->layers; g++)
         find_states(mpm, simulation, &mpm->layer[g], (struct transfer_step){dt, !first}, of_main,
                     &failed);
-    mpm->work += clock_seconds() - started;
-    simulation_spend(simulation, "states", clock_seconds() - begin);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "states");
     return failed < 0 ? NULL : simulation_impossible(simulation, failed);
 }
 
@@ -389,7 +381,6 @@ struct error *mpm_advance(void *solver, struct simulation *simulation, double dt
         TRY(sum_particles(mpm, simulation));
     }
     mpm_book_hoop(mpm, simulation, dt);
-    const double begin = clock_seconds();
     mpm_damp_shear(mpm, simulation, dt);
     TRY(mpm_push_surfaces(mpm, simulation, dt));
     if (mpm->layers > 1)
@@ -397,7 +388,7 @@ struct error *mpm_advance(void *solver, struct simulation *simulation, double dt
     for (int g = 0; g < mpm->layers; g++)
         mpm_advance_nodes(mpm, simulation, &mpm->layer[g], dt);
     mpm_raise_order(mpm, simulation, dt, true);
-    simulation_spend(simulation, "nodes", clock_seconds() - begin);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "nodes");
     find_velocities(mpm, simulation, (struct transfer_step){dt, scheme == MPM_USF},
                     scheme == MPM_MUSL);
     mpm_book_ambient(mpm, simulation);

@@ -142,12 +142,7 @@ void ghosts_start(struct ghosts *ghosts, double *record, int32_t owned, size_t b
     exchange_start(&ghosts->exchange, record, bytes, (char *)record + (size_t)owned * bytes);
 }
 
-void ghosts_finish(struct ghosts *ghosts)
-{
-    double begin = clock_seconds();
-    exchange_finish(&ghosts->exchange);
-    ghosts->waited += clock_seconds() - begin;
-}
+void ghosts_finish(struct ghosts *ghosts) { exchange_finish(&ghosts->exchange); }
 
 void ghosts_free(struct ghosts *ghosts)
 {

@@ -35,7 +35,6 @@ struct ghosts {
     image_code *image;
     int32_t remotes, early;
     struct remote *remote;
-    double waited; /* seconds, for records of other ranks */
     struct exchange exchange;
 };
 

@@ -11,7 +11,7 @@
 struct partition {
     const struct ranks *ranks;
     uint64_t *cut; /* rank r owns the blocks of keys cut[r] .. cut[r + 1] - 1 */
-    double work;   /* seconds that this rank has worked since the cut */
+    double work;   /* seconds that this rank has computed for its blocks since the cut */
 };
 
 /* How much is in a block, in any unit: particles, cells. */

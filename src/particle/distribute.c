@@ -133,11 +133,10 @@ static struct error *migrate(struct particles *p)
     return error ? error : ranks_agree(p->ranks, particles_commit(p));
 }
 
-struct error *particles_distribute(struct particles *particles, double seconds, bool recut)
+struct error *particles_distribute(struct particles *particles, bool recut)
 {
     if (!particles->ranks->joined)
         return particles_sort(particles);
-    particles->partition->work += seconds;
     if (recut || partition_is_uneven(particles->partition)) {
         TRY(ranks_agree(particles->ranks, particles_sort(particles)));
         TRY(divide(particles));

@@ -94,7 +94,7 @@ struct error *particles_arrange(struct particles *particles, const int32_t *list
 /* Collective: moves every particle to the rank that owns its block, then sorts. SECONDS are what the rank has worked
  * on its particles since the last call; where the ranks' work since the cut differs by too much, and with RECUT in
  * any case, the blocks are divided anew. */
-struct error *particles_distribute(struct particles *particles, double seconds, bool recut);
+struct error *particles_distribute(struct particles *particles, bool recut);
 
 /* The key of the block that X lies in. */
 uint64_t particles_block_key(const struct particles *particles, const double x[3]);

@@ -360,6 +360,7 @@ struct error *run_watch(struct run *run, bool last)
 {
     double clock = clock_seconds(), time = run->simulation.time;
     const int64_t step = run->simulation.step, n = run->snapshots;
+    simulation_start_phase(&run->simulation);
     bool row = interval_is_due(time, history_interval(run), &run->history_due) || last;
     bool snapshot =
         interval_is_due(time, run->input->output.every, &run->snapshots_due) || last || n == 0;
@@ -380,10 +381,9 @@ struct error *run_watch(struct run *run, bool last)
         error = probes_watch(&run->probes, &run->simulation, &run->views, last);
     if (!error && snapshot)
         error = write_snapshot(run);
-    double spent = clock_seconds() - clock;
-    run->watching += spent;
+    run->watching += clock_seconds() - clock;
     if (row || snapshot)
-        simulation_spend(&run->simulation, "output", spent);
+        simulation_end_phase(&run->simulation, PHASE_SHARED, "output");
     error = error_join(drift, error);
     return row || snapshot || drift ? ranks_agree(&run->ranks, error) : error;
 }

@@ -119,6 +119,7 @@ struct error *run_take_step(struct run *run)
 {
     struct simulation *simulation = &run->simulation;
     run->sound = false;
+    simulation_start_phase(simulation);
     TRY(run->method->prepare(run->solver, simulation, &run->limit));
     const double event = minimum(run->limit.event, run->input->run.until);
     double dt = step_towards(run->limit.dt, simulation->time, event);

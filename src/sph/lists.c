@@ -1,8 +1,5 @@
 /* When neighbour lists are rebuilt: particles go to the ranks that own them, neighbours are
  * searched anew, and records get room. */
-#include <string.h>
-
-#include "base/clock.h"
 #include "base/memory.h"
 #include "sph/lanes.h"
 #include "sph/scheme.h"
@@ -29,17 +26,6 @@ static struct error *reserve_records(struct sph *sph)
     return exchange_reserve(&sph->neighbours.ghosts.exchange, sph->stride * sizeof(double));
 }
 
-/* Seconds that this rank's particles have taken up to now. */
-static double work_of(const struct sph *sph, const struct simulation *simulation)
-{
-    static const char *const names[] = {"pairs", "gradients", "viscosity", "heat"};
-    double sum = 0.0;
-    for (int i = 0; i < simulation->phases; i++)
-        for (size_t k = 0; k < COUNT_OF(names); k++)
-            sum += strcmp(simulation->phase[i].name, names[k]) ? 0.0 : simulation->phase[i].seconds;
-    return sum - sph->neighbours.ghosts.waited;
-}
-
 /* True at the steps at which the case has the blocks divided anew. */
 static bool recuts(const struct sph *sph, const struct simulation *simulation)
 {
@@ -59,21 +45,18 @@ struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, 
 {
     struct particles *p = sph->particles;
     int64_t most = sph->parameters.rebuild;
-    double begin = clock_seconds();
     bool recut = recuts(sph, simulation);
     *rebuilt =
         (most && sph->steps_since_build >= most) || recut ||
         !neighbours_hold(&sph->neighbours, p, reach_of(sph, simulation), simulation->threads);
     if (!*rebuilt) {
-        simulation_spend(simulation, "neighbours", clock_seconds() - begin);
+        simulation_end_phase(simulation, PHASE_SHARED, "neighbours");
         return NULL;
     }
-    double work = work_of(sph, simulation);
-    TRY(particles_distribute(p, work - sph->work, recut));
-    sph->work = work;
+    TRY(particles_distribute(p, recut));
     TRY(neighbours_build(&sph->neighbours, p, reach_of(sph, simulation), &simulation->mirrors,
                          &sph->groups, simulation->threads));
     sph->steps_since_build = 0;
-    simulation_spend(simulation, "neighbours", clock_seconds() - begin);
+    simulation_end_phase(simulation, PHASE_SHARED, "neighbours");
     return ranks_agree(simulation->ranks, reserve_records(sph));
 }

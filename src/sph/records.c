@@ -92,11 +92,12 @@ double *sph_records_start(struct sph *sph, const struct simulation *simulation,
     return memset(empty, 0, records->stride * sizeof *empty);
 }
 
-void sph_records_finish(struct sph *sph, const struct simulation *simulation,
+void sph_records_finish(struct sph *sph, struct simulation *simulation,
                         const struct sph_records *records)
 {
     struct ghosts *ghosts = &sph->neighbours.ghosts;
     ghosts_finish(ghosts);
+    simulation_end_waiting(simulation);
     copy_places(sph, simulation, records, 0, ghosts->remotes);
     make_images(sph, simulation, records, ghosts->early, ghosts->count);
 }

@@ -142,7 +142,6 @@ struct sph {
     struct neighbours neighbours;
     struct contact_groups groups;
     int64_t steps_since_build;
-    double work; /* seconds that the particles had taken when they were last distributed */
     /* Records of owned particles, of ghosts, and one that fills up lanes, `stride` doubles each;
      * where `places`, position and diameter once more, closer together (lanes.h). */
     double *record, *place;
@@ -243,7 +242,7 @@ struct sph_records {
  * second waits for records of other ranks' particles and makes those of their images. */
 double *sph_records_start(struct sph *sph, const struct simulation *simulation,
                           const struct sph_records *records);
-void sph_records_finish(struct sph *sph, const struct simulation *simulation,
+void sph_records_finish(struct sph *sph, struct simulation *simulation,
                         const struct sph_records *records);
 
 /* Reflects position and velocity of a record, which are in the same place in those of all schemes.
@@ -264,14 +263,16 @@ BOLIDE_INLINE void sph_reflect_tensor(int dimension, struct vec3 sign, double *t
 }
 
 /* sweep.c. Calls BODY for every block: first for those whose particles have no neighbours on other
- * ranks, then, after sph_records_finish, for the rest. Blocks go to threads CHUNK at a time. */
+ * ranks, then, after sph_records_finish, for the rest. Blocks go to threads CHUNK at a time.
+ * The time counts as PHASE. */
 struct sph_sweep {
     void (*body)(const void *loop, const struct block *blocks, int32_t b);
     const void *loop;
     int chunk;
+    const char *phase;
 };
-void sph_sweep(struct sph *sph, const struct simulation *simulation,
-               const struct sph_records *records, const struct sph_sweep *sweep);
+void sph_sweep(struct sph *sph, struct simulation *simulation, const struct sph_records *records,
+               const struct sph_sweep *sweep);
 
 /* Collective: the smallest of the steps that LIMIT_OF allows the particles; of equal ones that of
  * the smallest id. */

@@ -196,9 +196,7 @@ static struct error *sph_prepare(void *solver, struct simulation *simulation, st
         sph->scheme->prepare(sph, simulation, limit);
     if (sph_has(sph, SPH_CONDUCTION)) {
         const struct sph_fields fields = sph_fields_of(sph, simulation);
-        const double begin = clock_seconds();
         conduction_prepare(sph, simulation, &fields, limit);
-        simulation_spend(simulation, "heat", clock_seconds() - begin);
     }
     limit->event = next_event(simulation);
     return NULL;

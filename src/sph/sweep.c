@@ -1,18 +1,21 @@
 /* Loops over the blocks and the particles of a rank. */
 #include "sph/scheme.h"
 
-void sph_sweep(struct sph *sph, const struct simulation *simulation,
-               const struct sph_records *records, const struct sph_sweep *sweep)
+void sph_sweep(struct sph *sph, struct simulation *simulation, const struct sph_records *records,
+               const struct sph_sweep *sweep)
 {
     const struct particles *p = sph->particles;
     for (int rest = 0; rest < 2; rest++) {
-        if (rest)
+        if (rest) {
+            simulation_end_phase(simulation, PHASE_BLOCKS, sweep->phase);
             sph_records_finish(sph, simulation, records);
+        }
 #pragma omp parallel for schedule(dynamic, sweep->chunk) num_threads(simulation->threads)
         for (int32_t b = 0; b < p->blocks; b++)
             if (neighbours_inner(&sph->neighbours, b) != rest)
                 sweep->body(sweep->loop, p->block, b);
     }
+    simulation_end_phase(simulation, PHASE_BLOCKS, sweep->phase);
 }
 
 static const char *const limit_reasons[] = {[SPH_LIMIT_SOUND] = "sound speed",

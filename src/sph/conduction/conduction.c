@@ -149,7 +149,7 @@ void conduction_prepare(struct sph *sph, struct simulation *simulation,
     for (int32_t i = 0; i < p->count; i++)
         pack_owned(simulation, fields, loop.kind.depth, i, records.first + (size_t)i * HEAT_STRIDE);
     sph_records_start(sph, simulation, &records);
-    sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &loop, 4});
+    sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &loop, 4, "heat"});
     const struct limit own = sph_smallest_limit(sph, simulation, limit_of_particle, fields);
     if (own.dt < limit->dt)
         *limit = own;

@@ -35,7 +35,7 @@ struct sph_records contact_records(const struct sph *sph);
  */
 void contact_pack(struct sph *sph, const struct simulation *simulation,
                   const struct sph_fields *fields);
-void contact_sum_pairs(struct sph *sph, const struct simulation *simulation,
+void contact_sum_pairs(struct sph *sph, struct simulation *simulation,
                        const struct sph_fields *fields);
 
 /* Collective: both, and the step that they allow: members of struct sph_scheme. */

@@ -18,7 +18,7 @@ static void rates_of_block(const void *of, const struct block *blocks, int32_t b
     pair_loop_run(&sweep->pairs, blocks[b].first, blocks[b].first + blocks[b].count);
 }
 
-void contact_sum_pairs(struct sph *sph, const struct simulation *simulation,
+void contact_sum_pairs(struct sph *sph, struct simulation *simulation,
                        const struct sph_fields *fields)
 {
     const struct contact_state *state = sph->state;
@@ -35,10 +35,11 @@ void contact_sum_pairs(struct sph *sph, const struct simulation *simulation,
                                                   .rates = fields->rates},
                                         .prune = {sph->record, (int)sph->stride, p->dimension, NULL,
                                                   sph->parameters.smoothing, &sph->neighbours}};
-    sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &sweep, 1});
+    sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &sweep, 1, "pairs"});
     sph->neighbours.prune = false;
     if (sph_axisymmetric(simulation))
         sph_add_hoop(sph, simulation, fields, NULL);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "pairs");
 }
 
 static struct ranked limit_of_particle(const struct sph *sph, const struct simulation *simulation,
@@ -53,23 +54,18 @@ static struct ranked limit_of_particle(const struct sph *sph, const struct simul
 void contact_prepare(struct sph *sph, struct simulation *simulation, struct limit *limit)
 {
     const struct sph_fields fields = sph_fields_of(sph, simulation);
-    double begin = clock_seconds();
     contact_pack(sph, simulation, &fields);
-    simulation_spend(simulation, "records", clock_seconds() - begin);
-    begin = clock_seconds();
+    simulation_end_phase(simulation, PHASE_BLOCKS, "records");
     contact_sum_pairs(sph, simulation, &fields);
-    simulation_spend(simulation, "pairs", clock_seconds() - begin);
-    begin = clock_seconds();
     *limit = sph_smallest_limit(sph, simulation, limit_of_particle, &fields);
-    simulation_spend(simulation, "points", clock_seconds() - begin);
+    simulation_end_phase(simulation, PHASE_SHARED, "limit");
 }
 
 struct error *contact_advance(struct sph *sph, struct simulation *simulation, double dt)
 {
     const struct sph_fields fields = sph_fields_of(sph, simulation);
-    const double begin = clock_seconds();
     struct error *error = sph_update(sph, simulation, &fields, dt);
-    simulation_spend(simulation, "points", clock_seconds() - begin);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "points");
     return error;
 }
 

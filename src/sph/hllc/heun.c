@@ -115,7 +115,6 @@ static struct error *take_stage(struct simulation *simulation, const struct hllc
                                 bool second, double dt)
 {
     const struct particles *p = f->sph.particles;
-    double begin = clock_seconds();
     int32_t failed = -1;
     if (f->sph.rates.wall)
         sph_book_walls(simulation, &f->sph, 0.5 * dt);
@@ -141,7 +140,7 @@ static struct error *take_stage(struct simulation *simulation, const struct hllc
                 failed = i;
         }
     }
-    simulation_spend(simulation, "points", clock_seconds() - begin);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "points");
     return failed < 0 ? NULL : simulation_impossible(simulation, failed);
 }
 

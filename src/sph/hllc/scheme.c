@@ -91,16 +91,15 @@ void hllc_find_rates(struct sph *sph, struct simulation *simulation, const struc
                                              rates->power, rates->wall, rates->hoop_pull}};
     for (int pass = 0; pass < 2; pass++) {
         const struct sph_records records = hllc_records(sph, pass == 1);
-        const struct sph_sweep sweep = {pass ? forces_of_block : gradients_of_block, &loop, 4};
-        double begin = clock_seconds();
+        const struct sph_sweep sweep = {pass ? forces_of_block : gradients_of_block, &loop, 4,
+                                        pass ? "pairs" : "gradients"};
         hllc_pack(sph, simulation, f, pass == 1);
-        simulation_spend(simulation, "records", clock_seconds() - begin);
-        begin = clock_seconds();
+        simulation_end_phase(simulation, PHASE_BLOCKS, "records");
         sph_sweep(sph, simulation, &records, &sweep);
-        simulation_spend(simulation, pass ? "pairs" : "gradients", clock_seconds() - begin);
     }
     if (state->kind.depth)
         add_hoop(sph, simulation, f);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "pairs");
 }
 
 /* dt = K h/c_E. */
@@ -118,6 +117,7 @@ void hllc_prepare(struct sph *sph, struct simulation *simulation, struct limit *
     const struct hllc_fields f = hllc_fields_of(sph, simulation);
     hllc_find_rates(sph, simulation, &f);
     *limit = sph_smallest_limit(sph, simulation, limit_of_particle, &f);
+    simulation_end_phase(simulation, PHASE_SHARED, "limit");
 }
 
 struct error *hllc_choose_kind(struct sph *sph, const struct simulation *simulation, bool viscous,

@@ -56,11 +56,9 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
                       const struct muscl_fields *fields, double step)
 {
     const struct particles *p = sph->particles;
-    double begin = clock_seconds();
     sph->ahead = 0.5 * step;
     muscl_pack(sph, simulation);
-    simulation_spend(simulation, "records", clock_seconds() - begin);
-    begin = clock_seconds();
+    simulation_end_phase(simulation, PHASE_BLOCKS, "records");
     const struct sph_records records = muscl_records(sph);
     const struct muscl_sweep sweep = {
         .pairs = {.kind = muscl_kind_of(sph),
@@ -78,12 +76,12 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
                             fields->own.force, fields->sph.packing, fields->sph.volume}},
         .prune = {sph->record, (int)sph->stride, p->dimension, sph->place,
                   sph->parameters.smoothing, &sph->neighbours}};
-    sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &sweep, 1});
+    sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &sweep, 1, "pairs"});
     sph->neighbours.prune = false;
     frozen_push(sph, simulation, fields);
     if (sph_axisymmetric(simulation))
         sph_add_hoop(sph, simulation, &fields->sph, fields->own.hoop_stress);
-    simulation_spend(simulation, "pairs", clock_seconds() - begin);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "pairs");
 }
 
 static struct ranked limit_of_particle(const struct sph *sph, const struct simulation *simulation,
@@ -106,9 +104,8 @@ static void prepare(struct sph *sph, struct simulation *simulation, struct limit
 {
     const struct muscl_fields fields = muscl_fields_of(sph, simulation);
     for (int round = simulation->step == 0 ? 0 : 1; round < 2; round++) {
-        const double begin = clock_seconds();
         *limit = sph_smallest_limit(sph, simulation, limit_of_particle, &fields);
-        simulation_spend(simulation, "points", clock_seconds() - begin);
+        simulation_end_phase(simulation, PHASE_SHARED, "limit");
         sum_pairs(sph, simulation, &fields, limit->dt);
     }
 }
@@ -116,11 +113,10 @@ static void prepare(struct sph *sph, struct simulation *simulation, struct limit
 static struct error *advance(struct sph *sph, struct simulation *simulation, double dt)
 {
     const struct sph_fields fields = sph_fields_of(sph, simulation);
-    const double begin = clock_seconds();
     if (!sph_has(sph, SPH_STILL))
         frozen_book(sph, simulation, dt);
     struct error *error = sph_update(sph, simulation, &fields, dt);
-    simulation_spend(simulation, "points", clock_seconds() - begin);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "points");
     return error;
 }
 

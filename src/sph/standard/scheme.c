@@ -2,8 +2,6 @@
  * it, then the sums. */
 #include "sph/standard/standard.h"
 
-#include "base/clock.h"
-
 /* q = a D^2 rho k|k| + b D rho C k in compression, k = -div U (2.5). */
 static void find_viscosity(const struct standard_options *options,
                            const struct simulation *simulation, const struct sph_fields *f)
@@ -21,14 +19,14 @@ static void find_viscosity(const struct standard_options *options,
 static void prepare(struct sph *sph, struct simulation *simulation, struct limit *limit)
 {
     const struct sph_fields fields = sph_fields_of(sph, simulation);
-    const double begin = clock_seconds();
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < sph->particles->count; i++)
         fields.viscosity[i] = 0.0;
     contact_pack(sph, simulation, &fields);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "records");
     contact_sum_pairs(sph, simulation, &fields);
     find_viscosity(sph->parameters.method.value, simulation, &fields);
-    simulation_spend(simulation, "viscosity", clock_seconds() - begin);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "viscosity");
     contact_prepare(sph, simulation, limit);
 }
 
