@@ -20,8 +20,9 @@ static struct measured_mpm measure(const struct run *run)
     struct started s = start(run);
     take_steps(&s, FIRST_STEPS);
     const double seconds = take_steps(&s, run->steps);
-    const struct measured_mpm m = {measured_of(&s, run->steps, seconds, phase_names, PHASES),
-                                   s.class->bytes(s.input->solver.value, s.simulation->dimension)};
+    const struct measured_mpm m = {
+        measured_of(&s, run->steps, seconds, phase_names, PHASES),
+        s.class->bytes(s.input->solver.value, s.simulation->problem->dimension)};
     finish(&s);
     return m;
 }

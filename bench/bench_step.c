@@ -26,7 +26,7 @@ static int64_t count_pairs(const struct sph *sph, const struct simulation *simul
 {
     const double *place = sph->places ? sph->place : sph->record;
     const size_t stride = sph->places ? PLACE_STRIDE : sph->stride;
-    const int d = record_diameter(simulation->dimension);
+    const int d = record_diameter(simulation->problem->dimension);
     int64_t pairs = 0;
     for (int32_t i = 0; i < sph->particles->count; i++) {
         const uint32_t *entry = neighbours_row(&sph->neighbours, i);
@@ -34,7 +34,7 @@ static int64_t count_pairs(const struct sph *sph, const struct simulation *simul
         for (uint32_t k = 0; k < sph->neighbours.row[i].count; k++) {
             const double *other = place + (size_t)(entry[k] & ENTRY_INDEX) * stride;
             double sum = 0.0;
-            for (int axis = 0; axis < simulation->dimension; axis++)
+            for (int axis = 0; axis < simulation->problem->dimension; axis++)
                 sum += square(other[axis] - own[axis]);
             pairs += sum < square(sph->parameters.smoothing * (own[d] + other[d]));
         }

@@ -204,10 +204,9 @@ static struct error *print_fields(void)
     struct views views = {0};
     if (!empty)
         return error_new(ERROR_SYSTEM, "out of memory");
-    empty->input = &no_case;
-    empty->dimension = 3;
-    empty->materials = 1;
-    empty->material = &gas;
+    const struct problem problem = {
+        .input = &no_case, .dimension = 3, .materials = 1, .material = &gas};
+    empty->problem = &problem;
     struct error *error = print_common_fields(empty, &particles, &views);
     if (!error) {
         printf("where a material has it:\n");

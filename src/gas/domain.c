@@ -83,7 +83,7 @@ static struct error *check_filled(const struct simulation_case *input,
 struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells)
 {
     static const double reach = 1e9; /* cells; beyond, places lose too many digits */
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     const double edge = cells->edge;
     struct face_place face[3][2];
     struct error *error = NULL;
@@ -116,7 +116,7 @@ struct error *gas_find_domain(const struct simulation *simulation, struct cell_b
         if (cells->high[axis] <= cells->low[axis])
             return input_error(input, face[axis][1].section, face[axis][1].name,
                                "the domain has no cell along %c", "xyz"[axis]);
-    if (simulation->geometry == GEOMETRY_AXISYMMETRIC && cells->low[0] < 0)
+    if (simulation->problem->geometry == GEOMETRY_AXISYMMETRIC && cells->low[0] < 0)
         return input_error(input, face[0][0].section, face[0][0].name,
                            "x is the radius: the domain may begin at the axis, x = 0");
     double all = 1.0;
@@ -131,7 +131,7 @@ struct error *gas_find_domain(const struct simulation *simulation, struct cell_b
 
 struct error *gas_check_inflows(const struct simulation *simulation, int material)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
     for (int b = 0; b < input->boundaries.count; b++) {
         const struct boundary_input *boundary = case_boundary(input, b);
@@ -142,7 +142,7 @@ struct error *gas_check_inflows(const struct simulation *simulation, int materia
         const char *key = "", *wrong = NULL;
         char name[160];
         if (boundary->kind == BOUNDARY_INFLOW && !varies)
-            wrong = boundary_state_at(boundary, &simulation->material[material],
+            wrong = boundary_state_at(boundary, &simulation->problem->material[material],
                                       vec3_make(0.0, 0.0, 0.0), 0.0, &point, velocity, &key);
         if (!wrong)
             continue;
@@ -155,10 +155,10 @@ struct error *gas_check_inflows(const struct simulation *simulation, int materia
 void gas_find_faces(const struct simulation *simulation, const struct cell_blocks *cells,
                     struct cell_halo *halo)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     for (int w = 0; w < input->walls.count; w++)
         halo->face[case_wall(input, w)->axis][case_wall(input, w)->side] = CELL_FACE_MIRROR;
-    if (simulation->geometry == GEOMETRY_AXISYMMETRIC && cells->low[0] == 0)
+    if (simulation->problem->geometry == GEOMETRY_AXISYMMETRIC && cells->low[0] == 0)
         halo->face[0][0] = CELL_FACE_MIRROR;
     for (int b = 0; b < input->boundaries.count; b++) {
         const struct boundary_input *boundary = case_boundary(input, b);
@@ -189,11 +189,11 @@ static int boundary_at(const struct simulation_case *input, int axis, int side, 
 static bool is_closed(const struct simulation *simulation, const struct cell_blocks *cells,
                       int axis, int side)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     for (int w = 0; w < input->walls.count; w++)
         if (case_wall(input, w)->axis == axis && case_wall(input, w)->side == side)
             return true;
-    return simulation->geometry == GEOMETRY_AXISYMMETRIC && axis == 0 && side == 0 &&
+    return simulation->problem->geometry == GEOMETRY_AXISYMMETRIC && axis == 0 && side == 0 &&
            cells->low[0] == 0;
 }
 
@@ -201,13 +201,13 @@ static bool is_closed(const struct simulation *simulation, const struct cell_blo
 static struct error *inflow(const struct simulation *simulation, int material, int boundary,
                             struct vec3 place, double time, double *number)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     struct point point;
     const char *key = "";
     double velocity[3] = {0.0}, kinetic = 0.0;
     const char *wrong =
-        boundary_state_at(case_boundary(input, boundary), &simulation->material[material], place,
-                          time, &point, velocity, &key);
+        boundary_state_at(case_boundary(input, boundary), &simulation->problem->material[material],
+                          place, time, &point, velocity, &key);
     if (wrong)
         return error_new(ERROR_STATE, "boundaries.%s%s%s: %s (at t = %.6g s)",
                          input->boundaries.names[boundary], *key ? "." : "", key, wrong, time);
@@ -249,7 +249,7 @@ static void row_place(const struct cell_blocks *cells, const struct cell_block *
 static struct error *fill_plane(const struct gas *gas, const struct simulation *simulation,
                                 int axis, const struct cell_filled *filled, double time)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     const struct cell_blocks *cells = gas->cells;
     const struct cell_block *block = &cells->block[filled->block];
     const int first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2, rows = block->count[first];
@@ -293,10 +293,10 @@ struct error *gas_fill_planes(const struct gas *gas, const struct simulation *si
 /* The area of a face whose centre is AT; of a radian about an axis of symmetry. */
 static double area_of(const struct simulation *simulation, double edge, const double at[3])
 {
-    const double area = simulation->dimension == 1   ? 1.0
-                        : simulation->dimension == 2 ? edge
-                                                     : edge * edge;
-    return simulation->geometry == GEOMETRY_AXISYMMETRIC ? area * at[0] : area;
+    const double area = simulation->problem->dimension == 1   ? 1.0
+                        : simulation->problem->dimension == 2 ? edge
+                                                              : edge * edge;
+    return simulation->problem->geometry == GEOMETRY_AXISYMMETRIC ? area * at[0] : area;
 }
 
 /* Books what a FLUX has brought to the gas above a face at AT, or, with SIGN -1, to that below. */

@@ -48,7 +48,7 @@ static bool in_obstacle(const struct simulation_case *input, struct vec3 place)
 static struct error *tell(const struct filling *f, int body, const char *key, struct vec3 place,
                           const char *text)
 {
-    const struct simulation_case *input = f->simulation->input;
+    const struct simulation_case *input = f->simulation->problem->input;
     const double at[3] = {place.x, place.y, place.z};
     char name[128], where[96];
     int used = 0;
@@ -63,7 +63,7 @@ static struct error *tell(const struct filling *f, int body, const char *key, st
 /* The body at PLACE, -1 for none: of several the one that replaces the others. */
 static int body_at(struct filling *f, struct vec3 place)
 {
-    const struct simulation_case *input = f->simulation->input;
+    const struct simulation_case *input = f->simulation->problem->input;
     int found = -1;
     for (int k = 0; k < f->heres; k++) {
         const int body = f->here[k];
@@ -87,13 +87,13 @@ static int body_at(struct filling *f, struct vec3 place)
 /* Adds to SUM what BODY has at PLACE, as much as WEIGHT says. */
 static void add_state(struct filling *f, int body, struct vec3 place, double weight, double *sum)
 {
-    const struct simulation_case *input = f->simulation->input;
+    const struct simulation_case *input = f->simulation->problem->input;
     const struct body_input *of = case_body(input, body);
     struct point point;
     double velocity[3] = {0.0}, kinetic = 0.0;
     const char *key = "";
-    const char *wrong = body_start_at(of, &f->simulation->material[of->material_index], place,
-                                      &point, velocity, &key);
+    const char *wrong = body_start_at(of, &f->simulation->problem->material[of->material_index],
+                                      place, &point, velocity, &key);
     if (wrong && !f->error)
         f->error = tell(f, body, key, place, wrong);
     if (wrong)
@@ -129,7 +129,7 @@ static int64_t points_in(int64_t base, int exponent)
 /* The weight of a place: about an axis its radius. */
 static double weight_of(const struct filling *f, struct vec3 place)
 {
-    return f->simulation->geometry == GEOMETRY_AXISYMMETRIC ? place.x : 1.0;
+    return f->simulation->problem->geometry == GEOMETRY_AXISYMMETRIC ? place.x : 1.0;
 }
 
 /* Whether BODY, that of the centre, has the whole cell: its corners lie in it, and no body is so small
@@ -138,7 +138,7 @@ static bool has_all(struct filling *f, int body, const double centre[3])
 {
     static const double corner[2] = {-0.5 + 1e-6, 0.5 - 1e-6};
     const struct cell_blocks *cells = f->gas->cells;
-    const struct simulation_case *input = f->simulation->input;
+    const struct simulation_case *input = f->simulation->problem->input;
     for (int k = 0; k < f->heres; k++) {
         const struct bounds *b = &f->bounds[f->here[k]];
         const double size[3] = {b->high.x - b->low.x, b->high.y - b->low.y, b->high.z - b->low.z};
@@ -159,7 +159,7 @@ static void fill_whole(struct filling *f, int body, const double centre[3], doub
 {
     static const double middle[1] = {0.0}, gauss[2] = {-0.28867513459481287, 0.28867513459481287};
     const struct cell_blocks *cells = f->gas->cells;
-    const int points = case_body(f->simulation->input, body)->varies ? 2 : 1;
+    const int points = case_body(f->simulation->problem->input, body)->varies ? 2 : 1;
     double all = 0.0;
     for (int64_t k = 0; k < points_in(points, cells->dimension); k++) {
         const struct vec3 place = point_of(cells, centre, points == 2 ? gauss : middle, points, k);
@@ -185,7 +185,7 @@ static void fill_parts(struct filling *f, const double centre[3], double *sum)
         if (body >= 0) {
             add_state(f, body, place, weight, sum);
             all += weight;
-        } else if (!in_obstacle(f->simulation->input, place))
+        } else if (!in_obstacle(f->simulation->problem->input, place))
             f->error = tell(f, -1, "", place,
                             "no body fills the domain here: bodies and obstacles must fill all of "
                             "it");
@@ -213,7 +213,7 @@ static void fill_cell(struct filling *f, int32_t i)
     cells->body[i] = (uint16_t)(body < 0 ? 0 : body);
     cells->material[i] = (uint16_t)gas->material;
     if (gas->blocked) {
-        gas->u[GAS_OPEN][i] = in_obstacle(f->simulation->input, place) ? 0.0 : 1.0;
+        gas->u[GAS_OPEN][i] = in_obstacle(f->simulation->problem->input, place) ? 0.0 : 1.0;
         if (gas->u[GAS_OPEN][i] == 0.0)
             return;
     }
@@ -234,7 +234,7 @@ static void fill_block(struct filling *f, const struct cell_block *block)
         high[axis] = (double)(block->corner[axis] + block->count[axis]) * cells->edge;
     }
     f->nears = 0;
-    for (int b = 0; b < f->simulation->input->bodies.count; b++)
+    for (int b = 0; b < f->simulation->problem->input->bodies.count; b++)
         if (meets(&f->bounds[b], low, high, cells->dimension))
             f->near[f->nears++] = b;
     const int32_t end = block->first + block->count[0] * block->count[1] * block->count[2];
@@ -244,7 +244,7 @@ static void fill_block(struct filling *f, const struct cell_block *block)
 
 struct error *gas_fill(void *solver, struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     const size_t bodies = (size_t)input->bodies.count;
     struct gas *gas = solver;
     struct cell_blocks *cells = gas->cells;

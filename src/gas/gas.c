@@ -110,20 +110,20 @@ static void choose_scheme(struct gas *gas)
 static struct error *gas_create(void *solver, struct simulation *simulation, const void *parameters)
 {
     struct gas *gas = solver;
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     gas->parameters = *(const struct gas_parameters *)parameters;
     gas->parameters.courant = courant_of(&gas->parameters);
     choose_scheme(gas);
     TRY(gas_refuse(simulation));
     gas->material = case_body(input, 0)->material_index;
-    gas->eos = simulation->material[gas->material].eos;
+    gas->eos = simulation->problem->material[gas->material].eos;
     gas->blocked = input->obstacles.count > 0;
-    gas->around = simulation->geometry == GEOMETRY_AXISYMMETRIC;
-    gas->sleepless = simulation_has_gravity(simulation);
+    gas->around = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
+    gas->sleepless = problem_has_gravity(simulation->problem);
     struct cell_blocks *cells = gas->cells = memory_allocate(sizeof *cells);
     if (!cells)
         return error_new(ERROR_SYSTEM, "out of memory");
-    cells->dimension = simulation->dimension;
+    cells->dimension = simulation->problem->dimension;
     cells->edge = input->resolution;
     cells->ranks = simulation->ranks;
     cells->partition = &simulation->partition;
@@ -156,7 +156,7 @@ static struct error *look(struct gas *gas, const struct simulation *simulation)
     struct gas_look look = {.cells = cells,
                             .eos = &gas->eos,
                             .sound = gas->sound,
-                            .around = simulation->geometry == GEOMETRY_AXISYMMETRIC};
+                            .around = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC};
     struct ranked first = {INFINITY, UINT64_MAX, 0};
     memcpy(look.u, gas->u, sizeof look.u);
 #pragma omp parallel num_threads(simulation->threads)
@@ -215,7 +215,7 @@ static struct error *gas_start(void *solver, struct simulation *simulation)
 static struct error *balance(struct gas *gas, struct simulation *simulation)
 {
     enum { STEPS = 50 };
-    const int64_t every = simulation->input->run.rebalance;
+    const int64_t every = simulation->problem->input->run.rebalance;
     const int64_t step = simulation->step;
     if (simulation->ranks->size < 2 || step == 0 || step % (every > 0 ? every : STEPS) != 0)
         return NULL;
@@ -245,9 +245,9 @@ static struct error *gas_prepare(void *solver, struct simulation *simulation, st
 static void pull(const struct gas *gas, struct simulation *simulation, double dt)
 {
     const struct cell_blocks *cells = gas->cells;
-    const double *g = simulation->gravity;
-    const double volume = pow(cells->edge, simulation->dimension);
-    const bool around = simulation->geometry == GEOMETRY_AXISYMMETRIC;
+    const double *g = simulation->problem->gravity;
+    const double volume = pow(cells->edge, simulation->problem->dimension);
+    const bool around = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
 #pragma omp parallel num_threads(simulation->threads)
     {
         struct ledger own = {0};
@@ -278,8 +278,8 @@ static void pull(const struct gas *gas, struct simulation *simulation, double dt
 static struct error *gas_advance(void *solver, struct simulation *simulation, double dt)
 {
     struct gas *gas = solver;
-    const int last = simulation->dimension - 1;
-    const bool heavy = simulation_has_gravity(simulation);
+    const int last = simulation->problem->dimension - 1;
+    const bool heavy = problem_has_gravity(simulation->problem);
     if (heavy)
         pull(gas, simulation, 0.5 * dt);
     for (int k = 0; k <= last && gas->second_order; k++)

@@ -27,9 +27,9 @@ static struct error *refuse_body(const struct simulation_case *input, int index)
 /* One material, a fluid whose pressure follows from its density and energy alone. */
 static struct error *refuse_materials(const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     const int first = case_body(input, 0)->material_index;
-    const struct material *material = &simulation->material[first];
+    const struct material *material = &simulation->problem->material[first];
     const char *name = input->materials.names[first], *text = NULL;
     for (int b = 1; b < input->bodies.count; b++)
         if (case_body(input, b)->material_index != first)
@@ -48,9 +48,9 @@ static struct error *refuse_materials(const struct simulation *simulation)
 
 struct error *gas_refuse(const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
-    if (simulation->geometry == GEOMETRY_PLANE_STRESS)
+    if (simulation->problem->geometry == GEOMETRY_PLANE_STRESS)
         error = input_error(input, "geometry", NULL, "the solver gas has no plane stress");
     error = error_join(error, refuse_map(input, "contacts", &input->contacts,
                                          "bodies of gas have no surfaces in the solver gas"));

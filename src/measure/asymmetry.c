@@ -152,7 +152,7 @@ static struct error *find_places(const struct measurement *measurement, const do
     const struct ranks *ranks = measurement->simulation->ranks;
     const struct population population = simulation_population(measurement->simulation),
                             *p = &population;
-    const double cell = measurement->simulation->input->resolution;
+    const double cell = measurement->simulation->problem->input->resolution;
     const int body = measure_body(measurement);
     bool done = true;
     for (int32_t i = 0; i < p->count && done; i++) {
@@ -209,7 +209,7 @@ static struct error *compare_on_ranks(const struct measurement *measurement,
 {
     const struct measure_asymmetry *parameters = measurement->check->measure.value;
     const struct ranks *ranks = measurement->simulation->ranks;
-    const double reach = tolerance * measurement->simulation->input->resolution;
+    const double reach = tolerance * measurement->simulation->problem->input->resolution;
     struct places places = {0};
     struct received received = {0};
     double found[FOUND] = {0.0, 0.0, 0.0};

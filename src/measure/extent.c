@@ -26,7 +26,7 @@ const struct parameter measure_extent_table[] = {
 static struct error *unit(const struct measurement *measurement, const char **unit)
 {
     const struct measure_extent *parameters = measurement->check->measure.value;
-    const int dimension = measurement->simulation->dimension;
+    const int dimension = measurement->simulation->problem->dimension;
     if (parameters->along < EXTENT_RADIUS && parameters->along >= dimension)
         return measure_error(measurement, "the case has %d dimension%s", dimension,
                              dimension == 1 ? "" : "s");

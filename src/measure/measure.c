@@ -70,7 +70,7 @@ struct error *measure_error(const struct measurement *measurement, const char *f
     va_end(arguments);
     struct error *error = measurement->unplaced
                               ? error_new(ERROR_INPUT, "%s", text ? text : "")
-                              : input_error(measurement->simulation->input, "checks",
+                              : input_error(measurement->simulation->problem->input, "checks",
                                             measurement->name, "%s", text ? text : "");
     free(text);
     return error;
@@ -117,7 +117,7 @@ struct error *measure_no_unit(const struct measurement *measurement, const char 
 
 int measure_body(const struct measurement *measurement)
 {
-    return case_find_body(measurement->simulation->input, measurement->check->of);
+    return case_find_body(measurement->simulation->problem->input, measurement->check->of);
 }
 
 static bool selects(const struct selection *selection, double at, int body)
@@ -234,7 +234,7 @@ enum exact_side measure_side(const struct measurement *measurement, const struct
     const struct simulation *simulation = measurement->simulation;
     if (simulation_population(simulation).kind == POPULATION_OF_CELLS)
         return exact_side_at(measurement->exact, measurement->solved, sample->at, simulation->time);
-    const struct body_input *input = case_body(simulation->input, sample->body);
+    const struct body_input *input = case_body(simulation->problem->input, sample->body);
     struct bounds bounds = shape_bounds(&input->shape);
     double middle = 0.5 * (bounds.low.x + bounds.high.x);
     return exact_side_at(measurement->exact, measurement->solved, middle, 0.0);

@@ -36,24 +36,27 @@ static struct error *prepare(struct probe *probe, const struct simulation *simul
                              const struct views *views)
 {
     const struct probe_body *body = probe->input->probe.value;
-    const struct named_map *bodies = &simulation->input->bodies;
-    const int dimension = simulation->dimension, first = first_turn(dimension);
-    const char *joule = ledger_unit(LEDGER_ENERGY, simulation->dimension, simulation->geometry);
+    const struct named_map *bodies = &simulation->problem->input->bodies;
+    const int dimension = simulation->problem->dimension, first = first_turn(dimension);
+    const char *joule =
+        ledger_unit(LEDGER_ENERGY, simulation->problem->dimension, simulation->problem->geometry);
     (void)views;
-    probe->selection.body = case_find_body(simulation->input, body->name);
+    probe->selection.body = case_find_body(simulation->problem->input, body->name);
     if (probe->selection.body < 0) {
         const char *near =
             nearest_name(body->name, (const char *const *)bodies->names, bodies->count);
         return probe_error(probe, simulation, "body", "there is no body \"%s\"%s%s%s", body->name,
                            near ? " (did you mean \"" : "", near ? near : "", near ? "\"?)" : "");
     }
-    probe_add_column(probe, "mass",
-                     ledger_unit(LEDGER_MASS, simulation->dimension, simulation->geometry));
+    probe_add_column(
+        probe, "mass",
+        ledger_unit(LEDGER_MASS, simulation->problem->dimension, simulation->problem->geometry));
     add_vector(probe, "centre", "m", 0, dimension);
     add_vector(probe, "velocity", "m/s", 0, dimension);
     add_vector(probe, "angular_momentum",
-               ledger_unit(LEDGER_ANGULAR_Z, simulation->dimension, simulation->geometry), first,
-               turns(dimension));
+               ledger_unit(LEDGER_ANGULAR_Z, simulation->problem->dimension,
+                           simulation->problem->geometry),
+               first, turns(dimension));
     add_vector(probe, "angular_velocity", "rad/s", first, turns(dimension));
     probe_add_column(probe, "kinetic_energy", joule);
     probe_add_column(probe, "kinetic_energy_about_centre", joule);
@@ -185,7 +188,7 @@ static double *put_vector(double *row, struct vec3 value, int first, int count)
 static struct error *sample(struct probe *probe, const struct simulation *simulation,
                             const struct views *views, double *row)
 {
-    const int dimension = simulation->dimension, first = first_turn(dimension);
+    const int dimension = simulation->problem->dimension, first = first_turn(dimension);
     struct body_motion motion;
     (void)views;
     sum_whole(simulation, probe->selection.body, &motion);

@@ -52,7 +52,7 @@ static struct error *sample(struct probe *probe, const struct simulation *simula
     const struct population population = simulation_population(simulation),
                             *particles = &population;
     const int count = probe->fields->count;
-    double radius = isnan(gauge->radius) ? simulation->input->resolution : gauge->radius;
+    double radius = isnan(gauge->radius) ? simulation->problem->input->resolution : gauge->radius;
     struct exact_sum *sums = memory_allocate(((size_t)count + 2) * sizeof *sums);
     TRY(ranks_agree(simulation->ranks,
                     sums ? NULL : error_new(ERROR_SYSTEM, "out of memory for a gauge")));

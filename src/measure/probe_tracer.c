@@ -20,7 +20,7 @@ static struct error *prepare(struct probe *probe, const struct simulation *simul
     char position[] = "position", *name = position;
     const struct name_list place = {1, &name};
     TRY(probe_check_place(probe, simulation, "tracer", &tracer->at));
-    TRY(fields_choose(views, &place, simulation->dimension, probe->fields));
+    TRY(fields_choose(views, &place, simulation->problem->dimension, probe->fields));
     return probe_add_fields(probe, simulation, views);
 }
 

@@ -73,7 +73,7 @@ struct error *probe_error(const struct probe *probe, const struct simulation *si
     va_end(arguments);
     char *name = text_format("%s%s%s", probe->name, *key ? "." : "", key);
     struct error *error =
-        name ? input_error(simulation->input, "probes", name, "%s", text ? text : "")
+        name ? input_error(simulation->problem->input, "probes", name, "%s", text ? text : "")
              : out_of_memory();
     free(text);
     free(name);
@@ -95,19 +95,20 @@ void probe_add_column(struct probe *probe, const char *name, const char *unit)
 struct error *probe_check_place(const struct probe *probe, const struct simulation *simulation,
                                 const char *key, const struct vector_value *place)
 {
-    if (place->count == simulation->dimension)
+    if (place->count == simulation->problem->dimension)
         return NULL;
     return probe_error(probe, simulation, key,
                        "expected %d component%s, one per dimension; found %d",
-                       simulation->dimension, simulation->dimension == 1 ? "" : "s", place->count);
+                       simulation->problem->dimension,
+                       simulation->problem->dimension == 1 ? "" : "s", place->count);
 }
 
 struct error *probe_add_fields(struct probe *probe, const struct simulation *simulation,
                                const struct views *views)
 {
     struct chosen_fields *fields = probe->fields;
-    struct error *error =
-                     fields_choose(views, &probe->input->fields, simulation->dimension, fields),
+    struct error *error = fields_choose(views, &probe->input->fields,
+                                        simulation->problem->dimension, fields),
                  *told = NULL;
     for (int i = 0; error && i < error_count(error); i++)
         told = error_join(told,

@@ -22,7 +22,8 @@ static struct error *wrong(const struct simulation *simulation, const char *name
 {
     char *path = text_format("%s.%s", name, key);
     struct error *error =
-        path ? input_error(simulation->input, "profiles", path, "%s", text) : out_of_memory();
+        path ? input_error(simulation->problem->input, "profiles", path, "%s", text)
+             : out_of_memory();
     free(path);
     return error;
 }
@@ -59,9 +60,9 @@ static struct error *check_bins(const struct profile *profile, const struct simu
     const bool of_width = !isnan(input->width);
     double low = 0.0, high = 0.0;
     if (of_width)
-        find_ends(input, simulation->input, &low, &high);
+        find_ends(input, simulation->problem->input, &low, &high);
     const double bins = of_width ? ceil((high - low) / input->width) : (double)input->bins;
-    const double places = bins * groups_of(profile, simulation->input);
+    const double places = bins * groups_of(profile, simulation->problem->input);
     char text[128];
     if (bins > PROFILE_BINS)
         snprintf(text, sizeof text, "%.3g bins over %.6g m are more than %d", bins, high - low,
@@ -77,20 +78,21 @@ static struct error *check_bins(const struct profile *profile, const struct simu
 static struct error *prepare(struct profile *profile, const struct simulation *simulation,
                              const struct views *views)
 {
-    struct error *told = NULL, *error = fields_choose(views, &profile->input->fields,
-                                                      simulation->dimension, &profile->fields);
+    struct error *told = NULL,
+                 *error = fields_choose(views, &profile->input->fields,
+                                        simulation->problem->dimension, &profile->fields);
     for (int i = 0; error && i < error_count(error); i++)
         told =
             error_join(told, wrong(simulation, profile->name, "fields", error_message(error, i)));
     error_free(error);
-    profile->body = case_find_body(simulation->input, profile->input->of);
+    profile->body = case_find_body(simulation->problem->input, profile->input->of);
     return error_join(told, check_bins(profile, simulation));
 }
 
 struct error *profiles_prepare(const struct simulation *simulation, const struct views *views,
                                struct profiles *profiles)
 {
-    const struct named_map *given = &simulation->input->profiles;
+    const struct named_map *given = &simulation->problem->input->profiles;
     struct error *error = NULL;
     *profiles = (struct profiles){
         given->count, memory_allocate(((size_t)given->count + 1) * sizeof *profiles->item)};
@@ -99,7 +101,7 @@ struct error *profiles_prepare(const struct simulation *simulation, const struct
     for (int i = 0; i < given->count; i++) {
         struct profile *profile = &profiles->item[i];
         profile->name = given->names[i];
-        profile->input = case_profile(simulation->input, i);
+        profile->input = case_profile(simulation->problem->input, i);
         error = error_join(error, prepare(profile, simulation, views));
     }
     return error;
@@ -196,7 +198,7 @@ static struct error *sort(const struct profile *profile, const struct simulation
     const struct population population = simulation_population(simulation),
                             *particles = &population;
     lay_bins(profile, simulation, sorting);
-    sorting->groups = groups_of(profile, simulation->input);
+    sorting->groups = groups_of(profile, simulation->problem->input);
     sorting->places = sorting->groups * sorting->bins;
     sorting->place = memory_allocate(((size_t)particles->count + 1) * sizeof *sorting->place);
     sorting->count = memory_allocate(((size_t)sorting->places + 1) * sizeof *sorting->count);
@@ -321,7 +323,7 @@ static bool has_particles(const struct sorting *sorting, int group)
 static void put_rows(FILE *file, const struct profile *profile, const struct simulation *simulation,
                      const struct sorting *sorting, const struct scatter *scatter)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     char *const *names =
         profile->input->by == PROFILE_BY_MATERIAL ? input->materials.names : input->bodies.names;
     for (int group = 0; group < sorting->groups; group++) {

@@ -47,7 +47,7 @@ const struct parameter measure_radius_table[] = {
 static struct error *unit(const struct measurement *measurement, const char **unit)
 {
     const struct measure_radius *parameters = measurement->check->measure.value;
-    const int dimension = measurement->simulation->dimension;
+    const int dimension = measurement->simulation->problem->dimension;
     const int count = parameters->center.count;
     if (count != 0 && count != dimension)
         return measure_error(measurement,
@@ -70,9 +70,9 @@ static int64_t radii(const struct measurement *measurement, const double (*start
     const struct simulation *simulation = measurement->simulation;
     const struct population population = simulation_population(simulation), *p = &population;
     const double layer =
-        isnan(parameters->layer) ? simulation->input->resolution : parameters->layer;
-    const bool axisymmetric = simulation->geometry == GEOMETRY_AXISYMMETRIC;
-    const double power = axisymmetric ? 3.0 : (double)simulation->dimension;
+        isnan(parameters->layer) ? simulation->problem->input->resolution : parameters->layer;
+    const bool axisymmetric = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
+    const double power = axisymmetric ? 3.0 : (double)simulation->problem->dimension;
     const double own = pow(parameters->start, power);
     const int body = measure_body(measurement);
     int64_t count = 0;

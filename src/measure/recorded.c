@@ -72,7 +72,7 @@ const struct parameter measure_recorded_table[] = {
 static struct error *find(const struct measurement *measurement, struct probe **probe, int *column)
 {
     const struct measure_recorded *recorded = measurement->check->measure.value;
-    const struct named_map *probes = &measurement->simulation->input->probes;
+    const struct named_map *probes = &measurement->simulation->problem->input->probes;
     const char *names[PROBE_COLUMNS];
     *probe = measurement->probes ? probes_find(measurement->probes, recorded->probe) : NULL;
     const char *near =
@@ -104,9 +104,9 @@ static struct error *check_keys(const struct measurement *measurement, const cha
 {
     const struct measure_recorded *recorded = measurement->check->measure.value;
     struct unit parsed;
-    if (recorded->after > measurement->simulation->input->run.until)
+    if (recorded->after > measurement->simulation->problem->input->run.until)
         return measure_error(measurement, "`after`: the run ends before, at %.9g s",
-                             measurement->simulation->input->run.until);
+                             measurement->simulation->problem->input->run.until);
     if (recorded->after >= recorded->before)
         return measure_error(measurement, "`after` must be earlier than `before`");
     if (isnan(recorded->noise.value))

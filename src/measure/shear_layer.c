@@ -42,7 +42,7 @@ static struct error *unit(const struct measurement *measurement, const char **un
     static const char *const units[] = {
         [LAYER_VISCOSITY] = "m^2/s", [LAYER_DISPLACEMENT] = "m", [LAYER_VELOCITY] = "m/s"};
     const struct measure_shear_layer *parameters = measurement->check->measure.value;
-    if (measurement->simulation->dimension == 1)
+    if (measurement->simulation->problem->dimension == 1)
         return measure_error(measurement, "there is no shear in one dimension");
     *unit = units[parameters->value];
     return NULL;
@@ -87,8 +87,8 @@ static struct error *find_rows(const struct measurement *measurement, struct ban
     if (!error) {
         start_places(simulation, 0, count, start);
         const int64_t taken = take_particles(measurement, (const double(*)[3])start, own);
-        error =
-            bands_make(simulation->ranks, own, taken, 1e-3 * simulation->input->resolution, rows);
+        error = bands_make(simulation->ranks, own, taken,
+                           1e-3 * simulation->problem->input->resolution, rows);
     }
     free(start);
     free(own);

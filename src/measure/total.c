@@ -34,12 +34,13 @@ static struct error *total_unit(const struct measurement *measurement, const cha
     const int entry = parameters->quantity;
     static const char *const volumes[] = {"m", "m^2", "m^3"};
     const struct simulation *simulation = measurement->simulation;
-    const int dimension = simulation->geometry == GEOMETRY_AXISYMMETRIC ? 3 : simulation->dimension;
-    *unit =
-        entry == TOTAL_VOLUME
-            ? volumes[dimension - 1]
-            : ledger_unit(entry < LEDGER_ENTRIES ? (enum ledger_entry)entry : LEDGER_ENERGY,
-                          measurement->simulation->dimension, measurement->simulation->geometry);
+    const int dimension =
+        simulation->problem->geometry == GEOMETRY_AXISYMMETRIC ? 3 : simulation->problem->dimension;
+    *unit = entry == TOTAL_VOLUME
+                ? volumes[dimension - 1]
+                : ledger_unit(entry < LEDGER_ENTRIES ? (enum ledger_entry)entry : LEDGER_ENERGY,
+                              measurement->simulation->problem->dimension,
+                              measurement->simulation->problem->geometry);
     return NULL;
 }
 

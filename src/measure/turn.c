@@ -23,7 +23,7 @@ const struct parameter measure_turn_table[] = {
 static struct error *unit(const struct measurement *measurement, const char **unit)
 {
     const struct measure_turn *parameters = measurement->check->measure.value;
-    const int dimension = measurement->simulation->dimension;
+    const int dimension = measurement->simulation->problem->dimension;
     if (dimension == 1 || (dimension == 2 && parameters->axis != 2))
         return measure_error(measurement, dimension == 1 ? "nothing turns in one dimension"
                                                          : "a plane turns about z alone");

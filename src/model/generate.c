@@ -222,7 +222,7 @@ static struct error *explore(const struct simulation_case *input, const struct r
 static struct error *fill_body(const struct simulation *simulation, struct particles *particles,
                                const struct overlaps *overlaps, int body, int32_t *next)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     const struct body_input *of = case_body(input, body);
     struct walk walk;
     struct error *error = walk_begin(&walk, overlaps, body, simulation->ranks);
@@ -256,7 +256,7 @@ static struct error *fill_body(const struct simulation *simulation, struct parti
 
 struct error *generate_particles(const struct simulation *simulation, struct particles *particles)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     struct finding *findings = memory_allocate((size_t)input->bodies.count * sizeof *findings);
     struct error *error =
         ranks_agree(simulation->ranks, findings ? NULL : error_new(ERROR_SYSTEM, "out of memory"));

@@ -3,28 +3,28 @@
 
 bool body_stands(const struct simulation *simulation, int body)
 {
-    return simulation->time >= case_body(simulation->input, body)->stop;
+    return simulation->time >= case_body(simulation->problem->input, body)->stop;
 }
 
 bool body_is_frozen(const struct simulation *simulation, int body)
 {
-    return case_body(simulation->input, body)->frozen;
+    return case_body(simulation->problem->input, body)->frozen;
 }
 
 bool body_is_held(const struct simulation *simulation, int body)
 {
-    const struct body_input *input = case_body(simulation->input, body);
+    const struct body_input *input = case_body(simulation->problem->input, body);
     return body_stands(simulation, body) || input->driven || input->frozen;
 }
 
 bool body_is_heavy(const struct simulation *simulation, int body)
 {
-    return simulation_has_gravity(simulation) && !body_is_held(simulation, body);
+    return problem_has_gravity(simulation->problem) && !body_is_held(simulation, body);
 }
 
 bool any_body(const struct simulation *simulation, bool (*is)(const struct simulation *, int))
 {
-    for (int body = 0; body < simulation->input->bodies.count; body++)
+    for (int body = 0; body < simulation->problem->input->bodies.count; body++)
         if (is(simulation, body))
             return true;
     return false;
@@ -92,7 +92,7 @@ static void drive_particle(const struct simulation *simulation, const struct par
 
 static bool follows_time(const struct simulation *simulation, int body)
 {
-    const struct field_list *velocity = &case_body(simulation->input, body)->velocity;
+    const struct field_list *velocity = &case_body(simulation->problem->input, body)->velocity;
     for (int k = 0; k < velocity->count; k++)
         if (field_is_of_time(&velocity->at[k]))
             return !body_stands(simulation, body);
@@ -103,7 +103,7 @@ struct error *drive_bodies(struct simulation *simulation, const struct particles
                            double dt)
 {
     static const char *const keys[] = {"velocity.1", "velocity.2", "velocity.3"};
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     for (int b = 0; b < input->bodies.count; b++) {
         struct drive drive = {b, dt, {NAN, NAN, NAN}};
         const struct field_list *velocity = &case_body(input, b)->velocity;
@@ -127,7 +127,7 @@ static double earlier(const struct simulation *simulation, double event, double 
 
 double next_event(const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     double event = INFINITY;
     for (int i = 0; i < input->bodies.count; i++)
         event = earlier(simulation, event, case_body(input, i)->stop);

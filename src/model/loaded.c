@@ -10,7 +10,8 @@ static struct error *check_indices(const struct simulation *simulation, int64_t 
                                    const double *sites)
 {
     const struct population population = simulation_population(simulation), *p = &population;
-    const int bodies = simulation->input->bodies.count, materials = simulation->materials;
+    const int bodies = simulation->problem->input->bodies.count,
+              materials = simulation->problem->materials;
     for (int32_t i = 0; i < p->count; i++) {
         const int of = (int)(p->id[i] >> PARTICLE_SITE_BITS);
         if (p->body[i] >= bodies)
@@ -56,13 +57,13 @@ struct error *simulation_check_loaded(const struct simulation *simulation)
 {
     const struct population population = simulation_population(simulation);
     const int64_t first = ranks_before(simulation->ranks, population.count);
-    if (!(simulation->time >= 0.0 && simulation->time <= simulation->input->run.until))
+    if (!(simulation->time >= 0.0 && simulation->time <= simulation->problem->input->run.until))
         return error_new(ERROR_SYSTEM, "time is %g s, where the run goes from 0 to %g s",
-                         simulation->time, simulation->input->run.until);
+                         simulation->time, simulation->problem->input->run.until);
     if (simulation->step < 0 || simulation->step > INT64_MAX / 2)
         return error_new(ERROR_SYSTEM, "step is %lld, which no run reaches",
                          (long long)simulation->step);
-    double *sites = count_sites(simulation->input);
+    double *sites = count_sites(simulation->problem->input);
     struct error *error =
         sites ? check_indices(simulation, first, sites) : error_new(ERROR_SYSTEM, "out of memory");
     free(sites);

@@ -60,7 +60,7 @@ struct error *particles_add(struct simulation *simulation, double cell,
     *made = particles;
     if (!particles)
         return error_new(ERROR_SYSTEM, "out of memory");
-    TRY(particles_create(simulation->dimension, cell, more, count, particles));
+    TRY(particles_create(simulation->problem->dimension, cell, more, count, particles));
     simulation_add_population(simulation, "particles", &particle_population, particles);
     if (!simulation->ranks) /* no run */
         return NULL;

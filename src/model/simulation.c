@@ -1,5 +1,4 @@
-/* What a run knows before it has particles: materials, mirror walls and the contact laws between groups
- * of bodies, checked against the case. */
+/* The state of a run: its populations, and the time that its phases take. */
 #include "model/simulation.h"
 
 #include <stdlib.h>
@@ -7,269 +6,18 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "material/material.h"
-
-struct error *input_error(const struct simulation_case *input, const char *section,
-                          const char *name, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    char *text = text_vformat(format, arguments);
-    va_end(arguments);
-    char *path = name ? text_format("%s.%s", section, name) : text_copy(section);
-    struct error *error;
-    if (!text || !path)
-        error = error_new(ERROR_SYSTEM, "out of memory");
-    else if (input->document)
-        error = document_error(input->document, path, "%s", text);
-    else
-        error = error_new(ERROR_INPUT, "%s: %s", path, text);
-    free(text);
-    free(path);
-    return error;
-}
-
-static struct error *set_mirrors(const struct simulation_case *input, struct mirrors *mirrors)
-{
-    static const char axis_names[] = "xyz";
-    struct error *error = NULL;
-    for (int axis = 0; axis < 3; axis++)
-        mirrors->low[axis] = mirrors->high[axis] = NAN;
-    if (input->geometry == GEOMETRY_AXISYMMETRIC)
-        mirrors->low[0] = 0.0;
-    for (int i = 0; i < input->walls.count; i++) {
-        const struct wall_input *wall = case_wall(input, i);
-        const char *name = input->walls.names[i], axis = axis_names[wall->axis];
-        const bool low = wall->side == WALL_LOW;
-        double *at = low ? &mirrors->low[wall->axis] : &mirrors->high[wall->axis];
-        struct error *mistake = NULL;
-        if (wall->axis >= input->dimension)
-            mistake = input_error(input, "walls", name, "the case has no %c axis", axis);
-        else if (!isnan(*at) && *at != wall->at)
-            mistake = input_error(input, "walls", name, "there is another %s wall on the %c axis",
-                                  low ? "low" : "high", axis);
-        *at = wall->at;
-        if (!mistake && mirrors->low[wall->axis] >= mirrors->high[wall->axis])
-            mistake =
-                input_error(input, "walls", name,
-                            "the low wall on the %c axis does not lie below the high wall", axis);
-        error = error_join(error, mistake);
-    }
-    return error;
-}
-
-/* The laws of the bodies that contacts name, by a number of their own from 1 on; 0 stands for all
- * other bodies. An entry is 0 for a pair that no contact names, else 1 + its law. */
-struct law_table {
-    int count;      /* of numbers, 0 included */
-    int *number;    /* of each body */
-    uint8_t *entry; /* count x count */
-};
-
-static uint8_t *law_entry(const struct law_table *table, int first, int second)
-{
-    return &table->entry[(size_t)first * (size_t)table->count + (size_t)second];
-}
-
-static int law_of(const struct law_table *table, int first, int second)
-{
-    const int entry = *law_entry(table, first, second);
-    return entry ? entry - 1 : 0;
-}
-
-/* The number of the surface with these values, which becomes one if there is none yet; CONTACT_SURFACES when there are too
- * many. */
-static int surface_of(struct simulation *simulation, struct contact_surface surface)
-{
-    int k = 0;
-    simulation->surfaces = simulation->surfaces ? simulation->surfaces : 1;
-    while (k < simulation->surfaces && (simulation->surface[k].friction != surface.friction ||
-                                        simulation->surface[k].normal != surface.normal ||
-                                        simulation->surface[k].touch != surface.touch))
-        k++;
-    if (k == simulation->surfaces && k < CONTACT_SURFACES)
-        simulation->surface[simulation->surfaces++] = surface;
-    return k;
-}
-
-/* The laws of a contact, of its first body towards the second and the other way; false when there are too many. */
-static bool laws_of(struct simulation *simulation, const struct contact_input *contact, int law[2])
-{
-    static const int turned[] = {[NORMAL_MEAN] = NORMAL_MEAN,
-                                 [NORMAL_FIRST] = NORMAL_SECOND,
-                                 [NORMAL_SECOND] = NORMAL_FIRST};
-    const int bits = (contact->shear == SHEAR_SLIP ? LAW_SLIP : 0) |
-                     (contact->tension == TENSION_NONE ? LAW_NO_TENSION : 0);
-    bool room = true;
-    for (int side = 0; side < 2; side++) {
-        const int normal = side ? turned[contact->normal] : contact->normal;
-        const int surface = surface_of(
-            simulation, (struct contact_surface){contact->friction, bits ? normal : NORMAL_MEAN,
-                                                 bits ? contact->touch : TOUCH_NODES});
-        law[side] = bits | LAW_SURFACE * surface;
-        room &= surface < CONTACT_SURFACES;
-    }
-    return room;
-}
-
-static struct error *law_table_make(struct simulation *simulation, struct law_table *table)
-{
-    const struct simulation_case *input = simulation->input;
-    table->number = memory_allocate((size_t)input->bodies.count * sizeof *table->number);
-    if (!table->number)
-        return error_new(ERROR_SYSTEM, "out of memory");
-    table->count = 1;
-    for (int i = 0; i < input->contacts.count; i++)
-        for (int side = 0; side < 2; side++) {
-            int *number = &table->number[case_contact(input, i)->body[side]];
-            if (*number == 0)
-                *number = table->count++;
-        }
-    table->entry = memory_allocate((size_t)table->count * (size_t)table->count);
-    if (!table->entry)
-        return error_new(ERROR_SYSTEM, "out of memory");
-    struct error *error = NULL;
-    for (int i = 0; i < input->contacts.count; i++) {
-        const struct contact_input *contact = case_contact(input, i);
-        const char *name = input->contacts.names[i];
-        const int first = table->number[contact->body[0]], second = table->number[contact->body[1]];
-        int law[2];
-        struct error *mistake = NULL;
-        if (first == second)
-            mistake = input_error(input, "contacts", name, "`between` wants two different bodies");
-        else if (*law_entry(table, first, second))
-            mistake =
-                input_error(input, "contacts", name, "another contact names the same two bodies");
-        if (!laws_of(simulation, contact, law))
-            mistake = error_join(mistake,
-                                 input_error(input, "contacts", name,
-                                             "more than %d different surfaces", CONTACT_SURFACES));
-        error = error_join(error, mistake);
-        *law_entry(table, first, second) = (uint8_t)(1 + law[0]);
-        *law_entry(table, second, first) = (uint8_t)(1 + law[1]);
-    }
-    return error;
-}
-
-/* Two bodies may share a group when nothing tells them apart: full contact with each other, and the
- * same law towards each third body. */
-static bool same_laws(const struct law_table *table, int first, int second)
-{
-    bool same = law_of(table, first, second) == 0;
-    for (int third = 0; third < table->count && same; third++)
-        if (third != first && third != second)
-            same = law_of(table, first, third) == law_of(table, second, third);
-    return same;
-}
-
-static struct error *group_bodies(const struct law_table *table, struct simulation *simulation)
-{
-    const struct simulation_case *input = simulation->input;
-    int groups = 0, speaker[CONTACT_GROUPS]; /* the number whose laws are those of the group */
-    for (int body = 0; body < input->bodies.count; body++) {
-        const int number = table->number[body];
-        int group = 0;
-        while (group < groups && speaker[group] != number &&
-               !same_laws(table, speaker[group], number))
-            group++;
-        if (group == CONTACT_GROUPS)
-            return input_error(input, "contacts", NULL,
-                               "the bodies fall into more than %d groups of different contact laws",
-                               CONTACT_GROUPS);
-        if (group == groups)
-            speaker[groups++] = number;
-        simulation->group_of_body[body] = (uint8_t)group;
-    }
-    for (int i = 0; i < groups; i++)
-        for (int j = 0; j < groups; j++)
-            simulation->law[i][j] = (uint8_t)law_of(table, speaker[i], speaker[j]);
-    return NULL;
-}
-
-static struct error *set_contacts(struct simulation *simulation)
-{
-    const struct simulation_case *input = simulation->input;
-    simulation->group_of_body = memory_allocate((size_t)input->bodies.count);
-    if (!simulation->group_of_body)
-        return error_new(ERROR_SYSTEM, "out of memory");
-    struct law_table table = {0};
-    struct error *error = law_table_make(simulation, &table);
-    if (!error)
-        error = group_bodies(&table, simulation);
-    free(table.number);
-    free(table.entry);
-    return error;
-}
-
-struct error *refuse_boundaries(const struct simulation_case *input)
-{
-    struct error *error = NULL;
-    if (input->domain.low.count || input->domain.high.count)
-        error = input_error(input, "domain", NULL,
-                            "only the solver gas computes a domain: particles have none");
-    if (input->boundaries.count)
-        error = error_join(error, input_error(input, "boundaries", input->boundaries.names[0],
-                                              "only the solver gas has a domain with boundaries: "
-                                              "a wall is a mirror for particles"));
-    if (input->obstacles.count)
-        error = error_join(error, input_error(input, "obstacles", input->obstacles.names[0],
-                                              "only the solver gas has obstacles: a body that is "
-                                              "`driven` or `frozen` serves particles"));
-    return error;
-}
-
-/* The store keeps the number of a body in 16 bits. */
-static struct error *check_counts(const struct simulation_case *input)
-{
-    struct error *error = NULL;
-    if (input->bodies.count > UINT16_MAX)
-        error = input_error(input, "bodies", NULL, "a case holds at most %d bodies", UINT16_MAX);
-    if (input->materials.count > MATERIALS_MAX)
-        error = error_join(error, input_error(input, "materials", NULL,
-                                              "a case holds at most %d materials", MATERIALS_MAX));
-    return error;
-}
 
 struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
                                 int threads, struct simulation *simulation)
 {
-    *simulation = (struct simulation){.input = input,
-                                      .ranks = ranks,
-                                      .partition = {.ranks = ranks},
-                                      .threads = threads,
-                                      .dimension = (int)input->dimension,
-                                      .geometry = (enum case_geometry)input->geometry};
-    TRY(check_counts(input));
-    simulation->materials = input->materials.count;
-    simulation->material =
-        memory_allocate((size_t)simulation->materials * sizeof *simulation->material);
-    if (!simulation->material)
-        return error_new(ERROR_SYSTEM, "out of memory");
-    memcpy(simulation->gravity, input->gravity.at, sizeof simulation->gravity);
-    for (int i = 0; i < input->materials.count; i++)
-        simulation->material[i] = *case_material(input, i)->material;
-    struct error *error = set_mirrors(input, &simulation->mirrors);
-    error = error_join(error, set_contacts(simulation));
+    struct problem *problem = memory_allocate(sizeof *problem);
+    *simulation = (struct simulation){
+        .problem = problem, .ranks = ranks, .partition = {.ranks = ranks}, .threads = threads};
+    struct error *error =
+        problem ? problem_create(input, problem) : error_new(ERROR_SYSTEM, "out of memory");
     if (error)
         simulation_destroy(simulation);
     return error;
-}
-
-int simulation_history(const struct simulation *simulation, struct field_declaration *fields)
-{
-    unsigned needed = 0;
-    int count = 0;
-    for (int m = 0; m < simulation->materials; m++)
-        needed |= material_history(&simulation->material[m]);
-    for (int slot = 0; slot < POINT_HISTORY; slot++)
-        if (needed & 1u << slot)
-            fields[count++] = (struct field_declaration){history_slots[slot].name,
-                                                         history_slots[slot].unit,
-                                                         history_slots[slot].help,
-                                                         NUMBER_DOUBLE,
-                                                         1,
-                                                         FIELD_STATE};
-    return count;
 }
 
 void simulation_add_population(struct simulation *simulation, const char *name,
@@ -335,10 +83,11 @@ void simulation_destroy(struct simulation *simulation)
 {
     simulation->populations = 0;
     partition_free(&simulation->partition);
-    free(simulation->group_of_body);
-    simulation->group_of_body = NULL;
-    free(simulation->material);
-    simulation->material = NULL;
+    struct problem *problem = (struct problem *)simulation->problem; /* ours, but for all others */
+    if (problem)
+        problem_destroy(problem);
+    free(problem);
+    simulation->problem = NULL;
 }
 
 void simulation_start_phase(struct simulation *simulation)
@@ -378,7 +127,7 @@ struct error *simulation_impossible(const struct simulation *simulation, int32_t
         "(%.6g, %.6g, %.6g) m became impossible: density %.6g kg/m^3, energy %.6g J/kg, "
         "pressure %.6g Pa, velocity (%.6g, %.6g, %.6g) m/s",
         (long long)simulation->step + 1, simulation->time, cell ? "cell" : "particle",
-        (unsigned long long)p->id[i], simulation->input->bodies.names[p->body[i]],
+        (unsigned long long)p->id[i], simulation->problem->input->bodies.names[p->body[i]],
         (unsigned long long)(p->id[i] & PARTICLE_SITE), p->position[i][0], p->position[i][1],
         p->position[i][2], p->density[i], p->energy[i], p->pressure[i], p->velocity[i][0],
         p->velocity[i][1], p->velocity[i][2]);

@@ -1,22 +1,12 @@
-/* A run in progress: what is computed (the case), its state, and what every solver may use. */
+/* A run in progress: the problem, what is computed with, the ledger and the time. */
 #ifndef BOLIDE_SIMULATION_H
 #define BOLIDE_SIMULATION_H
 
-#include "case/case.h"
 #include "model/ledger.h"
-#include "parallel/ghosts.h"
+#include "model/problem.h"
 #include "parallel/partition.h"
-#include "particle/contact_law.h"
 
-enum { CONTACT_GROUPS = 16, MATERIALS_MAX = 256, PHASES_MAX = 16 };
-
-/* What else a law may say. Surface 0 has no friction and the mean normal. */
-struct contact_surface {
-    double friction;
-    int normal; /* enum contact_normal; the first is the group whose row of laws it is */
-    int touch;  /* enum contact_touch */
-};
-enum { CONTACT_SURFACES = 60 };
+enum { PHASES_MAX = 16 };
 
 /* What the time of a phase is spent on. */
 enum phase_kind {
@@ -40,19 +30,9 @@ struct population_source {
 enum { POPULATIONS_MAX = 4 };
 
 struct simulation {
-    const struct simulation_case *input;
+    const struct problem *problem; /* owned; nothing changes it */
     const struct ranks *ranks;
     int threads;
-    int dimension;
-    enum case_geometry geometry;
-    int materials;
-    struct material *material;
-    struct mirrors mirrors;                      /* rigid slip walls */
-    double gravity[3];                           /* m/s^2, of what nothing holds */
-    uint8_t *group_of_body;                      /* contact group of each body */
-    uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS]; /* of the first towards the second */
-    int surfaces;
-    struct contact_surface surface[CONTACT_SURFACES];
     struct partition partition; /* of the blocks among the ranks */
     int populations;            /* what it computes with */
     struct population_source population[POPULATIONS_MAX];
@@ -64,16 +44,8 @@ struct simulation {
     double phase_end; /* clock_seconds() when the last phase ended; 0: none has begun */
 };
 
-/* A mistake in the case at SECTION.NAME ("bodies", "flyer"; NAME may be NULL): located in its file,
- * or with the path alone when a program made the case without a file. */
-struct error *input_error(const struct simulation_case *input, const char *section,
-                          const char *name, const char *format, ...) BOLIDE_PRINTF(4, 5);
-
-/* That a case for particles names a domain, boundaries of one or obstacles, which are for cells. */
-struct error *refuse_boundaries(const struct simulation_case *input);
-
-/* Prepares a run of INPUT without members: materials, walls, contact laws. The solver's create adds
- * their store, since it knows the fields; its fill puts the bodies into it. */
+/* Prepares a run of INPUT, its problem, without members. The solver's create adds their store, since
+ * it knows the fields; its fill puts the bodies into it. */
 struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
                                 int threads, struct simulation *simulation);
 void simulation_destroy(struct simulation *simulation);
@@ -83,10 +55,6 @@ void simulation_destroy(struct simulation *simulation);
 void simulation_add_population(struct simulation *simulation, const char *name,
                                const struct population_class *type, void *store);
 void simulation_remove_population(struct simulation *simulation, const void *store);
-
-/* The fields for what the case's materials remember beyond the core's, POINT_HISTORY at most: the solver adds them to its
- * store. Returns how many. */
-int simulation_history(const struct simulation *simulation, struct field_declaration *fields);
 
 /* The population that checks, probes and pictures look at where they name none: the first. */
 BOLIDE_INLINE struct population simulation_population(const struct simulation *simulation)
@@ -103,13 +71,6 @@ struct error *simulation_distribute(struct simulation *simulation);
 uint64_t simulation_hash(const struct simulation *simulation);
 /* Collective: how many members all populations have. */
 int64_t simulation_members(const struct simulation *simulation);
-
-/* True when the case has gravity. */
-BOLIDE_INLINE bool simulation_has_gravity(const struct simulation *simulation)
-{
-    const double *g = simulation->gravity;
-    return g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0;
-}
 
 /* Starts the clock of the phases: the time up to now counts for none. */
 void simulation_start_phase(struct simulation *simulation);

@@ -15,7 +15,7 @@ void start_places(const struct simulation *simulation, int64_t begin, int64_t en
         const int body = (int)(particles->id[i] >> PARTICLE_SITE_BITS);
         const int64_t site = (int64_t)(particles->id[i] & PARTICLE_SITE);
         if (body != lattice_body) {
-            lattice = body_lattice(simulation->input, body);
+            lattice = body_lattice(simulation->problem->input, body);
             lattice_body = body;
             row.sites = 0;
         }

@@ -56,7 +56,7 @@ static void compute_diameter(const void *context, int64_t begin, int64_t end, do
 {
     const struct simulation *simulation = context;
     const struct population population = simulation_population(simulation), *p = &population;
-    const bool round = simulation->geometry == GEOMETRY_AXISYMMETRIC;
+    const bool round = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
     for (int64_t i = begin; i < end; i++) {
         const double depth = round ? p->position[i][0] : 1.0;
         *out++ = diameter_of_volume(p->mass[i] / (p->density[i] * depth), p->dimension);
@@ -68,16 +68,17 @@ static void compute_temperature(const void *context, int64_t begin, int64_t end,
     const struct simulation *simulation = context;
     const struct population p = simulation_population(simulation);
     for (int64_t i = begin; i < end; i++) {
-        const struct material *material = &simulation->material[p.material[i]];
+        const struct material *material = &simulation->problem->material[p.material[i]];
         *out++ = heat_temperature(&material->heat, &material->eos, p.density[i], p.energy[i]);
     }
 }
 
 static bool has_temperature(const struct simulation *simulation)
 {
-    bool all = simulation->materials > 0;
-    for (int m = 0; m < simulation->materials; m++)
-        all &= !heat_wrong(&simulation->material[m].heat, &simulation->material[m].eos);
+    bool all = simulation->problem->materials > 0;
+    for (int m = 0; m < simulation->problem->materials; m++)
+        all &= !heat_wrong(&simulation->problem->material[m].heat,
+                           &simulation->problem->material[m].eos);
     return all;
 }
 
@@ -136,7 +137,7 @@ void views_of_population(struct views *views, const struct simulation *simulatio
             continue;
         const char *unit = declaration->unit;
         if (!strcmp(declaration->name, "mass")) /* in the unit of the totals */
-            unit = ledger_unit(LEDGER_MASS, particles->dimension, simulation->geometry);
+            unit = ledger_unit(LEDGER_MASS, particles->dimension, simulation->problem->geometry);
         views_add(views, (struct view){.name = declaration->name,
                                        .unit = unit,
                                        .help = declaration->help,
@@ -149,7 +150,7 @@ void views_of_population(struct views *views, const struct simulation *simulatio
         views_add(views, view);
     }
     int component;
-    const bool moving = simulation->input && particles->kind == POPULATION_OF_PARTICLES;
+    const bool moving = simulation->problem->input && particles->kind == POPULATION_OF_PARTICLES;
     if (moving && !views_find(views, "diameter", &component)) {
         struct view view = diameter_view;
         view.context = simulation;

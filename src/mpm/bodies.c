@@ -13,7 +13,7 @@
 static int layer_for(struct mpm *mpm, const struct simulation *simulation, int body, bool held)
 {
     const bool frozen = body_is_frozen(simulation, body);
-    const int group = simulation->group_of_body[body];
+    const int group = simulation->problem->group_of_body[body];
     int g = 0;
     while (g < mpm->layers && (frozen || mpm->layer[g].frozen || mpm->layer[g].group != group ||
                                mpm->layer[g].held != held))
@@ -26,8 +26,8 @@ static int layer_for(struct mpm *mpm, const struct simulation *simulation, int b
 /* How fast waves are in a frozen body at the start. */
 static void note_sound(struct layer *layer, const struct simulation *simulation, int body)
 {
-    const struct body_input *input = case_body(simulation->input, body);
-    const struct material *material = &simulation->material[input->material_index];
+    const struct body_input *input = case_body(simulation->problem->input, body);
+    const struct material *material = &simulation->problem->material[input->material_index];
     struct point point = input->start;
     if (input->varies)
         point = (struct point){.density = material_density(material)};
@@ -38,7 +38,7 @@ static void note_sound(struct layer *layer, const struct simulation *simulation,
 
 struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     static_assert((int)CONTACT_GROUPS == (int)BIN_GROUPS, "a layer for each contact group");
     mpm->layer_of_body = memory_allocate((size_t)input->bodies.count);
     mpm->layer_at_rest = memory_allocate((size_t)input->bodies.count);
@@ -65,7 +65,7 @@ struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulat
 void mpm_stop_bodies(struct mpm *mpm, struct simulation *simulation)
 {
     stop_bodies(simulation, mpm->particles);
-    for (int b = 0; b < simulation->input->bodies.count; b++)
+    for (int b = 0; b < simulation->problem->input->bodies.count; b++)
         if (body_stands(simulation, b))
             mpm->layer_of_body[b] = mpm->layer_at_rest[b];
 }
@@ -79,7 +79,7 @@ void mpm_move_held(const struct mpm *mpm, const struct simulation *simulation, d
     for (int32_t i = 0; i < p->count; i++) {
         if (!body_is_held(simulation, p->body[i]))
             continue;
-        for (int k = 0; k < simulation->dimension; k++)
+        for (int k = 0; k < simulation->problem->dimension; k++)
             p->position[i][k] += dt * p->velocity[i][k];
         mpm_keep_before_walls(simulation, p->position[i]);
     }
@@ -89,29 +89,30 @@ void mpm_move_held(const struct mpm *mpm, const struct simulation *simulation, d
 static double least_density(const struct simulation *simulation)
 {
     double least = INFINITY;
-    for (int b = 0; b < simulation->input->bodies.count; b++) {
-        const struct body_input *body = case_body(simulation->input, b);
-        least = minimum(least, body->varies
-                                   ? material_density(&simulation->material[body->material_index])
-                                   : body->start.density);
+    for (int b = 0; b < simulation->problem->input->bodies.count; b++) {
+        const struct body_input *body = case_body(simulation->problem->input, b);
+        least = minimum(least,
+                        body->varies
+                            ? material_density(&simulation->problem->material[body->material_index])
+                            : body->start.density);
     }
     return least;
 }
 
 struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     mpm->half_size = memory_allocate((size_t)input->bodies.count * sizeof *mpm->half_size);
-    mpm->gauge = memory_allocate((size_t)simulation->materials * sizeof *mpm->gauge);
+    mpm->gauge = memory_allocate((size_t)simulation->problem->materials * sizeof *mpm->gauge);
     if (!mpm->half_size || !mpm->gauge)
         return error_new(ERROR_SYSTEM, "out of memory");
     struct error *error = NULL;
-    for (int m = 0; m < simulation->materials; m++)
-        if (!material_has_strength(&simulation->material[m]))
+    for (int m = 0; m < simulation->problem->materials; m++)
+        if (!material_has_strength(&simulation->problem->material[m]))
             mpm->gauge[m] = mpm->parameters.gauge_pressure;
     for (int b = 0; b < input->bodies.count; b++) {
         const double size =
-            diameter_of_volume(body_lattice(input, b).volume, simulation->dimension);
+            diameter_of_volume(body_lattice(input, b).volume, simulation->problem->dimension);
         mpm->half_size[b] = 0.5 * size / mpm->edge;
         if (mpm->half_size[b] > 0.5 * (1.0 + 1e-6))
             error = error_join(error,
@@ -121,8 +122,9 @@ struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulati
                                            size, mpm->edge));
         mpm->half_size[b] = minimum(mpm->half_size[b], 0.5);
     }
-    mpm->least_mass = 1e-6 * least_density(simulation) * pow(mpm->edge, simulation->dimension);
-    if (simulation->geometry == GEOMETRY_AXISYMMETRIC) /* a cell at the axis, per radian */
+    mpm->least_mass =
+        1e-6 * least_density(simulation) * pow(mpm->edge, simulation->problem->dimension);
+    if (simulation->problem->geometry == GEOMETRY_AXISYMMETRIC) /* a cell at the axis, per radian */
         mpm->least_mass *= 0.5 * mpm->edge;
     return error;
 }
@@ -138,7 +140,8 @@ static void book_weight(const struct simulation *simulation, const struct partic
                         const void *of, int32_t i, struct ledger *ledger)
 {
     const struct weight *weight = of;
-    const struct vec3 impulse = vec3_scale(weight->dt * p->mass[i], vector_at(simulation->gravity));
+    const struct vec3 impulse =
+        vec3_scale(weight->dt * p->mass[i], vector_at(simulation->problem->gravity));
     ledger_book(ledger, LEDGER_GRAVITY, 0.0, weight->begin ? impulse : vec3_make(0.0, 0.0, 0.0),
                 vector_at(p->position[i]), 0.5 * vec3_dot(impulse, vector_at(p->velocity[i])));
 }
@@ -226,7 +229,7 @@ static void book_ring(const struct mpm *mpm, const struct layer *layer, int32_t 
 
 void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double dt)
 {
-    if (simulation->geometry != GEOMETRY_AXISYMMETRIC)
+    if (simulation->problem->geometry != GEOMETRY_AXISYMMETRIC)
         return;
     const struct hoop hoop = {mpm->gauge, mpm_fields_of(mpm).viscosity, dt};
     const bool by_faces = mpm_is_by_faces(&mpm->parameters);
@@ -255,11 +258,12 @@ void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulat
 {
     const struct particles *p = mpm->particles;
     double(*gradient)[9] = mpm_fields_of(mpm).velocity_gradient;
-    assert(simulation->dimension <= 3);
+    assert(simulation->problem->dimension <= 3);
     for (int32_t i = 0; i < p->count; i++) {
-        const struct field_list *velocity = &case_body(simulation->input, p->body[i])->velocity;
+        const struct field_list *velocity =
+            &case_body(simulation->problem->input, p->body[i])->velocity;
         const double *x = p->position[i], away = mpm->half_size[p->body[i]] * mpm->edge;
-        for (int j = 0; j < simulation->dimension; j++) {
+        for (int j = 0; j < simulation->problem->dimension; j++) {
             double low[3] = {x[0], x[1], x[2]}, high[3] = {x[0], x[1], x[2]};
             low[j] -= away;
             high[j] += away;

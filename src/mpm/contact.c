@@ -274,7 +274,7 @@ static void join_block(const struct meeting *m)
 
 static int law_of(const struct simulation *simulation, const struct layer *a, const struct layer *b)
 {
-    return simulation->law[a->group][b->group];
+    return simulation->problem->law[a->group][b->group];
 }
 
 /* Laws are about normals, and so is what frozen bodies do. */
@@ -297,7 +297,7 @@ static void meet_pair(struct mpm *mpm, const struct simulation *simulation, int 
     const bool first = a->held, second = b->held;
     const bool frozen = (first ? a : b)->frozen;
     const int law = law_of(simulation, a, b);
-    const struct contact_surface *surface = &simulation->surface[law / LAW_SURFACE];
+    const struct contact_surface *surface = &simulation->problem->surface[law / LAW_SURFACE];
     const struct contact_rule rule = {law & LAW_SLIP ? surface->friction : (double)INFINITY,
                                       (law & LAW_NO_TENSION) != 0};
     if ((first && second) || (frozen && !(dt > 0.0)))

@@ -49,17 +49,17 @@ static struct parts parts_of(const struct mpm *mpm, const struct simulation *sim
 {
     const struct particles *p = mpm->particles;
     const double *sound = mpm_fields_of(mpm).sound_long;
-    const double factor =
-        mpm->parameters.shear_damping / mpm->edge * (simulation->dimension == 3 ? 0.25 : 1.0);
+    const double factor = mpm->parameters.shear_damping / mpm->edge *
+                          (simulation->problem->dimension == 3 ? 0.25 : 1.0);
     const bool centred = p->shift > 0.0;
-    struct parts parts = {centred ? 1 << simulation->dimension : 1, {0.0}};
+    struct parts parts = {centred ? 1 << simulation->problem->dimension : 1, {0.0}};
     bool solid[CORNERS_MAX] = {false};
     for (int32_t k = 0; k < count; k++) {
         const int32_t i = list[k];
         int part = 0;
-        for (int axis = 0; axis < 3 && axis < simulation->dimension && centred; axis++)
+        for (int axis = 0; axis < 3 && axis < simulation->problem->dimension && centred; axis++)
             part |= (p->position[i][axis] < (double)index[axis] * mpm->edge) << axis;
-        solid[part] |= material_has_strength(&simulation->material[p->material[i]]);
+        solid[part] |= material_has_strength(&simulation->problem->material[p->material[i]]);
         parts.strength[part] += factor * p->mass[i] * sound[i];
     }
     for (int part = 0; part < parts.count; part++)
@@ -150,7 +150,7 @@ static void add_forces(const struct mpm *mpm, const struct simulation *simulatio
 
 void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt)
 {
-    if (!(mpm->parameters.shear_damping > 0.0) || simulation->dimension == 1)
+    if (!(mpm->parameters.shear_damping > 0.0) || simulation->problem->dimension == 1)
         return;
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];

@@ -131,7 +131,7 @@ static void join_layers(struct mpm *mpm, const struct simulation *simulation, st
 static void find_factors(const struct mpm *mpm, const struct simulation *simulation,
                          struct layer *layer)
 {
-    const bool round = simulation->geometry == GEOMETRY_AXISYMMETRIC;
+    const bool round = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++) {
         int64_t corner[3], at[3];
@@ -154,8 +154,8 @@ void mpm_push_faces(struct mpm *mpm, struct simulation *simulation)
     if (!mpm_is_by_faces(&mpm->parameters))
         return;
     mpm_exchange(mpm, simulation, offsetof(struct layer, fill));
-    const int numbers =
-        simulation->dimension + (simulation->geometry == GEOMETRY_AXISYMMETRIC ? 1 : 0);
+    const int numbers = simulation->problem->dimension +
+                        (simulation->problem->geometry == GEOMETRY_AXISYMMETRIC ? 1 : 0);
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)

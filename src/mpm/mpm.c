@@ -73,11 +73,12 @@ struct mpm_fields mpm_fields_of(const struct mpm *mpm)
 static void start_layers(struct mpm *mpm, const struct simulation *simulation)
 {
     for (int g = 0; g < mpm->layers; g++) {
-        grid_start(&mpm->layer[g].grid, simulation->dimension, mpm_window(mpm, simulation));
+        grid_start(&mpm->layer[g].grid, simulation->problem->dimension,
+                   mpm_window(mpm, simulation));
         mpm->layer[g].main.stride = NODE_STRIDE;
         mpm->layer[g].back.stride = BACK_STRIDE;
         mpm->layer[g].normal.stride = BACK_STRIDE;
-        mpm->layer[g].stress.stride = FACE_STRIDE * simulation->dimension;
+        mpm->layer[g].stress.stride = FACE_STRIDE * simulation->problem->dimension;
         mpm->layer[g].fill.stride = FILL_STRIDE;
     }
 }
@@ -94,7 +95,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     mpm_note_surfaces(mpm);
     struct field_declaration fields[POINT_HISTORY + MPM_FIELDS];
     const struct field_needs needs = needs_of(&mpm->parameters);
-    int count = simulation_history(simulation, fields);
+    int count = problem_history(simulation->problem, fields);
     count += field_rows_declare(field_rows, &needs, fields + count);
     TRY(particles_add(simulation, mpm->edge, fields, count, &mpm->particles));
     if (mpm_window(mpm, simulation).centred)

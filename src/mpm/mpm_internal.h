@@ -112,7 +112,7 @@ BOLIDE_INLINE struct shape_window mpm_window(const struct mpm *mpm,
                                              const struct simulation *simulation)
 {
     return shape_window_of((enum grid_shape)mpm->parameters.shape,
-                           simulation->geometry == GEOMETRY_AXISYMMETRIC &&
+                           simulation->problem->geometry == GEOMETRY_AXISYMMETRIC &&
                                !mpm_is_by_faces(&mpm->parameters));
 }
 

@@ -161,10 +161,10 @@ struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
 {
     struct mpm_parameters settled = *parameters;
     bool fluid = false;
-    for (int m = 0; m < simulation->materials; m++)
-        fluid |= !material_has_strength(&simulation->material[m]);
+    for (int m = 0; m < simulation->problem->materials; m++)
+        fluid |= !material_has_strength(&simulation->problem->material[m]);
     if (isnan(settled.cell))
-        settled.cell = 2.0 * simulation->input->resolution;
+        settled.cell = 2.0 * simulation->problem->input->resolution;
     if (isnan(settled.courant))
         settled.courant = fluid ? 0.2 : 0.5;
     if (settled.transfer != MPM_FLIP)
@@ -178,7 +178,8 @@ struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
         settled.quadrature = MPM_PARTICLES;
     /* what a node of next to no mass gets by functions around the axis, which reach further than those
      * that its mass is from, has no bound */
-    if (simulation->geometry == GEOMETRY_AXISYMMETRIC && settled.quadrature == MPM_PARTICLES)
+    if (simulation->problem->geometry == GEOMETRY_AXISYMMETRIC &&
+        settled.quadrature == MPM_PARTICLES)
         settled.energy = MPM_ENERGY_WORK;
     if (isnan(settled.viscosity_unresolved))
         settled.viscosity_unresolved =

@@ -37,19 +37,20 @@ static struct error *between_planes(const struct simulation_case *input, int axi
 struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulation)
 {
     struct error *error = NULL;
-    for (int axis = 0; axis < simulation->dimension; axis++)
+    for (int axis = 0; axis < simulation->problem->dimension; axis++)
         for (int side = 0; side < 2; side++) {
-            const double at = side ? simulation->mirrors.high[axis] : simulation->mirrors.low[axis];
+            const double at = side ? simulation->problem->mirrors.high[axis]
+                                   : simulation->problem->mirrors.low[axis];
             const double index = at / mpm->edge, plane = nearbyint(index);
             mpm->has_plane[axis][side] = !isnan(at);
             if (isnan(at))
                 continue;
             if (fabs(index - plane) <= 1e-6 &&
-                fabs(plane) < (double)bins_reach(simulation->dimension))
+                fabs(plane) < (double)bins_reach(simulation->problem->dimension))
                 mpm->plane[axis][side] = (int64_t)plane;
             else
-                error = error_join(
-                    error, between_planes(simulation->input, axis, side == 1, at, mpm->edge));
+                error = error_join(error, between_planes(simulation->problem->input, axis,
+                                                         side == 1, at, mpm->edge));
         }
     return error;
 }
@@ -229,14 +230,14 @@ static void add_gravity(const struct simulation *simulation, const struct layer 
     for (int k = 0; k < BLOCK_CELLS; k++) {
         double *node = grid_node(&layer->main, block, k);
         for (int c = 0; c < 3; c++)
-            node[NODE_FORCE + c] += node[NODE_MASS] * simulation->gravity[c];
+            node[NODE_FORCE + c] += node[NODE_MASS] * simulation->problem->gravity[c];
     }
 }
 
 struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simulation,
                             struct layer *layer)
 {
-    const bool heavy = simulation_has_gravity(simulation) && !layer->held;
+    const bool heavy = problem_has_gravity(simulation->problem) && !layer->held;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++) {
         grid_reduce(&layer->grid, &layer->main, n);
@@ -245,7 +246,7 @@ struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simu
     }
     /* about an axis such nodes may have forces, which are lost (see mpm_book_hoop) */
     TRY(collect_walls(mpm, layer,
-                      simulation->geometry != GEOMETRY_AXISYMMETRIC ||
+                      simulation->problem->geometry != GEOMETRY_AXISYMMETRIC ||
                           mpm_is_by_faces(&mpm->parameters)));
     fold(mpm, layer, &layer->main, &folded_main);
     return NULL;
@@ -301,7 +302,7 @@ void mpm_warm(const struct mpm *mpm, const struct simulation *simulation, struct
 /* Whether the plane across x that a node is at is the axis of symmetry. */
 static bool is_at_axis(const struct mpm *mpm, const struct simulation *simulation, int64_t x)
 {
-    return simulation->geometry == GEOMETRY_AXISYMMETRIC &&
+    return simulation->problem->geometry == GEOMETRY_AXISYMMETRIC &&
            !(mpm->has_plane[0][1] && mpm->plane[0][1] - x < x - mpm->plane[0][0]);
 }
 
@@ -327,7 +328,7 @@ static void book_weight(struct simulation *simulation, const struct wall_node *w
     double work = 0.0;
     for (int k = 0; k < 3; k++) {
         const double before = node[NODE_VELOCITY + k] - dt * node[NODE_ACCELERATION + k];
-        work += dt * simulation->gravity[k] * (1.0 - 0.5 * node[NODE_MIXING]) *
+        work += dt * simulation->problem->gravity[k] * (1.0 - 0.5 * node[NODE_MIXING]) *
                 (sum[NODE_MASS] * before - sum[NODE_MOMENTUM + k]);
     }
     ledger_book(&simulation->ledger, LEDGER_GRAVITY, 0.0, vec3_make(0.0, 0.0, 0.0),

@@ -108,7 +108,7 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
                  sign = load->side == WALL_HIGH ? volume : -volume;
     struct given given = {{{0.0}}, {0, 1, 2}};
     (void)mpm;
-    for (int k = 0; k < simulation->dimension; k++)
+    for (int k = 0; k < simulation->problem->dimension; k++)
         if (load->traction.count) { /* is to give its force, not to balance a stress */
             given.by_slope[k][load->axis] = sign * surface->traction[k];
             given.filled[k] = -1;
@@ -348,7 +348,7 @@ struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, 
 {
     static const double reaches[] = {
         [SHAPE_LINEAR] = 1.0, [SHAPE_GIMP] = 1.5, [SHAPE_QUADRATIC] = 1.5, [SHAPE_CUBIC] = 2.0};
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     const double reach = reaches[mpm->parameters.shape];
     for (int i = 0; i < input->loads.count; i++) {
         const struct load_input *load = case_load(input, i);
@@ -379,7 +379,7 @@ struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, 
 
 void mpm_lose_particles(const struct mpm *mpm, struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     struct particles *p = mpm->particles;
     for (int i = 0; i < input->outflows.count; i++) {
         const struct outflow_input *outflow = case_outflow(input, i);

@@ -16,7 +16,8 @@ void mpm_evaluate(const struct mpm *mpm, struct simulation *simulation)
     for (int32_t i = 0; i < p->count; i++) {
         struct point point = {.density = p->density[i], .energy = energy[i]};
         particle_load_history(p, i, point.history);
-        struct response r = any_material_evaluate(&simulation->material[p->material[i]], &point);
+        struct response r =
+            any_material_evaluate(&simulation->problem->material[p->material[i]], &point);
         p->pressure[i] = point.pressure;
         fields.sound_long[i] = r.sound_long;
     }
@@ -24,8 +25,9 @@ void mpm_evaluate(const struct mpm *mpm, struct simulation *simulation)
 
 void mpm_keep_before_walls(const struct simulation *simulation, double x[3])
 {
-    for (int axis = 0; axis < simulation->dimension; axis++) {
-        const double low = simulation->mirrors.low[axis], high = simulation->mirrors.high[axis];
+    for (int axis = 0; axis < simulation->problem->dimension; axis++) {
+        const double low = simulation->problem->mirrors.low[axis],
+                     high = simulation->problem->mirrors.high[axis];
         if (x[axis] < low)
             x[axis] = 2.0 * low - x[axis];
         if (x[axis] > high)
@@ -84,7 +86,8 @@ static void let_go_on(const struct mpm *mpm, const struct simulation *simulation
         return;
     struct point point = {.density = p->density[i], .energy = -least * loop->at_state[i]};
     particle_load_history(p, i, point.history);
-    const struct response r = any_material_evaluate(&simulation->material[p->material[i]], &point);
+    const struct response r =
+        any_material_evaluate(&simulation->problem->material[p->material[i]], &point);
     loop->at_state[i] = point.energy;
     loop->pressure[i] = point.pressure;
     loop->sound[i] = r.sound_long;
@@ -96,7 +99,7 @@ static bool update_run(const struct mpm *mpm, const struct simulation *simulatio
                        int32_t end)
 {
     const struct particles *p = mpm->particles;
-    const struct material *material = &simulation->material[p->material[list[begin]]];
+    const struct material *material = &simulation->problem->material[p->material[list[begin]]];
     if (batch_takes(material))
         return point_loop_run(loop, material, list, begin, end);
     bool possible = true;
@@ -117,7 +120,8 @@ int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
     const int32_t count = layer->bins.bin[bin].cell[BLOCK_CELLS];
     bool possible = true;
     int32_t impossible = -1;
-    if (simulation->input->walls.count > 0 || simulation->geometry == GEOMETRY_AXISYMMETRIC)
+    if (simulation->problem->input->walls.count > 0 ||
+        simulation->problem->geometry == GEOMETRY_AXISYMMETRIC)
         for (int32_t k = 0; k < count; k++)
             mpm_keep_before_walls(simulation, p->position[list[k]]);
     for (int32_t begin = 0, end; begin < count; begin = end) {

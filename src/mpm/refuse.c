@@ -46,11 +46,11 @@ static struct error *refuse_filter(const struct mpm_parameters *given,
 static struct error *refuse_order(const struct mpm_parameters *given,
                                   const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
     bool burns = false;
-    for (int m = 0; m < simulation->materials; m++)
-        burns |= material_burns(&simulation->material[m]);
+    for (int m = 0; m < simulation->problem->materials; m++)
+        burns |= material_burns(&simulation->problem->material[m]);
     if (given->order == 1)
         return NULL;
     if (given->transfer != MPM_FLIP || given->shape == SHAPE_LINEAR)
@@ -82,8 +82,8 @@ static struct error *refuse_contacts(const struct simulation_case *input)
 /* The indices of cells are finite. */
 static struct error *refuse_far_bodies(double edge, const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
-    const double reach = edge * (double)bins_reach(simulation->dimension);
+    const struct simulation_case *input = simulation->problem->input;
+    const double reach = edge * (double)bins_reach(simulation->problem->dimension);
     struct error *error = NULL;
     for (int b = 0; b < input->bodies.count; b++) {
         const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
@@ -91,7 +91,7 @@ static struct error *refuse_far_bodies(double edge, const struct simulation *sim
                                bounds.high.x, bounds.high.y, bounds.high.z};
         double far = 0.0;
         for (int k = 0; k < 6; k++)
-            far = k % 3 < simulation->dimension ? maximum(far, fabs(ends[k])) : far;
+            far = k % 3 < simulation->problem->dimension ? maximum(far, fabs(ends[k])) : far;
         if (far >= reach)
             error = error_join(error,
                                input_error(input, "bodies", input->bodies.names[b],
@@ -106,15 +106,15 @@ static struct error *refuse_far_bodies(double edge, const struct simulation *sim
  * twice as wide as a body of one particle. */
 static struct error *refuse_wide_cell(double edge, const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     double extent = 0.0;
-    assert(simulation->dimension <= 3);
+    assert(simulation->problem->dimension <= 3);
     for (int b = 0; b < input->bodies.count; b++) {
         const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
         const double from[] = {bounds.low.x, bounds.low.y, bounds.low.z};
         const double to[] = {bounds.high.x, bounds.high.y, bounds.high.z};
-        for (int axis = 0; axis < simulation->dimension; axis++) {
+        for (int axis = 0; axis < simulation->problem->dimension; axis++) {
             low[axis] = minimum(low[axis], from[axis]);
             high[axis] = maximum(high[axis], to[axis]);
             extent = maximum(extent, high[axis] - low[axis]);
@@ -131,9 +131,9 @@ static struct error *refuse_wide_cell(double edge, const struct simulation *simu
 struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
                          const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
-    if (simulation->geometry == GEOMETRY_PLANE_STRESS)
+    if (simulation->problem->geometry == GEOMETRY_PLANE_STRESS)
         error = input_error(input, "geometry", NULL, "the solver mpm knows no plane stress");
     error = error_join(error, refuse_transfer(given, input));
     error = error_join(error, refuse_filter(given, input));

@@ -17,10 +17,10 @@ struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *
 {
     const struct particles *p = mpm->particles;
     const struct mpm_fields fields = mpm_fields_of(mpm);
-    return (struct transfer){.dimension = simulation->dimension,
+    return (struct transfer){.dimension = simulation->problem->dimension,
                              .shape = (enum grid_shape)mpm->parameters.shape,
                              .window = 1 + layer->grid.reach + layer->grid.after,
-                             .axisymmetric = simulation->geometry == GEOMETRY_AXISYMMETRIC,
+                             .axisymmetric = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC,
                              .affine = mpm_is_affine(mpm),
                              .by_moments = mpm->parameters.transfer == MPM_APIC,
                              .edge = mpm->edge,
@@ -57,7 +57,7 @@ struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *
 static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
 {
     const struct particles *p = mpm->particles;
-    struct binned binned = {.dimension = simulation->dimension,
+    struct binned binned = {.dimension = simulation->problem->dimension,
                             .edge = mpm->edge,
                             .shift = p->shift,
                             .count = p->count,
@@ -135,7 +135,7 @@ static bool has_left(const struct mpm *mpm, const struct simulation *simulation)
 static struct error *place_particles(struct mpm *mpm, struct simulation *simulation)
 {
     struct particles *p = mpm->particles;
-    const int64_t every = simulation->input->run.rebalance;
+    const int64_t every = simulation->problem->input->run.rebalance;
     const bool several = simulation->ranks->size > 1,
                recut = several && every > 0 && simulation->step % every == 0;
     struct error *error = find_bins(mpm, simulation);

@@ -87,7 +87,8 @@ static void totals_columns(struct line *line, const char *prefix, const struct t
 {
     for (int i = 0; i < LEDGER_ENTRIES; i++)
         column(line, prefix, ledger_entry_name((enum ledger_entry)i),
-               ledger_unit((enum ledger_entry)i, simulation->dimension, simulation->geometry),
+               ledger_unit((enum ledger_entry)i, simulation->problem->dimension,
+                           simulation->problem->geometry),
                totals->entry[i]);
 }
 
@@ -161,7 +162,8 @@ static struct row find_row(const struct simulation *simulation, double dt,
 static void write_line(FILE *file, bool head, const struct row *row)
 {
     const struct simulation *simulation = row->simulation;
-    const char *joule = ledger_unit(LEDGER_ENERGY, simulation->dimension, simulation->geometry);
+    const char *joule =
+        ledger_unit(LEDGER_ENERGY, simulation->problem->dimension, simulation->problem->geometry);
     struct line line = {file, head, false};
     column(&line, "time", "", "s", simulation->time);
     column(&line, "step", "", "", (double)simulation->step);

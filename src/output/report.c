@@ -134,7 +134,7 @@ void progress_text(const struct simulation *simulation, const struct limit *limi
                    double updates_per_second, double seconds_left, char *buffer, size_t size)
 {
     char now[32], until[32], dt[32], rate[32], left[32];
-    double end = simulation->input->run.until;
+    double end = simulation->problem->input->run.until;
     steady(simulation->time, "s", 3, now, sizeof now);
     steady(end, "s", 3, until, sizeof until);
     steady(limit->dt, "s", 2, dt, sizeof dt);

@@ -260,7 +260,7 @@ static void write_moment(struct writing *w)
         {"time", H5T_NATIVE_DOUBLE, 1, 1, 1, false, fill_one, &w->simulation->time, "s"},
         {"step", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &w->simulation->step, NULL},
     };
-    const struct simulation_case *input = w->simulation->input;
+    const struct simulation_case *input = w->simulation->problem->input;
     for (size_t i = 0; i < COUNT_OF(columns); i++)
         write_column(w, &columns[i]);
     if (input) { /* else a program made the particles */

@@ -167,7 +167,7 @@ static struct error *category_entries(const struct dots *dots, const struct rank
 
 static const char *title_of(const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     return !input ? NULL : input->title ? input->title : input->name;
 }
 

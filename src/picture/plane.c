@@ -53,7 +53,7 @@ static void measure(struct population population, const struct ranks *ranks, str
 
 struct plane plane_find(const struct simulation *simulation)
 {
-    struct plane plane = {.rings = simulation->geometry == GEOMETRY_AXISYMMETRIC,
+    struct plane plane = {.rings = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC,
                           .cells = simulation_population(simulation).kind == POPULATION_OF_CELLS,
                           .across = 0,
                           .up = 1,
@@ -67,7 +67,7 @@ struct plane plane_find(const struct simulation *simulation)
         extent->low -= 0.5 * plane.diameter;
         extent->high += 0.5 * plane.diameter;
     }
-    end_at_walls(&plane, &simulation->mirrors);
+    end_at_walls(&plane, &simulation->problem->mirrors);
     if (simulation_population(simulation).dimension == 3) {
         /* Of equal axes the last, but for rounding, so that x and y are the picture's. */
         plane.normal = 2;

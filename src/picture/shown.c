@@ -11,7 +11,7 @@ struct error *shown_find(const struct simulation *simulation, const struct views
     *shown = (struct shown){0};
     bool material = strcmp(field, categories[0]) == 0;
     if (material || strcmp(field, categories[1]) == 0) {
-        const struct simulation_case *input = simulation->input;
+        const struct simulation_case *input = simulation->problem->input;
         shown->category = material ? simulation_population(simulation).material
                                    : simulation_population(simulation).body;
         shown->names = !input ? NULL : material ? &input->materials : &input->bodies;

@@ -78,7 +78,7 @@ static struct error *located(const struct measurement *m, struct error *error)
 
 static const struct one_of *against_of(const struct measurement *m)
 {
-    return m->check->against.choice ? &m->check->against : &m->simulation->input->exact;
+    return m->check->against.choice ? &m->check->against : &m->simulation->problem->input->exact;
 }
 
 /* The solution of the problem that PREPARED is measured against, if a check before it has solved it. */
@@ -184,7 +184,7 @@ static struct error *prepare_limits(const struct checks *checks, struct prepared
 struct error *checks_prepare(const struct simulation *simulation, const struct views *views,
                              const struct probes *probes, struct checks **result)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     struct checks *checks = memory_allocate(sizeof *checks);
     struct prepared_check *items =
         memory_allocate(((size_t)input->checks.count + 1) * sizeof *items);

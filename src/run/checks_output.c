@@ -152,7 +152,7 @@ static struct error *draw(const struct measurement *m, const struct scatter *par
             {population_members(&population), particles->count, particles->x, particles->y,
              LINE_NONE},
         };
-        struct plot plot = {.title = m->simulation->input->title,
+        struct plot plot = {.title = m->simulation->problem->input->title,
                             .x_name = m->check->about.count ? "distance" : axes[m->check->axis],
                             .x_unit = "m",
                             .y_name = parameters->field,

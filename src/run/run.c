@@ -132,7 +132,7 @@ static double released_energy(const struct run *run)
             memcpy(&point.deviator, p->deviator[i], sizeof point.deviator);
         point.history[HISTORY_burnt] = 1.0; /* what explosives set free when they burn */
         struct response response =
-            any_material_evaluate(&run->simulation.material[p->material[i]], &point);
+            any_material_evaluate(&run->simulation.problem->material[p->material[i]], &point);
         exact_sum_add(&sum, 0.5 * p->mass[i] *
                                 square(point.pressure / (point.density * response.sound_long)));
         if (response.shear_modulus > 0.0)
@@ -231,8 +231,9 @@ static void tell_beginning(struct run *run)
             run->input->title ? run->input->title : "");
     const struct population population = simulation_population(s);
     run_say(run, "%lld %s, %d-D, %s, until %s, %s%d thread%s%s", (long long)simulation_members(s),
-            population_members(&population), s->dimension, run->input->solver.choice->name, until,
-            workers, threads, threads == 1 ? "" : "s", run->options->resume ? ", resumed" : "");
+            population_members(&population), s->problem->dimension, run->input->solver.choice->name,
+            until, workers, threads, threads == 1 ? "" : "s",
+            run->options->resume ? ", resumed" : "");
     struct error *warnings = estimate_warnings(run->input);
     for (int i = 0; warnings && i < error_count(warnings); i++)
         run_say(run, "warning: %s", error_message(warnings, i));

@@ -86,8 +86,8 @@ static void put_body(FILE *file, const struct run *run, int index)
                             *particles = &population;
     const struct body_input *body = case_body(input, index);
     const char *name = input->bodies.names[index];
-    const char *mass =
-        ledger_unit(LEDGER_MASS, run->simulation.dimension, run->simulation.geometry);
+    const char *mass = ledger_unit(LEDGER_MASS, run->simulation.problem->dimension,
+                                   run->simulation.problem->geometry);
     struct totals totals = population_totals(population, &run->ranks, index);
     int64_t count = 0;
     for (int32_t i = 0; i < particles->count; i++)

@@ -65,7 +65,7 @@ static void find_limits(struct material_watch *watch, const struct material *mat
 
 struct warnings *warnings_create(const struct simulation *simulation)
 {
-    const int materials = simulation->materials;
+    const int materials = simulation->problem->materials;
     struct warnings *w = memory_allocate(sizeof *w);
     if (!w)
         return NULL;
@@ -73,15 +73,15 @@ struct warnings *warnings_create(const struct simulation *simulation)
     w->memories = materials * WARNING_ENERGY + 1;
     w->watch = memory_allocate((size_t)materials * sizeof *w->watch);
     w->memory = memory_allocate((size_t)w->memories * sizeof *w->memory);
-    w->held = memory_allocate((size_t)simulation->input->bodies.count);
+    w->held = memory_allocate((size_t)simulation->problem->input->bodies.count);
     if (!w->watch || !w->memory || !w->held || !tension_create(w, simulation)) {
         warnings_free(w);
         return NULL;
     }
     for (int m = 0; m < materials; m++)
-        find_limits(&w->watch[m], &simulation->material[m],
-                    case_material(simulation->input, m)->tensile_strength);
-    for (int b = 0; b < simulation->input->bodies.count; b++)
+        find_limits(&w->watch[m], &simulation->problem->material[m],
+                    case_material(simulation->problem->input, m)->tensile_strength);
+    for (int b = 0; b < simulation->problem->input->bodies.count; b++)
         w->held[b] = body_is_held(simulation, b);
     return w;
 }
@@ -108,7 +108,7 @@ static double speed_of(const struct population *p, int32_t i)
 static double released_speed(const struct simulation *simulation, const struct population *p,
                              int32_t i)
 {
-    const struct material *material = &simulation->material[p->material[i]];
+    const struct material *material = &simulation->problem->material[p->material[i]];
     struct point point = {.density = p->density[i], .energy = p->energy[i]};
     point.history[HISTORY_burnt] = 1.0;
     const struct response response = any_material_evaluate(material, &point);
@@ -135,14 +135,15 @@ void warnings_start(struct warnings *warnings, const struct simulation *simulati
 /* The speed to which LOAD accelerates material from rest, sqrt(2 p/rho), now. */
 static double load_speed(const struct simulation *simulation, const struct load_input *load)
 {
-    const struct body_input *body = case_body(simulation->input, load->body);
+    const struct body_input *body = case_body(simulation->problem->input, load->body);
     const struct vec3 nowhere = {0.0, 0.0, 0.0};
     double stress =
         load->traction.count ? 0.0 : field_at(&load->pressure, nowhere, simulation->time);
     for (int k = 0; k < load->traction.count; k++)
         stress = hypot(stress, field_at(&load->traction.at[k], nowhere, simulation->time));
     const double speed =
-        sqrt(2.0 * fabs(stress) / material_density(&simulation->material[body->material_index]));
+        sqrt(2.0 * fabs(stress) /
+             material_density(&simulation->problem->material[body->material_index]));
     return isfinite(speed) ? speed : 0.0;
 }
 
@@ -152,8 +153,9 @@ static void follow_speed(struct warnings *w, const struct simulation *simulation
                          const struct population *p, const struct totals *now)
 {
     double largest = w->speed;
-    for (int i = 0; i < simulation->input->loads.count; i++)
-        largest = maximum(largest, load_speed(simulation, case_load(simulation->input, i)));
+    for (int i = 0; i < simulation->problem->input->loads.count; i++)
+        largest =
+            maximum(largest, load_speed(simulation, case_load(simulation->problem->input, i)));
     if (any_body(simulation, body_is_held))
         for (int32_t i = 0; i < p->count; i++)
             if (w->held[p->body[i]])
@@ -208,7 +210,7 @@ static void look_at(const struct warnings *w, const struct simulation *simulatio
     };
     if (watch->warm)
         value[WARNING_TEMPERATURE] =
-            coldness(watch, &simulation->material[m], p->density[i], p->energy[i]);
+            coldness(watch, &simulation->problem->material[m], p->density[i], p->energy[i]);
     for (int kind = 0; kind < WARNING_ENERGY; kind++)
         if (value[kind] > watch->limit[kind])
             keep(&found[kind], value[kind], p->id[i], i);

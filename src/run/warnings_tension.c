@@ -43,29 +43,30 @@ static bool is_oblique(const struct body_input *body)
 
 static void watch_body(struct tension_watch *watch, const struct simulation *simulation, int b)
 {
-    const struct body_input *body = case_body(simulation->input, b);
-    const struct material *material = &simulation->material[body->material_index];
+    const struct body_input *body = case_body(simulation->problem->input, b);
+    const struct material *material = &simulation->problem->material[body->material_index];
     struct point rest = {.density = material_density(material)};
     if (body_is_held(simulation, b) || eos_traits(&material->eos).gas || material_burns(material))
         return;
     const double c = any_material_evaluate(material, &rest).sound_long;
     if (!(c > 0.0))
         return;
-    watch->wave = c / (isnan(body->resolution) ? simulation->input->resolution : body->resolution);
+    watch->wave =
+        c / (isnan(body->resolution) ? simulation->problem->input->resolution : body->resolution);
     watch->modulus = rest.density * square(c);
     watch->creep = is_oblique(body) ? 1.0 / MOST_WAVES : 0.0;
 }
 
 bool tension_create(struct warnings *w, const struct simulation *simulation)
 {
-    const struct solver_class *solver = simulation->input->solver.choice->thing;
-    w->bodies = simulation->input->bodies.count;
+    const struct solver_class *solver = simulation->problem->input->solver.choice->thing;
+    w->bodies = simulation->problem->input->bodies.count;
     w->tension = memory_allocate((size_t)w->bodies * sizeof *w->tension);
     w->tension_watch = memory_allocate((size_t)w->bodies * sizeof *w->tension_watch);
     if (!w->tension || !w->tension_watch)
         return false;
     /* In 1-D waves are aligned with the particles, and the default holds thirty times as much. */
-    w->loses_tension = solver->loses_tension && simulation->dimension > 1;
+    w->loses_tension = solver->loses_tension && simulation->problem->dimension > 1;
     for (int b = 0; b < w->bodies && w->loses_tension; b++)
         watch_body(&w->tension_watch[b], simulation, b);
     return true;

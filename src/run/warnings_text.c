@@ -49,7 +49,7 @@ char *warning_name(const struct warnings *warnings, const struct simulation *sim
     if (kind == WARNING_ENERGY)
         return text_copy(kinds[kind].name);
     return text_format("%s in %s", kinds[kind].name,
-                       simulation->input->materials.names[index / WARNING_ENERGY]);
+                       simulation->problem->input->materials.names[index / WARNING_ENERGY]);
 }
 
 /* What LIMIT is. */
@@ -57,7 +57,7 @@ static void put_limit(const struct warnings *warnings, const struct simulation *
                       int index, double limit, char *text, size_t size)
 {
     char value[48];
-    const struct material *material = &simulation->material[index / WARNING_ENERGY];
+    const struct material *material = &simulation->problem->material[index / WARNING_ENERGY];
     const enum warning_kind kind = kind_of(warnings, index);
     readable(limit, kinds[kind].unit, value, sizeof value);
     switch (kind) {
@@ -88,7 +88,7 @@ static const char *advice_of(const struct simulation *simulation, int index, enu
 {
     if (kind != WARNING_DENSITY)
         return kinds[kind].advice;
-    const struct eos *eos = &simulation->material[index / WARNING_ENERGY].eos;
+    const struct eos *eos = &simulation->problem->material[index / WARNING_ENERGY].eos;
     const double none[POINT_HISTORY] = {0.0};
     return eos_evaluate(eos, 2.0 * eos_reference_density(eos), 0.0, none).dp_de == 0.0
                ? "one that depends on energy, such as mie-grueneisen, goes further"
@@ -116,7 +116,7 @@ char *warning_text(const struct warnings *warnings, const struct simulation *sim
     const enum warning_kind kind = kind_of(warnings, index);
     char value[48], worst[48], time[48], later[128] = "", limit[160];
     if (kind == WARNING_ENERGY)
-        return energy_text(memory, simulation->input);
+        return energy_text(memory, simulation->problem->input);
     readable(kinds[kind].sign * memory->value, kinds[kind].unit, value, sizeof value);
     put_limit(warnings, simulation, index, memory->limit, limit, sizeof limit);
     if (memory->worst > memory->value) {
@@ -130,9 +130,9 @@ char *warning_text(const struct warnings *warnings, const struct simulation *sim
         name ? text_format("%s: %s %s, %s; first seen at step %.0f, t = %s, in body \"%s\" at (%g, "
                            "%g, %g) m; up to %.0f %s%s at once%s; %s",
                            name, kinds[kind].what, value, limit, memory->step, time,
-                           simulation->input->bodies.names[(int)memory->body], memory->place[0],
-                           memory->place[1], memory->place[2], memory->count, "particle",
-                           memory->count == 1.0 ? "" : "s", later,
+                           simulation->problem->input->bodies.names[(int)memory->body],
+                           memory->place[0], memory->place[1], memory->place[2], memory->count,
+                           "particle", memory->count == 1.0 ? "" : "s", later,
                            advice_of(simulation, index, kind))
              : NULL;
     free(name);
@@ -158,8 +158,8 @@ static bool add(const struct warnings *warnings, const struct simulation *simula
                 struct warning_results *results)
 {
     const enum warning_kind kind = kind_of(warnings, index);
-    const char *reason =
-        expected(simulation->input, kind, kind == WARNING_ENERGY ? -1 : index / WARNING_ENERGY);
+    const char *reason = expected(simulation->problem->input, kind,
+                                  kind == WARNING_ENERGY ? -1 : index / WARNING_ENERGY);
     struct warning *warning = &results->item[results->count++];
     *warning = (struct warning){.kind = kind,
                                 .name = warning_name(warnings, simulation, index),

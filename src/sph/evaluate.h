@@ -14,7 +14,8 @@ BOLIDE_INLINE struct response sph_evaluate_point(struct simulation *simulation,
     struct particles *p = f->particles;
     struct point point = {.density = p->density[i], .energy = p->energy[i]};
     particle_load_history(p, i, point.history);
-    struct response r = any_material_evaluate(&simulation->material[p->material[i]], &point);
+    struct response r =
+        any_material_evaluate(&simulation->problem->material[p->material[i]], &point);
     p->pressure[i] = point.pressure;
     f->sound_long[i] = r.sound_long;
     f->sound_shear[i] = r.sound_shear;

@@ -84,7 +84,7 @@ void sph_bind_fields(const struct sph *sph, const struct simulation *simulation,
                      const struct field_row *rows, void *fields)
 {
     int size[SPH_SIZES];
-    const struct field_needs needs = needs_of(sph->traits, simulation->dimension, size);
+    const struct field_needs needs = needs_of(sph->traits, simulation->problem->dimension, size);
     field_rows_bind(rows, &needs, sph->particles, fields);
 }
 

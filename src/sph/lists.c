@@ -29,7 +29,7 @@ static struct error *reserve_records(struct sph *sph)
 /* True at the steps at which the case has the blocks divided anew. */
 static bool recuts(const struct sph *sph, const struct simulation *simulation)
 {
-    int64_t every = simulation->input->run.rebalance;
+    int64_t every = simulation->problem->input->run.rebalance;
     return every > 0 && simulation->ranks->joined && simulation->step % every == 0 &&
            sph->steps_since_build > 0;
 }
@@ -54,8 +54,8 @@ struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, 
         return NULL;
     }
     TRY(particles_distribute(p, recut));
-    TRY(neighbours_build(&sph->neighbours, p, reach_of(sph, simulation), &simulation->mirrors,
-                         &sph->groups, simulation->threads));
+    TRY(neighbours_build(&sph->neighbours, p, reach_of(sph, simulation),
+                         &simulation->problem->mirrors, &sph->groups, simulation->threads));
     sph->steps_since_build = 0;
     simulation_end_phase(simulation, PHASE_SHARED, "neighbours");
     return ranks_agree(simulation->ranks, reserve_records(sph));

@@ -26,7 +26,7 @@ static struct error *refuse_contact(const struct simulation_case *input, int c)
 struct error *sph_refuse(const struct simulation *simulation)
 {
     static const char text[] = "the solver sph has none: use mpm";
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
     for (int c = 0; c < input->contacts.count; c++)
         error = error_join(error, refuse_contact(input, c));
@@ -50,7 +50,7 @@ static void book_of_axis(const struct simulation *simulation, const struct act *
                          struct ledger *ledger, int32_t i, struct vec3 *push)
 {
     const struct particles *p = act->fields->particles;
-    double radius = p->position[i][0], gap = simulation->mirrors.high[0] - radius;
+    double radius = p->position[i][0], gap = simulation->problem->mirrors.high[0] - radius;
     double pull = act->fields->rates.hoop_pull[i];
     if (!(gap < radius)) {
         pull += push->x;
@@ -98,9 +98,9 @@ static void return_stray(const struct simulation *simulation, const struct parti
     (void)of;
     if (body_is_frozen(simulation, p->body[i]) || body_is_held(simulation, p->body[i]))
         return;
-    for (int axis = 0; axis < simulation->dimension; axis++) {
-        const double x = p->position[i][axis], low = simulation->mirrors.low[axis],
-                     high = simulation->mirrors.high[axis];
+    for (int axis = 0; axis < simulation->problem->dimension; axis++) {
+        const double x = p->position[i][axis], low = simulation->problem->mirrors.low[axis],
+                     high = simulation->problem->mirrors.high[axis];
         if (!(x < low || x > high)) /* nearly all, and all where there is no wall */
             continue;
         const bool at_axis = sph_axisymmetric(simulation) && axis == 0 && x < low;
@@ -180,9 +180,10 @@ static void pull_particle(const struct simulation *simulation, const struct part
     const struct act *act = of;
     double *a = act->fields->rates.acceleration[i];
     for (int axis = 0; axis < 3; axis++)
-        a[axis] += simulation->gravity[axis];
+        a[axis] += simulation->problem->gravity[axis];
     const struct vec3 u = vector_at(p->velocity[i]);
-    const struct vec3 impulse = vec3_scale(act->dt * p->mass[i], vector_at(simulation->gravity));
+    const struct vec3 impulse =
+        vec3_scale(act->dt * p->mass[i], vector_at(simulation->problem->gravity));
     ledger_book(ledger, LEDGER_GRAVITY, 0.0, impulse,
                 vec3_add(vector_at(p->position[i]), vec3_scale(act->ahead, u)),
                 vec3_dot(impulse, vec3_add(u, vec3_scale(act->ahead, vector_at(a)))));

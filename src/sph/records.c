@@ -8,11 +8,12 @@
 
 void sph_reflect_motion(const struct simulation *simulation, image_code image, double *record)
 {
-    int dimension = simulation->dimension;
+    int dimension = simulation->problem->dimension;
     struct vec3 sign = image_sign(image);
     double x[3] = {0.0, 0.0, 0.0}, signs[3] = {sign.x, sign.y, sign.z};
     memcpy(x, record, (size_t)dimension * sizeof *x);
-    struct vec3 place = image_position(&simulation->mirrors, image, vec3_make(x[0], x[1], x[2]));
+    struct vec3 place =
+        image_position(&simulation->problem->mirrors, image, vec3_make(x[0], x[1], x[2]));
     double at[3] = {place.x, place.y, place.z};
     double *velocity = record + record_velocity(dimension);
     assert(dimension <= 3);
@@ -27,7 +28,7 @@ static void copy_places(const struct sph *sph, const struct simulation *simulati
                         const struct sph_records *records, int32_t begin, int32_t end)
 {
     const size_t count = (size_t)sph->particles->count, stride = records->stride;
-    const size_t bytes = (size_t)(simulation->dimension + 1) * sizeof(double);
+    const size_t bytes = (size_t)(simulation->problem->dimension + 1) * sizeof(double);
     if (!records->place)
         return;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
@@ -60,7 +61,7 @@ static void make_images(struct sph *sph, const struct simulation *simulation,
 {
     const struct ghosts *ghosts = &sph->neighbours.ghosts;
     const size_t count = (size_t)sph->particles->count, stride = records->stride;
-    const int dimension = simulation->dimension;
+    const int dimension = simulation->problem->dimension;
     struct reflections reflections;
     if (begin == end)
         return;
@@ -72,7 +73,8 @@ static void make_images(struct sph *sph, const struct simulation *simulation,
         double *record = records->first + (count + (size_t)g) * stride;
         const struct vec3 x =
             vec3_make(from[0], dimension > 1 ? from[1] : 0.0, dimension > 2 ? from[2] : 0.0);
-        const struct vec3 place = image_position(&simulation->mirrors, ghosts->image[g], x);
+        const struct vec3 place =
+            image_position(&simulation->problem->mirrors, ghosts->image[g], x);
         const double at[3] = {place.x, place.y, place.z};
         for (size_t f = 0; f < stride; f++)
             record[f] = sign[f] * from[f];

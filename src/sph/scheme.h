@@ -158,13 +158,13 @@ BOLIDE_INLINE bool sph_has(const struct sph *sph, enum sph_trait trait)
 
 BOLIDE_INLINE bool sph_axisymmetric(const struct simulation *simulation)
 {
-    return simulation->geometry == GEOMETRY_AXISYMMETRIC;
+    return simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
 }
 
 /* Whether particles have a depth of their own. */
 BOLIDE_INLINE bool sph_deep(const struct simulation *simulation)
 {
-    return sph_axisymmetric(simulation) || simulation->geometry == GEOMETRY_PLANE_STRESS;
+    return sph_axisymmetric(simulation) || simulation->problem->geometry == GEOMETRY_PLANE_STRESS;
 }
 
 /* Whether contact laws act between bodies. */

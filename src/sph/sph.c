@@ -22,7 +22,8 @@ static const double growth_room = 1.08;
 static bool has_walls(const struct simulation *simulation)
 {
     for (int axis = 0; axis < 3; axis++)
-        if (!isnan(simulation->mirrors.low[axis]) || !isnan(simulation->mirrors.high[axis]))
+        if (!isnan(simulation->problem->mirrors.low[axis]) ||
+            !isnan(simulation->problem->mirrors.high[axis]))
             return true;
     return false;
 }
@@ -31,7 +32,7 @@ bool sph_has_laws(const struct simulation *simulation)
 {
     for (int a = 0; a < CONTACT_GROUPS; a++)
         for (int b = 0; b < CONTACT_GROUPS; b++)
-            if (simulation->law[a][b])
+            if (simulation->problem->law[a][b])
                 return true;
     return false;
 }
@@ -51,14 +52,14 @@ struct error *sph_option_error(const struct sph *sph, const struct simulation_ca
 struct error *sph_find_slopes(const struct simulation *simulation, double *slope)
 {
     struct error *error = NULL;
-    for (int m = 0; m < simulation->materials; m++) {
-        slope[m] = riemann_shock_slope(&simulation->material[m]);
+    for (int m = 0; m < simulation->problem->materials; m++) {
+        slope[m] = riemann_shock_slope(&simulation->problem->material[m]);
         if (isnan(slope[m]))
             error = error_join(
-                error,
-                input_error(simulation->input, "materials", simulation->input->materials.names[m],
-                            "its shock adiabat has no slope, since its equation of state "
-                            "has no sound at its reference density without energy"));
+                error, input_error(simulation->problem->input, "materials",
+                                   simulation->problem->input->materials.names[m],
+                                   "its shock adiabat has no slope, since its equation of state "
+                                   "has no sound at its reference density without energy"));
     }
     return error;
 }
@@ -78,24 +79,25 @@ static struct sph_parameters settled(const struct sph_parameters *parameters, in
 /* What follows from the case and the options of its scheme. */
 static unsigned traits_of(const struct sph *sph, const struct simulation *simulation)
 {
-    unsigned traits = sph->scheme->traits(sph->parameters.method.value, simulation->dimension);
+    unsigned traits =
+        sph->scheme->traits(sph->parameters.method.value, simulation->problem->dimension);
     struct field_declaration history[POINT_HISTORY];
     bool strong = false;
-    for (int m = 0; m < simulation->materials; m++)
-        strong |= material_has_strength(&simulation->material[m]);
+    for (int m = 0; m < simulation->problem->materials; m++)
+        strong |= material_has_strength(&simulation->problem->material[m]);
     traits |= has_walls(simulation) ? SPH_WALLS : 0u;
     traits |= sph_axisymmetric(simulation) ? SPH_AXISYMMETRIC : 0u;
-    traits |= simulation->geometry == GEOMETRY_PLANE_STRESS ? SPH_THIN : 0u;
-    traits |= simulation->dimension > 1 ? SPH_PLANE : 0u;
-    traits |= strong && simulation->dimension > 1 ? SPH_SHEAR : 0u;
-    traits |= simulation_history(simulation, history) > 0 ? SPH_HISTORY : 0u;
+    traits |= simulation->problem->geometry == GEOMETRY_PLANE_STRESS ? SPH_THIN : 0u;
+    traits |= simulation->problem->dimension > 1 ? SPH_PLANE : 0u;
+    traits |= strong && simulation->problem->dimension > 1 ? SPH_SHEAR : 0u;
+    traits |= problem_history(simulation->problem, history) > 0 ? SPH_HISTORY : 0u;
     return traits | (conduction_on(&sph->parameters) ? SPH_CONDUCTION : 0u);
 }
 
 /* What no scheme can do, or the one of the case cannot. */
 static struct error *refuse(const struct sph *sph, const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     const struct sph_scheme *scheme = sph->scheme;
     struct error *error = sph_refuse(simulation);
     if (sph->parameters.courant > scheme->courant_limit)
@@ -110,8 +112,8 @@ static struct error *refuse(const struct sph *sph, const struct simulation *simu
         error = error_join(error, sph_option_error(sph, input, "motion",
                                                    "nothing happens without motion unless heat is "
                                                    "conducted: give `conduction` as well"));
-    for (int m = 0; sph_has(sph, SPH_THIN) && m < simulation->materials; m++)
-        if (!material_has_strength(&simulation->material[m]))
+    for (int m = 0; sph_has(sph, SPH_THIN) && m < simulation->problem->materials; m++)
+        if (!material_has_strength(&simulation->problem->material[m]))
             error = error_join(
                 error, input_error(input, "materials", input->materials.names[m],
                                    "plane stress is for plates that have strength, and this is a "
@@ -123,10 +125,11 @@ static struct error *refuse(const struct sph *sph, const struct simulation *simu
  * from a particle as the gap of the two walls and, on a lattice, a diameter. */
 static struct error *check_walls(const struct simulation *simulation, double reach)
 {
-    for (int axis = 0; axis < simulation->dimension; axis++) {
-        double gap = simulation->mirrors.high[axis] - simulation->mirrors.low[axis];
+    for (int axis = 0; axis < simulation->problem->dimension; axis++) {
+        double gap =
+            simulation->problem->mirrors.high[axis] - simulation->problem->mirrors.low[axis];
         if (gap < reach)
-            return input_error(simulation->input, "walls", NULL,
+            return input_error(simulation->problem->input, "walls", NULL,
                                "the two walls across %c are %.4g m apart; with this smoothing and "
                                "resolution they must be %.4g m apart at least",
                                "xyz"[axis], gap, reach);
@@ -138,9 +141,10 @@ static struct error *create_store(struct sph *sph, struct simulation *simulation
 {
     struct field_declaration fields[POINT_HISTORY + SPH_FIELDS_MAX];
     const struct sph_parameters *parameters = &sph->parameters;
-    int count = simulation_history(simulation, fields);
-    count += sph_declare_fields(sph->scheme, sph->traits, simulation->dimension, fields + count);
-    double diameter = largest_diameter(simulation->input);
+    int count = problem_history(simulation->problem, fields);
+    count += sph_declare_fields(sph->scheme, sph->traits, simulation->problem->dimension,
+                                fields + count);
+    double diameter = largest_diameter(simulation->problem->input);
     double support = 2.0 * parameters->smoothing * diameter;
     TRY(check_walls(simulation, support - (1.0 + 1e-9) * diameter));
     double cell = growth_room * support * (1.0 + parameters->skin);
@@ -150,13 +154,14 @@ static struct error *create_store(struct sph *sph, struct simulation *simulation
 static struct error *sph_create(void *solver, struct simulation *simulation, const void *parameters)
 {
     struct sph *sph = solver;
-    sph->parameters = settled(parameters, simulation->dimension);
+    sph->parameters = settled(parameters, simulation->problem->dimension);
     sph->scheme = sph->parameters.method.choice->thing;
     sph->traits = traits_of(sph, simulation);
     sph->neighbours.skin = sph->parameters.skin;
     sph->neighbours.near_skin = sph_near_skin(&sph->parameters, sph->traits);
-    sph->groups = (struct contact_groups){simulation->group_of_body, &simulation->law[0][0],
-                                          sph_has_laws(simulation) ? CONTACT_GROUPS : 1};
+    sph->groups =
+        (struct contact_groups){simulation->problem->group_of_body, &simulation->problem->law[0][0],
+                                sph_has_laws(simulation) ? CONTACT_GROUPS : 1};
     sph->state = calloc(1, sph->scheme->state_size);
     if (!sph->state)
         return error_new(ERROR_SYSTEM, "out of memory");

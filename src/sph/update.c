@@ -16,7 +16,8 @@ void sph_evaluate(const struct sph *sph, struct simulation *simulation)
         if (f.thickness && f.thickness[i] == 0.0) /* fresh */
             f.thickness[i] = 1.0;
         sph_evaluate_point(simulation, &f, i);
-        f.diameter[i] = diameter_of_volume(sph_volume(simulation, &f, i), simulation->dimension);
+        f.diameter[i] =
+            diameter_of_volume(sph_volume(simulation, &f, i), simulation->problem->dimension);
         if (f.support && f.support[i] == 0.0) /* fresh */
             f.support[i] = f.diameter[i];
     }
@@ -345,7 +346,7 @@ static void update_block(struct simulation *simulation, const struct advance *st
         uint16_t material = p->material[begin];
         for (next = begin + 1; next < end && p->material[next] == material;)
             next++;
-        update_run(&simulation->material[material], p, step, begin, next, failure);
+        update_run(&simulation->problem->material[material], p, step, begin, next, failure);
     }
 }
 
@@ -379,13 +380,13 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation,
     }
     sph_add_gravity(simulation, fields, dt, 0.5 * dt);
     const struct advance step = {.fields = fields,
-                                 .dimension = simulation->dimension,
+                                 .dimension = simulation->problem->dimension,
                                  .total = sph_has(sph, SPH_TOTAL_ENERGY),
                                  .finite = sph_has(sph, SPH_FINITE_STRAIN),
                                  .largest_support = sph->largest_support,
                                  .dt = dt,
                                  .time = simulation->time + dt,
-                                 .gravity = simulation->gravity};
+                                 .gravity = simulation->problem->gravity};
 #pragma omp parallel num_threads(simulation->threads)
     {
         struct failure own = {false, 0, 0};

@@ -14,7 +14,7 @@ static inline struct simulation *build_simulation(int32_t count)
     struct simulation *simulation = calloc(1, sizeof *simulation);
     simulation->ranks = &alone;
     simulation->threads = 1;
-    simulation->dimension = 3;
+    problem_of(simulation)->dimension = 3;
     simulation->time = 1.5e-6;
     simulation->step = 42;
     int32_t first;
@@ -43,7 +43,7 @@ static inline struct simulation *build_simulation(int32_t count)
 
 static inline void drop_simulation(struct simulation *simulation)
 {
-    free_particles(simulation);
+    end_simulation(simulation);
     free(simulation);
 }
 

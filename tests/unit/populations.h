@@ -2,12 +2,24 @@
 #ifndef BOLIDE_TEST_POPULATIONS_H
 #define BOLIDE_TEST_POPULATIONS_H
 
+#include <stdlib.h>
+
 #include "model/particle_population.h"
 
 /* The particles of SIMULATION, whose first population they are. */
 static inline struct particles *particles_of(const struct simulation *simulation)
 {
     return particles_in(&simulation->population[0]);
+}
+
+/* The problem of SIMULATION, for tests to change; an empty one where there was none. */
+static inline struct problem *problem_of(struct simulation *simulation)
+{
+    if (!simulation->problem)
+        simulation->problem = calloc(1, sizeof *simulation->problem);
+    if (!simulation->problem)
+        abort();
+    return (struct problem *)simulation->problem;
 }
 
 /* Gives SIMULATION particles that no solver owns. */

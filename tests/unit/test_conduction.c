@@ -137,9 +137,9 @@ static void a_cylinder_cools_about_its_axis(void **state)
     assert_near(now, start, 1e-13 * start);
     for (int32_t i = 0; i < p->count; i++) {
         double mode = j0(j * p->position[i][0] / radius);
-        double temperature =
-            heat_temperature(&run->simulation.material[0].heat, &run->simulation.material[0].eos,
-                             p->density[i], p->energy[i]);
+        double temperature = heat_temperature(&run->simulation.problem->material[0].heat,
+                                              &run->simulation.problem->material[0].eos,
+                                              p->density[i], p->energy[i]);
         assert_near(temperature, 393.0 + 50.0 * exp(-1.0) * mode, 0.5);
         assert_true(p->velocity[i][0] == 0.0 && p->density[i] == 2700.0);
     }

@@ -133,7 +133,7 @@ static void units_follow_the_dimension(void **state)
 {
     (void)state;
     struct simulation *simulation = build_simulation(1);
-    simulation->dimension = 2;
+    problem_of(simulation)->dimension = 2;
     const struct totals start = {0};
     struct history *history;
     assert_null(history_open(path, -1, NULL, &history));

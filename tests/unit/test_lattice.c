@@ -144,7 +144,8 @@ static void rings_of_one_count_have_particles_of_one_mass(void **state)
         assert_int_equal(p->count, 135 * finer * finer);
         for (int i = 0; i < p->count; i++)
             assert_near(p->mass[i], density * M_PI * 1050.0 / p->count, 1e-12);
-        assert_near(largest_diameter(simulation.input), sqrt(M_PI * 1050.0 / p->count), 1e-12);
+        assert_near(largest_diameter(simulation.problem->input), sqrt(M_PI * 1050.0 / p->count),
+                    1e-12);
         end_simulation(&simulation);
     }
 }

@@ -77,9 +77,9 @@ static int setup(void **state)
     b->check.relative_check = -1;
     b->check.at_most.value = 1e300;
     b->ranks = ranks_alone();
-    b->simulation.input = &b->input;
+    problem_of(&b->simulation)->input = &b->input;
     b->simulation.ranks = &b->ranks;
-    b->simulation.dimension = 1;
+    problem_of(&b->simulation)->dimension = 1;
     place_particles(b);
     views_of_population(&b->views, &b->simulation);
     b->start = population_totals(simulation_population(&b->simulation), &b->ranks, -1);
@@ -91,7 +91,7 @@ static int setup(void **state)
 static int teardown(void **state)
 {
     struct bench *b = *state;
-    free_particles(&b->simulation);
+    end_simulation(&b->simulation);
     free(b);
     return 0;
 }

@@ -243,7 +243,7 @@ static void radius_follows_a_surface_that_no_particle_stands_on(void **state)
     assert_float_equal(stage_value(&s, 1), 5.9e-3, 1e-15);
     assert_float_equal(stage_value(&s, 2), 0.1e-3, 1e-15);
     /* About an axis the matter lies on spheres. */
-    s.simulation.geometry = GEOMETRY_AXISYMMETRIC;
+    problem_of(&s.simulation)->geometry = GEOMETRY_AXISYMMETRIC;
     for (int32_t i = 0; i < p->count; i++) {
         const struct vec3 x = start_of(&s, i);
         const double then = hypot(x.x, x.y - 40e-3);

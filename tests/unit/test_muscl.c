@@ -386,7 +386,8 @@ static void set_symmetric_state(struct running *run)
     struct particles *p = particles_of(&run->simulation);
     for (int32_t i = 0; i < p->count; i++) {
         const double x = p->position[i][0] / 1e-2, y = p->position[i][1] / 1e-2;
-        bool solid = run->simulation.material[p->material[i]].strength.kind != STRENGTH_NONE;
+        bool solid =
+            run->simulation.problem->material[p->material[i]].strength.kind != STRENGTH_NONE;
         p->position[i][0] *= 1.0 + 0.05 * y * y;
         p->position[i][1] *= 1.0 - 0.04 * x * x;
         p->velocity[i][0] = 200.0 * x * (1.0 - 0.5 * y * y) * cos(3.0 * x);

@@ -27,7 +27,7 @@ static struct simulation *lattice(int dimension, int nx, int ny, int nz, double 
     struct simulation *simulation = calloc(1, sizeof *simulation);
     int32_t count = nx * ny * nz, first;
     simulation->ranks = &alone;
-    simulation->dimension = dimension;
+    problem_of(simulation)->dimension = dimension;
     simulation->time = 3.1e-6;
     assert_null(give_particles(simulation, 4.0 * spacing, NULL, 0));
     struct particles *p = particles_of(simulation);
@@ -48,7 +48,7 @@ static struct simulation *lattice(int dimension, int nx, int ny, int nz, double 
 
 static void drop(struct simulation *simulation)
 {
-    free_particles(simulation);
+    end_simulation(simulation);
     free(simulation);
 }
 
@@ -192,7 +192,7 @@ static void bodies_have_a_colour_each(void **state)
     static char *names[] = {"flyer", "target"};
     struct simulation_case input = {.title = "Plate \xff impact",
                                     .bodies = {.count = 2, .names = names}};
-    simulation->input = &input;
+    problem_of(simulation)->input = &input;
     assert_null(draw_in(simulation, "body", NAN, NAN));
     cairo_surface_t *surface = read_picture();
     assert_true(count_pixels(surface, colour_of_category(0)) > 10000);
@@ -228,12 +228,13 @@ static void the_frame_stands_where_a_wall_bounds_the_particles(void **state)
     (void)state;
     struct simulation *simulation = lattice(2, 40, 20, 1, 1e-3);
     for (int axis = 0; axis < 3; axis++)
-        simulation->mirrors.low[axis] = simulation->mirrors.high[axis] = NAN;
+        problem_of(simulation)->mirrors.low[axis] = problem_of(simulation)->mirrors.high[axis] =
+            NAN;
     assert_null(draw_in(simulation, "pressure", NAN, NAN));
     cairo_surface_t *surface = read_picture();
     assert_in_range(gap_below(surface), 4, 12);
     cairo_surface_destroy(surface);
-    simulation->mirrors.low[1] = 0.0;
+    problem_of(simulation)->mirrors.low[1] = 0.0;
     assert_null(draw_in(simulation, "pressure", NAN, NAN));
     surface = read_picture();
     assert_true(gap_below(surface) >= 20); /* the page's own, below the frame */

@@ -89,9 +89,9 @@ static struct bench *make_bench(int dimension)
     b->check.at_most.value = 1e300;
     b->check.relative_check = -1;
     b->ranks = ranks_alone();
-    b->simulation.input = &b->input;
+    problem_of(&b->simulation)->input = &b->input;
     b->simulation.ranks = &b->ranks;
-    b->simulation.dimension = dimension;
+    problem_of(&b->simulation)->dimension = dimension;
     place_particles(b, dimension);
     views_of_population(&b->views, &b->simulation);
     strcpy(b->folder, "/tmp/bolide-test-XXXXXX");
@@ -105,7 +105,7 @@ static void drop_bench(struct bench *b)
     snprintf(command, sizeof command, "rm -r '%s'", b->folder);
     assert_int_equal(system(command), 0);
     probes_free(&b->probes);
-    free_particles(&b->simulation);
+    end_simulation(&b->simulation);
     free(b);
 }
 

@@ -68,7 +68,7 @@ static void progress_is_one_line(void **state)
     (void)state;
     const struct simulation_case input = {.run = {.until = 5e-6}};
     struct simulation *simulation = calloc(1, sizeof *simulation);
-    simulation->input = &input;
+    simulation->problem = &(struct problem){.input = &input};
     simulation->time = 3.1e-6;
     simulation->step = 1200;
     const struct limit limit = {2.1e-9, "sound", 0, INFINITY};

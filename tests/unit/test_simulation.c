@@ -45,7 +45,7 @@ static void add_wall(struct workshop *w, int axis, enum wall_side side, double a
 /* The law between two bodies, as a solver finds it. */
 static int law_between(const struct simulation *s, int first, int second)
 {
-    return s->law[s->group_of_body[first]][s->group_of_body[second]];
+    return s->problem->law[s->problem->group_of_body[first]][s->problem->group_of_body[second]];
 }
 
 static void assert_refused(const struct workshop *w, const char *words)
@@ -95,7 +95,7 @@ static void bodies_without_contacts_share_one_group(void **state)
     struct simulation s;
     assert_null(simulation_create(&w.input, &alone, 1, &s));
     for (int i = 0; i < BODIES; i++)
-        assert_int_equal(s.group_of_body[i], 0);
+        assert_int_equal(s.problem->group_of_body[i], 0);
     simulation_destroy(&s);
 }
 
@@ -158,8 +158,10 @@ static void walls_become_mirrors(void **state)
     add_wall(&w, 1, WALL_HIGH, 3.0);
     struct simulation s;
     assert_null(simulation_create(&w.input, &alone, 1, &s));
-    assert_true(s.mirrors.low[0] == -1.0 && s.mirrors.high[0] == 2.0 && s.mirrors.high[1] == 3.0);
-    assert_true(isnan(s.mirrors.low[1]) && isnan(s.mirrors.low[2]) && isnan(s.mirrors.high[2]));
+    assert_true(s.problem->mirrors.low[0] == -1.0 && s.problem->mirrors.high[0] == 2.0 &&
+                s.problem->mirrors.high[1] == 3.0);
+    assert_true(isnan(s.problem->mirrors.low[1]) && isnan(s.problem->mirrors.low[2]) &&
+                isnan(s.problem->mirrors.high[2]));
     simulation_destroy(&s);
 }
 

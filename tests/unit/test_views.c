@@ -17,9 +17,11 @@ static const struct field_declaration solver_fields[] = {
     {"hidden", NULL, "not shown", NUMBER_DOUBLE, 1, FIELD_STATE},
 };
 
+static const struct problem three = {.dimension = 3};
+
 static void set_up(struct simulation *simulation, struct views *views)
 {
-    *simulation = (struct simulation){.dimension = 3};
+    *simulation = (struct simulation){.problem = &three};
     *views = (struct views){0};
     int32_t first;
     assert_null(give_particles(simulation, 1.0, solver_fields, (int)COUNT_OF(solver_fields)));
@@ -170,7 +172,8 @@ static void only_components_that_a_case_has_are_offered(void **state)
          "stress.zz, stress.xy"},
     };
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
-        struct simulation simulation = {.dimension = cases[i].dimension};
+        struct simulation simulation = {.problem =
+                                            &(struct problem){.dimension = cases[i].dimension}};
         struct views views = {0};
         const struct view *view;
         int component;
@@ -196,8 +199,9 @@ static void a_particle_has_a_mass_in_the_unit_of_the_totals(void **state)
                  {2, GEOMETRY_AXISYMMETRIC, "kg/rad"},
                  {3, GEOMETRY_PLANE_STRAIN, "kg"}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
-        struct simulation simulation = {.dimension = cases[i].dimension,
-                                        .geometry = cases[i].geometry};
+        struct simulation simulation = {
+            .problem =
+                &(struct problem){.dimension = cases[i].dimension, .geometry = cases[i].geometry}};
         struct views views = {0};
         int component;
         assert_null(give_particles(&simulation, 1.0, NULL, 0));

@@ -42,8 +42,8 @@ double conduction_step(const struct sph_parameters *parameters, int dimension,
 
 static struct error *check_material(const struct simulation *simulation, int m)
 {
-    const struct simulation_case *input = simulation->input;
-    const struct material *material = &simulation->material[m];
+    const struct simulation_case *input = simulation->problem->input;
+    const struct material *material = &simulation->problem->material[m];
     const char *name = input->materials.names[m];
     const char *wrong = heat_wrong(&material->heat, &material->eos);
     if (wrong)
@@ -60,9 +60,9 @@ struct error *conduction_create(struct sph *sph, const struct simulation *simula
     const struct sph_parameters *parameters = &sph->parameters;
     if (!conduction_on(parameters))
         return NULL;
-    sph->conduction.limit = limit_of(parameters, simulation->dimension);
+    sph->conduction.limit = limit_of(parameters, simulation->problem->dimension);
     struct error *error = NULL;
-    for (int m = 0; m < simulation->materials; m++)
+    for (int m = 0; m < simulation->problem->materials; m++)
         error = error_join(error, check_material(simulation, m));
     return error;
 }
@@ -82,10 +82,10 @@ static void pack_owned(const struct simulation *simulation, const struct sph_fie
                        int32_t i, double *record)
 {
     const struct particles *p = f->particles;
-    const struct material *material = &simulation->material[p->material[i]];
+    const struct material *material = &simulation->problem->material[p->material[i]];
     const struct heat *heat = &material->heat;
     int k = 0;
-    for (int axis = 0; axis < simulation->dimension; axis++)
+    for (int axis = 0; axis < simulation->problem->dimension; axis++)
         record[k++] = p->position[i][axis];
     record[k++] = sph_support(f, i);
     record[k++] = sph_volume(simulation, f, i);
@@ -102,11 +102,12 @@ static void pack_owned(const struct simulation *simulation, const struct sph_fie
 static void reflect(const struct sph *sph, const struct simulation *simulation, image_code image,
                     double *record)
 {
-    const int dimension = simulation->dimension;
+    const int dimension = simulation->problem->dimension;
     double x[3] = {0.0, 0.0, 0.0};
     (void)sph;
     memcpy(x, record, (size_t)dimension * sizeof *x);
-    struct vec3 place = image_position(&simulation->mirrors, image, vec3_make(x[0], x[1], x[2]));
+    struct vec3 place =
+        image_position(&simulation->problem->mirrors, image, vec3_make(x[0], x[1], x[2]));
     double at[3] = {place.x, place.y, place.z};
     memcpy(record, at, (size_t)dimension * sizeof *at);
     if (sph_axisymmetric(simulation) && image % 3 == 1) /* the other side of the axis */
@@ -118,7 +119,7 @@ static struct ranked limit_of_particle(const struct sph *sph, const struct simul
                                        const void *context, int32_t i)
 {
     const struct sph_fields *f = context;
-    const int q = heat_record_diffusivity(simulation->dimension);
+    const int q = heat_record_diffusivity(simulation->problem->dimension);
     const double root = sph->conduction.record[(size_t)i * HEAT_STRIDE + (size_t)q];
     return (struct ranked){sph->conduction.limit *
                                square(sph->parameters.smoothing * f->diameter[i] / root),
@@ -135,7 +136,7 @@ void conduction_prepare(struct sph *sph, struct simulation *simulation,
 {
     const struct particles *p = sph->particles;
     const struct sph_records records = {sph->conduction.record, HEAT_STRIDE, reflect, NULL};
-    const struct heat_loop loop = {.kind = {simulation->dimension, sph_deep(simulation),
+    const struct heat_loop loop = {.kind = {simulation->problem->dimension, sph_deep(simulation),
                                             sph->parameters.conduction == SPH_CONDUCTION_CONTACT
                                                 ? HEAT_CONTACT
                                                 : HEAT_HARMONIC},

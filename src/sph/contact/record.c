@@ -11,7 +11,7 @@ BOLIDE_INLINE void pack_owned(const struct contact_state *state,
 {
     bool shear = kind.shear;
     const struct particles *p = f->particles;
-    int dimension = simulation->dimension, k = 0;
+    int dimension = simulation->problem->dimension, k = 0;
     for (int axis = 0; axis < dimension; axis++)
         record[k++] = p->position[i][axis];
     record[k++] = f->diameter[i];
@@ -55,7 +55,7 @@ static void reflect(const struct sph *sph, const struct simulation *simulation, 
 {
     const struct contact_state *state = sph->state;
     const struct pair_kind kind = state->kind;
-    int dimension = simulation->dimension;
+    int dimension = simulation->problem->dimension;
     struct vec3 sign = image_sign(image);
     sph_reflect_motion(simulation, image, record);
     if (kind.shear)

@@ -72,7 +72,7 @@ struct error *contact_advance(struct sph *sph, struct simulation *simulation, do
 void contact_choose_kind(struct sph *sph, const struct simulation *simulation, enum pair_star star)
 {
     struct contact_state *state = sph->state;
-    state->kind = (struct pair_kind){.dimension = simulation->dimension,
+    state->kind = (struct pair_kind){.dimension = simulation->problem->dimension,
                                      .shear = sph_has(sph, SPH_SHEAR),
                                      .star = star,
                                      .drift = sph_has(sph, SPH_DRIFT),
@@ -85,11 +85,11 @@ void contact_choose_kind(struct sph *sph, const struct simulation *simulation, e
 static struct error *find_slopes(struct sph *sph, const struct simulation *simulation)
 {
     struct contact_state *state = sph->state;
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     if (state->kind.star == STAR_DUKOWICZ)
         return sph_find_slopes(simulation, state->shock_slope);
-    for (int m = 0; state->kind.star == STAR_EXACT_GAS && m < simulation->materials; m++) {
-        const struct material *material = &simulation->material[m];
+    for (int m = 0; state->kind.star == STAR_EXACT_GAS && m < simulation->problem->materials; m++) {
+        const struct material *material = &simulation->problem->material[m];
         state->shock_slope[m] = eos_ratio_of_heats(&material->eos);
         if (isnan(state->shock_slope[m]) || material_has_strength(material))
             return sph_option_error(sph, input, "riemann",
@@ -109,12 +109,12 @@ static struct error *choose_rotation(struct sph *sph, const struct simulation *s
         return NULL;
     if (options->riemann != CONTACT_ACOUSTIC)
         wrong = "corrected needs `riemann: acoustic`";
-    else if (simulation->dimension == 1)
+    else if (simulation->problem->dimension == 1)
         wrong = "nothing rotates in 1-D";
     else if (!sph_has(sph, SPH_SHEAR))
         wrong = "corrected needs a material with strength: the rotation of a fluid is not slowed";
     if (wrong)
-        return sph_option_error(sph, simulation->input, "rotation", "%s", wrong);
+        return sph_option_error(sph, simulation->problem->input, "rotation", "%s", wrong);
     return NULL;
 }
 

@@ -59,7 +59,7 @@ BOLIDE_INLINE bool step_from_level(const struct simulation *simulation,
     const double dt = stage->dt;
     const struct particles *p = f->sph.particles;
     const struct hllc_level *n = &f->own.level[i];
-    for (int axis = 0; axis < simulation->dimension; axis++) {
+    for (int axis = 0; axis < simulation->problem->dimension; axis++) {
         p->position[i][axis] = n->position[axis] + dt * stage->velocity[axis];
         p->velocity[i][axis] = n->velocity[axis] + dt * rate->acceleration[axis];
     }
@@ -103,7 +103,7 @@ static __attribute__((noinline)) bool step_rare(const struct simulation *simulat
 static bool step_particle(const struct simulation *simulation, const struct stage *stage, int32_t i)
 {
     const struct material *material =
-        &simulation->material[stage->fields->sph.particles->material[i]];
+        &simulation->problem->material[stage->fields->sph.particles->material[i]];
     if (!material_is_plain(material))
         return step_rare(simulation, material, stage, i);
     return step_from_level(simulation, material, true, stage, i);

@@ -10,7 +10,7 @@ static double *pack_plain(const struct simulation *simulation, const struct hllc
                           int32_t i, double *record)
 {
     const struct particles *p = f->sph.particles;
-    int dimension = simulation->dimension;
+    int dimension = simulation->problem->dimension;
     memcpy(record, p->position[i], (size_t)dimension * sizeof *record);
     record[dimension] = f->sph.diameter[i];
     record[dimension + 1] = hllc_volume(simulation, p, i);
@@ -40,7 +40,7 @@ static void pack_for_gradients(const struct simulation *simulation, const struct
 {
     const struct particles *p = f->sph.particles;
     double *next = pack_plain(simulation, f, i, record);
-    if (simulation->dimension == 1) {
+    if (simulation->problem->dimension == 1) {
         next[0] = p->density[i];
         next[1] = p->pressure[i];
         next[2] = p->deviator[i][0];
@@ -51,8 +51,8 @@ static void pack_for_forces(const struct hllc_kind kind, const struct simulation
                             const struct hllc_fields *f, int32_t i, double *record)
 {
     const struct particles *p = f->sph.particles;
-    const struct material *material = &simulation->material[p->material[i]];
-    int dimension = simulation->dimension;
+    const struct material *material = &simulation->problem->material[p->material[i]];
+    int dimension = simulation->problem->dimension;
     double *next = pack_plain(simulation, f, i, record);
     *next++ = p->density[i];
     next = pack_tensor(dimension, p->deviator[i], p->pressure[i], next);
@@ -92,7 +92,7 @@ static void reflect_for_forces(const struct sph *sph, const struct simulation *s
 {
     const struct hllc_state *state = sph->state;
     const struct hllc_kind kind = state->kind;
-    int dimension = simulation->dimension;
+    int dimension = simulation->problem->dimension;
     struct vec3 sign = image_sign(image);
     sph_reflect_motion(simulation, image, record);
     sph_reflect_tensor(dimension, sign, record + hllc_stress(dimension));

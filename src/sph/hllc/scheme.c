@@ -47,7 +47,7 @@ void hllc_start(const struct sph *sph, struct simulation *simulation)
         f.own.dp_de[i] = r.dp_de;
         if (f.sph.diameter[i] == 0.0) /* fresh */
             f.sph.diameter[i] = diameter_of_volume(hllc_volume(simulation, sph->particles, i),
-                                                   simulation->dimension);
+                                                   simulation->problem->dimension);
     }
 }
 
@@ -123,17 +123,17 @@ void hllc_prepare(struct sph *sph, struct simulation *simulation, struct limit *
 struct error *hllc_choose_kind(struct sph *sph, const struct simulation *simulation, bool viscous,
                                bool reconstructed)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     struct hllc_state *state = sph->state;
-    if (simulation->geometry == GEOMETRY_PLANE_STRESS)
+    if (simulation->problem->geometry == GEOMETRY_PLANE_STRESS)
         return input_error(input, "geometry", NULL,
                            "plane stress is not for hllc and monaghan: use another method");
     if (sph_has_laws(simulation))
         return input_error(input, "contacts", NULL,
                            "with hllc and monaghan all bodies stick and carry tension: use another "
                            "method");
-    state->kind = (struct hllc_kind){simulation->dimension, sph_axisymmetric(simulation), viscous,
-                                     reconstructed};
+    state->kind = (struct hllc_kind){simulation->problem->dimension, sph_axisymmetric(simulation),
+                                     viscous, reconstructed};
     sph->stride = (size_t)hllc_stride(state->kind);
     if (sph->stride < HLLC_GRADIENT_STRIDE)
         sph->stride = HLLC_GRADIENT_STRIDE;
@@ -145,8 +145,8 @@ static struct error *create(struct sph *sph, const struct simulation *simulation
     const struct hllc_options *options = sph->parameters.method.value;
     struct hllc_state *state = sph->state;
     const bool all = options->reconstruction == HLLC_RECONSTRUCTION_ALL;
-    if (all && simulation->dimension > 1)
-        return sph_option_error(sph, simulation->input, "reconstruction",
+    if (all && simulation->problem->dimension > 1)
+        return sph_option_error(sph, simulation->problem->input, "reconstruction",
                                 "all is for 1-D; in 2-D and 3-D, give velocity");
     TRY(hllc_choose_kind(sph, simulation, false,
                          options->reconstruction != HLLC_RECONSTRUCTION_NONE));

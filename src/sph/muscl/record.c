@@ -37,7 +37,8 @@ BOLIDE_INLINE struct expected expected_rates(const struct simulation *simulation
     }
     bool held = body_is_held(simulation, p->body[i]);
     for (int a = 0; a < 3; a++)
-        rates.acceleration[a] = held ? 0.0 : force[a] / p->density[i] + simulation->gravity[a];
+        rates.acceleration[a] =
+            held ? 0.0 : force[a] / p->density[i] + simulation->problem->gravity[a];
     return rates;
 }
 
@@ -56,7 +57,7 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
                                        double ahead, int32_t i, double velocity[3])
 {
     const struct particles *p = f->sph.particles;
-    const struct strength *strength = &simulation->material[p->material[i]].strength;
+    const struct strength *strength = &simulation->problem->material[p->material[i]].strength;
     const struct expected rates = expected_rates(simulation, f, kind, i);
     const double(*u)[3] = rates.gradient, *s = p->deviator[i];
     for (int axis = 0; axis < 3; axis++)

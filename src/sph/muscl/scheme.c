@@ -123,7 +123,7 @@ static struct error *advance(struct sph *sph, struct simulation *simulation, dou
 static void start(const struct sph *sph, struct simulation *simulation)
 {
     const struct muscl_fields f = muscl_fields_of(sph, simulation);
-    int dimension = simulation->dimension, tensors = tensor_components(dimension);
+    int dimension = simulation->problem->dimension, tensors = tensor_components(dimension);
     for (int32_t i = 0; i < sph->particles->count; i++) {
         double *l = f.own.correction + (size_t)i * (size_t)tensors;
         for (int a = 0; a < dimension && l[0] == 0.0; a++) /* fresh */
@@ -136,10 +136,10 @@ static void start(const struct sph *sph, struct simulation *simulation)
 
 static struct error *refuse(const struct sph *sph, const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->input;
+    const struct simulation_case *input = simulation->problem->input;
     const struct muscl_options *options = sph->parameters.method.value;
     struct error *error = NULL;
-    if (options->motion == SPH_MOTION_CONTACT && simulation->dimension > 1)
+    if (options->motion == SPH_MOTION_CONTACT && simulation->problem->dimension > 1)
         error =
             sph_option_error(sph, input, "motion",
                              "muscl moves particles with their contacts in 1-D only: leave this "
@@ -157,13 +157,13 @@ static struct error *create(struct sph *sph, const struct simulation *simulation
 {
     struct muscl_state *state = sph->state;
     TRY(refuse(sph, simulation));
-    state->kind =
-        (struct muscl_kind){simulation->dimension, sph_has(sph, SPH_SHEAR), sph_deep(simulation)};
+    state->kind = (struct muscl_kind){simulation->problem->dimension, sph_has(sph, SPH_SHEAR),
+                                      sph_deep(simulation)};
     sph->stride = (size_t)muscl_stride(state->kind);
     sph->places = true;
     sph->largest_support = ((const struct muscl_options *)sph->parameters.method.value)->support;
-    for (int m = 0; m < simulation->materials; m++)
-        state->mark[m] = muscl_mark(m, eos_traits(&simulation->material[m].eos).gas);
+    for (int m = 0; m < simulation->problem->materials; m++)
+        state->mark[m] = muscl_mark(m, eos_traits(&simulation->problem->material[m].eos).gas);
     return sph_find_slopes(simulation, state->shock_slope);
 }
 

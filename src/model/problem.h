@@ -1,0 +1,59 @@
+/* What is to be computed, which no step changes: the case, its materials, mirror walls and contact
+ * laws, and gravity. */
+#ifndef BOLIDE_PROBLEM_H
+#define BOLIDE_PROBLEM_H
+
+#include "base/field.h"
+#include "case/case.h"
+#include "parallel/ghosts.h"
+#include "particle/contact_law.h"
+
+enum { CONTACT_GROUPS = 16, MATERIALS_MAX = 256 };
+
+/* What else a law may say. Surface 0 has no friction and the mean normal. */
+struct contact_surface {
+    double friction;
+    int normal; /* enum contact_normal; the first is the group whose row of laws it is */
+    int touch;  /* enum contact_touch */
+};
+enum { CONTACT_SURFACES = 60 };
+
+struct problem {
+    const struct simulation_case *input;
+    int dimension;
+    enum case_geometry geometry;
+    int materials;
+    struct material *material;
+    struct mirrors mirrors;                      /* rigid slip walls */
+    double gravity[3];                           /* m/s^2, of what nothing holds */
+    uint8_t *group_of_body;                      /* contact group of each body */
+    uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS]; /* of the first towards the second */
+    int surfaces;
+    struct contact_surface surface[CONTACT_SURFACES];
+};
+
+/* The problem of INPUT, which must last as long. ERROR_INPUT: walls or contacts contradict each
+ * other; PROBLEM is to be destroyed then too. */
+struct error *problem_create(const struct simulation_case *input, struct problem *problem);
+void problem_destroy(struct problem *problem);
+
+/* A mistake in the case at SECTION.NAME ("bodies", "flyer"; NAME may be NULL): located in its file,
+ * or with the path alone when a program made the case without a file. */
+struct error *input_error(const struct simulation_case *input, const char *section,
+                          const char *name, const char *format, ...) BOLIDE_PRINTF(4, 5);
+
+/* That a case for particles names a domain, boundaries of one or obstacles, which are for cells. */
+struct error *refuse_boundaries(const struct simulation_case *input);
+
+/* The fields for what the case's materials remember beyond the core's, POINT_HISTORY at most: the
+ * solver adds them to its store. Returns how many. */
+int problem_history(const struct problem *problem, struct field_declaration *fields);
+
+/* True when the case has gravity. */
+BOLIDE_INLINE bool problem_has_gravity(const struct problem *problem)
+{
+    const double *g = problem->gravity;
+    return g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0;
+}
+
+#endif
