@@ -17,6 +17,7 @@ struct material_input {
     char *description, *source; /* for people; NULL: not given */
     struct one_of eos;          /* "eos" */
     struct one_of strength;     /* "strength"; not given: a fluid */
+    struct one_of failure;      /* "failure"; not given: never */
     struct one_of burn;         /* "burn"; not given: instant */
     struct heat heat;           /* "heat" */
     double tensile_strength;    /* Pa; NAN: not known */

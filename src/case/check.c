@@ -91,6 +91,11 @@ struct error *case_fill_material(struct material_input *material)
         plain->strength.kind = (enum strength_kind)material->strength.index;
         memcpy(&plain->strength.of, material->strength.value, material->strength.choice->size);
     }
+    plain->failure.kind = FAILURE_NONE;
+    if (material->failure.value) {
+        plain->failure.kind = (enum failure_kind)material->failure.index;
+        memcpy(&plain->failure.of, material->failure.value, material->failure.choice->size);
+    }
     if (material->burn.value) {
         plain->burn.kind = (enum burn_kind)material->burn.index;
         memcpy(&plain->burn.of, material->burn.value, material->burn.choice->size);
@@ -113,6 +118,12 @@ static void check_material(struct checking *checking, int index)
         snprintf(path, sizeof path, "strength.%s.%s", material->strength.choice->name, key);
         case_wrong(checking, path, "%s", text);
     }
+    if ((text = failure_wrong(&material->material->failure, &key))) {
+        snprintf(path, sizeof path, "failure.%s.%s", material->failure.choice->name, key);
+        case_wrong(checking, path, "%s", text);
+    }
+    if ((text = material_failure_wrong(material->material)))
+        case_wrong(checking, "failure", "%s", text);
 }
 
 static void check_replaces(struct checking *checking, const struct body_input *body, int index)

@@ -9,7 +9,7 @@
 /* Whether batches can take the material. */
 BOLIDE_INLINE bool batch_takes(const struct material *material)
 {
-    return !material_burns(material) && !eos_history(&material->eos) &&
+    return !material_burns(material) && !material_fails(material) && !eos_history(&material->eos) &&
            (!material_has_strength(material) || strength_traits(&material->strength).batched);
 }
 

@@ -1,4 +1,4 @@
-/* The parameter tables of equations of state, strength and burn models, made of the rows in their
+/* The parameter tables of equations of state, strength, failure and burn models, made of the rows in their
  * headers:
  *
  *   NUMBER(T, member, unit, default, range, help)
@@ -52,6 +52,11 @@ EOS_LIST(EOS_TABLE)
         STRENGTH_##name##_PARAMETERS(struct strength_##name) PARAMETER_END};
 STRENGTH_LIST(STRENGTH_TABLE)
 
+#define FAILURE_TABLE(name)                                         \
+    static const struct parameter failure_##name##_parameters[] = { \
+        FAILURE_##name##_PARAMETERS(struct failure_##name) PARAMETER_END};
+FAILURE_LIST(FAILURE_TABLE)
+
 #define BURN_TABLE(name)                                         \
     static const struct parameter burn_##name##_parameters[] = { \
         BURN_##name##_PARAMETERS(struct burn_##name) PARAMETER_END};
@@ -68,6 +73,12 @@ const struct choice eos_choices[EOS_KINDS] = {EOS_LIST(EOS_CHOICE)};
 const struct choice strength_choices[STRENGTH_KINDS] = {
     [STRENGTH_NONE] = {"none", "no shear strength: a fluid", NULL, 0, NULL},
     STRENGTH_LIST(STRENGTH_CHOICE)};
+
+#define FAILURE_CHOICE(name)                                                                       \
+    [FAILURE_##name] = {FAILURE_##name##_NAME, FAILURE_##name##_HELP, failure_##name##_parameters, \
+                        sizeof(struct failure_##name), NULL},
+const struct choice failure_choices[FAILURE_KINDS] = {
+    [FAILURE_NONE] = {"none", "never fails", NULL, 0, NULL}, FAILURE_LIST(FAILURE_CHOICE)};
 
 #define BURN_CHOICE(name)                                                              \
     [BURN_##name] = {BURN_##name##_NAME, BURN_##name##_HELP, burn_##name##_parameters, \

@@ -1,4 +1,5 @@
-/* The physics of one point: a material owns the order of burning, strength and equation of state.
+/* The physics of one point: a material owns the order of burning, strength, failure and
+ * equation of state.
  *
  * Every function here is pure, takes small structs by value or pointer and touches nothing else, so that
  * particle methods, exact solutions, unit tests and a GPU call the same code. SI units throughout;
@@ -10,6 +11,7 @@
 #include "base/vector.h"
 #include "material/burn.h"
 #include "material/eos.h"
+#include "material/failure.h"
 #include "material/heat.h"
 #include "material/strength.h"
 
@@ -17,6 +19,7 @@
 struct material {
     struct eos eos;
     struct strength strength;
+    struct failure failure;
     struct burn burn;
     struct heat heat;
 };
@@ -35,6 +38,17 @@ BOLIDE_INLINE bool material_has_strength(const struct material *material)
 BOLIDE_INLINE bool material_burns(const struct material *material)
 {
     return material->burn.kind != BURN_INSTANT;
+}
+
+BOLIDE_INLINE bool material_fails(const struct material *material)
+{
+    return material->failure.kind != FAILURE_NONE;
+}
+
+/* Whether POINT has failed by the failure model. */
+BOLIDE_INLINE bool material_failed(const struct material *material, const double *history)
+{
+    return material_fails(material) && history[HISTORY_damage] >= 1.0;
 }
 
 /* The density that the equation of state is to see: soil that has gained volume by flow and tearing is dense again once
@@ -58,6 +72,8 @@ BOLIDE_INLINE struct eos_value material_pressure(const struct material *material
     if (material_burns(material))
         burn_mix(&material->burn, point->history[HISTORY_burnt], &value);
     strength_cut(&material->strength, point->history, &value);
+    if (material_failed(material, point->history))
+        value.pressure = maximum(value.pressure, 0.0);
     return value;
 }
 
@@ -105,12 +121,87 @@ BOLIDE_INLINE void material_dilate(const struct material *material, struct point
     }
 }
 
+/* The density between that of POINT, whose equation of state gives a tension, and a denser state,
+ * at which it gives none: by bisection, and by Newton's method where that stays between. */
+BOLIDE_INLINE double material_density_of_no_pressure(const struct material *material,
+                                                     const struct point *point)
+{
+    const struct eos *eos = &material->eos;
+    double low = point->density, high = maximum(low, material_density(material));
+    for (int k = 0; k < 8; k++, high *= 1.05)
+        if (eos_evaluate(eos, high, point->energy, point->history).pressure >= 0.0)
+            break;
+    double density = high;
+    for (int k = 0; k < 60; k++) {
+        const struct eos_value value = eos_evaluate(eos, density, point->energy, point->history);
+        if (value.pressure < 0.0)
+            low = density;
+        else
+            high = density;
+        const double newton = density - value.pressure / value.dp_drho;
+        const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+        if (fabs(next - density) <= 1e-14 * density)
+            break;
+        density = next;
+    }
+    return density;
+}
+
+/* Failed material that is drawn apart keeps its density and opens voids: POINT, which a step has
+ * taken to a density with its voids, is split into the two. Voids no longer count from VOIDS_MOST
+ * on: fragments are then free, and are what they are made of. */
+#define VOIDS_MOST 0.5
+BOLIDE_INLINE void material_open(const struct material *material, struct point *point)
+{
+    point->history[HISTORY_void_ratio] = 0.0;
+    if (!(eos_evaluate(&material->eos, point->density, point->energy, point->history).pressure <
+          0.0))
+        return;
+    const double density = material_density_of_no_pressure(material, point);
+    point->history[HISTORY_void_ratio] = minimum(density / point->density - 1.0, VOIDS_MOST);
+    point->density = density;
+}
+
+/* What the failure model does to POINT after the elastic and plastic part of a step, which flowed
+ * FLOW. */
+BOLIDE_INLINE void material_fail(const struct material *material, const struct motion *motion,
+                                 double flow, struct point *point)
+{
+    double *const damage = &point->history[HISTORY_damage];
+    if (*damage < 1.0) {
+        const struct eos_value value = material_pressure(material, point);
+        const double bulk = value.dp_drho + value.dp_de * value.pressure / square(point->density);
+        struct failing failing;
+        failing.density = point->density;
+        failing.sound = sqrt(maximum(bulk, 0.0));
+        failing.yield = strength_yield(&material->strength, point);
+        failing.pressure = value.pressure;
+        failing.deviator = point->deviator;
+        failing.flow = flow;
+        failing.rate = strength_strain_rate(motion->strain_rate);
+        failing.stretching = sym3_trace(motion->strain_rate);
+        failing.homologous = strength_homologous(&material->strength, point);
+        *damage = minimum(failure_damage(&material->failure, &failing, *damage), 1.0);
+    }
+    if (*damage < 1.0)
+        return;
+    material_open(material, point);
+    const double friction =
+        material->failure.of.friction * material_pressure(material, point).pressure;
+    const double mises = sym3_mises(point->deviator);
+    if (mises > friction)
+        point->deviator = sym3_scale(friction / mises, point->deviator);
+}
+
 /* Takes deviator and history of a point to its new density: burning, compaction, then elastic trial, rotation and plastic
  * return, with the damage that they do. */
 BOLIDE_INLINE void material_flow(const struct material *material, struct point *point,
                                  const struct motion *motion)
 {
+    const double strain = point->history[HISTORY_plastic_strain];
     point->density = motion->density;
+    if (material_fails(material))
+        point->density /= 1.0 + point->history[HISTORY_void_ratio];
     if (material_burns(material)) {
         double rest = material_density(material);
         struct burning burning;
@@ -135,6 +226,20 @@ BOLIDE_INLINE void material_flow(const struct material *material, struct point *
     } else if (material_has_strength(material)) {
         strength_step(&material->strength, motion, 0.0, point);
     }
+    if (material_fails(material))
+        material_fail(material, motion, point->history[HISTORY_plastic_strain] - strain, point);
+}
+
+/* Why strength and failure do not go together; NULL when they do. */
+BOLIDE_INLINE const char *material_failure_wrong(const struct material *material)
+{
+    if (!material_fails(material))
+        return NULL;
+    if (!material_has_strength(material))
+        return "only a material with strength fails: a fluid needs none";
+    if (strength_takes_pressure(&material->strength))
+        return "this strength model has a failure of its own";
+    return NULL;
 }
 
 /* Advances a point by one step after which its energy is MOTION->energy (section 7.3 of the source, steps 4 to 7). */
@@ -200,8 +305,9 @@ BOLIDE_INLINE double material_start_heating(const struct material *material,
 BOLIDE_INLINE unsigned material_history(const struct material *material)
 {
     unsigned burning = HISTORY_BIT(lighting_time) | HISTORY_BIT(burnt);
+    const unsigned failing = HISTORY_BIT(damage) | HISTORY_BIT(void_ratio);
     return eos_history(&material->eos) | strength_history(&material->strength) |
-           (material_burns(material) ? burning : 0);
+           (material_fails(material) ? failing : 0) | (material_burns(material) ? burning : 0);
 }
 
 /* Whether it remembers no more than its plastic strain and is a fluid or a plain solid, as most
@@ -209,7 +315,7 @@ BOLIDE_INLINE unsigned material_history(const struct material *material)
 BOLIDE_INLINE bool material_is_plain(const struct material *material)
 {
     return strength_is_plain(&material->strength) && !eos_history(&material->eos) &&
-           !material_burns(material);
+           !material_burns(material) && !material_fails(material);
 }
 
 #endif

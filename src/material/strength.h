@@ -166,6 +166,15 @@ BOLIDE_INLINE void strength_cut(const struct strength *strength, const double *h
     }
 }
 
+/* T* = (T - room)/(melt - room) at POINT, at most one; zero where heat does not soften it. */
+BOLIDE_INLINE double strength_homologous(const struct strength *strength, const struct point *point)
+{
+    return strength->kind == STRENGTH_johnson_cook
+               ? johnson_cook_homologous(&strength->of.johnson_cook,
+                                         point->history[HISTORY_plastic_heating])
+               : 0.0;
+}
+
 /* The slots of history that it needs. */
 BOLIDE_INLINE unsigned strength_history(const struct strength *strength)
 {

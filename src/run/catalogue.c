@@ -29,6 +29,7 @@ static const struct choice_list lists[] = {
     {"scheme", "the interaction of neighbours in SPH", sph_scheme_choices, SPH_SCHEMES},
     {"eos", "the equation of state of a material", eos_choices, EOS_KINDS},
     {"strength", "the shear strength of a material", strength_choices, STRENGTH_KINDS},
+    {"failure", "how a solid breaks", failure_choices, FAILURE_KINDS},
     {"burn", "how an explosive turns into its products", burn_choices, BURN_KINDS},
     {"shape", "the shape of a body", shape_choices, SHAPES},
     {"lattice", "the initial arrangement of the particles of a body", lattice_choices,

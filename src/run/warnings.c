@@ -29,7 +29,8 @@ static double tension_limit(const struct material *material, double strength, bo
     if (!isnan(strength))
         return strength;
     if (eos_traits(&material->eos).limits_tension ||
-        strength_traits(&material->strength).limits_tension)
+        strength_traits(&material->strength).limits_tension ||
+        failure_traits(&material->failure).limits_tension)
         return INFINITY;
     struct point rest = {.density = material_density(material)};
     rest.history[HISTORY_burnt] = 1.0;

@@ -24,16 +24,16 @@ void sph_evaluate(const struct sph *sph, struct simulation *simulation)
 }
 
 /* The particle with the smallest id whose new state is impossible. */
-struct failure {
+struct impossible {
     bool any;
     uint64_t id;
     int32_t index;
 };
 
-static void note_failure(struct failure *failure, uint64_t id, int32_t index)
+static void note_impossible(struct impossible *impossible, uint64_t id, int32_t index)
 {
-    if (!failure->any || id < failure->id)
-        *failure = (struct failure){true, id, index};
+    if (!impossible->any || id < impossible->id)
+        *impossible = (struct impossible){true, id, index};
 }
 
 /* The relative growth of a particle's density in a step of DT where neighbouring volumes overlap:
@@ -289,7 +289,7 @@ static void step_plain_points(struct particles *p, const struct advance *step,
 
 /* Sizes of number K of a passage in its new state, and whether that is possible. */
 BOLIDE_INLINE void finish_point(struct particles *p, const struct advance *step,
-                                const struct passage *passage, int k, struct failure *failure)
+                                const struct passage *passage, int k, struct impossible *impossible)
 {
     const struct sph_fields *const f = step->fields;
     const int32_t i = passage->first + k;
@@ -306,13 +306,13 @@ BOLIDE_INLINE void finish_point(struct particles *p, const struct advance *step,
                           isfinite(p->pressure[i]) && isfinite(p->energy[i]) &&
                           isfinite(passage->a2[k]) && !(passage->status[k] & POINT_NO_SOUND);
     if (!possible)
-        note_failure(failure, p->id[i], i);
+        note_impossible(impossible, p->id[i], i);
 }
 
 /* Particles BEGIN .. END - 1, all of one material. */
 static void update_run(const struct material *material, struct particles *p,
                        const struct advance *step, int32_t begin, int32_t end,
-                       struct failure *failure)
+                       struct impossible *impossible)
 {
     const struct sph_fields *const f = step->fields;
     struct passage passage;
@@ -333,12 +333,12 @@ static void update_run(const struct material *material, struct particles *p,
         else
             step_points(material, ANY_POINTS, p, step, &passage);
         for (int k = 0; k < passage.count; k++)
-            finish_point(p, step, &passage, k, failure);
+            finish_point(p, step, &passage, k, impossible);
     }
 }
 
 static void update_block(struct simulation *simulation, const struct advance *step,
-                         const struct block *block, struct failure *failure)
+                         const struct block *block, struct impossible *impossible)
 {
     struct particles *p = step->fields->particles;
     const int32_t end = block->first + block->count;
@@ -346,13 +346,13 @@ static void update_block(struct simulation *simulation, const struct advance *st
         uint16_t material = p->material[begin];
         for (next = begin + 1; next < end && p->material[next] == material;)
             next++;
-        update_run(&simulation->problem->material[material], p, step, begin, next, failure);
+        update_run(&simulation->problem->material[material], p, step, begin, next, impossible);
     }
 }
 
 /* Heat alone: density and deviator stay. */
 static void update_heat(const struct sph *sph, struct simulation *simulation,
-                        const struct sph_fields *f, double dt, struct failure *failure)
+                        const struct sph_fields *f, double dt, struct impossible *impossible)
 {
     struct particles *p = sph->particles;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
@@ -362,8 +362,8 @@ static void update_heat(const struct sph *sph, struct simulation *simulation,
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++)
         if (!isfinite(p->energy[i]) || !isfinite(p->pressure[i])) {
-#pragma omp critical(bolide_sph_failure)
-            note_failure(failure, p->id[i], i);
+#pragma omp critical(bolide_sph_impossible)
+            note_impossible(impossible, p->id[i], i);
         }
 }
 
@@ -373,10 +373,10 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation,
     if (fields->rates.wall)
         sph_book_walls(simulation, fields, dt);
     sph_hold_bodies(simulation, fields, dt);
-    struct failure failure = {false, 0, 0};
+    struct impossible impossible = {false, 0, 0};
     if (sph_has(sph, SPH_STILL)) {
-        update_heat(sph, simulation, fields, dt, &failure);
-        return failure.any ? simulation_impossible(simulation, failure.index) : NULL;
+        update_heat(sph, simulation, fields, dt, &impossible);
+        return impossible.any ? simulation_impossible(simulation, impossible.index) : NULL;
     }
     sph_add_gravity(simulation, fields, dt, 0.5 * dt);
     const struct advance step = {.fields = fields,
@@ -389,15 +389,15 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation,
                                  .gravity = simulation->problem->gravity};
 #pragma omp parallel num_threads(simulation->threads)
     {
-        struct failure own = {false, 0, 0};
+        struct impossible own = {false, 0, 0};
 #pragma omp for schedule(dynamic)
         for (int32_t b = 0; b < sph->particles->blocks; b++)
             update_block(simulation, &step, &sph->particles->block[b], &own);
-#pragma omp critical(bolide_sph_failure)
+#pragma omp critical(bolide_sph_impossible)
         if (own.any)
-            note_failure(&failure, own.id, own.index);
+            note_impossible(&impossible, own.id, own.index);
     }
     if (fields->rates.wall)
         sph_return_strays(simulation, sph->particles);
-    return failure.any ? simulation_impossible(simulation, failure.index) : NULL;
+    return impossible.any ? simulation_impossible(simulation, impossible.index) : NULL;
 }

@@ -109,6 +109,7 @@ static const struct choice exact[] = {{"impact", "two plates", NULL, 0, NULL}};
 static const struct choice_list lists[] = {
     {"eos", "equations of state", eos_choices, EOS_KINDS},
     {"strength", "strength models", strength_choices, STRENGTH_KINDS},
+    {"failure", "failure models", failure_choices, FAILURE_KINDS},
     {"burn", "burn models", burn_choices, BURN_KINDS},
     {"shape", "shapes", shapes, COUNT_OF(shapes)},
     {"lattice", "lattices", lattice_choices, LATTICE_KINDS},

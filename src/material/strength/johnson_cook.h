@@ -56,14 +56,22 @@ BOLIDE_INLINE bool johnson_cook_softens(const struct strength_johnson_cook *soli
     return !isnan(solid->m);
 }
 
+/* T* after HEATING by K, from zero to one; zero where heat does not soften it. */
+BOLIDE_INLINE double johnson_cook_homologous(const struct strength_johnson_cook *solid,
+                                             double heating)
+{
+    return johnson_cook_softens(solid)
+               ? minimum(maximum(heating, 0.0) / (solid->melt - solid->room), 1.0)
+               : 0.0;
+}
+
 /* 1 - T*^m after HEATING by K. */
 BOLIDE_INLINE double johnson_cook_softening(const struct strength_johnson_cook *solid,
                                             double heating)
 {
     if (!johnson_cook_softens(solid))
         return 1.0;
-    const double share = maximum(heating, 0.0) / (solid->melt - solid->room);
-    return 1.0 - power(minimum(share, 1.0), solid->m);
+    return 1.0 - power(johnson_cook_homologous(solid, heating), solid->m);
 }
 
 /* 1 + C ln max(rate/rate_0, 1). */

@@ -21,8 +21,8 @@
 
 #include "sph/contact/kernel.h"
 
-/* Marks the material of a gas; more than any index. */
-enum { MUSCL_GAS = 1 << 16 };
+/* Marks what carries no tension: more than any index of a material. */
+enum { MUSCL_GAS = 1 << 16, MUSCL_FAILED = 2 << 16 };
 
 struct muscl_kind {
     int dimension;
@@ -45,8 +45,8 @@ BOLIDE_INLINE int muscl_shock_slope(struct muscl_kind kind)
 {
     return muscl_impedance(kind) + 1 + (kind.dimension > 1);
 }
-/* The index of the material, plus MUSCL_GAS for a gas; for a particle with prescribed motion -2
- * minus that. */
+/* The index of the material, plus MUSCL_GAS for a gas and MUSCL_FAILED for what has failed; for a
+ * particle with prescribed motion -2 minus that. */
 BOLIDE_INLINE int muscl_material(struct muscl_kind kind) { return muscl_shock_slope(kind) + 1; }
 BOLIDE_INLINE bool muscl_driven(double material) { return material < -1.5; }
 BOLIDE_INLINE double muscl_index(double material) { return maximum(material, -2.0 - material); }
@@ -54,6 +54,7 @@ BOLIDE_INLINE double muscl_mark(int material, bool gas)
 {
     return gas ? material + MUSCL_GAS : material;
 }
+BOLIDE_INLINE double muscl_failed_mark(int material) { return material + MUSCL_FAILED; }
 BOLIDE_INLINE int muscl_compression(struct muscl_kind kind) { return muscl_shock_slope(kind) + 2; }
 BOLIDE_INLINE int muscl_packing(struct muscl_kind kind)
 {

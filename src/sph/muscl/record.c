@@ -50,6 +50,12 @@ static __attribute__((noinline)) void flow_rarely(const struct strength *strengt
     strength_step(strength, motion, bulk, point);
 }
 
+/* Whether particle I has failed by the failure model of its MATERIAL. */
+BOLIDE_INLINE bool has_failed(const struct material *material, const struct particles *p, int32_t i)
+{
+    return material_fails(material) && p->history[HISTORY_damage][i] >= 1.0;
+}
+
 /* By how much velocity and stress of particle I change in half a step. The pressure follows the
  * adiabat's slope, the deviator its law, plasticity included. */
 BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
@@ -57,7 +63,9 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
                                        double ahead, int32_t i, double velocity[3])
 {
     const struct particles *p = f->sph.particles;
-    const struct strength *strength = &simulation->problem->material[p->material[i]].strength;
+    const struct material *material = &simulation->problem->material[p->material[i]];
+    const struct strength *strength = &material->strength;
+    const bool failed = has_failed(material, p, i);
     const struct expected rates = expected_rates(simulation, f, kind, i);
     const double(*u)[3] = rates.gradient, *s = p->deviator[i];
     for (int axis = 0; axis < 3; axis++)
@@ -76,7 +84,7 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
     if (f->sph.thickness) /* no stress rate across the plate */
         strain.zz = -(strain.xx + strain.yy) * (1.0 - 2.0 * shear_square / sound_square);
     const double bulk = p->density[i] * (sound_square - 4.0 / 3.0 * shear_square);
-    if (strength->kind != STRENGTH_NONE) {
+    if (strength->kind != STRENGTH_NONE && !failed) {
         struct motion motion = {
             .dt = ahead, .density = p->density[i], .strain_rate = strain, .spin = spin};
         struct point point = {p->density[i], p->energy[i], p->pressure[i], start, {0.0}};
@@ -89,6 +97,8 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
         stress = point.deviator;
     }
     double pressure = ahead * bulk * sym3_trace(strain);
+    if (failed && p->history[HISTORY_void_ratio][i] > 0.0)
+        pressure = 0.0; /* voids open or close */
     stress = sym3_add(stress, sym3_scale(-1.0, start));
     stress.xx += pressure;
     stress.yy += pressure;
@@ -147,7 +157,9 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     if (dimension > 1)
         record[k++] = across_impedance(f, kind, p->density[i], i);
     record[k++] = p->density[i] * state->shock_slope[p->material[i]];
-    const double mark = state->mark[p->material[i]];
+    const double mark = has_failed(&simulation->problem->material[p->material[i]], p, i)
+                            ? muscl_failed_mark(p->material[i])
+                            : state->mark[p->material[i]];
     record[k++] = body_is_held(simulation, p->body[i]) ? -2.0 - mark : mark;
     if (dimension > 1) {
         record[k++] = p->density[i] / f->sph.density_start[i];

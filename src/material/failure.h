@@ -1,0 +1,74 @@
+/* Failure models: how a solid breaks; one header each, and the list of them.
+ *
+ * A model adds to the damage of a point what a step does; at one the point has failed. What failed
+ * material is, is the same with all models (material.h): it bears no tension, its shear stress is
+ * at most its friction, and where it is drawn apart it keeps its density and voids open. To add a
+ * model: its header in failure/, and its line in the list below. */
+#ifndef BOLIDE_FAILURE_H
+#define BOLIDE_FAILURE_H
+
+#include "material/failure/cockcroft_latham.h"
+#include "material/failure/grady.h"
+#include "material/failure/johnson_cook.h"
+#include "material/failure/spall.h"
+
+/* X(identifier): in failure/<identifier>.h struct failure_<identifier>, whose first member is the
+ * friction of failed material, failure_<identifier>(), which gives the damage after a step,
+ * failure_<identifier>_traits(), and its name, help and parameters (see choices.c). */
+#define FAILURE_LIST(X) \
+    X(spall)            \
+    X(johnson_cook)     \
+    X(cockcroft_latham) \
+    X(grady)
+
+#define FAILURE_ENUM(name) FAILURE_##name,
+enum failure_kind { FAILURE_NONE, FAILURE_LIST(FAILURE_ENUM) FAILURE_KINDS };
+#undef FAILURE_ENUM
+
+#define FAILURE_MEMBER(name) struct failure_##name name;
+struct failure {
+    enum failure_kind kind;
+    union {
+        double friction;
+        FAILURE_LIST(FAILURE_MEMBER)
+    } of;
+};
+#undef FAILURE_MEMBER
+
+/* The damage of POINT after a step; DAMAGE: before. */
+BOLIDE_INLINE double failure_damage(const struct failure *failure, const struct failing *point,
+                                    double damage)
+{
+    switch (failure->kind) {
+#define FAILURE_CASE(name) \
+    case FAILURE_##name:   \
+        return failure_##name(&failure->of.name, point, damage);
+        FAILURE_LIST(FAILURE_CASE)
+#undef FAILURE_CASE
+    default:
+        return damage;
+    }
+}
+
+BOLIDE_INLINE struct failure_traits failure_traits(const struct failure *failure)
+{
+    switch (failure->kind) {
+#define FAILURE_CASE(name) \
+    case FAILURE_##name:   \
+        return failure_##name##_traits(&failure->of.name);
+        FAILURE_LIST(FAILURE_CASE)
+#undef FAILURE_CASE
+    default:
+        return failure_default_traits();
+    }
+}
+
+/* Why its parameters do not go together, *KEY is that it is about; NULL when they do. */
+BOLIDE_INLINE const char *failure_wrong(const struct failure *failure, const char **key)
+{
+    const struct failure_traits traits = failure_traits(failure);
+    *key = traits.wrong_key;
+    return traits.wrong;
+}
+
+#endif

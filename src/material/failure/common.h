@@ -1,0 +1,45 @@
+/* What the headers of the failure models have in common: what a step of a point brings to its
+ * damage, the parameter that every model has, and the traits that others ask of a model. */
+#ifndef BOLIDE_FAILURE_COMMON_H
+#define BOLIDE_FAILURE_COMMON_H
+
+#include "base/exponential.h"
+#include "material/strength/elastic.h"
+
+/* A point after the elastic and plastic part of a step: what its damage may depend on. */
+struct failing {
+    double density;       /* kg/m^3 */
+    double sound;         /* of volume waves, m/s */
+    double yield;         /* of slow flow in simple tension, Pa */
+    double pressure;      /* of density and energy, before a limit of tension, Pa */
+    struct sym3 deviator; /* of stress, Pa */
+    double flow, rate;    /* plastic strain of the step; equivalent strain rate, 1/s */
+    double stretching;    /* trace of the strain rate, 1/s */
+    double homologous;    /* T* of the strength model; zero where it has none */
+};
+
+/* The first parameter of every model. */
+#define FAILURE_FRICTION(T)                                                                   \
+    NUMBER(T, friction, "", "0.3", NOT_NEGATIVE,                                              \
+           "of failed material: the Mises stress that it bears over its pressure, up to the " \
+           "yield stress")
+
+struct failure_traits {
+    bool limits_tension; /* by a stress that it is given */
+    /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
+    const char *wrong, *wrong_key;
+};
+
+BOLIDE_INLINE struct failure_traits failure_default_traits(void)
+{
+    struct failure_traits traits = {false, NULL, NULL};
+    return traits;
+}
+
+/* The largest principal stress, Pa, positive in tension. */
+BOLIDE_INLINE double failing_largest_stress(const struct failing *point)
+{
+    return sym3_largest(point->deviator) - point->pressure;
+}
+
+#endif
