@@ -45,7 +45,9 @@ const struct parameter case_boundary_table[] = {
      .standard = PARAMETER_REQUIRED,
      .names = kind_names,
      .help = "transmitting: waves leave; reflecting: a rigid wall without friction; inflow: the "
-             "state outside is given; periodic: the cells of the opposite face are outside"},
+             "state outside is given; periodic: what leaves comes in at the opposite face. Gas has "
+             "all, "
+             "SPH reflecting and periodic, MPM none"},
     {.key = "part",
      .kind = PARAMETER_ONE_OF,
      .offset = offsetof(struct boundary_input, part),

@@ -74,9 +74,9 @@ static const struct answer answers[] = {
      "`geometry: axisymmetric` makes bodies of revolution in 2-D: x is the radius, y the axis.",
      "case.md"},
     {" periodic periodicity ",
-     "With gas: `boundaries: {x: {axis: x, kind: periodic}}`. Not available for particles: two\n"
-     "mirror walls repeat a cell that is symmetric.",
-     "gas.md"},
+     "With SPH and gas: `boundaries: {ends: {axis: x, kind: periodic}}`. Not available with MPM:\n"
+     "two mirror walls repeat a cell that is symmetric.",
+     "case.md"},
     {" absorbing transmitting non.reflecting nonreflecting infinite ",
      "With SPH: a few particles of the same material with `frozen: yes` at the end of a body\n"
      "let waves leave. With MPM: `outflows`.",

@@ -5,38 +5,8 @@
 #include "case/internal.h"
 #include "gas/gas_internal.h"
 #include "material/material.h"
+#include "model/domain.h"
 #include "shape/shape.h"
-
-/* Where a face of the domain stands in the case, for messages. */
-struct face_place {
-    double at; /* m */
-    const char *section, *name;
-};
-
-static double end_of(struct vec3 place, int axis)
-{
-    return axis == 0 ? place.x : axis == 1 ? place.y : place.z;
-}
-
-static struct face_place face_place_of(const struct simulation_case *input, int axis, int side)
-{
-    const struct vector_value *given = side ? &input->domain.high : &input->domain.low;
-    if (given->count > axis)
-        return (struct face_place){given->at[axis], "domain", side ? "high" : "low"};
-    for (int w = 0; w < input->walls.count; w++)
-        if (case_wall(input, w)->axis == axis && case_wall(input, w)->side == side)
-            return (struct face_place){case_wall(input, w)->at, "walls", input->walls.names[w]};
-    struct face_place place = {side ? -INFINITY : INFINITY, "bodies", NULL};
-    for (int b = 0; b < input->bodies.count; b++) {
-        const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
-        double at = end_of(side ? bounds.high : bounds.low, axis);
-        if (input->geometry == GEOMETRY_AXISYMMETRIC && axis == 0 && !side)
-            at = maximum(at, 0.0);
-        if (side ? at > place.at : at < place.at)
-            place = (struct face_place){at, "bodies", input->bodies.names[b]};
-    }
-    return place;
-}
 
 /* A wall inside the domain, or a second one of a face, would close nothing. */
 static struct error *check_walls(const struct simulation_case *input,
@@ -67,7 +37,8 @@ static struct error *check_filled(const struct simulation_case *input,
             double reached = side ? -INFINITY : INFINITY;
             for (int b = 0; b < input->bodies.count; b++) {
                 const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
-                const double at = end_of(side ? bounds.high : bounds.low, axis);
+                const struct vec3 end = side ? bounds.high : bounds.low;
+                const double at = axis == 0 ? end.x : axis == 1 ? end.y : end.z;
                 reached = side ? maximum(reached, at) : minimum(reached, at);
             }
             const double lacks = side ? face[axis][1].at - reached : reached - face[axis][0].at;
@@ -93,7 +64,7 @@ struct error *gas_find_domain(const struct simulation *simulation, struct cell_b
     }
     for (int axis = 0; axis < cells->dimension; axis++)
         for (int side = 0; side < 2; side++) {
-            const struct face_place place = face[axis][side] = face_place_of(input, axis, side);
+            const struct face_place place = face[axis][side] = domain_face(input, axis, side);
             const double planes = place.at / edge, nearest = nearbyint(planes);
             if (!(fabs(planes) < reach))
                 error = error_join(error, input_error(input, place.section, place.name,

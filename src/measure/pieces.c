@@ -198,7 +198,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     error = ranks_agree(measurement->simulation->ranks, error);
     if (!error) {
         view_read(view, 0, particles->count, diameter);
-        error = halo_plan(particles_in(&measurement->simulation->population[0]),
+        error = halo_plan(particles_in(&measurement->simulation->population[0]), NULL,
                           (struct reach){diameter, parameters->link}, 0.0, &ghosts, &halo);
     }
     if (!error)

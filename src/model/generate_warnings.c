@@ -5,14 +5,18 @@
 /* Particles across a plate below which others get through it, and with which it hardly bends. */
 enum { THIN = 3 };
 
-/* Whether mirrors keep BODY from both sides of AXIS: it stands for an infinite one. */
+/* Whether mirrors or periodic faces keep bodies from both sides of AXIS: they stand for infinite ones. */
 static bool is_between_mirrors(const struct simulation_case *input, int axis)
 {
     bool at[2] = {false, false};
     for (int i = 0; i < input->walls.count; i++)
         if (case_wall(input, i)->axis == axis)
             at[case_wall(input, i)->side == WALL_HIGH] = true;
-    return at[0] && at[1];
+    bool periodic = false;
+    for (int i = 0; i < input->boundaries.count; i++)
+        periodic |= case_boundary(input, i)->axis == axis &&
+                    case_boundary(input, i)->kind == BOUNDARY_PERIODIC;
+    return (at[0] && at[1]) || periodic;
 }
 
 static bool is_thin(const struct simulation_case *input, int body, int axis)

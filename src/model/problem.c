@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "material/material.h"
+#include "model/domain.h"
 
 struct error *input_error(const struct simulation_case *input, const char *section,
                           const char *name, const char *format, ...)
@@ -200,21 +201,33 @@ static struct error *set_contacts(struct problem *problem)
     return error;
 }
 
+struct error *refuse_obstacles(const struct simulation_case *input)
+{
+    if (!input->obstacles.count)
+        return NULL;
+    return input_error(input, "obstacles", input->obstacles.names[0],
+                       "only the solver gas has obstacles: a body that is `driven` or `frozen` "
+                       "serves particles");
+}
+
 struct error *refuse_boundaries(const struct simulation_case *input)
 {
     struct error *error = NULL;
     if (input->domain.low.count || input->domain.high.count)
         error = input_error(input, "domain", NULL,
-                            "only the solver gas computes a domain: particles have none");
-    if (input->boundaries.count)
-        error = error_join(error, input_error(input, "boundaries", input->boundaries.names[0],
-                                              "only the solver gas has a domain with boundaries: "
-                                              "a wall is a mirror for particles"));
-    if (input->obstacles.count)
-        error = error_join(error, input_error(input, "obstacles", input->obstacles.names[0],
-                                              "only the solver gas has obstacles: a body that is "
-                                              "`driven` or `frozen` serves particles"));
-    return error;
+                            "the solver mpm has no domain: it computes wherever particles are");
+    for (int b = 0; b < input->boundaries.count; b++) {
+        const char *text =
+            case_boundary(input, b)->kind == BOUNDARY_PERIODIC
+                ? "the solver mpm has no periodic boundaries: use sph, or gas"
+            : case_boundary(input, b)->kind == BOUNDARY_REFLECTING
+                ? "the solver mpm has no boundaries of a domain: give a wall instead"
+                : "only the solver gas has this kind: in mpm particles leave through `outflows`, "
+                  "and a `frozen` body is a transmitting end with sph";
+        error = error_join(
+            error, input_error(input, "boundaries", input->boundaries.names[b], "%s", text));
+    }
+    return error_join(error, refuse_obstacles(input));
 }
 
 /* The store keeps the number of a body in 16 bits. */
@@ -243,6 +256,7 @@ struct error *problem_create(const struct simulation_case *input, struct problem
     for (int i = 0; i < input->materials.count; i++)
         problem->material[i] = *case_material(input, i)->material;
     struct error *error = set_mirrors(input, &problem->mirrors);
+    domain_set_faces(input, &problem->mirrors);
     return error_join(error, set_contacts(problem));
 }
 

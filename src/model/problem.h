@@ -24,7 +24,7 @@ struct problem {
     enum case_geometry geometry;
     int materials;
     struct material *material;
-    struct mirrors mirrors;                      /* rigid slip walls */
+    struct mirrors mirrors;                      /* rigid slip walls, periodic faces */
     double gravity[3];                           /* m/s^2, of what nothing holds */
     uint8_t *group_of_body;                      /* contact group of each body */
     uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS]; /* of the first towards the second */
@@ -42,7 +42,9 @@ void problem_destroy(struct problem *problem);
 struct error *input_error(const struct simulation_case *input, const char *section,
                           const char *name, const char *format, ...) BOLIDE_PRINTF(4, 5);
 
-/* That a case for particles names a domain, boundaries of one or obstacles, which are for cells. */
+/* That a case for particles names obstacles, or a domain and boundaries of one, which its solver has
+ * not. */
+struct error *refuse_obstacles(const struct simulation_case *input);
 struct error *refuse_boundaries(const struct simulation_case *input);
 
 /* The fields for what the case's materials remember beyond the core's, POINT_HISTORY at most: the

@@ -1,6 +1,7 @@
 /* Ghosts: records of particles that a rank does not own but must see. One plan, made with the neighbour
- * list, says of each ghost which record it copies and how it is reflected. First come particles of other ranks,
- * whose records arrive by an exchange; then images behind mirror walls, of owned particles and of those. */
+ * list, says of each ghost which record it copies and how it is reflected or shifted. First come particles of other
+ * ranks, whose records arrive by an exchange; then images behind mirror walls and periodic faces, of owned particles and
+ * of those. */
 #ifndef BOLIDE_GHOSTS_H
 #define BOLIDE_GHOSTS_H
 
@@ -8,13 +9,27 @@
 #include "parallel/exchange.h"
 
 /* Rigid slip walls normal to the axes: at most a low and a high one an axis, NAN where there is none.
- * Source of the reflection: Parshikov (2013), sections 2.8 and 3.1. */
+ * Source of the reflection: Parshikov (2013), sections 2.8 and 3.1. An axis with a `rounder` is periodic instead: low and
+ * high are its two faces (periodic.h). */
 struct mirrors {
     double low[3], high[3];
+    double rounder[3];
 };
 
-/* Which image of a particle a ghost is: a base-3 number, per axis 0 itself, 1 behind the low wall, 2
- * behind the high wall. Zero is the particle itself. */
+BOLIDE_INLINE bool mirrors_repeat(const struct mirrors *mirrors, int axis)
+{
+    return mirrors->rounder[axis] != 0.0;
+}
+
+/* Whether any axis repeats. */
+BOLIDE_INLINE bool mirrors_periodic(const struct mirrors *mirrors)
+{
+    return mirrors_repeat(mirrors, 0) || mirrors_repeat(mirrors, 1) || mirrors_repeat(mirrors, 2);
+}
+
+/* Which image of a particle a ghost is: a base-3 number, per axis 0 itself, 1 that of a particle near
+ * the low wall, behind it, 2 the same at the high wall. On a periodic axis 1 lies one period above the
+ * particle, and 2 one below. Zero is the particle itself. */
 typedef uint8_t image_code;
 enum { IMAGE_CODES = 27 };
 
@@ -38,28 +53,51 @@ struct ghosts {
     struct exchange exchange;
 };
 
-/* -1 for the axes that IMAGE reflects, 1 for the others. */
-BOLIDE_INLINE struct vec3 image_sign(image_code image)
+BOLIDE_INLINE int image_along(image_code image, int axis)
 {
-    return vec3_make(image % 3 ? -1.0 : 1.0, image / 3 % 3 ? -1.0 : 1.0, image / 9 ? -1.0 : 1.0);
+    return axis == 0 ? image % 3 : axis == 1 ? image / 3 % 3 : image / 9;
 }
 
-/* Place of image IMAGE of a particle at X: x' = 2 X_wall - x on each reflected axis. */
+/* -1 for the axes that IMAGE reflects, 1 for the others. */
+BOLIDE_INLINE struct vec3 image_sign(const struct mirrors *mirrors, image_code image)
+{
+    double sign[3];
+    for (int axis = 0; axis < 3; axis++)
+        sign[axis] = image_along(image, axis) && !mirrors_repeat(mirrors, axis) ? -1.0 : 1.0;
+    return vec3_make(sign[0], sign[1], sign[2]);
+}
+
+/* Place along AXIS of image IMAGE of a particle at X: x' = 2 X_wall - x behind a wall. */
+BOLIDE_INLINE double image_place(const struct mirrors *mirrors, int image, int axis, double x)
+{
+    const double low = mirrors->low[axis], high = mirrors->high[axis];
+    if (mirrors_repeat(mirrors, axis))
+        return image == 1 ? x + (high - low) : image == 2 ? x - (high - low) : x;
+    return image == 1 ? 2.0 * low - x : image == 2 ? 2.0 * high - x : x;
+}
+
 BOLIDE_INLINE struct vec3 image_position(const struct mirrors *mirrors, image_code image,
                                          struct vec3 x)
 {
-    int ix = image % 3, iy = image / 3 % 3, iz = image / 9;
-    if (ix)
-        x.x = 2.0 * (ix == 1 ? mirrors->low[0] : mirrors->high[0]) - x.x;
-    if (iy)
-        x.y = 2.0 * (iy == 1 ? mirrors->low[1] : mirrors->high[1]) - x.y;
-    if (iz)
-        x.z = 2.0 * (iz == 1 ? mirrors->low[2] : mirrors->high[2]) - x.z;
-    return x;
+    return vec3_make(image_place(mirrors, image_along(image, 0), 0, x.x),
+                     image_place(mirrors, image_along(image, 1), 1, x.y),
+                     image_place(mirrors, image_along(image, 2), 2, x.z));
 }
 
-/* A place has images behind each wall that is nearer than DISTANCE, and behind the corners of such
- * walls. */
+/* IMAGE as a number by which the images of a particle are ordered. Along a periodic axis that is the order of their
+ * places, which is the same for all particles that may be taken for the one that is inside. */
+BOLIDE_INLINE int image_order(const struct mirrors *mirrors, image_code image)
+{
+    int order = 0;
+    for (int axis = 2; axis >= 0; axis--) {
+        const int along = image_along(image, axis);
+        order = 3 * order + (mirrors_repeat(mirrors, axis) ? (along + 1) % 3 : along);
+    }
+    return order;
+}
+
+/* A place has images behind each wall and periodic face that is nearer than DISTANCE, and behind the
+ * corners of such. */
 struct near_walls {
     const struct mirrors *mirrors;
     int dimension;

@@ -86,6 +86,10 @@ static int group_of_place(const struct particles *p, const int64_t at[3], const 
 static void start_at_walls(struct moved *m, const struct mirrors *mirrors, double distance)
 {
     for (int axis = 0; axis < 3; axis++) {
+        if (mirrors_repeat(mirrors, axis)) {
+            m->low[axis] = m->high[axis] = (double)NAN;
+            continue;
+        }
         m->low[axis] -= mirrors->low[axis];
         m->high[axis] = mirrors->high[axis] - m->high[axis];
         m->walls |= (unsigned)(m->low[axis] < distance) << (2 * axis);
@@ -138,7 +142,21 @@ static int compare_keys(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* The blocks that touch block B, found by key: blocks are sorted by it, those of other ranks too. */
+/* Found by key: blocks are sorted by it, those of other ranks too. */
+int32_t motion_block_of(const struct block_motion *motion, const struct particles *p, uint64_t key)
+{
+    const struct block *found =
+        bsearch(&key, p->block, (size_t)p->blocks, sizeof *p->block, compare_keys);
+    const uint64_t *far = !found && motion->far_key
+                              ? bsearch(&key, motion->far_key, (size_t)motion->exchange.comes,
+                                        sizeof key, motion_compare_key)
+                              : NULL;
+    return found ? (int32_t)(found - p->block)
+           : far ? p->blocks + (int32_t)(far - motion->far_key)
+                 : -1;
+}
+
+/* The blocks that touch block B. */
 static void list_touching(struct block_motion *motion, const struct particles *p, int32_t b)
 {
     int64_t own[3];
@@ -146,18 +164,8 @@ static void list_touching(struct block_motion *motion, const struct particles *p
     block_coordinates(p->block[b].key, own);
     for (int k = 0; k < TOUCHING_MAX; k++) {
         motion->touching[b][k] = -1;
-        if (!motion_key_beside(p->dimension, own, k, &key))
-            continue;
-        const struct block *found =
-            bsearch(&key, p->block, (size_t)p->blocks, sizeof *p->block, compare_keys);
-        const uint64_t *far = !found && motion->far_key
-                                  ? bsearch(&key, motion->far_key, (size_t)motion->exchange.comes,
-                                            sizeof key, motion_compare_key)
-                                  : NULL;
-        if (found)
-            motion->touching[b][k] = (int32_t)(found - p->block);
-        else if (far)
-            motion->touching[b][k] = p->blocks + (int32_t)(far - motion->far_key);
+        if (motion_key_beside(p->dimension, own, k, &key))
+            motion->touching[b][k] = motion_block_of(motion, p, key);
     }
 }
 
@@ -166,10 +174,12 @@ struct error *motion_start(struct neighbours *n, const struct particles *p, stru
 {
     TRY(ranks_agree(p->ranks, reserve_motion(n, p)));
     if (p->ranks->joined)
-        TRY(motion_meet(n->motion, p, halo));
+        TRY(motion_meet(n->motion, p, walls, halo));
     TRY(ranks_agree(p->ranks, reserve(n, p, threads)));
     struct block_motion *motion = n->motion;
-    motion->distance = walls.distance;
+    motion->distance = motion->taken_seam = walls.distance;
+    motion->mirrors = *walls.mirrors;
+    motion->periodic = mirrors_periodic(walls.mirrors);
     motion->taken_approach = motion->taken_apart = 0.0;
     motion->taken_wall = -walls.distance;
     double largest = 0.0;
@@ -184,6 +194,7 @@ struct error *motion_start(struct neighbours *n, const struct particles *p, stru
     motion->judged = support < group_edge(p)   ? BY_GROUPS
                      : support < block_edge(p) ? BY_BLOCKS
                                                : BY_ALL;
+    TRY(ranks_agree(p->ranks, motion_list_seams(motion, p, walls)));
     n->order = p->order;
     n->near = n->prune = false;
     motion_start_near(n, p, reach, threads);
@@ -232,6 +243,8 @@ void motion_free(struct neighbours *neighbours)
         free(neighbours->motion->block);
         free(neighbours->motion->group);
         free(neighbours->motion->touching);
+        free(neighbours->motion->block_seam.pair);
+        free(neighbours->motion->group_seam.pair);
         free(neighbours->motion->group_of);
         free(neighbours->motion->far_key);
         exchange_free(&neighbours->motion->exchange);

@@ -18,6 +18,16 @@ struct moved {
     double mean[3], spread, growth, largest_reach; /* now */
 };
 
+/* A group or block of ours and one that touches an image of it across periodic faces. */
+struct seam_pair {
+    int32_t own, other;
+};
+struct seam {
+    struct seam_pair *pair;
+    int64_t capacity;
+    int64_t count;
+};
+
 enum { GROUPS_MAX = 32, TOUCHING_MAX = 27 };
 
 struct block_motion {
@@ -29,10 +39,15 @@ struct block_motion {
     uint64_t *far_key;        /* of the blocks that come, sorted */
     int32_t (
         *touching)[TOUCHING_MAX]; /* blocks that touch, by offset, itself included; -1 for none */
-    uint8_t *group_of;            /* group of each particle within its block */
+    struct seam block_seam, group_seam;
+    struct mirrors mirrors; /* of the build */
+    bool periodic;          /* along an axis of them */
+    uint8_t *group_of;      /* group of each particle within its block */
     /* What the motion up to the finding of near rows has taken of the room that those have who are no neighbours: the
      * approach of blocks that touch, of others, and the negative of the distance left from a wall. */
     double taken_approach, taken_apart, taken_wall;
+    double
+        taken_seam; /* and the distance left between particles that do not see each other across periodic faces */
     double distance;                              /* of the plan of images */
     enum { BY_GROUPS, BY_BLOCKS, BY_ALL } judged; /* by the smallest that supports fit into */
 };
@@ -52,10 +67,22 @@ struct error *motion_out_of_memory(void);
 bool motion_key_beside(int dimension, const int64_t own[3], int k, uint64_t *key);
 int motion_compare_key(const void *key, const void *far);
 
+/* The index of the block of KEY, those of other ranks behind ours; -1: there is none. */
+int32_t motion_block_of(const struct block_motion *motion, const struct particles *p, uint64_t key);
+
+/* The blocks from LOW to HIGH may touch image IMAGE, SHIFT away, of the block at OWN. False where the block lies far from
+ * the periodic faces that the image is of, and where it is of walls. */
+bool motion_blocks_across(const struct particles *p, struct near_walls walls, const int64_t own[3],
+                          image_code image, int64_t low[3], int64_t high[3], double shift[3]);
+
+/* Lists in `block_seam` and `group_seam` what touches across periodic faces. */
+struct error *motion_list_seams(struct block_motion *motion, const struct particles *p,
+                                struct near_walls walls);
+
 /* Collective: plans the exchange of blocks that touch those of other ranks, and learns the keys of those that come; and
  * brings how these have moved behind ours. */
 struct error *motion_meet(struct block_motion *motion, const struct particles *p,
-                          const struct halo *halo);
+                          struct near_walls walls, const struct halo *halo);
 void motion_meet_again(struct block_motion *motion, const struct particles *p);
 
 /* Collective: takes down places and reaches at the time of building; images were planned near WALLS, the

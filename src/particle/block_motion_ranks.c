@@ -28,43 +28,66 @@ int motion_compare_key(const void *key, const void *far)
     return x < y ? -1 : x > y;
 }
 
-/* Which of our blocks touch those of other ranks. */
-static bool find_send_items(const struct particles *p, const struct halo *halo,
-                            struct send_item **send, int32_t *count)
+/* What goes to other ranks. */
+struct sends {
+    struct send_item *send;
+    int64_t capacity;
+    int32_t count;
+};
+
+/* Block B goes to the rank of the block of KEY, once; those from FIRST on are of B. */
+static bool add_send(const struct particles *p, const struct halo *halo, uint64_t key, int32_t b,
+                     int32_t first, struct sends *sends)
 {
-    int64_t capacity = 0, own[3];
-    uint64_t key;
-    for (int32_t b = 0; b < p->blocks; b++) {
-        const int32_t first = *count;
-        block_coordinates(p->block[b].key, own);
-        for (int k = 0; k < TOUCHING_MAX; k++) {
-            if (!motion_key_beside(p->dimension, own, k, &key))
-                continue;
-            const struct region *other = bsearch(&key, halo->region, (size_t)halo->regions,
-                                                 sizeof *halo->region, motion_compare_key);
-            bool is_new = other && other->rank != p->ranks->rank;
-            for (int32_t e = first; e < *count && is_new; e++)
-                is_new = (*send)[e].rank != other->rank;
-            if (!is_new)
-                continue;
-            if (!memory_reserve((void **)send, &capacity, *count + 1, *count, sizeof **send))
-                return false;
-            (*send)[(*count)++] = (struct send_item){other->rank, b};
-        }
-    }
+    const struct region *other = bsearch(&key, halo->region, (size_t)halo->regions,
+                                         sizeof *halo->region, motion_compare_key);
+    bool is_new = other && other->rank != p->ranks->rank;
+    for (int32_t e = first; e < sends->count && is_new; e++)
+        is_new = sends->send[e].rank != other->rank;
+    if (!is_new)
+        return true;
+    if (!memory_reserve((void **)&sends->send, &sends->capacity, sends->count + 1, sends->count,
+                        sizeof *sends->send))
+        return false;
+    sends->send[sends->count++] = (struct send_item){other->rank, b};
     return true;
 }
 
-struct error *motion_meet(struct block_motion *motion, const struct particles *p,
-                          const struct halo *halo)
+/* Which of our blocks touch those of other ranks. */
+static bool find_send_items(const struct particles *p, struct near_walls walls,
+                            const struct halo *halo, struct sends *sends)
 {
-    struct send_item *send = NULL;
-    int32_t count = 0;
-    bool found = find_send_items(p, halo, &send, &count);
+    int64_t own[3], low[3], high[3], at[3];
+    uint64_t key;
+    double shift[3];
+    bool room = true;
+    for (int32_t b = 0; b < p->blocks && room; b++) {
+        const int32_t first = sends->count;
+        block_coordinates(p->block[b].key, own);
+        for (int k = 0; k < TOUCHING_MAX; k++)
+            if (motion_key_beside(p->dimension, own, k, &key))
+                room = room && add_send(p, halo, key, b, first, sends);
+        for (int image = 1; image < IMAGE_CODES; image++) {
+            if (!motion_blocks_across(p, walls, own, (image_code)image, low, high, shift))
+                continue;
+            for (at[0] = low[0]; at[0] <= high[0]; at[0]++)
+                for (at[1] = low[1]; at[1] <= high[1]; at[1]++)
+                    for (at[2] = low[2]; at[2] <= high[2]; at[2]++)
+                        room = room && add_send(p, halo, block_key(at), b, first, sends);
+        }
+    }
+    return room;
+}
+
+struct error *motion_meet(struct block_motion *motion, const struct particles *p,
+                          struct near_walls walls, const struct halo *halo)
+{
+    struct sends sends = {0};
+    bool found = find_send_items(p, walls, halo, &sends);
     struct error *error = ranks_agree(p->ranks, found ? NULL : motion_out_of_memory());
     if (!error)
-        error = exchange_plan(&motion->exchange, p->ranks, send, count);
-    free(send);
+        error = exchange_plan(&motion->exchange, p->ranks, sends.send, sends.count);
+    free(sends.send);
     TRY(error);
     free(motion->far_key);
     motion->far_key = memory_allocate((size_t)motion->exchange.comes * sizeof *motion->far_key);

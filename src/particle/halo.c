@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "parallel/periodic.h"
 
 /* Rounding must lose no pair at the edge of its range. */
 static const double margin = 1.0 + 1e-9;
@@ -36,12 +37,28 @@ static void include(struct region *region, const double low[3], const double hig
     region->reach = maximum(region->reach, reach);
 }
 
-static bool within(const struct region *region, const double low[3], const double high[3],
-                   double reach)
+/* The gap along AXIS between a region and what lies between LOW and HIGH, at the nearest of the places
+ * where it repeats. */
+static double gap_along(const struct region *region, const struct mirrors *mirrors, int axis,
+                        double low, double high)
+{
+    double gap = maximum(region->low[axis] - high, low - region->high[axis]);
+    if (mirrors && mirrors_repeat(mirrors, axis)) {
+        const double period = periodic_period(mirrors, axis);
+        gap = minimum(
+            gap, maximum(region->low[axis] - high - period, low + period - region->high[axis]));
+        gap = minimum(
+            gap, maximum(region->low[axis] - high + period, low - period - region->high[axis]));
+    }
+    return gap;
+}
+
+static bool within(const struct region *region, const struct mirrors *mirrors, const double low[3],
+                   const double high[3], double reach)
 {
     double sum = 0.0;
     for (int axis = 0; axis < 3; axis++) {
-        double gap = maximum(region->low[axis] - high[axis], low[axis] - region->high[axis]);
+        const double gap = gap_along(region, mirrors, axis, low[axis], high[axis]);
         sum += gap > 0.0 ? square(gap) : 0.0;
     }
     return sum <= square(margin * (region->reach + reach));
@@ -78,8 +95,9 @@ static bool add_send(struct list *list, int32_t rank, int32_t item)
     return true;
 }
 
-/* How far particles reach, in supports of SKIN more than that. */
+/* How far particles reach, in supports of SKIN more than that, and where they repeat. */
 struct seen {
+    const struct mirrors *mirrors;
     struct reach reach;
     double skin;
 };
@@ -92,7 +110,8 @@ static bool add_block(const struct particles *p, const struct block *block, stru
         double own = (1.0 + seen.skin) * seen.reach.smoothing * seen.reach.diameter[i];
         int32_t last = -1;
         for (int64_t k = 0; k < count; k++) {
-            if (near[k]->rank == last || !within(near[k], p->position[i], p->position[i], own))
+            if (near[k]->rank == last ||
+                !within(near[k], seen.mirrors, p->position[i], p->position[i], own))
                 continue;
             last = near[k]->rank;
             if (!add_send(list, last, i))
@@ -112,14 +131,14 @@ static struct error *find_send_items(const struct particles *p, struct seen seen
     int64_t candidates = 0;
     for (int64_t k = 0; k < halo->regions && p->count; k++)
         if (halo->region[k].rank != p->ranks->rank &&
-            within(&halo->region[k], whole->low, whole->high, whole->reach))
+            within(&halo->region[k], seen.mirrors, whole->low, whole->high, whole->reach))
             near[candidates++] = &halo->region[k];
     bool done = true;
     for (int32_t b = 0; b < p->blocks && done && candidates; b++) {
         const struct region **of_block = near + candidates;
         int64_t count = 0;
         for (int64_t k = 0; k < candidates; k++)
-            if (within(near[k], own[b].low, own[b].high, own[b].reach))
+            if (within(near[k], seen.mirrors, own[b].low, own[b].high, own[b].reach))
                 of_block[count++] = near[k];
         done = add_block(p, &p->block[b], seen, of_block, count, list);
     }
@@ -150,8 +169,8 @@ static struct error *introduce(const struct particles *p, struct reach reach, st
     return error;
 }
 
-struct error *halo_plan(const struct particles *particles, struct reach reach, double skin,
-                        struct ghosts *ghosts, struct halo *halo)
+struct error *halo_plan(const struct particles *particles, const struct mirrors *mirrors,
+                        struct reach reach, double skin, struct ghosts *ghosts, struct halo *halo)
 {
     const struct ranks *ranks = particles->ranks;
     *halo = (struct halo){0};
@@ -164,8 +183,8 @@ struct error *halo_plan(const struct particles *particles, struct reach reach, d
                              &halo->regions);
     struct list list = {0};
     if (!error)
-        error = ranks_agree(ranks, find_send_items(particles, (struct seen){reach, skin}, halo, own,
-                                                   &whole, &list));
+        error = ranks_agree(ranks, find_send_items(particles, (struct seen){mirrors, reach, skin},
+                                                   halo, own, &whole, &list));
     free(own);
     if (!error)
         error = exchange_plan(&ghosts->exchange, ranks, list.send, list.count);

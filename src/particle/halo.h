@@ -18,10 +18,11 @@ struct halo {
     int64_t regions;
 };
 
-/* Collective: plans the exchange of GHOSTS and takes down what its particles are. Free HALO also after an error. A
- * rank alone has no ghosts of others and no regions. */
-struct error *halo_plan(const struct particles *particles, struct reach reach, double skin,
-                        struct ghosts *ghosts, struct halo *halo);
+/* Collective: plans the exchange of GHOSTS and takes down what its particles are. Particles are seen across the
+ * periodic faces of MIRRORS too; NULL: there are none. Free HALO also after an error. A rank alone has no ghosts of
+ * others and no regions. */
+struct error *halo_plan(const struct particles *particles, const struct mirrors *mirrors,
+                        struct reach reach, double skin, struct ghosts *ghosts, struct halo *halo);
 void halo_free(struct halo *halo);
 
 #endif

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "parallel/periodic.h"
 #include "particle/block_motion.h"
 #include "particle/cells.h"
 #include "particle/halo.h"
@@ -23,7 +24,8 @@ struct build {
     struct reach reach;
     const struct mirrors *mirrors;
     const struct contact_groups *groups;
-    uint32_t *rank; /* by (id, image), of owned particles, then of ghosts */
+    bool walled[IMAGE_CODES]; /* the image is behind a wall, not behind periodic faces alone */
+    uint32_t *rank;           /* by (id, image), of owned particles, then of ghosts */
     struct cells cells;
 };
 
@@ -75,7 +77,8 @@ static struct cell_point point_of(const void *context, int32_t i)
     struct vec3 x = vec3_make(place[0], place[1], place[2]);
     if (is_image(b, i))
         x = image_position(b->mirrors, ghosts->image[i - p->count], x);
-    const uint32_t part = (uint32_t)(is_image(b, i) ? PART_IMAGE : 0) << ENTRY_PART_SHIFT;
+    const bool pushes = is_image(b, i) && b->walled[ghosts->image[i - p->count]];
+    const uint32_t part = (uint32_t)(pushes ? PART_IMAGE : 0) << ENTRY_PART_SHIFT;
     return (struct cell_point){x.x,
                                x.y,
                                x.z,
@@ -98,9 +101,12 @@ static void rank_points(struct build *b, struct keyed *entry, struct keyed *spar
 {
     const struct ghosts *ghosts = &b->n->ghosts;
     const int32_t owned = b->p->count;
+    uint64_t order[IMAGE_CODES];
+    for (int image = 0; image < IMAGE_CODES; image++)
+        order[image] = (uint64_t)image_order(b->mirrors, (image_code)image);
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int32_t i = 0; i < count; i++)
-        entry[i] = (struct keyed){i < owned ? 0 : ghosts->image[i - owned], i};
+        entry[i] = (struct keyed){order[i < owned ? 0 : ghosts->image[i - owned]], i};
     radix_sort(entry, spare, count, threads);
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int32_t k = 0; k < count; k++)
@@ -326,6 +332,14 @@ static void find_outer(struct neighbours *n, const struct particles *p, int thre
     }
 }
 
+static void find_walled(struct build *b)
+{
+    for (int image = 0; image < IMAGE_CODES; image++)
+        for (int axis = 0; axis < 3; axis++)
+            b->walled[image] |=
+                image_along((image_code)image, axis) && !mirrors_repeat(b->mirrors, axis);
+}
+
 static struct error *build_with(struct build *b, int threads)
 {
     struct neighbours *n = b->n;
@@ -339,21 +353,35 @@ static struct error *build_with(struct build *b, int threads)
     return NULL;
 }
 
+/* The images of a particle lie one period away: neighbours may not. */
+static struct error *check_periods(const struct mirrors *mirrors, double support)
+{
+    for (int axis = 0; axis < 3; axis++)
+        if (mirrors_repeat(mirrors, axis) && support >= periodic_period(mirrors, axis))
+            return error_new(ERROR_STATE,
+                             "the supports of particles have grown to %.4g m, skin included: the "
+                             "period along %c is %.4g m",
+                             support, "xyz"[axis], periodic_period(mirrors, axis));
+    return NULL;
+}
+
 struct error *neighbours_build(struct neighbours *neighbours, struct particles *particles,
                                struct reach reach, const struct mirrors *mirrors,
                                const struct contact_groups *groups, int threads)
 {
     TRY(ranks_agree(particles->ranks, reserve(neighbours, particles, threads)));
-    const struct near_walls walls = {mirrors, particles->dimension,
-                                     plan_margin * 2.0 * (1.0 + neighbours->skin) *
-                                         largest_reach(particles, reach, threads)};
+    const double support =
+        2.0 * (1.0 + neighbours->skin) * largest_reach(particles, reach, threads);
+    const struct near_walls walls = {mirrors, particles->dimension, plan_margin * support};
     struct halo halo;
-    TRY(halo_plan(particles, reach, neighbours->skin, &neighbours->ghosts, &halo));
+    TRY(check_periods(mirrors, support));
+    TRY(halo_plan(particles, mirrors, reach, neighbours->skin, &neighbours->ghosts, &halo));
     struct error *error =
         ghosts_plan(walls, particles->count, (const double(*)[3])particles->position, threads,
                     &neighbours->ghosts);
     struct build build = {
         .n = neighbours, .p = particles, .reach = reach, .mirrors = mirrors, .groups = groups};
+    find_walled(&build);
     if (!error)
         error = build_with(&build, threads);
     error = ranks_agree(particles->ranks, error);

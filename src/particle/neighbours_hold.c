@@ -2,11 +2,12 @@
  * (1 + skin) times its support; it may have come into support since only if the two have approached each other, or
  * their supports have grown, by more than the difference. Motion is judged by groups, the cubes of two cells that a
  * block falls into: a group's mean displacement, the spread about it, the growth of reach. Groups that touch are
- * compared pair by pair, also with each other's images behind walls; groups that do not touch have an edge of a group
+ * compared pair by pair, also with each other's images behind walls and periodic faces; groups that do not touch have an edge of a group
  * between them to eat up first, which is judged by their blocks, and blocks that do not touch have an edge of a block.
  *
  * Near rows are judged alike by the motion since they were found. For them the rows must have held all pairs within (1 +
  * near skin) times the support at that moment. */
+#include "parallel/periodic.h"
 #include "particle/block_motion.h"
 
 enum {
@@ -53,6 +54,31 @@ static struct question of_near_rows(const struct neighbours *n)
                              n->near_reach};
 }
 
+/* Brings the motion of the groups of a block up to date, and their boxes. PERIODIC: along an axis; a
+ * constant where this is inlined. */
+BOLIDE_INLINE void follow_groups(struct neighbours *n, const struct particles *p,
+                                 struct reach reach, const struct question *question, bool periodic,
+                                 int32_t b, struct box *box)
+{
+    struct block_motion *motion = n->motion;
+    struct moved *group = motion->group + (int64_t)b * motion->groups;
+    for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++) {
+        int g = motion->group_of[i];
+        double now = question->margin * reach.smoothing * reach.diameter[i];
+        group[g].growth =
+            maximum(group[g].growth, now - question->margin * question->origin_reach[i]);
+        group[g].largest_reach = maximum(group[g].largest_reach, now);
+        for (int axis = 0; axis < 3; axis++) {
+            double at = p->position[i][axis], origin = question->origin[i][axis];
+            if (periodic && mirrors_repeat(&motion->mirrors, axis))
+                at = periodic_nearest(&motion->mirrors, axis, at, origin);
+            double moved = at - origin;
+            box[g].low[axis] = minimum(box[g].low[axis], moved);
+            box[g].high[axis] = maximum(box[g].high[axis], moved);
+        }
+    }
+}
+
 /* Brings the motion of a block and its groups up to date. */
 static void follow_block(struct neighbours *n, const struct particles *p, struct reach reach,
                          const struct question *question, int32_t b)
@@ -65,18 +91,10 @@ static void follow_block(struct neighbours *n, const struct particles *p, struct
         group[g].growth = group[g].largest_reach = 0.0;
         box[g] = empty_box;
     }
-    for (int32_t i = p->block[b].first; i < p->block[b].first + p->block[b].count; i++) {
-        int g = motion->group_of[i];
-        double now = question->margin * reach.smoothing * reach.diameter[i];
-        group[g].growth =
-            maximum(group[g].growth, now - question->margin * question->origin_reach[i]);
-        group[g].largest_reach = maximum(group[g].largest_reach, now);
-        for (int axis = 0; axis < 3; axis++) {
-            double moved = p->position[i][axis] - question->origin[i][axis];
-            box[g].low[axis] = minimum(box[g].low[axis], moved);
-            box[g].high[axis] = maximum(box[g].high[axis], moved);
-        }
-    }
+    if (motion->periodic)
+        follow_groups(n, p, reach, question, true, b, box);
+    else
+        follow_groups(n, p, reach, question, false, b, box);
     for (int g = 0; g < motion->groups; g++) {
         if (!group[g].any)
             continue;
@@ -225,6 +243,44 @@ static double approach_apart(const double *most)
     return sqrt(sum);
 }
 
+/* What touches across periodic faces. */
+static void judge_seams(const struct block_motion *motion, const struct question *question,
+                        int threads, double *most)
+{
+    const struct seam *blocks = &motion->block_seam, *groups = &motion->group_seam;
+    double approached = -INFINITY;
+    bool broken = false;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max           \
+                                                                         : approached) \
+    reduction(||                                                                       \
+              : broken)
+    for (int64_t k = 0; k < blocks->count; k++) {
+        const struct moved *own = &motion->block[blocks->pair[k].own],
+                           *other = &motion->block[blocks->pair[k].other];
+        const double near = pair_approach(own, other);
+        approached = maximum(approached, near);
+        broken |= motion->judged == BY_BLOCKS && near > slack_of(question, own, other);
+    }
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : broken)
+    for (int64_t k = 0; k < groups->count; k++) {
+        const struct moved *own = &motion->group[groups->pair[k].own],
+                           *other = &motion->group[groups->pair[k].other];
+        broken |= other->any && pair_approach(own, other) > slack_of(question, own, other);
+    }
+    raise_to(&most[APPROACH], approached);
+    raise_to(&most[BROKEN], broken);
+}
+
+/* The most that two particles may have approached each other across periodic faces. */
+static double approach_of_faces(const struct block_motion *motion, const double *most)
+{
+    double largest = 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        if (mirrors_repeat(&motion->mirrors, axis))
+            largest = maximum(largest, most[RISE + axis] + most[FALL + axis]);
+    return largest;
+}
+
 /* Collective: the answer, and in MOST what it follows from. */
 static bool answer(struct neighbours *n, const struct particles *p, struct reach reach,
                    const struct question *question, int threads, double *most)
@@ -239,15 +295,19 @@ static bool answer(struct neighbours *n, const struct particles *p, struct reach
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : most[:JUDGED])
     for (int32_t b = 0; b < p->blocks; b++)
         judge_block(n, question, p->dimension, b, most);
+    if (motion->periodic)
+        judge_seams(motion, question, threads, most);
     ranks_maximum_of(p->ranks, most, JUDGED);
     double support = 2.0 * most[REACH], apart = approach_apart(most), near = most[APPROACH],
            wall = -most[WALL];
+    double seam =
+        (question->near ? motion->taken_seam : motion->distance) - approach_of_faces(motion, most);
     if (question->near) {
         wall = -motion->taken_wall - most[MOTION];
         apart += motion->taken_apart;
         near += motion->taken_approach;
     }
-    if (most[BROKEN] > 0.0 || wall < support)
+    if (most[BROKEN] > 0.0 || minimum(wall, seam) < support)
         return false;
     /* Where supports outgrow groups, the motion of all against all is judged. */
     if (motion->judged == BY_ALL)
@@ -277,6 +337,7 @@ bool neighbours_hold(struct neighbours *n, const struct particles *p, struct rea
     n->motion->taken_approach = most[APPROACH];
     n->motion->taken_apart = approach_apart(most);
     n->motion->taken_wall = most[WALL];
+    n->motion->taken_seam = n->motion->distance - approach_of_faces(n->motion, most);
     motion_start_near(n, p, reach, threads);
     return true;
 }

@@ -34,7 +34,7 @@ struct error *sph_refuse(const struct simulation *simulation)
         error = error_join(error, input_error(input, "loads", NULL, "%s", text));
     if (input->outflows.count)
         error = error_join(error, input_error(input, "outflows", NULL, "%s", text));
-    return error_join(error, refuse_boundaries(input));
+    return error;
 }
 
 /* The fields of a step of DT, or of a part of it; gravity acts where particles are AHEAD of time n.
@@ -102,6 +102,8 @@ static void return_stray(const struct simulation *simulation, const struct parti
         const double x = p->position[i][axis], low = simulation->problem->mirrors.low[axis],
                      high = simulation->problem->mirrors.high[axis];
         if (!(x < low || x > high)) /* nearly all, and all where there is no wall */
+            continue;
+        if (mirrors_repeat(&simulation->problem->mirrors, axis))
             continue;
         const bool at_axis = sph_axisymmetric(simulation) && axis == 0 && x < low;
         const enum ledger_cause cause = at_axis ? LEDGER_AXIS : LEDGER_WALLS;

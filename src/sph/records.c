@@ -3,13 +3,14 @@
  * ranks are on their way. */
 #include <string.h>
 
+#include "parallel/periodic.h"
 #include "sph/lanes.h"
 #include "sph/scheme.h"
 
 void sph_reflect_motion(const struct simulation *simulation, image_code image, double *record)
 {
     int dimension = simulation->problem->dimension;
-    struct vec3 sign = image_sign(image);
+    struct vec3 sign = image_sign(&simulation->problem->mirrors, image);
     double x[3] = {0.0, 0.0, 0.0}, signs[3] = {sign.x, sign.y, sign.z};
     memcpy(x, record, (size_t)dimension * sizeof *x);
     struct vec3 place =
@@ -37,21 +38,28 @@ static void copy_places(const struct sph *sph, const struct simulation *simulati
                records->first + (count + (size_t)g) * stride, bytes);
 }
 
-/* What the fields of a record are multiplied by, 1 or -1, in an image of each kind; the position,
- * which is not, follows from image_position. */
+/* What the fields of a record are multiplied by, 1 or -1, in an image of each kind, and what is added
+ * to the position then. */
 struct reflections {
-    double sign[IMAGE_CODES][SPH_STRIDE_MAX];
+    double sign[IMAGE_CODES][SPH_STRIDE_MAX], shift[IMAGE_CODES][3];
 };
 
 static void find_reflections(struct sph *sph, const struct simulation *simulation,
                              const struct sph_records *records, struct reflections *reflections)
 {
     assert(records->stride <= SPH_STRIDE_MAX);
-    for (int image = 0; image < IMAGE_CODES; image++) {
+    const int images[] = {1, 3, 9, IMAGE_CODES};
+    for (int image = 0; image < images[simulation->problem->dimension]; image++) {
         double *sign = reflections->sign[image];
         for (size_t f = 0; f < records->stride; f++)
             sign[f] = 1.0;
         records->reflect(sph, simulation, (image_code)image, sign);
+        const struct vec3 turned = image_sign(&simulation->problem->mirrors, (image_code)image);
+        const double signs[3] = {turned.x, turned.y, turned.z};
+        memcpy(sign, signs, (size_t)simulation->problem->dimension * sizeof *sign);
+        for (int axis = 0; axis < 3; axis++)
+            reflections->shift[image][axis] = image_place(
+                &simulation->problem->mirrors, image_along((image_code)image, axis), axis, 0.0);
     }
 }
 
@@ -69,18 +77,36 @@ static void make_images(struct sph *sph, const struct simulation *simulation,
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t g = begin; g < end; g++) {
         const double *from = records->first + (size_t)ghosts->source[g] * stride;
-        const double *sign = reflections.sign[ghosts->image[g]];
+        const double *sign = reflections.sign[ghosts->image[g]],
+                     *shift = reflections.shift[ghosts->image[g]];
         double *record = records->first + (count + (size_t)g) * stride;
-        const struct vec3 x =
-            vec3_make(from[0], dimension > 1 ? from[1] : 0.0, dimension > 2 ? from[2] : 0.0);
-        const struct vec3 place =
-            image_position(&simulation->problem->mirrors, ghosts->image[g], x);
-        const double at[3] = {place.x, place.y, place.z};
         for (size_t f = 0; f < stride; f++)
             record[f] = sign[f] * from[f];
-        memcpy(record, at, (size_t)dimension * sizeof *record);
+        for (int axis = 0; axis < dimension; axis++)
+            record[axis] += shift[axis];
     }
     copy_places(sph, simulation, records, begin, end);
+}
+
+/* Along periodic axes records of owned particles are where neighbour lists saw them, on the grain:
+ * particles that have gone round since then appear outside, and all differences are exact. */
+static void settle_owned(const struct sph *sph, const struct simulation *simulation,
+                         const struct sph_records *records)
+{
+    const struct mirrors *mirrors = &simulation->problem->mirrors;
+    const double(*origin)[3] = (const double(*)[3])sph->neighbours.origin;
+    const int dimension = simulation->problem->dimension;
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t i = 0; i < sph->particles->count; i++) {
+        double *record = records->first + (size_t)i * records->stride;
+        for (int axis = 0; axis < dimension; axis++)
+            if (mirrors_repeat(mirrors, axis))
+                record[axis] = periodic_nearest(
+                    mirrors, axis, periodic_rounded(mirrors, axis, record[axis]), origin[i][axis]);
+        if (records->place)
+            memcpy(records->place + (size_t)i * PLACE_STRIDE, record,
+                   (size_t)dimension * sizeof *record);
+    }
 }
 
 double *sph_records_start(struct sph *sph, const struct simulation *simulation,
@@ -88,6 +114,8 @@ double *sph_records_start(struct sph *sph, const struct simulation *simulation,
 {
     struct ghosts *ghosts = &sph->neighbours.ghosts;
     const int32_t count = sph->particles->count;
+    if (sph_has(sph, SPH_PERIODIC))
+        settle_owned(sph, simulation, records);
     ghosts_start(ghosts, records->first, count, records->stride * sizeof(double));
     make_images(sph, simulation, records, ghosts->remotes, ghosts->early);
     double *empty = records->first + (size_t)(count + ghosts->count) * records->stride;

@@ -35,6 +35,7 @@ enum sph_trait {
     SPH_DENSITY_RATE = 1 << 14,  /* pair sums give the rate of density */
     SPH_PACKING = 1 << 15,       /* volumes follow places, fill space, and correct supports */
     SPH_ALL_RECONSTRUCTED = 1 << 16,
+    SPH_PERIODIC = 1 << 17, /* an axis is periodic */
 };
 
 /* Components that depend on the run: of a symmetric tensor and of a gradient of velocity in its
@@ -316,6 +317,15 @@ void sph_return_strays(struct simulation *simulation, const struct particles *pa
  * advanced. The status has POINT_NO_SOUND when there is no such rate. */
 struct response sph_thin_step(const struct material *material, double divergence,
                               struct point *point, struct motion *motion, double *thickness);
+
+/* faces.c. ERROR_INPUT, located, for boundaries and bodies that no periodic or closed domain can have. */
+struct error *sph_check_faces(const struct simulation *simulation);
+
+/* ERROR_INPUT where a period is too short for the SUPPORT of particles. */
+struct error *sph_check_periods(const struct simulation *simulation, double support);
+
+/* Takes particles that left through a periodic face in at the other. */
+void sph_wrap(const struct simulation *simulation, const struct particles *particles);
 
 /* outside.c. ERROR_INPUT, located, for what no scheme can do of what acts from outside. */
 struct error *sph_refuse(const struct simulation *simulation);

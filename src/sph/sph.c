@@ -22,8 +22,9 @@ static const double growth_room = 1.08;
 static bool has_walls(const struct simulation *simulation)
 {
     for (int axis = 0; axis < 3; axis++)
-        if (!isnan(simulation->problem->mirrors.low[axis]) ||
-            !isnan(simulation->problem->mirrors.high[axis]))
+        if (!mirrors_repeat(&simulation->problem->mirrors, axis) &&
+            (!isnan(simulation->problem->mirrors.low[axis]) ||
+             !isnan(simulation->problem->mirrors.high[axis])))
             return true;
     return false;
 }
@@ -86,6 +87,7 @@ static unsigned traits_of(const struct sph *sph, const struct simulation *simula
     for (int m = 0; m < simulation->problem->materials; m++)
         strong |= material_has_strength(&simulation->problem->material[m]);
     traits |= has_walls(simulation) ? SPH_WALLS : 0u;
+    traits |= mirrors_periodic(&simulation->problem->mirrors) ? SPH_PERIODIC : 0u;
     traits |= sph_axisymmetric(simulation) ? SPH_AXISYMMETRIC : 0u;
     traits |= simulation->problem->geometry == GEOMETRY_PLANE_STRESS ? SPH_THIN : 0u;
     traits |= simulation->problem->dimension > 1 ? SPH_PLANE : 0u;
@@ -128,7 +130,7 @@ static struct error *check_walls(const struct simulation *simulation, double rea
     for (int axis = 0; axis < simulation->problem->dimension; axis++) {
         double gap =
             simulation->problem->mirrors.high[axis] - simulation->problem->mirrors.low[axis];
-        if (gap < reach)
+        if (gap < reach && !mirrors_repeat(&simulation->problem->mirrors, axis))
             return input_error(simulation->problem->input, "walls", NULL,
                                "the two walls across %c are %.4g m apart; with this smoothing and "
                                "resolution they must be %.4g m apart at least",
@@ -147,6 +149,7 @@ static struct error *create_store(struct sph *sph, struct simulation *simulation
     double diameter = largest_diameter(simulation->problem->input);
     double support = 2.0 * parameters->smoothing * diameter;
     TRY(check_walls(simulation, support - (1.0 + 1e-9) * diameter));
+    TRY(sph_check_periods(simulation, support));
     double cell = growth_room * support * (1.0 + parameters->skin);
     return particles_add(simulation, cell, fields, count, &sph->particles);
 }
@@ -156,6 +159,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     struct sph *sph = solver;
     sph->parameters = settled(parameters, simulation->problem->dimension);
     sph->scheme = sph->parameters.method.choice->thing;
+    TRY(sph_check_faces(simulation));
     sph->traits = traits_of(sph, simulation);
     sph->neighbours.skin = sph->parameters.skin;
     sph->neighbours.near_skin = sph_near_skin(&sph->parameters, sph->traits);
@@ -180,6 +184,8 @@ static struct error *sph_fill(void *solver, struct simulation *simulation)
 static struct error *sph_start(void *solver, struct simulation *simulation)
 {
     const struct sph *sph = solver;
+    if (sph_has(sph, SPH_PERIODIC))
+        sph_wrap(simulation, sph->particles);
     sph->scheme->start(sph, simulation);
     return NULL;
 }
@@ -212,7 +218,10 @@ static struct error *sph_advance(void *solver, struct simulation *simulation, do
     struct sph *sph = solver;
     sph->steps_since_build++;
     struct error *error = sph->scheme->advance(sph, simulation, dt);
-    return error_join(error, drive_bodies(simulation, sph->particles, dt));
+    error = error_join(error, drive_bodies(simulation, sph->particles, dt));
+    if (sph_has(sph, SPH_PERIODIC))
+        sph_wrap(simulation, sph->particles);
+    return error;
 }
 
 static struct error *sph_state(void *solver, struct visitor *visitor)

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "model/particle_population.h"
+#include "parallel/periodic.h"
 #include "particle/neighbours.h"
 #include "sph/prune.h"
 
@@ -81,6 +82,20 @@ static inline void scene_build(struct scene *scene)
                                     &scene->mirrors, &scene->groups, scene->threads));
 }
 
+/* Place of particle I, or of its IMAGE, where the rows have seen it: a particle that has gone round since then is outside.
+ */
+static inline struct vec3 scene_place(const struct scene *scene, int32_t i, image_code image)
+{
+    const struct neighbours *n = &scene->neighbours;
+    double at[3];
+    for (int axis = 0; axis < 3; axis++) {
+        at[axis] = scene->particles.position[i][axis];
+        if (mirrors_repeat(&scene->mirrors, axis))
+            at[axis] = periodic_nearest(&scene->mirrors, axis, at[axis], n->origin[i][axis]);
+    }
+    return image_position(&scene->mirrors, image, vec3_make(at[0], at[1], at[2]));
+}
+
 /* Finds the near rows from records of places and diameters. */
 static inline void scene_prune(struct scene *scene)
 {
@@ -92,8 +107,7 @@ static inline void scene_prune(struct scene *scene)
     for (int32_t i = 0; i < count; i++) {
         const int32_t j = i < p->count ? i : n->ghosts.source[i - p->count];
         const image_code image = i < p->count ? 0 : n->ghosts.image[i - p->count];
-        const double *x = p->position[j];
-        const struct vec3 at = image_position(&scene->mirrors, image, vec3_make(x[0], x[1], x[2]));
+        const struct vec3 at = scene_place(scene, j, image);
         const double place[3] = {at.x, at.y, at.z};
         memcpy(record + (size_t)i * STRIDE, place, (size_t)p->dimension * sizeof *place);
         record[i * STRIDE + p->dimension] = scene->reach.diameter[j];
@@ -126,10 +140,9 @@ static inline bool scene_has_image(const struct scene *scene, int image)
 
 static inline double scene_distance2(const struct scene *scene, int32_t i, int32_t j, int image)
 {
-    const double *a = scene->particles.position[i], *b = scene->particles.position[j];
-    struct vec3 other =
-        image_position(&scene->mirrors, (image_code)image, vec3_make(b[0], b[1], b[2]));
-    return square(other.x - a[0]) + square(other.y - a[1]) + square(other.z - a[2]);
+    const struct vec3 apart =
+        vec3_sub(scene_place(scene, j, (image_code)image), scene_place(scene, i, 0));
+    return vec3_dot(apart, apart);
 }
 
 /* Marks in SEEN (count x 27) the neighbours that a loop walks for I, checking order, parts and that none comes twice. */
@@ -140,28 +153,33 @@ static inline void scene_mark_row(const struct scene *scene, int32_t i, uint8_t 
     int count;
     const uint32_t *entry = neighbours_walk(n, i, &count);
     uint64_t last_part = 0, last_id = 0;
-    int last_image = -1;
+    int last_order = -1;
     memset(seen, 0, (size_t)p->count * IMAGE_CODES);
     for (int k = 0; k < count; k++) {
         int32_t j = (int32_t)(entry[k] & ENTRY_INDEX);
         uint64_t part = entry[k] >> ENTRY_PART_SHIFT;
-        int image = 0;
+        int image = 0, order;
+        bool walled = false;
         if (j >= p->count) {
             assert_true(j - p->count < n->ghosts.count);
             image = n->ghosts.image[j - p->count];
             j = n->ghosts.source[j - p->count];
         }
+        order = image_order(&scene->mirrors, (image_code)image);
+        for (int axis = 0; axis < 3; axis++)
+            walled |=
+                image_along((image_code)image, axis) && !mirrors_repeat(&scene->mirrors, axis);
         bool after = k == 0 || part > last_part ||
                      (part == last_part &&
-                      (p->id[j] > last_id || (p->id[j] == last_id && image > last_image)));
+                      (p->id[j] > last_id || (p->id[j] == last_id && order > last_order)));
         assert_true(after);
         last_part = part;
         last_id = p->id[j];
-        last_image = image;
+        last_order = order;
         const struct contact_groups *g = &scene->groups;
         bool law = g->law[g->of_body[p->body[i]] * g->groups + g->of_body[p->body[j]]] != 0;
         assert_int_equal((part & PART_LAW) != 0, law);
-        assert_int_equal((part & PART_IMAGE) != 0, image != 0);
+        assert_int_equal((part & PART_IMAGE) != 0, walled);
         assert_false(j == i && image == 0);
         assert_int_equal(seen[j * IMAGE_CODES + image], 0);
         seen[j * IMAGE_CODES + image] = 1;

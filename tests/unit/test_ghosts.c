@@ -3,8 +3,8 @@
 
 #include "parallel/ghosts.h"
 
-static const struct mirrors box = {{-1.0, 2.0, -0.5}, {3.0, 4.5, 0.75}};
-static const struct mirrors none = {{NAN, NAN, NAN}, {NAN, NAN, NAN}};
+static const struct mirrors box = {{-1.0, 2.0, -0.5}, {3.0, 4.5, 0.75}, {0.0}};
+static const struct mirrors none = {{NAN, NAN, NAN}, {NAN, NAN, NAN}, {0.0}};
 
 static struct vec3 random_place(struct dice *dice)
 {
@@ -29,7 +29,8 @@ static void an_image_stands_as_far_behind_the_wall(void **state)
 static void image_zero_is_the_particle_itself(void **state)
 {
     (void)state;
-    struct vec3 x = {0.1, 0.2, 0.3}, same = image_position(&none, 0, x), sign = image_sign(0);
+    struct vec3 x = {0.1, 0.2, 0.3}, same = image_position(&none, 0, x),
+                sign = image_sign(&none, 0);
     assert_true(same.x == x.x && same.y == x.y && same.z == x.z);
     assert_true(sign.x == 1.0 && sign.y == 1.0 && sign.z == 1.0);
 }
@@ -52,7 +53,7 @@ static void signs_follow_the_reflected_axes(void **state)
     for (int z = 0; z < 3; z++)
         for (int y = 0; y < 3; y++)
             for (int x = 0; x < 3; x++) {
-                struct vec3 sign = image_sign((image_code)(x + 3 * y + 9 * z));
+                struct vec3 sign = image_sign(&box, (image_code)(x + 3 * y + 9 * z));
                 assert_true(sign.x == (x ? -1.0 : 1.0));
                 assert_true(sign.y == (y ? -1.0 : 1.0));
                 assert_true(sign.z == (z ? -1.0 : 1.0));

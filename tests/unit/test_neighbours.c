@@ -379,6 +379,96 @@ static void rows_hold_the_images_behind_walls_and_corners(void **state)
     bounce(3, 60, STEPS, 0x3f, &dice);
 }
 
+/* No pair is nearer to each other, by any number of periods, than the rows of I show of J. */
+static void judge_distance(const struct scene *scene, int32_t i, int32_t j, unsigned periodic)
+{
+    const double *diameter = particles_field(&scene->particles, "diameter");
+    const double support = scene->reach.smoothing * (diameter[i] + diameter[j]);
+    const double *a = scene->particles.position[i], *b = scene->particles.position[j];
+    double nearest = 0.0, shown = INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        double apart = a[axis] - b[axis];
+        if (periodic >> axis & 1)
+            apart = periodic_nearest(&scene->mirrors, axis, apart, 0.0);
+        nearest += square(apart);
+    }
+    for (int image = 0; image < IMAGE_CODES; image++)
+        if (scene_has_image(scene, image))
+            shown = minimum(shown, scene_distance2(scene, i, j, image));
+    if (sqrt(nearest) < support)
+        assert_true(shown == nearest || i == j);
+}
+
+/* Particles stream through periodic faces, with shear, those of other axes bounce off walls. */
+static void stream(int dimension, int count, int steps, unsigned periodic, double random,
+                   struct dice *dice)
+{
+    struct scene scene;
+    const double size = 6.0;
+    scene_create(&scene, dimension, count, 2.4 * 1.15 * 0.6, 0.15);
+    scatter(&scene, size, 0.2, 3.0, dice);
+    scene.neighbours.near_skin = NEAR_SKIN;
+    struct particles *p = &scene.particles;
+    for (int axis = 0; axis < dimension; axis++) {
+        scene.mirrors.low[axis] = -0.5 * size;
+        scene.mirrors.high[axis] = 0.5 * size;
+        if (periodic >> axis & 1)
+            mirrors_make_periodic(&scene.mirrors, axis, -0.5 * size, 0.5 * size);
+    }
+    for (int32_t i = 0; i < p->count; i++)
+        for (int axis = 0; axis < dimension; axis++)
+            p->velocity[i][axis] = 0.07 - 0.02 * axis + dice_between(dice, -random, random);
+    for (int step = 0; step < steps; step++) {
+        for (int32_t i = 0; i < p->count; i++)
+            for (int axis = 0; axis < dimension; axis++) {
+                double *x = &p->position[i][axis], *u = &p->velocity[i][axis];
+                *x += *u;
+                if (periodic >> axis & 1) {
+                    *x = periodic_inside(&scene.mirrors, axis,
+                                         periodic_rounded(&scene.mirrors, axis, *x));
+                    assert_true(*x >= -0.5 * size && *x < 0.5 * size);
+                } else if (fabs(*x) > 0.5 * size) {
+                    *x = copysign(size, *x) - *x;
+                    *u = -*u;
+                }
+            }
+        scene_refresh(&scene);
+        scene_judge(&scene, false);
+        for (int32_t i = 0; i < p->count && step % 8 == 0; i++)
+            for (int32_t j = 0; j < p->count; j++)
+                judge_distance(&scene, i, j, periodic);
+    }
+    if (random == 0.0)
+        assert_int_equal(scene.neighbours.builds, 1);
+    scene_destroy(&scene);
+}
+
+static void rows_hold_across_periodic_faces(void **state)
+{
+    (void)state;
+#if defined(BOLIDE_SANITIZE)
+    enum { STEPS = 30 };
+#else
+    enum { STEPS = 100 };
+#endif
+    struct dice dice = {11};
+    stream(1, 40, STEPS, 1, 0.004, &dice);
+    for (unsigned periodic = 1; periodic < 4; periodic++)
+        stream(2, 60, STEPS, periodic, 0.01, &dice);
+    for (unsigned periodic = 1; periodic < 8; periodic += 2)
+        stream(3, 60, STEPS, periodic, 0.02, &dice);
+}
+
+/* Not even of particles that go round. */
+static void common_motion_through_periodic_faces_costs_no_build(void **state)
+{
+    (void)state;
+    struct dice dice = {12};
+    stream(1, 40, 100, 1, 0.0, &dice);
+    stream(2, 60, 100, 3, 0.0, &dice);
+    stream(3, 60, 100, 7, 0.0, &dice);
+}
+
 /* A body flies towards a wall, its own image towards it: the approach is twice the motion. */
 static void rows_hold_when_a_body_meets_its_own_image(void **state)
 {
@@ -441,6 +531,8 @@ int main(void)
         cmocka_unit_test(bodies_far_apart_that_fly_at_each_other_cost_few_builds),
         cmocka_unit_test(rows_hold_while_bodies_meet_and_pass_through_each_other),
         cmocka_unit_test(rows_hold_the_images_behind_walls_and_corners),
+        cmocka_unit_test(rows_hold_across_periodic_faces),
+        cmocka_unit_test(common_motion_through_periodic_faces_costs_no_build),
         cmocka_unit_test(rows_hold_when_a_body_meets_its_own_image),
         cmocka_unit_test(a_build_takes_back_what_it_holds),
         cmocka_unit_test(an_empty_store_has_no_rows),

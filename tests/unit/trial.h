@@ -83,7 +83,7 @@ static inline void pack(const struct trial *t, int32_t i, double *record)
 static inline void reflect(const struct trial *t, image_code image, double *record)
 {
     const int dimension = t->loop.kind.dimension;
-    struct vec3 sign = image_sign(image), x = {record[0], 0.0, 0.0};
+    struct vec3 sign = image_sign(&t->scene.mirrors, image), x = {record[0], 0.0, 0.0};
     x.y = dimension > 1 ? record[1] : 0.0;
     x.z = dimension > 2 ? record[2] : 0.0;
     x = image_position(&t->scene.mirrors, image, x);
@@ -214,7 +214,7 @@ static inline struct naive_particle naive_of(const struct trial *t, int32_t i, i
                                .z_long = p->energy[i],
                                .z_shear = dimension > 1 ? p->plastic_strain[i] : 0.0,
                                .shock_slope = shock_slope_of(p->id[i])};
-    struct vec3 s = image_sign(image),
+    struct vec3 s = image_sign(&t->scene.mirrors, image),
                 x = image_position(
                     &t->scene.mirrors, image,
                     vec3_make(p->position[i][0], p->position[i][1], p->position[i][2]));
