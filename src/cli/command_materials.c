@@ -9,14 +9,15 @@
 #include "cli/cli.h"
 #include "material/material.h"
 
-static const char row_format[] = "%-26s %-21s %-15s %9s %8s %8s  %s\n";
+static const char row_format[] = "%-26s %-21s %-15s %-16s %9s %8s %8s  %s\n";
 
 static void print_header(void)
 {
     printf("%s", colour(COLOUR_STRONG));
-    printf(row_format, "name", "eos", "strength", "density", "C_long", "C_shear", "description");
+    printf(row_format, "name", "eos", "strength", "failure", "density", "C_long", "C_shear",
+           "description");
     printf("%s", colour(COLOUR_NONE));
-    printf(row_format, "", "", "", "kg/m^3", "m/s", "m/s", "");
+    printf(row_format, "", "", "", "", "kg/m^3", "m/s", "m/s", "");
 }
 
 static struct error *print_row(const char *name, const struct material_input *input)
@@ -31,7 +32,8 @@ static struct error *print_row(const char *name, const struct material_input *in
     if (rest.sound_shear > 0.0)
         snprintf(sound_shear, sizeof sound_shear, "%.5g", rest.sound_shear);
     printf(row_format, name, input->eos.choice->name,
-           input->strength.choice ? input->strength.choice->name : "none", density, sound_long,
+           input->strength.choice ? input->strength.choice->name : "none",
+           input->failure.choice ? input->failure.choice->name : "none", density, sound_long,
            sound_shear, input->description ? input->description : "");
     return NULL;
 }

@@ -23,6 +23,7 @@ export BOLIDE_SHARE=$BOLIDE_SOURCE_DIR
 library=$BOLIDE_SOURCE_DIR/materials
 expect 0 "aluminium-wilkins" "$BOLIDE" materials
 expect 0 "6449.9" "$BOLIDE" materials
+expect 0 "cockcroft-latham" "$BOLIDE" materials
 expect 0 "bolide materials [NAME]" "$BOLIDE" help materials
 expect 2 'did you mean "tungsten"' "$BOLIDE" materials tungsen
 expect 2 "known: air, alumina" "$BOLIDE" materials unobtainium
