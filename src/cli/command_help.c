@@ -158,7 +158,7 @@ static bool every_solver_lists(const struct choice_list *solvers, const struct s
 /* The fields of solver INDEX that all solvers have, or with OWN the others, under HEADING; KNOWN are
  * listed already. */
 static void print_solver_fields(const struct choice_list *solvers, int index, bool own,
-                                const char *heading, const struct views *known)
+                                const char *heading, const struct population *known)
 {
     struct shown shown[SHOWN_MAX];
     const int count = fields_of_solver(solvers->choices[index].thing, shown);
@@ -166,7 +166,7 @@ static void print_solver_fields(const struct choice_list *solvers, int index, bo
     bool started = false;
     for (int k = 0; k < count; k++) {
         if (every_solver_lists(solvers, &shown[k]) == own ||
-            views_find(known, shown[k].field.name, &component))
+            column_find(known, shown[k].field.name, &component))
             continue;
         if (!started)
             printf("with %s%s:\n", heading, own ? solvers->choices[index].name : "");
@@ -175,19 +175,19 @@ static void print_solver_fields(const struct choice_list *solvers, int index, bo
     }
 }
 
-/* What all particles show: the core's fields, and views of them. */
+/* What all particles show: the core's fields, and columns computed from them. */
 static struct error *print_common_fields(struct simulation *empty, struct particles **particles,
-                                         struct views *views)
+                                         struct population *common)
 {
     TRY(particles_add(empty, 1.0, NULL, 0, particles));
-    views_of_population(views, empty);
+    *common = simulation_population(empty);
     printf("fields of the particles, for checks and output.pictures:\n");
-    for (int i = 0; i < views->count; i++) {
-        const struct view *view = &views->view[i];
-        print_field(&(struct field_declaration){.name = view->name,
-                                                .unit = view->unit,
-                                                .help = view->help,
-                                                .components = view->components},
+    for (int i = 0; i < common->columns; i++) {
+        const struct column *column = &common->column[i];
+        print_field(&(struct field_declaration){.name = column->name,
+                                                .unit = column->unit,
+                                                .help = column->help,
+                                                .components = column->components},
                     NULL);
     }
     return NULL;
@@ -201,13 +201,13 @@ static struct error *print_fields(void)
     struct material gas = {.heat.capacity = 1.0}; /* an ideal gas, so that there is a temperature */
     struct simulation *empty = memory_allocate(sizeof *empty);
     struct particles *particles = NULL;
-    struct views views = {0};
+    struct population common = {0};
     if (!empty)
         return error_new(ERROR_SYSTEM, "out of memory");
     const struct problem problem = {
         .input = &no_case, .dimension = 3, .materials = 1, .material = &gas};
     empty->problem = &problem;
-    struct error *error = print_common_fields(empty, &particles, &views);
+    struct error *error = print_common_fields(empty, &particles, &common);
     if (!error) {
         printf("where a material has it:\n");
         for (int slot = 1; slot < POINT_HISTORY; slot++) /* the first is the core's */
@@ -216,9 +216,9 @@ static struct error *print_fields(void)
                                                     .help = history_slots[slot].help,
                                                     .components = 1},
                         NULL);
-        print_solver_fields(solvers, 0, false, "every solver", &views);
+        print_solver_fields(solvers, 0, false, "every solver", &common);
         for (int i = 0; i < solvers->count; i++)
-            print_solver_fields(solvers, i, true, "the solver ", &views);
+            print_solver_fields(solvers, i, true, "the solver ", &common);
         printf("pictures also take material and body\n");
     }
     particles_drop(particles);

@@ -301,13 +301,6 @@ static struct error *gas_state(void *solver, struct visitor *visitor)
     return NULL;
 }
 
-static void gas_observe(const void *solver, const struct simulation *simulation,
-                        struct views *views)
-{
-    (void)solver;
-    views_of_population(views, simulation);
-}
-
 static void gas_destroy(void *solver)
 {
     struct gas *gas = solver;
@@ -351,7 +344,6 @@ const struct solver_class gas_class = {.members = "cells",
                                        .prepare = gas_prepare,
                                        .advance = gas_advance,
                                        .state = gas_state,
-                                       .observe = gas_observe,
                                        .destroy = gas_destroy,
                                        .bytes = gas_bytes,
                                        .step = gas_step,

@@ -86,7 +86,7 @@ uint64_t cell_block_key(int dimension, const int64_t at[3]);
 const struct cell_block *cell_block_find(const struct cell_blocks *cells, uint64_t key);
 
 /* Collective: every block goes to the rank that owns it. With RECUT, or where the ranks' work since the
- * cut, SECONDS of it new, differs by too much, blocks are divided anew. */
+ * cut differs by too much, blocks are divided anew. */
 struct error *cell_blocks_distribute(struct cell_blocks *cells, bool recut);
 
 /* Collective: loads or saves every STATE field, as "cells/NAME", in the order of keys. */

@@ -150,8 +150,7 @@ static struct error *find_places(const struct measurement *measurement, const do
                                  const double *field, double reach, struct places *places)
 {
     const struct ranks *ranks = measurement->simulation->ranks;
-    const struct population population = simulation_population(measurement->simulation),
-                            *p = &population;
+    const struct population *p = measurement->population;
     const double cell = measurement->simulation->problem->input->resolution;
     const int body = measure_body(measurement);
     bool done = true;
@@ -235,10 +234,10 @@ static struct error *measure(const struct measurement *measurement, double *valu
 {
     const struct measure_asymmetry *parameters = measurement->check->measure.value;
     const struct simulation *simulation = measurement->simulation;
-    const int32_t count = simulation_population(simulation).count;
-    const struct view *view;
+    const int32_t count = measurement->population->count;
+    const struct column *column;
     int component;
-    TRY(views_choose(measurement->views, parameters->field, NULL, 0, &view, &component));
+    TRY(column_choose(measurement->population, parameters->field, NULL, 0, &column, &component));
     double(*start)[3] = memory_allocate(((size_t)count + 1) * sizeof *start);
     double *field = memory_allocate(((size_t)count + 1) * sizeof *field);
     struct error *error = NULL;
@@ -246,8 +245,8 @@ static struct error *measure(const struct measurement *measurement, double *valu
         error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles", (int)count);
     error = ranks_agree(simulation->ranks, error);
     if (!error) {
-        start_places(simulation, 0, count, start);
-        view_read_component(view, component, 0, count, field);
+        start_places(measurement->population, 0, count, start);
+        column_read_component(measurement->population, column, component, 0, count, field);
         error = compare_on_ranks(measurement, (const double(*)[3])start, field, value);
     }
     free(start);

@@ -38,15 +38,15 @@ static struct error *unit(const struct measurement *measurement, const char **un
 static struct error *find_margins(const struct measurement *measurement, double **margin)
 {
     const struct measure_extent *parameters = measurement->check->measure.value;
-    const int32_t count = simulation_population(measurement->simulation).count;
+    const int32_t count = measurement->population->count;
     int component = 0;
-    const struct view *diameter =
-        parameters->edges ? views_find(measurement->views, "diameter", &component) : NULL;
+    const struct column *diameter =
+        parameters->edges ? column_find(measurement->population, "diameter", &component) : NULL;
     *margin = memory_allocate(((size_t)count + 1) * sizeof **margin);
     if (!*margin)
         return error_new(ERROR_SYSTEM, "out of memory for the edges of %d particles", (int)count);
     if (diameter)
-        view_read_component(diameter, component, 0, count, *margin);
+        column_read_component(measurement->population, diameter, component, 0, count, *margin);
     for (int32_t i = 0; i < count; i++)
         (*margin)[i] = diameter ? 0.5 * (*margin)[i] : 0.0;
     return NULL;
@@ -54,8 +54,7 @@ static struct error *find_margins(const struct measurement *measurement, double 
 
 static double width(const struct measurement *measurement, const double *margin, int body, int axis)
 {
-    const struct population population = simulation_population(measurement->simulation),
-                            *particles = &population;
+    const struct population *particles = measurement->population;
     const struct ranks *ranks = measurement->simulation->ranks;
     double low = INFINITY, high = -INFINITY;
     for (int32_t i = 0; i < particles->count; i++)
@@ -68,8 +67,7 @@ static double width(const struct measurement *measurement, const double *margin,
 
 static double radius(const struct measurement *measurement, const double *margin, int body)
 {
-    const struct population population = simulation_population(measurement->simulation),
-                            *particles = &population;
+    const struct population *particles = measurement->population;
     const struct vec3 center =
         measure_center(measurement, (const double(*)[3])particles->position, body);
     double largest = 0.0;

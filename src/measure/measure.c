@@ -91,20 +91,20 @@ static const char *field_of(const struct measurement *measurement)
     return parameters->field;
 }
 
-static struct error *find_field(const struct measurement *measurement, const struct view **view,
+static struct error *find_field(const struct measurement *measurement, const struct column **column,
                                 int *component)
 {
     struct error *error =
-        views_choose(measurement->views, field_of(measurement), NULL, 0, view, component);
+        column_choose(measurement->population, field_of(measurement), NULL, 0, column, component);
     return measure_located(measurement, error);
 }
 
 struct error *measure_field_unit(const struct measurement *measurement, const char **unit)
 {
-    const struct view *view;
+    const struct column *column;
     int component;
-    TRY(find_field(measurement, &view, &component));
-    *unit = view->unit;
+    TRY(find_field(measurement, &column, &component));
+    *unit = column->unit;
     return NULL;
 }
 
@@ -129,8 +129,7 @@ static bool selects(const struct selection *selection, double at, int body)
 
 struct vec3 measure_center(const struct measurement *measurement, const double (*at)[3], int body)
 {
-    const struct population population = simulation_population(measurement->simulation),
-                            *particles = &population;
+    const struct population *particles = measurement->population;
     struct exact_sum sums[4] = {{{0}, 0, false}};
     for (int32_t i = 0; i < particles->count; i++) {
         if (body >= 0 && particles->body[i] != body)
@@ -158,30 +157,30 @@ static double place_of(const struct selection *selection, const double x[3])
 bool measure_takes(const struct measurement *measurement, int body, int32_t i)
 {
     const struct check_input *check = measurement->check;
-    const struct population population = simulation_population(measurement->simulation),
-                            *p = &population;
+    const struct population *p = measurement->population;
     const struct selection selection = {body, check->axis, check->between, check->about};
     return selects(&selection, place_of(&selection, p->position[i]), p->body[i]);
 }
 
-struct error *samples_select(struct population population, const struct view *view, int component,
-                             const struct selection *selection, struct samples *samples)
+struct error *samples_select(const struct population *population, const struct column *column,
+                             int component, const struct selection *selection,
+                             struct samples *samples)
 {
-    size_t room = (size_t)population.count + 1;
+    size_t room = (size_t)population->count + 1;
     double *values = memory_allocate(room * sizeof *values);
     *samples = (struct samples){0, memory_allocate(room * sizeof *samples->at)};
     if (!values || !samples->at) {
         free(values);
         samples_free(samples);
         return error_new(ERROR_SYSTEM, "out of memory for the values of %d particles",
-                         (int)population.count);
+                         (int)population->count);
     }
-    view_read_component(view, component, 0, population.count, values);
-    for (int32_t i = 0; i < population.count; i++) {
-        double at = place_of(selection, population.position[i]);
-        if (population_has(&population, i) && selects(selection, at, population.body[i]))
+    column_read_component(population, column, component, 0, population->count, values);
+    for (int32_t i = 0; i < population->count; i++) {
+        double at = place_of(selection, population->position[i]);
+        if (population_has(population, i) && selects(selection, at, population->body[i]))
             samples->at[samples->count++] = (struct sample){
-                at, values[i], population.mass[i] / population.density[i], population.body[i]};
+                at, values[i], population->mass[i] / population->density[i], population->body[i]};
     }
     free(values);
     return NULL;
@@ -193,12 +192,12 @@ struct error *samples_take(const struct measurement *measurement, struct samples
     const struct check_input *check = measurement->check;
     const struct selection selection = {measure_body(measurement), check->axis, check->between,
                                         check->about};
-    const struct view *view;
+    const struct column *column;
     int component;
     *samples = (struct samples){0, NULL};
-    TRY(find_field(measurement, &view, &component));
+    TRY(find_field(measurement, &column, &component));
     struct error *error =
-        samples_select(simulation_population(simulation), view, component, &selection, samples);
+        samples_select(measurement->population, column, component, &selection, samples);
     error = ranks_agree(simulation->ranks, error);
     if (error)
         samples_free(samples);
@@ -232,7 +231,7 @@ void samples_sort(struct samples *samples)
 enum exact_side measure_side(const struct measurement *measurement, const struct sample *sample)
 {
     const struct simulation *simulation = measurement->simulation;
-    if (simulation_population(simulation).kind == POPULATION_OF_CELLS)
+    if (measurement->population->kind == POPULATION_OF_CELLS)
         return exact_side_at(measurement->exact, measurement->solved, sample->at, simulation->time);
     const struct body_input *input = case_body(simulation->problem->input, sample->body);
     struct bounds bounds = shape_bounds(&input->shape);

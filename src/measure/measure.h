@@ -5,14 +5,15 @@
 #define BOLIDE_MEASURE_H
 
 #include "exact/exact.h"
-#include "model/views.h"
+#include "model/columns.h"
+#include "model/simulation.h"
 
 struct probes;
 
 /* What a measure may look at. */
 struct measurement {
     const struct simulation *simulation;
-    const struct views *views;
+    const struct population *population;
     const struct probes *probes; /* NULL: there are none */
     const struct totals *start;  /* at time zero */
     const struct check_input *check;
@@ -38,7 +39,7 @@ struct measure_class {
 };
 
 struct measure_field {
-    char *field; /* a view or one component of it: "pressure", "velocity.x" */
+    char *field; /* a column or one component of it: "pressure", "velocity.x" */
 };
 
 struct measure_front {
@@ -155,9 +156,10 @@ struct selection {
     struct vector_value about;   /* places are distances from this point; count 0: along the axis */
 };
 
-/* The owned particles of SELECTION with COMPONENT of VIEW. */
-struct error *samples_select(struct population population, const struct view *view, int component,
-                             const struct selection *selection, struct samples *samples);
+/* The owned particles of SELECTION with COMPONENT of COLUMN. */
+struct error *samples_select(const struct population *population, const struct column *column,
+                             int component, const struct selection *selection,
+                             struct samples *samples);
 /* The index of the body that the check is `of`, -1 for all. */
 int measure_body(const struct measurement *measurement);
 /* Whether the check speaks of particle I of BODY (-1: all), by `between`. */

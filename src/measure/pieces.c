@@ -22,8 +22,8 @@ const struct parameter measure_pieces_table[] = {
 static struct error *unit(const struct measurement *measurement, const char **unit)
 {
     int component;
-    if (!views_find(measurement->views, "diameter", &component) ||
-        simulation_population(measurement->simulation).kind != POPULATION_OF_PARTICLES)
+    if (!column_find(measurement->population, "diameter", &component) ||
+        measurement->population->kind != POPULATION_OF_PARTICLES)
         return measure_error(measurement, "the particles of this solver have no diameter");
     *unit = "";
     return NULL;
@@ -157,8 +157,7 @@ static struct error *find_pieces(const struct measurement *measurement, const do
 {
     const struct measure_pieces *parameters = measurement->check->measure.value;
     const struct simulation *simulation = measurement->simulation;
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
+    const struct population *particles = measurement->population;
     struct search search = {0};
     struct error *error = NULL;
     bool made = search_allocate(&search, particles->count, ghosts->remotes);
@@ -184,10 +183,9 @@ static struct error *find_pieces(const struct measurement *measurement, const do
 static struct error *measure(const struct measurement *measurement, double *value)
 {
     const struct measure_pieces *parameters = measurement->check->measure.value;
-    const struct population population = simulation_population(measurement->simulation),
-                            *particles = &population;
+    const struct population *particles = measurement->population;
     int component;
-    const struct view *view = views_find(measurement->views, "diameter", &component);
+    const struct column *column = column_find(particles, "diameter", &component);
     double *diameter = memory_allocate(((size_t)particles->count + 1) * sizeof *diameter);
     struct ghosts ghosts = {0};
     struct halo halo = {0};
@@ -197,7 +195,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
                           (int)particles->count);
     error = ranks_agree(measurement->simulation->ranks, error);
     if (!error) {
-        view_read(view, 0, particles->count, diameter);
+        column_read(particles, column, 0, particles->count, diameter);
         error = halo_plan(particles_in(&measurement->simulation->population[0]), NULL,
                           (struct reach){diameter, parameters->link}, 0.0, &ghosts, &halo);
     }

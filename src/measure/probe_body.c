@@ -33,14 +33,14 @@ static int first_turn(int dimension) { return dimension == 2 ? 2 : 0; }
 static int turns(int dimension) { return dimension == 3 ? 3 : dimension == 2 ? 1 : 0; }
 
 static struct error *prepare(struct probe *probe, const struct simulation *simulation,
-                             const struct views *views)
+                             const struct population *population)
 {
     const struct probe_body *body = probe->input->probe.value;
     const struct named_map *bodies = &simulation->problem->input->bodies;
     const int dimension = simulation->problem->dimension, first = first_turn(dimension);
     const char *joule =
         ledger_unit(LEDGER_ENERGY, simulation->problem->dimension, simulation->problem->geometry);
-    (void)views;
+    (void)population;
     probe->selection.body = case_find_body(simulation->problem->input, body->name);
     if (probe->selection.body < 0) {
         const char *near =
@@ -93,10 +93,9 @@ struct body_motion {
 
 static struct vec3 vector_at(const double *at) { return vec3_make(at[0], at[1], at[2]); }
 
-static void sum_whole(const struct simulation *simulation, int body, struct body_motion *motion)
+static void sum_whole(const struct ranks *ranks, const struct population *particles, int body,
+                      struct body_motion *motion)
 {
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
     struct exact_sum sums[WHOLE_SUMS] = {0};
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (int32_t i = 0; i < particles->count; i++) {
@@ -114,10 +113,10 @@ static void sum_whole(const struct simulation *simulation, int body, struct body
             high[k] = maximum(high[k], particles->position[i][k]);
         }
     }
-    ranks_sum_exact(simulation->ranks, sums, WHOLE_SUMS);
+    ranks_sum_exact(ranks, sums, WHOLE_SUMS);
     for (int k = 0; k < 3; k++) {
-        low[k] = ranks_minimum(simulation->ranks, low[k]);
-        high[k] = ranks_maximum(simulation->ranks, high[k]);
+        low[k] = ranks_minimum(ranks, low[k]);
+        high[k] = ranks_maximum(ranks, high[k]);
     }
     motion->mass = exact_sum_value(&sums[MASS]);
     motion->centre = mean_of(&sums[PLACE], motion->mass);
@@ -138,11 +137,9 @@ static void add_inertia(struct exact_sum *sums, double mass, struct vec3 x)
     exact_sum_add(&sums[5], -mass * x.z * x.x);
 }
 
-static void sum_about_centre(const struct simulation *simulation, int body,
-                             struct body_motion *motion)
+static void sum_about_centre(const struct ranks *ranks, const struct population *particles,
+                             int body, struct body_motion *motion)
 {
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
     struct exact_sum sums[CENTRE_SUMS] = {0};
     double inertia[6];
     for (int32_t i = 0; i < particles->count; i++) {
@@ -155,7 +152,7 @@ static void sum_about_centre(const struct simulation *simulation, int body,
         add_inertia(&sums[INERTIA], mass, x);
         exact_sum_add(&sums[SPREAD], 0.5 * mass * vec3_dot(u, u));
     }
-    ranks_sum_exact(simulation->ranks, sums, CENTRE_SUMS);
+    ranks_sum_exact(ranks, sums, CENTRE_SUMS);
     for (int k = 0; k < 6; k++)
         inertia[k] = exact_sum_value(&sums[INERTIA + k]);
     motion->angular = mean_of(&sums[ANGULAR], 1.0);
@@ -186,13 +183,12 @@ static double *put_vector(double *row, struct vec3 value, int first, int count)
 }
 
 static struct error *sample(struct probe *probe, const struct simulation *simulation,
-                            const struct views *views, double *row)
+                            const struct population *population, double *row)
 {
     const int dimension = simulation->problem->dimension, first = first_turn(dimension);
     struct body_motion motion;
-    (void)views;
-    sum_whole(simulation, probe->selection.body, &motion);
-    sum_about_centre(simulation, probe->selection.body, &motion);
+    sum_whole(simulation->ranks, population, probe->selection.body, &motion);
+    sum_about_centre(simulation->ranks, population, probe->selection.body, &motion);
     *row++ = motion.mass;
     row = put_vector(row, motion.centre, 0, dimension);
     row = put_vector(row, motion.velocity, 0, dimension);

@@ -23,44 +23,40 @@ const struct parameter probe_gauge_table[] = {
 };
 
 static struct error *prepare(struct probe *probe, const struct simulation *simulation,
-                             const struct views *views)
+                             const struct population *population)
 {
     const struct probe_gauge *gauge = probe->input->probe.value;
     TRY(probe_check_place(probe, simulation, "gauge", &gauge->at));
     probe_add_column(probe, "particles", "");
-    return probe_add_fields(probe, simulation, views);
+    return probe_add_fields(probe, simulation, population);
 }
 
 /* Behind the sums of the fields come the count of particles and their volume. */
-static void add_particle(const struct probe *probe, const struct simulation *simulation,
-                         const struct views *views, int32_t index, struct exact_sum *sums)
+static void add_particle(const struct probe *probe, const struct population *population,
+                         int32_t index, struct exact_sum *sums)
 {
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
     const int count = probe->fields->count;
-    double volume = particles->mass[index] / particles->density[index];
+    double volume = population->mass[index] / population->density[index];
     for (int i = 0; i < count; i++)
-        exact_sum_add(&sums[i], volume * field_value(views, &probe->fields->field[i], index));
+        exact_sum_add(&sums[i], volume * field_value(population, &probe->fields->field[i], index));
     exact_sum_add(&sums[count], 1.0);
     exact_sum_add(&sums[count + 1], volume);
 }
 
 static struct error *sample(struct probe *probe, const struct simulation *simulation,
-                            const struct views *views, double *row)
+                            const struct population *population, double *row)
 {
     const struct probe_gauge *gauge = probe->input->probe.value;
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
     const int count = probe->fields->count;
     double radius = isnan(gauge->radius) ? simulation->problem->input->resolution : gauge->radius;
     struct exact_sum *sums = memory_allocate(((size_t)count + 2) * sizeof *sums);
     TRY(ranks_agree(simulation->ranks,
                     sums ? NULL : error_new(ERROR_SYSTEM, "out of memory for a gauge")));
-    for (int32_t i = 0; i < particles->count; i++)
-        if (population_has(particles, i) &&
-            distance_square(&gauge->at, particles->position[i]) <= square(radius) &&
-            (probe->selection.body < 0 || particles->body[i] == probe->selection.body))
-            add_particle(probe, simulation, views, i, sums);
+    for (int32_t i = 0; i < population->count; i++)
+        if (population_has(population, i) &&
+            distance_square(&gauge->at, population->position[i]) <= square(radius) &&
+            (probe->selection.body < 0 || population->body[i] == probe->selection.body))
+            add_particle(probe, population, i, sums);
     ranks_sum_exact(simulation->ranks, sums, count + 2);
     double volume = exact_sum_value(&sums[count + 1]);
     row[0] = exact_sum_value(&sums[count]);

@@ -14,14 +14,14 @@ const struct parameter probe_tracer_table[] = {
 
 /* The place comes first, whatever fields are named. */
 static struct error *prepare(struct probe *probe, const struct simulation *simulation,
-                             const struct views *views)
+                             const struct population *population)
 {
     const struct probe_tracer *tracer = probe->input->probe.value;
     char position[] = "position", *name = position;
     const struct name_list place = {1, &name};
     TRY(probe_check_place(probe, simulation, "tracer", &tracer->at));
-    TRY(fields_choose(views, &place, simulation->problem->dimension, probe->fields));
-    return probe_add_fields(probe, simulation, views);
+    TRY(fields_choose(population, &place, simulation->problem->dimension, probe->fields));
+    return probe_add_fields(probe, simulation, population);
 }
 
 /* The whole of ID from two halves that are numbers without rounding, each the smallest of all ranks. */
@@ -34,11 +34,10 @@ static uint64_t smallest_id(const struct ranks *ranks, uint64_t id)
 }
 
 /* The id of the particle that is nearest to the tracer's place; the smallest of several. */
-static uint64_t nearest_particle(const struct probe *probe, const struct simulation *simulation)
+static uint64_t nearest_particle(const struct probe *probe, const struct ranks *ranks,
+                                 const struct population *particles)
 {
     const struct probe_tracer *tracer = probe->input->probe.value;
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
     double nearest = INFINITY;
     uint64_t id = UINT64_MAX;
     for (int32_t i = 0; i < particles->count; i++) {
@@ -49,36 +48,36 @@ static uint64_t nearest_particle(const struct probe *probe, const struct simulat
         nearest = distance;
         id = particles->id[i];
     }
-    bool has_it = nearest == ranks_minimum(simulation->ranks, nearest);
-    return smallest_id(simulation->ranks, has_it ? id : UINT64_MAX);
+    bool has_it = nearest == ranks_minimum(ranks, nearest);
+    return smallest_id(ranks, has_it ? id : UINT64_MAX);
 }
 
 /* Where the particle lies now on this rank; -1 when it is not here. */
-static int32_t find_particle(struct probe *probe, struct population population)
+static int32_t find_particle(struct probe *probe, const struct population *population)
 {
-    if (probe->order == population.order && probe->index >= 0 && probe->index < population.count &&
-        population.id[probe->index] == probe->id)
+    if (probe->order == population->order && probe->index >= 0 &&
+        probe->index < population->count && population->id[probe->index] == probe->id)
         return probe->index;
-    probe->order = population.order;
+    probe->order = population->order;
     probe->index = -1;
-    for (int32_t i = 0; i < population.count && probe->index < 0; i++)
-        if (population.id[i] == probe->id)
+    for (int32_t i = 0; i < population->count && probe->index < 0; i++)
+        if (population->id[i] == probe->id)
             probe->index = i;
     return probe->index;
 }
 
 /* The rank that has the particle gives the numbers, the others zeros: the sum of all is exact. */
 static struct error *sample(struct probe *probe, const struct simulation *simulation,
-                            const struct views *views, double *row)
+                            const struct population *population, double *row)
 {
     if (probe->rows == 0)
-        probe->id = nearest_particle(probe, simulation);
-    int32_t index = find_particle(probe, simulation_population(simulation));
+        probe->id = nearest_particle(probe, simulation->ranks, population);
+    int32_t index = find_particle(probe, population);
     bool anywhere = ranks_maximum(simulation->ranks, index) >= 0.0;
     for (int i = 0; i < probe->fields->count; i++) {
         struct exact_sum sum = {0};
         if (index >= 0)
-            exact_sum_add(&sum, field_value(views, &probe->fields->field[i], index));
+            exact_sum_add(&sum, field_value(population, &probe->fields->field[i], index));
         ranks_sum_exact(simulation->ranks, &sum, 1);
         row[i] = anywhere ? exact_sum_value(&sum) : NAN;
     }

@@ -104,10 +104,10 @@ struct error *probe_check_place(const struct probe *probe, const struct simulati
 }
 
 struct error *probe_add_fields(struct probe *probe, const struct simulation *simulation,
-                               const struct views *views)
+                               const struct population *population)
 {
     struct chosen_fields *fields = probe->fields;
-    struct error *error = fields_choose(views, &probe->input->fields,
+    struct error *error = fields_choose(population, &probe->input->fields,
                                         simulation->problem->dimension, fields),
                  *told = NULL;
     for (int i = 0; error && i < error_count(error); i++)
@@ -130,7 +130,7 @@ static struct error *check_key(const struct probe *probe, const struct simulatio
 }
 
 static struct error *prepare(struct probe *probe, const struct simulation *simulation,
-                             const struct views *views)
+                             const struct population *population)
 {
     const struct probe_input *input = probe->input;
     TRY(check_key(probe, simulation, "of", input->of, PROBE_TAKES_OF));
@@ -138,7 +138,7 @@ static struct error *prepare(struct probe *probe, const struct simulation *simul
     TRY(check_key(probe, simulation, "axis", input->axis >= 0, PROBE_TAKES_AXIS));
     TRY(check_key(probe, simulation, "between", input->between.count, PROBE_TAKES_AXIS));
     probe_add_column(probe, "time", "s");
-    TRY(class_of(probe)->prepare(probe, simulation, views));
+    TRY(class_of(probe)->prepare(probe, simulation, population));
     struct probe_column *fit =
         realloc(probe->column, (size_t)probe->columns * sizeof *probe->column);
     probe->column = fit ? fit : probe->column;
@@ -146,11 +146,11 @@ static struct error *prepare(struct probe *probe, const struct simulation *simul
 }
 
 struct error *probes_prepare(struct probes *probes, const struct simulation *simulation,
-                             const struct views *views)
+                             const struct population *population)
 {
     struct error *error = NULL;
     for (int i = 0; i < probes->count; i++)
-        error = error_join(error, prepare(&probes->item[i], simulation, views));
+        error = error_join(error, prepare(&probes->item[i], simulation, population));
     return error;
 }
 
@@ -277,12 +277,13 @@ static struct error *write_row(struct probe *probe, const double *row)
 }
 
 static struct error *record(struct probe *probe, const struct simulation *simulation,
-                            const struct views *views)
+                            const struct population *population)
 {
     double *row = row_of(probe);
     TRY(ranks_agree(simulation->ranks, row ? NULL : out_of_memory()));
     row[0] = simulation->time;
-    TRY(ranks_agree(simulation->ranks, class_of(probe)->sample(probe, simulation, views, row + 1)));
+    TRY(ranks_agree(simulation->ranks,
+                    class_of(probe)->sample(probe, simulation, population, row + 1)));
     TRY(ranks_agree(simulation->ranks, probe->writes ? write_row(probe, row) : NULL));
     probe->rows++;
     probe->step = simulation->step;
@@ -290,7 +291,7 @@ static struct error *record(struct probe *probe, const struct simulation *simula
 }
 
 struct error *probes_watch(struct probes *probes, const struct simulation *simulation,
-                           const struct views *views, bool last)
+                           const struct population *population, bool last)
 {
     struct error *error = NULL;
     for (int i = 0; i < probes->count && !error; i++) {
@@ -298,7 +299,7 @@ struct error *probes_watch(struct probes *probes, const struct simulation *simul
         double every = probe->input->every;
         bool due = isnan(every) || interval_is_due(simulation->time, every, &probe->due) || last;
         if (due && probe->step < simulation->step)
-            error = record(probe, simulation, views);
+            error = record(probe, simulation, population);
     }
     return error;
 }

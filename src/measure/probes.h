@@ -45,10 +45,10 @@ struct probe_class {
     unsigned takes; /* enum probe_keys */
     /* Adds the columns behind the time. ERROR_INPUT, located, for what makes no sense. */
     struct error *(*prepare)(struct probe *probe, const struct simulation *simulation,
-                             const struct views *views);
+                             const struct population *population);
     /* Fills ROW, a number for each column behind the time; NAN where there is nothing. Collective. */
     struct error *(*sample)(struct probe *probe, const struct simulation *simulation,
-                            const struct views *views, double *row);
+                            const struct population *population, double *row);
 };
 
 struct probe_tracer {
@@ -80,7 +80,7 @@ struct probes {
  * ERROR_INPUT. */
 struct error *probes_create(const struct simulation_case *input, struct probes *probes);
 struct error *probes_prepare(struct probes *probes, const struct simulation *simulation,
-                             const struct views *views);
+                             const struct population *population);
 void probes_free(struct probes *probes);
 
 /* Opens FOLDER/probes/NAME.csv of each where this rank WRITES; with RESUME behind the rows that were taken, which are
@@ -89,7 +89,7 @@ struct error *probes_open(struct probes *probes, const char *folder, bool resume
 
 /* Takes the rows that are due at this step; those of the last step with LAST. Collective. */
 struct error *probes_watch(struct probes *probes, const struct simulation *simulation,
-                           const struct views *views, bool last);
+                           const struct population *population, bool last);
 
 /* Hands all rows to the system, and marks them: before a checkpoint that counts them; and ends
  * writing. A probe's file is open only while rows go into it: there may be more probes than a
@@ -120,7 +120,7 @@ static inline double distance_square(const struct vector_value *place, const dou
 struct error *probe_check_place(const struct probe *probe, const struct simulation *simulation,
                                 const char *key, const struct vector_value *place);
 struct error *probe_add_fields(struct probe *probe, const struct simulation *simulation,
-                               const struct views *views);
+                               const struct population *population);
 
 /* For the kinds: a new column, and a mistake at KEY ("" for the probe as a whole) of PROBE. */
 void probe_add_column(struct probe *probe, const char *name, const char *unit);

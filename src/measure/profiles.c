@@ -76,10 +76,10 @@ static struct error *check_bins(const struct profile *profile, const struct simu
 }
 
 static struct error *prepare(struct profile *profile, const struct simulation *simulation,
-                             const struct views *views)
+                             const struct population *population)
 {
     struct error *told = NULL,
-                 *error = fields_choose(views, &profile->input->fields,
+                 *error = fields_choose(population, &profile->input->fields,
                                         simulation->problem->dimension, &profile->fields);
     for (int i = 0; error && i < error_count(error); i++)
         told =
@@ -89,8 +89,8 @@ static struct error *prepare(struct profile *profile, const struct simulation *s
     return error_join(told, check_bins(profile, simulation));
 }
 
-struct error *profiles_prepare(const struct simulation *simulation, const struct views *views,
-                               struct profiles *profiles)
+struct error *profiles_prepare(const struct simulation *simulation,
+                               const struct population *population, struct profiles *profiles)
 {
     const struct named_map *given = &simulation->problem->input->profiles;
     struct error *error = NULL;
@@ -102,7 +102,7 @@ struct error *profiles_prepare(const struct simulation *simulation, const struct
         struct profile *profile = &profiles->item[i];
         profile->name = given->names[i];
         profile->input = case_profile(simulation->problem->input, i);
-        error = error_join(error, prepare(profile, simulation, views));
+        error = error_join(error, prepare(profile, simulation, population));
     }
     return error;
 }
@@ -120,6 +120,7 @@ struct sorting {
     int64_t bins, places; /* bins of a group; of all */
     int64_t *place;       /* of each particle; -1: none */
     int64_t *count;       /* of the particles of each place */
+    int64_t particles;    /* of this rank */
 };
 
 static void sorting_free(struct sorting *sorting)
@@ -128,12 +129,10 @@ static void sorting_free(struct sorting *sorting)
     free(sorting->count);
 }
 
-static bool is_seen(const struct profile *profile, const struct simulation *simulation,
+static bool is_seen(const struct profile *profile, const struct population *particles,
                     int32_t index)
 {
     const struct profile_input *input = profile->input;
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
     double at = particles->position[index][input->along];
     return population_has(particles, index) &&
            (!input->of || particles->body[index] == profile->body) &&
@@ -143,14 +142,12 @@ static bool is_seen(const struct profile *profile, const struct simulation *simu
 
 /* The bins: over `between`, or over the particles; of `width`, then its multiples, or `bins` of them. */
 static void lay_bins(const struct profile *profile, const struct simulation *simulation,
-                     struct sorting *sorting)
+                     const struct population *particles, struct sorting *sorting)
 {
     const struct profile_input *input = profile->input;
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
     double low = INFINITY, high = -INFINITY;
     for (int32_t i = 0; i < particles->count; i++)
-        if (is_seen(profile, simulation, i)) {
+        if (is_seen(profile, particles, i)) {
             low = minimum(low, particles->position[i][input->along]);
             high = maximum(high, particles->position[i][input->along]);
         }
@@ -177,34 +174,31 @@ static int group_of(const struct profile *profile, const struct population *part
                                                      : 0;
 }
 
-static int64_t place_of(const struct profile *profile, const struct simulation *simulation,
+static int64_t place_of(const struct profile *profile, const struct population *particles,
                         const struct sorting *sorting, int32_t index)
 {
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
     double from_low = particles->position[index][profile->input->along] - sorting->low;
     double bin = sorting->width > 0.0 ? floor(from_low / sorting->width) : 0.0;
     /* What stands on the high end belongs to the last bin. */
     if (isnan(profile->input->width))
         bin = minimum(bin, (double)sorting->bins - 1.0);
-    if (!is_seen(profile, simulation, index) || !(bin < (double)sorting->bins))
+    if (!is_seen(profile, particles, index) || !(bin < (double)sorting->bins))
         return -1;
     return group_of(profile, particles, index) * sorting->bins + (int64_t)bin;
 }
 
 static struct error *sort(const struct profile *profile, const struct simulation *simulation,
-                          struct sorting *sorting)
+                          const struct population *particles, struct sorting *sorting)
 {
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
-    lay_bins(profile, simulation, sorting);
+    lay_bins(profile, simulation, particles, sorting);
+    sorting->particles = particles->count;
     sorting->groups = groups_of(profile, simulation->problem->input);
     sorting->places = sorting->groups * sorting->bins;
     sorting->place = memory_allocate(((size_t)particles->count + 1) * sizeof *sorting->place);
     sorting->count = memory_allocate(((size_t)sorting->places + 1) * sizeof *sorting->count);
     TRY(ranks_agree(simulation->ranks, sorting->place && sorting->count ? NULL : out_of_memory()));
     for (int32_t i = 0; i < particles->count; i++) {
-        sorting->place[i] = place_of(profile, simulation, sorting, i);
+        sorting->place[i] = place_of(profile, particles, sorting, i);
         if (sorting->place[i] >= 0)
             sorting->count[sorting->place[i]]++;
     }
@@ -222,7 +216,7 @@ static void sum_up(const struct simulation *simulation, const struct sorting *so
                    const double *value, const struct scatter *mean, struct exact_sum *sums)
 {
     memset(sums, 0, (size_t)sorting->places * sizeof *sums);
-    for (int32_t i = 0; i < simulation_population(simulation).count; i++) {
+    for (int32_t i = 0; i < sorting->particles; i++) {
         int64_t k = sorting->place[i];
         if (k >= 0)
             exact_sum_add(&sums[k], mean ? square(value[i] - mean[k].mean) : value[i]);
@@ -241,7 +235,7 @@ static void find_scatter(const struct simulation *simulation, const struct sorti
     for (int64_t k = 0; k < sorting->places; k++)
         scatter[k].mean = exact_sum_value(&sums[k]) / (double)sorting->count[k];
     sum_up(simulation, sorting, value, scatter, sums);
-    for (int32_t i = 0; i < simulation_population(simulation).count; i++) {
+    for (int32_t i = 0; i < sorting->particles; i++) {
         int64_t k = sorting->place[i];
         if (k < 0)
             continue;
@@ -259,10 +253,10 @@ static void find_scatter(const struct simulation *simulation, const struct sorti
 
 /* The scatter of all fields, one behind the other. */
 static struct error *find_all(const struct profile *profile, const struct simulation *simulation,
-                              const struct views *views, const struct sorting *sorting,
+                              const struct population *population, const struct sorting *sorting,
                               struct scatter *scatter)
 {
-    const int32_t count = simulation_population(simulation).count;
+    const int32_t count = population->count;
     double *value = memory_allocate(((size_t)count + 1) * sizeof *value);
     struct exact_sum *sums = memory_allocate(((size_t)sorting->places + 1) * sizeof *sums);
     double *ends = memory_allocate((2 * (size_t)sorting->places + 1) * sizeof *ends);
@@ -270,7 +264,8 @@ static struct error *find_all(const struct profile *profile, const struct simula
         ranks_agree(simulation->ranks, value && sums && ends ? NULL : out_of_memory());
     for (int i = 0; i < profile->fields.count && !error; i++) {
         const struct chosen_field *field = &profile->fields.field[i];
-        view_read_component(&views->view[field->view], field->component, 0, count, value);
+        column_read_component(population, &population->column[field->column], field->component, 0,
+                              count, value);
         find_scatter(simulation, sorting, value, sums, ends, scatter + i * sorting->places);
     }
     free(value);
@@ -340,16 +335,17 @@ static void put_rows(FILE *file, const struct profile *profile, const struct sim
 }
 
 static struct error *write_one(const struct profile *profile, const struct simulation *simulation,
-                               const struct views *views, const char *path)
+                               const struct population *population, const char *path)
 {
     FILE *file;
     struct sorting sorting = {0};
     struct scatter *scatter = NULL;
-    struct error *error = sort(profile, simulation, &sorting);
+    struct error *error = sort(profile, simulation, population, &sorting);
     if (!error) {
         size_t room = (size_t)profile->fields.count * (size_t)sorting.places + 1;
         scatter = memory_allocate(room * sizeof *scatter);
-        error = scatter ? find_all(profile, simulation, views, &sorting, scatter) : out_of_memory();
+        error = scatter ? find_all(profile, simulation, population, &sorting, scatter)
+                        : out_of_memory();
     }
     error = ranks_agree(simulation->ranks, error);
     if (!error && simulation->ranks->rank == 0)
@@ -365,7 +361,8 @@ static struct error *write_one(const struct profile *profile, const struct simul
 }
 
 struct error *profiles_write(const struct profiles *profiles, const struct simulation *simulation,
-                             const struct views *views, const char *folder, int64_t number)
+                             const struct population *population, const char *folder,
+                             int64_t number)
 {
     if (profiles->count == 0)
         return NULL;
@@ -380,7 +377,7 @@ struct error *profiles_write(const struct profiles *profiles, const struct simul
         error = ranks_agree(simulation->ranks, path ? NULL : out_of_memory());
         if (!error)
             error = ranks_agree(simulation->ranks,
-                                write_one(&profiles->item[i], simulation, views, path));
+                                write_one(&profiles->item[i], simulation, population, path));
         free(path);
     }
     free(own);

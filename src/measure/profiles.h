@@ -19,12 +19,13 @@ struct profiles {
 };
 
 /* Readies the profiles of a case; all mistakes come joined in one ERROR_INPUT. */
-struct error *profiles_prepare(const struct simulation *simulation, const struct views *views,
-                               struct profiles *profiles);
+struct error *profiles_prepare(const struct simulation *simulation,
+                               const struct population *population, struct profiles *profiles);
 void profiles_free(struct profiles *profiles);
 
 /* Writes FOLDER/profiles/NAME-NNNNNN.csv of each, NNNNNN the NUMBER of the snapshot. Collective. */
 struct error *profiles_write(const struct profiles *profiles, const struct simulation *simulation,
-                             const struct views *views, const char *folder, int64_t number);
+                             const struct population *population, const char *folder,
+                             int64_t number);
 
 #endif

@@ -68,7 +68,7 @@ static int64_t radii(const struct measurement *measurement, const double (*start
 {
     const struct measure_radius *parameters = measurement->check->measure.value;
     const struct simulation *simulation = measurement->simulation;
-    const struct population population = simulation_population(simulation), *p = &population;
+    const struct population *p = measurement->population;
     const double layer =
         isnan(parameters->layer) ? simulation->problem->input->resolution : parameters->layer;
     const bool axisymmetric = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
@@ -102,16 +102,16 @@ static struct error *measure(const struct measurement *measurement, double *valu
 {
     const struct measure_radius *parameters = measurement->check->measure.value;
     const struct simulation *simulation = measurement->simulation;
-    const size_t room = (size_t)simulation_population(simulation).count + 1;
+    const size_t room = (size_t)measurement->population->count + 1;
     double(*start)[3] = memory_allocate(room * sizeof *start);
     double *told = memory_allocate(room * sizeof *told);
     struct error *error = NULL;
     if (!start || !told)
         error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles",
-                          (int)simulation_population(simulation).count);
+                          (int)measurement->population->count);
     error = ranks_agree(simulation->ranks, error);
     if (!error) {
-        start_places(simulation, 0, simulation_population(simulation).count, start);
+        start_places(measurement->population, 0, measurement->population->count, start);
         const int64_t count = radii(measurement, (const double(*)[3])start, told);
         *value = mean_of(simulation->ranks, told, count);
         if (parameters->take == TAKE_SPREAD) {

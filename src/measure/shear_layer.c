@@ -60,8 +60,7 @@ static int64_t take_particles(const struct measurement *measurement, const doubl
 {
     const struct measure_shear_layer *parameters = measurement->check->measure.value;
     const struct vector_value *between = &measurement->check->between;
-    const struct population population = simulation_population(measurement->simulation),
-                            *p = &population;
+    const struct population *p = measurement->population;
     const int body = measure_body(measurement);
     int64_t count = 0;
     for (int32_t i = 0; i < p->count; i++) {
@@ -77,7 +76,7 @@ static int64_t take_particles(const struct measurement *measurement, const doubl
 static struct error *find_rows(const struct measurement *measurement, struct bands *rows)
 {
     const struct simulation *simulation = measurement->simulation;
-    const int32_t count = simulation_population(simulation).count;
+    const int32_t count = measurement->population->count;
     double(*start)[3] = memory_allocate(((size_t)count + 1) * sizeof *start);
     struct band *own = memory_allocate(((size_t)count + 1) * sizeof *own);
     struct error *error = NULL;
@@ -85,7 +84,7 @@ static struct error *find_rows(const struct measurement *measurement, struct ban
         error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles", (int)count);
     error = ranks_agree(simulation->ranks, error);
     if (!error) {
-        start_places(simulation, 0, count, start);
+        start_places(measurement->population, 0, count, start);
         const int64_t taken = take_particles(measurement, (const double(*)[3])start, own);
         error = bands_make(simulation->ranks, own, taken,
                            1e-3 * simulation->problem->input->resolution, rows);

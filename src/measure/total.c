@@ -45,14 +45,13 @@ static struct error *total_unit(const struct measurement *measurement, const cha
 }
 
 /* The sum is exact, so that it is the same for any order of the particles. */
-static double volume_of(const struct simulation *simulation, int body)
+static double volume_of(const struct ranks *ranks, const struct population *p, int body)
 {
-    const struct population population = simulation_population(simulation), *p = &population;
     struct exact_sum sum = {0};
     for (int32_t i = 0; i < p->count; i++)
         if (population_has(p, i) && (body < 0 || p->body[i] == body))
             exact_sum_add(&sum, p->mass[i] / p->density[i]);
-    ranks_sum_exact(simulation->ranks, &sum, 1);
+    ranks_sum_exact(ranks, &sum, 1);
     return exact_sum_value(&sum);
 }
 
@@ -60,12 +59,12 @@ static struct error *total(const struct measurement *measurement, double *value)
 {
     const struct measure_total *parameters = measurement->check->measure.value;
     const struct simulation *simulation = measurement->simulation;
-    const struct totals totals = population_totals(simulation_population(simulation),
-                                                   simulation->ranks, measure_body(measurement));
+    const struct totals totals =
+        population_totals(*measurement->population, simulation->ranks, measure_body(measurement));
     *value = parameters->quantity == TOTAL_KINETIC    ? totals.kinetic
              : parameters->quantity == TOTAL_INTERNAL ? totals.internal
              : parameters->quantity == TOTAL_VOLUME
-                 ? volume_of(simulation, measure_body(measurement))
+                 ? volume_of(simulation->ranks, measurement->population, measure_body(measurement))
                  : totals.entry[parameters->quantity];
     return NULL;
 }

@@ -34,8 +34,7 @@ static struct error *unit(const struct measurement *measurement, const char **un
 static double angle(const struct measurement *measurement, const double (*start)[3])
 {
     const struct measure_turn *parameters = measurement->check->measure.value;
-    const struct population population = simulation_population(measurement->simulation),
-                            *p = &population;
+    const struct population *p = measurement->population;
     const int body = measure_body(measurement), k = parameters->axis;
     const int a = (k + 1) % 3, b = (k + 2) % 3;
     const struct vec3 now_center =
@@ -59,13 +58,13 @@ static double angle(const struct measurement *measurement, const double (*start)
 static struct error *measure(const struct measurement *measurement, double *value)
 {
     const struct simulation *simulation = measurement->simulation;
-    const int32_t count = simulation_population(simulation).count;
+    const int32_t count = measurement->population->count;
     double(*start)[3] = memory_allocate(((size_t)count + 1) * sizeof *start);
     struct error *error = NULL;
     if (!start)
         error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles", (int)count);
     TRY(ranks_agree(simulation->ranks, error));
-    start_places(simulation, 0, count, start);
+    start_places(measurement->population, 0, count, start);
     *value = angle(measurement, (const double(*)[3])start);
     free(start);
     return NULL;

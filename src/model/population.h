@@ -1,7 +1,7 @@
 /* What a solver computes with, as everything that watches a run sees it: its members, each with
- * an id, a place, a mass, a density and a velocity. Members are particles, which move, or cells,
- * which stay. Measures, totals, histories and pictures know no more of a solver than this and its
- * views. */
+ * an id, a place, a mass, a density and a velocity, and columns of named quantities. Members are
+ * particles, which move, or cells, which stay. Measures, totals, histories, snapshots and pictures
+ * know no more of a solver than this. */
 #ifndef BOLIDE_POPULATION_H
 #define BOLIDE_POPULATION_H
 
@@ -10,9 +10,24 @@
 
 enum population_kind { POPULATION_OF_PARTICLES, POPULATION_OF_CELLS };
 
+struct population;
+struct problem;
+
+/* A named quantity of the members: an array of the store, or a function. */
+struct column {
+    const char *name, *unit, *help;
+    int components; /* 1, 3 or 6 */
+    int field; /* of the population; -1: COMPUTE fills OUT, components numbers a member, for the
+                     * members begin .. end - 1 */
+    void (*compute)(const struct population *population, int64_t begin, int64_t end, double *out);
+};
+enum { COLUMNS_MAX = 40 };
+
 /* The members that this rank owns. A handful of pointers, to be asked for again after each step. */
 struct population {
+    const char *name; /* "particles", "gas" */
     enum population_kind kind;
+    const struct problem *problem;
     int dimension;
     int threads; /* for loops over the members */
     int32_t count;
@@ -25,6 +40,8 @@ struct population {
     double edge;                 /* of a cell, m */
     int fields;                  /* that a store keeps by name, the above among them */
     const struct field *field;
+    int columns; /* the same throughout a run */
+    const struct column *column;
 };
 
 /* Whether member I holds matter: a cell that an obstacle blocks does not. */

@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "model/columns.h"
 
 struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
                                 int threads, struct simulation *simulation)
@@ -24,8 +25,28 @@ void simulation_add_population(struct simulation *simulation, const char *name,
                                const struct population_class *type, void *store)
 {
     assert(simulation->populations < POPULATIONS_MAX);
-    simulation->population[simulation->populations++] =
-        (struct population_source){name, type, store};
+    struct population_source *source = &simulation->population[simulation->populations++];
+    *source = (struct population_source){.name = name, .type = type, .store = store};
+    const struct population population =
+        simulation_population_at(simulation, simulation->populations - 1);
+    source->columns = columns_make(&population, source->column);
+}
+
+struct population simulation_population_at(const struct simulation *simulation, int index)
+{
+    assert(index < simulation->populations);
+    const struct population_source *source = &simulation->population[index];
+    struct population population = source->type->members(source->store);
+    population.name = source->name;
+    population.problem = simulation->problem;
+    population.columns = source->columns;
+    population.column = source->column;
+    return population;
+}
+
+struct population simulation_population(const struct simulation *simulation)
+{
+    return simulation_population_at(simulation, 0);
 }
 
 void simulation_remove_population(struct simulation *simulation, const void *store)

@@ -26,6 +26,8 @@ struct population_source {
     const char *name;
     const struct population_class *type;
     void *store;
+    int columns;
+    struct column column[COLUMNS_MAX];
 };
 enum { POPULATIONS_MAX = 4 };
 
@@ -56,12 +58,10 @@ void simulation_add_population(struct simulation *simulation, const char *name,
                                const struct population_class *type, void *store);
 void simulation_remove_population(struct simulation *simulation, const void *store);
 
-/* The population that checks, probes and pictures look at where they name none: the first. */
-BOLIDE_INLINE struct population simulation_population(const struct simulation *simulation)
-{
-    assert(simulation->populations);
-    return simulation->population[0].type->members(simulation->population[0].store);
-}
+/* The population at INDEX; and the one that checks, probes and pictures look at where they name none:
+ * the first. */
+struct population simulation_population_at(const struct simulation *simulation, int index);
+struct population simulation_population(const struct simulation *simulation);
 
 /* Of all populations: whether members are to be taken in or out; takes them in and out; brings each
  * to the rank that owns its block; a number for all their bits. Collective, but for the first two. */

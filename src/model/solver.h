@@ -3,7 +3,7 @@
 #ifndef BOLIDE_SOLVER_H
 #define BOLIDE_SOLVER_H
 
-#include "model/views.h"
+#include "model/simulation.h"
 #include "particle/field_rows.h"
 
 /* The largest step, what limits it, the id of the member where, and the time of the solver's next
@@ -47,7 +47,6 @@ struct solver_class {
     struct error *(*advance)(void *solver, struct simulation *simulation, double dt);
     /* Arrays beyond the simulation's that a resumed run needs. */
     struct error *(*state)(void *solver, struct visitor *visitor);
-    void (*observe)(const void *solver, const struct simulation *simulation, struct views *views);
     void (*destroy)(void *solver);
     /* Bytes a particle, for `bolide check`, at DIMENSION. */
     double (*bytes)(const void *parameters, int dimension);

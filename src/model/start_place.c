@@ -3,11 +3,9 @@
 
 #include "model/generate.h"
 
-void start_places(const struct simulation *simulation, int64_t begin, int64_t end,
+void start_places(const struct population *particles, int64_t begin, int64_t end,
                   double (*place)[3])
 {
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
     struct lattice lattice = {0};
     struct lattice_row row = {0};
     int lattice_body = -1;
@@ -15,7 +13,7 @@ void start_places(const struct simulation *simulation, int64_t begin, int64_t en
         const int body = (int)(particles->id[i] >> PARTICLE_SITE_BITS);
         const int64_t site = (int64_t)(particles->id[i] & PARTICLE_SITE);
         if (body != lattice_body) {
-            lattice = body_lattice(simulation->problem->input, body);
+            lattice = body_lattice(particles->problem->input, body);
             lattice_body = body;
             row.sites = 0;
         }

@@ -5,7 +5,7 @@
 #include "model/simulation.h"
 
 /* PLACE, one for each of the particles BEGIN .. END - 1, m. */
-void start_places(const struct simulation *simulation, int64_t begin, int64_t end,
+void start_places(const struct population *particles, int64_t begin, int64_t end,
                   double (*place)[3]);
 
 #endif

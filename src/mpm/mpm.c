@@ -134,13 +134,6 @@ static struct error *mpm_state(void *solver, struct visitor *visitor)
     return visitor->visit(visitor, "mpm/limit", NUMBER_DOUBLE, &mpm->limit_before, 1, 1);
 }
 
-static void mpm_observe(const void *solver, const struct simulation *simulation,
-                        struct views *views)
-{
-    (void)solver;
-    views_of_population(views, simulation);
-}
-
 static void mpm_destroy(void *solver)
 {
     struct mpm *mpm = solver;
@@ -225,7 +218,6 @@ const struct solver_class mpm_class = {.size = sizeof(struct mpm),
                                        .prepare = mpm_prepare,
                                        .advance = mpm_advance,
                                        .state = mpm_state,
-                                       .observe = mpm_observe,
                                        .destroy = mpm_destroy,
                                        .bytes = mpm_bytes,
                                        .step = mpm_step,

@@ -4,7 +4,7 @@
 #define BOLIDE_HISTORY_H
 
 #include "base/csv.h"
-#include "model/views.h"
+#include "model/simulation.h"
 
 struct history;
 

@@ -18,13 +18,14 @@ enum { VTK_VERTEX = 1, VTK_LINE = 3, VTK_PIXEL = 8, VTK_VOXEL = 11 };
  * wait. */
 struct writing {
     const struct simulation *simulation;
+    const struct population *population;
     bool here;
-    hid_t group; /* that columns go to */
+    hid_t group; /* that datasets go to */
     struct error *error;
 };
 
 /* A dataset to write: rows of numbers of TYPE, found by FILL, which puts the rows begin .. end - 1 into OUT. */
-struct column {
+struct dataset {
     const char *name;
     hid_t type;
     int64_t rows;     /* of all ranks */
@@ -39,7 +40,7 @@ struct column {
 /* Where rows go. */
 struct sink {
     hid_t dataset, space;
-    const struct column *column;
+    const struct dataset *set;
 };
 
 /* Whether OBJECT got the attribute NAME with TEXT. */
@@ -60,54 +61,53 @@ static bool put_text(hid_t object, const char *name, const char *text)
 static struct error *put_rows(void *context, int64_t at, int64_t count, const void *rows)
 {
     const struct sink *sink = context;
-    const struct column *column = sink->column;
+    const struct dataset *set = sink->set;
     if (sink->dataset < 0)
-        return hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", column->name);
-    const hsize_t each = (hsize_t)column->each;
+        return hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", set->name);
+    const hsize_t each = (hsize_t)set->each;
     hsize_t start[2] = {(hsize_t)at * each, 0};
-    hsize_t part[2] = {(hsize_t)count * each, (hsize_t)column->components};
-    hid_t memory = H5Screate_simple(column->components > 1 ? 2 : 1, part, NULL);
+    hsize_t part[2] = {(hsize_t)count * each, (hsize_t)set->components};
+    hid_t memory = H5Screate_simple(set->components > 1 ? 2 : 1, part, NULL);
     struct error *error = NULL;
     if (memory < 0 ||
         H5Sselect_hyperslab(sink->space, H5S_SELECT_SET, start, NULL, part, NULL) < 0 ||
-        H5Dwrite(sink->dataset, column->type, memory, sink->space, H5P_DEFAULT, rows) < 0)
-        error = hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", column->name);
+        H5Dwrite(sink->dataset, set->type, memory, sink->space, H5P_DEFAULT, rows) < 0)
+        error = hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", set->name);
     H5Sclose(memory);
     return error;
 }
 
-static struct sink open_sink(const struct writing *w, const struct column *column)
+static struct sink open_sink(const struct writing *w, const struct dataset *set)
 {
-    hsize_t size[2] = {(hsize_t)(column->rows * column->each), (hsize_t)column->components};
-    struct sink sink = {H5I_INVALID_HID, H5I_INVALID_HID, column};
+    hsize_t size[2] = {(hsize_t)(set->rows * set->each), (hsize_t)set->components};
+    struct sink sink = {H5I_INVALID_HID, H5I_INVALID_HID, set};
     if (!w->here || w->error)
         return sink;
-    sink.space = H5Screate_simple(column->components > 1 ? 2 : 1, size, NULL);
+    sink.space = H5Screate_simple(set->components > 1 ? 2 : 1, size, NULL);
     hid_t creation = hdf5_creation_list(H5P_DATASET_CREATE);
-    sink.dataset = H5Dcreate2(w->group, column->name, column->type, sink.space, H5P_DEFAULT,
-                              creation, H5P_DEFAULT);
+    sink.dataset =
+        H5Dcreate2(w->group, set->name, set->type, sink.space, H5P_DEFAULT, creation, H5P_DEFAULT);
     H5Pclose(creation);
-    if (sink.dataset >= 0 && column->unit && *column->unit &&
-        !put_text(sink.dataset, "unit", column->unit)) {
+    if (sink.dataset >= 0 && set->unit && *set->unit &&
+        !put_text(sink.dataset, "unit", set->unit)) {
         H5Dclose(sink.dataset);
         sink.dataset = H5I_INVALID_HID;
     }
     return sink;
 }
 
-static void write_column(struct writing *w, const struct column *column)
+static void write_dataset(struct writing *w, const struct dataset *set)
 {
     static const struct ranks alone = {0, 1, false};
-    const size_t components = (size_t)(column->components * column->each);
-    const struct rows rows = {column->distributed ? simulation_population(w->simulation).count
-                                                  : column->rows,
-                              components * H5Tget_size(column->type), components * sizeof(double),
-                              column->fill, column->context};
-    if (!column->distributed && !w->here)
+    const size_t components = (size_t)(set->components * set->each);
+    const struct rows rows = {set->distributed ? w->population->count : set->rows,
+                              components * H5Tget_size(set->type), components * sizeof(double),
+                              set->fill, set->context};
+    if (!set->distributed && !w->here)
         return;
-    struct sink sink = open_sink(w, column);
-    w->error = rows_pass(column->distributed ? w->simulation->ranks : &alone, &rows, put_rows,
-                         &sink, w->error);
+    struct sink sink = open_sink(w, set);
+    w->error = rows_pass(set->distributed ? w->simulation->ranks : &alone, &rows, put_rows, &sink,
+                         w->error);
     if (sink.dataset >= 0)
         H5Dclose(sink.dataset);
     if (sink.space >= 0)
@@ -181,12 +181,18 @@ static void fill_one(const void *context, int64_t begin, int64_t end, void *out)
     memcpy(out, context, sizeof(double));
 }
 
+/* A column of the members. */
+struct source {
+    const struct population *population;
+    const struct column *column;
+};
+
 /* Narrows in place: a float is never written behind the double that it comes from. */
-static void fill_view(const void *context, int64_t begin, int64_t end, void *out)
+static void fill_source(const void *context, int64_t begin, int64_t end, void *out)
 {
-    const struct view *view = context;
-    view_read(view, begin, end, out);
-    for (int64_t i = 0; i < (end - begin) * view->components; i++) {
+    const struct source *source = context;
+    column_read(source->population, source->column, begin, end, out);
+    for (int64_t i = 0; i < (end - begin) * source->column->components; i++) {
         double wide;
         memcpy(&wide, (const char *)out + i * (int64_t)sizeof wide, sizeof wide);
         float narrow = (float)wide;
@@ -194,10 +200,11 @@ static void fill_view(const void *context, int64_t begin, int64_t end, void *out
     }
 }
 
-static void write_view(struct writing *w, const struct view *view, int64_t count)
+static void write_column(struct writing *w, const struct column *column, int64_t count)
 {
-    write_column(w, &(struct column){view->name, H5T_NATIVE_FLOAT, count, view->components, 1, true,
-                                     fill_view, view, view->unit});
+    const struct source source = {w->population, column};
+    write_dataset(w, &(struct dataset){column->name, H5T_NATIVE_FLOAT, count, column->components, 1,
+                                       true, fill_source, &source, column->unit});
 }
 
 /* Writes the NAMES that the numbers of a field stand for, as ASCII texts of any length: VTK 9.1 reads no
@@ -221,11 +228,10 @@ static void write_names(struct writing *w, const char *dataset, const struct nam
 
 static void write_geometry(struct writing *w, int64_t count)
 {
-    const struct population population = simulation_population(w->simulation),
-                            *particles = &population;
+    const struct population *particles = w->population;
     const int each = corners_of(particles);
     const int64_t points = count * each;
-    const struct column columns[] = {
+    const struct dataset sets[] = {
         {"NumberOfPoints", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &points, NULL},
         {"NumberOfCells", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &count, NULL},
         {"NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &points, NULL},
@@ -234,35 +240,34 @@ static void write_geometry(struct writing *w, int64_t count)
         {"Offsets", H5T_NATIVE_INT64, count + 1, 1, 1, false, fill_offsets, particles, NULL},
         {"Types", H5T_NATIVE_UINT8, count, 1, 1, false, fill_types, particles, NULL},
     };
-    for (size_t i = 0; i < COUNT_OF(columns); i++)
-        write_column(w, &columns[i]);
+    for (size_t i = 0; i < COUNT_OF(sets); i++)
+        write_dataset(w, &sets[i]);
 }
 
-static void write_fields(struct writing *w, const struct views *views, int64_t count)
+static void write_fields(struct writing *w, int64_t count)
 {
-    const struct population population = simulation_population(w->simulation),
-                            *particles = &population;
-    const struct column columns[] = {
+    const struct population *particles = w->population;
+    const struct dataset sets[] = {
         {"id", H5T_NATIVE_INT64, count, 1, 1, true, fill_ids, particles, NULL},
         {"material", H5T_NATIVE_UINT16, count, 1, 1, true, fill_numbers, particles->material, NULL},
         {"body", H5T_NATIVE_UINT16, count, 1, 1, true, fill_numbers, particles->body, NULL},
     };
-    for (size_t i = 0; i < COUNT_OF(columns); i++)
-        write_column(w, &columns[i]);
-    for (int i = 0; i < views->count; i++)
-        if (strcmp(views->view[i].name, "position") != 0) /* that is "Points" */
-            write_view(w, &views->view[i], count);
+    for (size_t i = 0; i < COUNT_OF(sets); i++)
+        write_dataset(w, &sets[i]);
+    for (int i = 0; i < particles->columns; i++)
+        if (strcmp(particles->column[i].name, "position") != 0) /* that is "Points" */
+            write_column(w, &particles->column[i], count);
 }
 
 static void write_moment(struct writing *w)
 {
-    const struct column columns[] = {
+    const struct dataset sets[] = {
         {"time", H5T_NATIVE_DOUBLE, 1, 1, 1, false, fill_one, &w->simulation->time, "s"},
         {"step", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &w->simulation->step, NULL},
     };
     const struct simulation_case *input = w->simulation->problem->input;
-    for (size_t i = 0; i < COUNT_OF(columns); i++)
-        write_column(w, &columns[i]);
+    for (size_t i = 0; i < COUNT_OF(sets); i++)
+        write_dataset(w, &sets[i]);
     if (input) { /* else a program made the particles */
         write_names(w, "bodies", &input->bodies);
         write_names(w, "materials", &input->materials);
@@ -282,12 +287,12 @@ static bool mark_as_vtk(hid_t root)
     return done && put_text(root, "Type", "UnstructuredGrid");
 }
 
-static void write_all(struct writing *w, hid_t file, const struct views *views)
+static void write_all(struct writing *w, hid_t file)
 {
     enum { ROOT, POINTS, CELLS, FIELDS, GROUPS };
     static const char *const names[GROUPS] = {"/VTKHDF", "/VTKHDF/PointData", "/VTKHDF/CellData",
                                               "/VTKHDF/FieldData"};
-    int64_t count = ranks_sum(w->simulation->ranks, simulation_population(w->simulation).count);
+    int64_t count = ranks_sum(w->simulation->ranks, w->population->count);
     hid_t group[GROUPS] = {H5I_INVALID_HID, H5I_INVALID_HID, H5I_INVALID_HID, H5I_INVALID_HID};
     bool made = true;
     hid_t creation = hdf5_creation_list(H5P_GROUP_CREATE);
@@ -300,9 +305,8 @@ static void write_all(struct writing *w, hid_t file, const struct views *views)
         w->error = hdf5_error(ERROR_SYSTEM, "the group VTKHDF cannot be made");
     w->group = group[ROOT];
     write_geometry(w, count);
-    const struct population population = simulation_population(w->simulation);
-    w->group = group[population.kind == POPULATION_OF_CELLS ? CELLS : POINTS];
-    write_fields(w, views, count);
+    w->group = group[w->population->kind == POPULATION_OF_CELLS ? CELLS : POINTS];
+    write_fields(w, count);
     w->group = group[FIELDS];
     write_moment(w);
     for (int i = 0; i < GROUPS; i++)
@@ -311,15 +315,16 @@ static void write_all(struct writing *w, hid_t file, const struct views *views)
 }
 
 struct error *snapshot_write(const char *path, const struct simulation *simulation,
-                             const struct views *views)
+                             const struct population *population)
 {
     struct hdf5_printing printing = hdf5_quiet();
     hid_t file = H5I_INVALID_HID;
-    struct writing writing = {.simulation = simulation, .here = simulation->ranks->rank == 0};
+    struct writing writing = {
+        .simulation = simulation, .population = population, .here = simulation->ranks->rank == 0};
     if (writing.here)
         writing.error = hdf5_create(path, false, &file);
     const bool created = writing.here && !writing.error;
-    write_all(&writing, file, views);
+    write_all(&writing, file);
     if (created)
         writing.error = hdf5_finish(path, file, error_context(writing.error, "%s", path));
     hdf5_restore(printing);

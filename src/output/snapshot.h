@@ -3,13 +3,14 @@
 #ifndef BOLIDE_SNAPSHOT_H
 #define BOLIDE_SNAPSHOT_H
 
-#include "model/views.h"
+#include "model/columns.h"
+#include "model/simulation.h"
 
-/* Collective: rank 0 writes all views to PATH, by slices, so that memory does not grow with the
+/* Collective: rank 0 writes all columns of POPULATION to PATH, by slices, so that memory does not grow with the
  * particles. Fields have their unit as the attribute `unit`. What the numbers in the fields `body`
  * and `material` stand for is in FieldData, under `bodies` and `materials`. */
 struct error *snapshot_write(const char *path, const struct simulation *simulation,
-                             const struct views *views);
+                             const struct population *population);
 
 /* Writes FOLDER/snapshots.vtkhdf.series that lists COUNT snapshots, file names as given, with their
  * times in seconds. */

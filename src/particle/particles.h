@@ -91,9 +91,8 @@ size_t particles_sort_bytes(void);
 struct error *particles_arrange(struct particles *particles, const int32_t *list,
                                 const struct block *block, int32_t blocks);
 
-/* Collective: moves every particle to the rank that owns its block, then sorts. SECONDS are what the rank has worked
- * on its particles since the last call; where the ranks' work since the cut differs by too much, and with RECUT in
- * any case, the blocks are divided anew. */
+/* Collective: moves every particle to the rank that owns its block, then sorts. Where the ranks' work
+ * since the cut differs by too much, and with RECUT in any case, the blocks are divided anew. */
 struct error *particles_distribute(struct particles *particles, bool recut);
 
 /* The key of the block that X lies in. */
@@ -107,11 +106,5 @@ uint64_t particles_hash(const struct particles *particles);
 
 /* Bytes that the store holds for each particle. */
 size_t particles_bytes(const struct particles *particles);
-
-/* D = V^(1/dimension): the edge of a cube, the side of a square, a length (1.70). */
-BOLIDE_INLINE double diameter_of_volume(double volume, int dimension)
-{
-    return dimension == 1 ? volume : dimension == 2 ? sqrt(volume) : cbrt(volume);
-}
 
 #endif

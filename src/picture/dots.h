@@ -19,7 +19,7 @@ BOLIDE_INLINE double middle_of(struct range range) { return 0.5 * (range.low + r
 BOLIDE_INLINE double length_of(struct range range) { return range.high - range.low; }
 
 /* Collective: finds extents, mean diameter, and in 3-D the two longest axes. */
-struct plane plane_find(const struct simulation *simulation);
+struct plane plane_find(const struct simulation *simulation, const struct population *population);
 
 /* A particle in the picture, in metres from the middle of the extents: floats halve the memory. */
 struct dot {
@@ -36,8 +36,7 @@ struct dots {
 };
 
 /* The dots of this rank's particles. Free dots->dot also after an error. */
-struct error *dots_take(struct population population, const struct shown *shown,
-                        const struct plane *plane, struct dots *dots);
+struct error *dots_take(const struct shown *shown, const struct plane *plane, struct dots *dots);
 
 /* What is painted upon: columns left .. right - 1 and rows top .. bottom - 1 of pixels, the middle of the extents at (x, y)
  * and SCALE pixels a metre. Small particles are painted as squares, too. */

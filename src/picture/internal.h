@@ -6,7 +6,8 @@
 #include <cairo.h>
 
 #include "base/error.h"
-#include "model/views.h"
+#include "model/columns.h"
+#include "model/simulation.h"
 #include "picture/scale.h"
 
 enum { PIXELS_PER_POINT = 2, LEGEND_ROW = 18, LABEL_TEXT = 128 };
@@ -81,16 +82,17 @@ typedef void paint_function(const struct pixels *pixels, double x, double y, dou
                             struct colour colour);
 paint_function paint_square, paint_disc;
 
-/* What is shown of the particles: a component of a view, or a category. */
+/* What is shown of the particles: a component of a column of a population, or a category. */
 struct shown {
-    const struct view *view; /* NULL: a category */
+    const struct population *population;
+    const struct column *column; /* NULL: a category */
     int component;
     const uint16_t *category; /* of each particle; NULL also where there is none */
     const struct named_map *names;
 };
 
 /* Finds FIELD; ERROR_INPUT, not located, when there is none or it has several components. */
-struct error *shown_find(const struct simulation *simulation, const struct views *views,
+struct error *shown_find(const struct simulation *simulation, const struct population *population,
                          const char *field, struct shown *shown);
 
 /* The values of particles begin .. end - 1. */

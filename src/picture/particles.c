@@ -117,7 +117,7 @@ static void draw_colour_bar(const struct canvas *canvas, const struct page *page
     double middle = 0.5 * (page->x.start + page->x.end);
     double half = 0.5 * minimum(maximum(0.7 * (page->x.end - page->x.start), 300.0), 480.0);
     struct axis bar = {.range = colours->range, .start = middle - half, .end = middle + half};
-    axis_name(&bar, name, around->shown->view->unit, range_reach(bar.range));
+    axis_name(&bar, name, around->shown->column->unit, range_reach(bar.range));
     axis_ticks(&bar, canvas);
     cairo_pattern_t *shades = cairo_pattern_create_linear(bar.start, 0.0, bar.end, 0.0);
     enum { shade_count = 96 };
@@ -229,7 +229,7 @@ static void draw_page(const struct canvas *canvas, struct page *page, const stru
     axis_ticks(&page->y, canvas);
     put_image(canvas, viewport, image);
     axes_frame(canvas, &page->x, &page->y);
-    if (around->shown->view)
+    if (around->shown->column)
         draw_colour_bar(canvas, page, page->y.start + AXIS_HEIGHT + BAR_GAP, around, dots);
     const struct text_place middle = {0.5 * (page->x.start + page->x.end),
                                       0.5 * (page->y.start + page->y.end) + 4.0, 0.5,
@@ -276,7 +276,7 @@ static struct error *write_page(const char *path, struct page *page, const struc
 static struct error *find_page(const struct surroundings *around, struct page *page)
 {
     const struct ranks *ranks = around->simulation->ranks;
-    double head = 0.0, foot = around->shown->view ? BAR_GAP + BAR_THICKNESS + AXIS_HEIGHT : 4.0;
+    double head = 0.0, foot = around->shown->column ? BAR_GAP + BAR_THICKNESS + AXIS_HEIGHT : 4.0;
     /* The width of the page does not depend on its head. */
     double width = lay_out(around->plane, head, foot).width - LEFT - RIGHT;
     struct error *error = NULL;
@@ -297,7 +297,7 @@ static struct error *draw_plane(const char *path, struct surroundings *around, s
     uint32_t *image;
     dots->of_all = ranks_sum(ranks, dots->count);
     dots->values = range_of_all(ranks, dots->values);
-    if (!shown->view)
+    if (!shown->column)
         TRY(category_entries(dots, ranks, shown->names, around->entry, &around->entries));
     TRY(find_page(around, &page));
 
@@ -308,7 +308,7 @@ static struct error *draw_plane(const char *path, struct surroundings *around, s
         range = (struct range){minimum(range.low, fixed.high), fixed.high};
     around->colours = colour_scale_make(range);
     struct viewport viewport =
-        viewport_of(&page, around->plane, shown->view ? &around->colours : NULL);
+        viewport_of(&page, around->plane, shown->column ? &around->colours : NULL);
     TRY(dots_paint(ranks, dots, &viewport, &image));
     struct error *error = NULL;
     if (ranks->rank == 0)
@@ -329,7 +329,7 @@ static struct error *plot_line_problem(const char *path, const struct simulation
                         .x_name = "x",
                         .x_unit = "m",
                         .y_name = name,
-                        .y_unit = shown->view ? shown->view->unit : "",
+                        .y_unit = shown->column ? shown->column->unit : "",
                         .count = 1,
                         .series = &series,
                         .note = note,
@@ -343,8 +343,7 @@ static struct error *draw_line_problem(const char *path, const struct simulation
                                        const struct shown *shown, const char *field,
                                        struct range fixed)
 {
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
+    const struct population *particles = shown->population;
     struct scatter scatter;
     struct error *error = NULL;
     if (scatter_allocate(&scatter, particles->count)) {
@@ -364,19 +363,19 @@ static struct error *draw_line_problem(const char *path, const struct simulation
 }
 
 struct error *picture_particles(const char *path, const struct simulation *simulation,
-                                const struct views *views, const char *field, double low,
+                                const struct population *population, const char *field, double low,
                                 double high)
 {
     struct shown shown;
     struct range fixed = {low, high};
-    TRY(shown_find(simulation, views, field, &shown));
-    if (simulation_population(simulation).dimension == 1)
+    TRY(shown_find(simulation, population, field, &shown));
+    if (population->dimension == 1)
         return draw_line_problem(path, simulation, &shown, field, fixed);
-    struct plane plane = plane_find(simulation);
+    struct plane plane = plane_find(simulation, population);
     struct dots dots;
     struct surroundings around = {
         .simulation = simulation, .plane = &plane, .shown = &shown, .field = field};
-    struct error *error = dots_take(simulation_population(simulation), &shown, &plane, &dots);
+    struct error *error = dots_take(&shown, &plane, &dots);
     error = ranks_agree(simulation->ranks, error);
     if (!error)
         error = draw_plane(path, &around, &dots, fixed);

@@ -2,7 +2,8 @@
 #ifndef BOLIDE_PICTURE_H
 #define BOLIDE_PICTURE_H
 
-#include "model/views.h"
+#include "model/columns.h"
+#include "model/simulation.h"
 
 /* Collective: the particles of all ranks coloured by FIELD ("pressure", "velocity.x") with axes in a readable unit
  * (mm, µm), colour scale with unit, title, time and outline-free discs of the particle's diameter. In 3-D the
@@ -13,12 +14,12 @@
  * that is not finite is left out, one whose value is NaN is grey. ERROR_INPUT when FIELD is unknown or
  * has several components, ERROR_SYSTEM when PATH cannot be written; then PATH is as it was. */
 struct error *picture_particles(const char *path, const struct simulation *simulation,
-                                const struct views *views, const char *field, double low,
+                                const struct population *population, const char *field, double low,
                                 double high);
 
 /* NULL when picture_particles can draw FIELD, else an ERROR_INPUT, not located. */
-struct error *picture_field_check(const struct simulation *simulation, const struct views *views,
-                                  const char *field);
+struct error *picture_field_check(const struct simulation *simulation,
+                                  const struct population *population, const char *field);
 
 /* How the points of a series are joined: not at all (they are dots), by a line, by one with a dot at each
  * point, or by a thin grey one to measure the others by. */

@@ -1,19 +1,18 @@
 /* What of space is in a picture of particles, and which of them. */
 #include "base/memory.h"
-#include "particle/particles.h"
 #include "picture/dots.h"
 
 enum { SLICE = 4096 };
 
 /* The edge of the square or cube that a member fills; of RINGS that of their section. */
-static double particle_diameter(struct population population, bool rings, int64_t i)
+static double particle_diameter(const struct population *population, bool rings, int64_t i)
 {
-    if (population.kind == POPULATION_OF_CELLS)
-        return population.edge;
-    double volume = population.mass[i] / population.density[i];
+    if (population->kind == POPULATION_OF_CELLS)
+        return population->edge;
+    double volume = population->mass[i] / population->density[i];
     if (rings) /* mass is that of a radian */
-        volume /= fabs(population.position[i][0]);
-    return diameter_of_volume(volume, population.dimension);
+        volume /= fabs(population->position[i][0]);
+    return diameter_of_volume(volume, population->dimension);
 }
 
 /* Where the matter lies on a wall, its extent ends there. */
@@ -30,14 +29,15 @@ static void end_at_walls(struct plane *plane, const struct mirrors *mirrors)
 }
 
 /* Collective: extents and mean diameter of the particles of all ranks, without their size. */
-static void measure(struct population population, const struct ranks *ranks, struct plane *plane)
+static void measure(const struct population *population, const struct ranks *ranks,
+                    struct plane *plane)
 {
     struct range *extent = plane->extent;
     struct exact_sum logarithms = {0};
     int64_t counted = 0;
-    for (int64_t i = 0; i < population.count; ++i) {
+    for (int64_t i = 0; i < population->count; ++i) {
         for (int axis = 0; axis < 3; ++axis)
-            range_include(&extent[axis], population.position[i][axis]);
+            range_include(&extent[axis], population->position[i][axis]);
         double logarithm = log(particle_diameter(population, plane->rings, i));
         if (isfinite(logarithm)) {
             exact_sum_add(&logarithms, logarithm);
@@ -51,15 +51,15 @@ static void measure(struct population population, const struct ranks *ranks, str
     plane->diameter = counted > 0 ? exp(exact_sum_value(&logarithms) / (double)counted) : 0.0;
 }
 
-struct plane plane_find(const struct simulation *simulation)
+struct plane plane_find(const struct simulation *simulation, const struct population *population)
 {
     struct plane plane = {.rings = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC,
-                          .cells = simulation_population(simulation).kind == POPULATION_OF_CELLS,
+                          .cells = population->kind == POPULATION_OF_CELLS,
                           .across = 0,
                           .up = 1,
                           .normal = -1,
                           .extent = {range_empty(), range_empty(), range_empty()}};
-    measure(simulation_population(simulation), simulation->ranks, &plane);
+    measure(population, simulation->ranks, &plane);
     for (int axis = 0; axis < 3; ++axis) {
         struct range *extent = &plane.extent[axis];
         if (!(extent->low <= extent->high))
@@ -68,7 +68,7 @@ struct plane plane_find(const struct simulation *simulation)
         extent->high += 0.5 * plane.diameter;
     }
     end_at_walls(&plane, &simulation->problem->mirrors);
-    if (simulation_population(simulation).dimension == 3) {
+    if (population->dimension == 3) {
         /* Of equal axes the last, but for rounding, so that x and y are the picture's. */
         plane.normal = 2;
         for (int axis = 1; axis >= 0; --axis)
@@ -83,10 +83,10 @@ struct plane plane_find(const struct simulation *simulation)
 
 /* Adds particle I, unless it lies outside of the slab: its centre within 3/4 of its diameter of the middle,
  * so that a lattice shows one or two layers and never a gap. */
-static bool take_one(struct population population, const struct plane *plane, int64_t i,
+static bool take_one(const struct population *population, const struct plane *plane, int64_t i,
                      double value, struct dots *dots)
 {
-    const double *position = population.position[i];
+    const double *position = population->position[i];
     double depth = plane->normal < 0 ? 0.0 : position[plane->normal] - plane->middle;
     double diameter = particle_diameter(population, plane->rings, i);
     /* A particle blown to next to nothing would cover all others. */
@@ -95,7 +95,7 @@ static bool take_one(struct population population, const struct plane *plane, in
     if (!isfinite(position[plane->across]) || !isfinite(position[plane->up]) ||
         !(fabs(depth) <= reach * diameter || plane->normal < 0))
         return true;
-    if (plane->cells && !(population.density[i] > 0.0)) /* blocked */
+    if (plane->cells && !(population->density[i] > 0.0)) /* blocked */
         return true;
     if (dots->count == dots->capacity &&
         !memory_reserve((void **)&dots->dot, &dots->capacity, dots->count + 1, dots->count,
@@ -107,22 +107,22 @@ static bool take_one(struct population population, const struct plane *plane, in
     dot->depth = (float)depth;
     dot->diameter = (float)diameter;
     dot->value = (float)value;
-    dot->id = population.id[i];
+    dot->id = population->id[i];
     range_include(&dots->values, value);
     return true;
 }
 
-struct error *dots_take(struct population population, const struct shown *shown,
-                        const struct plane *plane, struct dots *dots)
+struct error *dots_take(const struct shown *shown, const struct plane *plane, struct dots *dots)
 {
+    const struct population *population = shown->population;
     double values[SLICE];
     *dots = (struct dots){.values = range_empty()};
     /* In a plane all are shown. */
-    if (plane->normal < 0 && !memory_reserve((void **)&dots->dot, &dots->capacity, population.count,
-                                             0, sizeof *dots->dot))
+    if (plane->normal < 0 && !memory_reserve((void **)&dots->dot, &dots->capacity,
+                                             population->count, 0, sizeof *dots->dot))
         return error_new(ERROR_SYSTEM, "picture: out of memory");
-    for (int64_t begin = 0; begin < population.count; begin += SLICE) {
-        int64_t end = begin + SLICE < population.count ? begin + SLICE : population.count;
+    for (int64_t begin = 0; begin < population->count; begin += SLICE) {
+        int64_t end = begin + SLICE < population->count ? begin + SLICE : population->count;
         shown_read(shown, begin, end, values);
         for (int64_t i = begin; i < end; ++i)
             if (!take_one(population, plane, i, values[i - begin], dots))

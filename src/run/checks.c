@@ -181,8 +181,9 @@ static struct error *prepare_limits(const struct checks *checks, struct prepared
                                         &prepared->wanted, &prepared->low, &prepared->high));
 }
 
-struct error *checks_prepare(const struct simulation *simulation, const struct views *views,
-                             const struct probes *probes, struct checks **result)
+struct error *checks_prepare(const struct simulation *simulation,
+                             const struct population *population, const struct probes *probes,
+                             struct checks **result)
 {
     const struct simulation_case *input = simulation->problem->input;
     struct checks *checks = memory_allocate(sizeof *checks);
@@ -197,7 +198,7 @@ struct error *checks_prepare(const struct simulation *simulation, const struct v
     struct error *error = NULL;
     for (int i = 0; i < checks->count; i++) {
         items[i].measurement = (struct measurement){.simulation = simulation,
-                                                    .views = views,
+                                                    .population = population,
                                                     .probes = probes,
                                                     .check = case_check(input, i),
                                                     .name = input->checks.names[i],
@@ -231,7 +232,7 @@ static struct measurement measurement_at(const struct prepared_check *prepared,
 {
     struct measurement measurement = prepared->measurement;
     measurement.simulation = moment->simulation;
-    measurement.views = moment->views;
+    measurement.population = moment->population;
     measurement.start = moment->start;
     measurement.at_start = memory->start;
     return measurement;

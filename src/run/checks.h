@@ -51,14 +51,15 @@ const char *checks_unit(const struct checks *checks, int index);
 /* Readies the checks of a run before its first step: finds their fields in VIEWS, looks at
  * dimensions, solves the exact problems. PROBES (NULL: none), which stay, keep what checks read. All
  * mistakes come joined in one ERROR_INPUT. */
-struct error *checks_prepare(const struct simulation *simulation, const struct views *views,
-                             const struct probes *probes, struct checks **result);
+struct error *checks_prepare(const struct simulation *simulation,
+                             const struct population *population, const struct probes *probes,
+                             struct checks **result);
 void checks_free(struct checks *checks);
 
 /* A run's moment: START are the totals at time zero, MEMORY has an entry a check. */
 struct check_moment {
     const struct simulation *simulation;
-    const struct views *views;
+    const struct population *population;
     const struct totals *start;
     struct check_memory *memory;
 };
@@ -78,7 +79,7 @@ char *checks_picture(const struct checks *checks, int index);
 /* Collective: draws FOLDER/check-FIELD.png for every field that is measured against an exact solution: the
  * solution as a line, the particles as dots, over the check's axis or distance. */
 struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,
-                          const struct views *views, const char *folder);
+                          const struct population *population, const char *folder);
 
 /* Counts the item that was filled in after the last one. */
 void check_results_count(struct check_results *results);

@@ -144,12 +144,11 @@ static struct error *draw(const struct measurement *m, const struct scatter *par
     static const char *const axes[] = {"x", "y", "z"};
     const struct measure_field *parameters = m->check->measure.value;
     struct scatter curve;
-    const struct population population = simulation_population(m->simulation);
     struct error *error = NULL;
     if (find_curve(m, particles, &curve)) {
         struct series series[] = {
             {"exact", curve.count, curve.x, curve.y, LINE_PLAIN},
-            {population_members(&population), particles->count, particles->x, particles->y,
+            {population_members(m->population), particles->count, particles->x, particles->y,
              LINE_NONE},
         };
         struct plot plot = {.title = m->simulation->problem->input->title,
@@ -229,12 +228,12 @@ char *checks_picture(const struct checks *checks, int index)
 }
 
 struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,
-                          const struct views *views, const char *folder)
+                          const struct population *population, const char *folder)
 {
     for (int i = 0; i < checks->count; i++) {
         struct measurement m = checks->item[i].measurement;
         m.simulation = simulation;
-        m.views = views;
+        m.population = population;
         if (!m.exact || drawn_before(checks, i))
             continue;
         char *name = checks_picture(checks, i);

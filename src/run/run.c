@@ -85,7 +85,8 @@ static bool at_stop(const struct run *run)
 
 static struct check_moment moment_of(struct run *run)
 {
-    return (struct check_moment){&run->simulation, &run->views, &run->start, run->check_memory};
+    return (struct check_moment){&run->simulation, &run->population, &run->start,
+                                 run->check_memory};
 }
 
 static struct error *watch_checks(struct run *run)
@@ -192,15 +193,15 @@ static struct error *look_ahead(struct run *run)
 {
     const struct name_list *pictures = &run->input->output.pictures;
     run_observe(run);
-    struct error *error = probes_prepare(&run->probes, &run->simulation, &run->views);
-    error = error_join(error, profiles_prepare(&run->simulation, &run->views, &run->profiles));
-    error = error_join(error,
-                       checks_prepare(&run->simulation, &run->views, &run->probes, &run->checks));
+    struct error *error = probes_prepare(&run->probes, &run->simulation, &run->population);
+    error = error_join(error, profiles_prepare(&run->simulation, &run->population, &run->profiles));
+    error = error_join(
+        error, checks_prepare(&run->simulation, &run->population, &run->probes, &run->checks));
     if (run->checks)
         error = error_join(error, fits_prepare(run->input, run->checks));
     for (int i = 0; i < pictures->count; i++) {
         struct error *mistake =
-            picture_field_check(&run->simulation, &run->views, pictures->names[i]);
+            picture_field_check(&run->simulation, &run->population, pictures->names[i]);
         if (!mistake)
             continue;
         char key[32];
@@ -259,7 +260,7 @@ static struct error *conclude(struct run *run)
             error = check_results_write(&result->checks, path);
         error = ranks_agree(&run->ranks, error);
         if (!error && pictures)
-            error = checks_draw(run->checks, &run->simulation, &run->views, pictures);
+            error = checks_draw(run->checks, &run->simulation, &run->population, pictures);
         free(path);
         free(pictures);
         return error;

@@ -141,7 +141,7 @@ static struct error *snapshot_of_failure(struct run *run)
     struct error *error = ranks_agree(&run->ranks, path ? NULL : out_of_memory());
     if (!error) {
         run_observe(run);
-        error = snapshot_write(path, &run->simulation, &run->views);
+        error = snapshot_write(path, &run->simulation, &run->population);
     }
     free(path);
     return error;

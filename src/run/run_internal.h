@@ -20,7 +20,7 @@ struct run {
     struct threads threads; /* of this rank */
     const struct solver_class *method;
     void *solver;
-    struct views views;
+    struct population population; /* as it is now; of several the first */
     struct probes probes;
     struct profiles profiles;
     struct checks *checks;
@@ -76,7 +76,7 @@ struct error *run_check_folder(struct run *run);
 struct error *run_open_folder(struct run *run);
 struct error *run_close_files(struct run *run, struct error *error);
 
-/* Fills run->views with what the solver shows now. */
+/* Asks for run->population anew, after a step or a change of its members. */
 void run_observe(struct run *run);
 
 /* Takes the outputs that are due at this moment: history, snapshot, pictures; those of the last

@@ -298,11 +298,7 @@ struct error *run_close_files(struct run *run, struct error *error)
     return error;
 }
 
-void run_observe(struct run *run)
-{
-    memset(&run->views, 0, sizeof run->views);
-    run->method->observe(run->solver, &run->simulation, &run->views);
-}
+void run_observe(struct run *run) { run->population = simulation_population(&run->simulation); }
 
 static double history_interval(const struct run *run)
 {
@@ -320,8 +316,8 @@ static struct error *draw_pictures(struct run *run, int64_t number)
         char *path = name ? run_path(run, name) : NULL;
         error = ranks_agree(&run->ranks, path ? NULL : out_of_memory());
         if (!error)
-            error =
-                picture_particles(path, &run->simulation, &run->views, fields->names[i], NAN, NAN);
+            error = picture_particles(path, &run->simulation, &run->population, fields->names[i],
+                                      NAN, NAN);
         free(name);
         free(path);
     }
@@ -338,14 +334,14 @@ static struct error *write_snapshot(struct run *run)
     if (!run->options->output)
         return NULL;
     TRY(draw_pictures(run, number));
-    TRY(profiles_write(&run->profiles, &run->simulation, &run->views, run->options->output,
+    TRY(profiles_write(&run->profiles, &run->simulation, &run->population, run->options->output,
                        number));
     if (!run->input->output.snapshots)
         return NULL;
     char *name = text_format("snapshots/%06lld.vtkhdf", (long long)number);
     char *path = name ? run_path(run, name) : NULL;
     struct error *error =
-        path ? snapshot_write(path, &run->simulation, &run->views) : out_of_memory();
+        path ? snapshot_write(path, &run->simulation, &run->population) : out_of_memory();
     free(name);
     free(path);
     if (!error && run_writes(run))
@@ -378,7 +374,7 @@ struct error *run_watch(struct run *run, bool last)
     if (run->history)
         run->history_rows = history_rows(run->history);
     if (!error)
-        error = probes_watch(&run->probes, &run->simulation, &run->views, last);
+        error = probes_watch(&run->probes, &run->simulation, &run->population, last);
     if (!error && snapshot)
         error = write_snapshot(run);
     run->watching += clock_seconds() - clock;

@@ -231,13 +231,6 @@ static struct error *sph_state(void *solver, struct visitor *visitor)
     return NULL;
 }
 
-static void sph_observe(const void *solver, const struct simulation *simulation,
-                        struct views *views)
-{
-    (void)solver;
-    views_of_population(views, simulation);
-}
-
 static void sph_destroy(void *solver)
 {
     struct sph *sph = solver;
@@ -315,7 +308,6 @@ const struct solver_class sph_class = {.size = sizeof(struct sph),
                                        .prepare = sph_prepare,
                                        .advance = sph_advance,
                                        .state = sph_state,
-                                       .observe = sph_observe,
                                        .destroy = sph_destroy,
                                        .bytes = sph_bytes,
                                        .step = sph_step,

@@ -38,12 +38,19 @@ struct stage {
     struct ranks ranks;
     struct simulation simulation;
     void *solver;
-    struct views views;
+    struct population population;
     struct totals start;
     struct checks *checks;
     struct check_memory memory[5];
     struct check_results results;
 };
+
+/* The members as they are now. */
+static const struct population *look(struct stage *s)
+{
+    s->population = simulation_population(&s->simulation);
+    return &s->population;
+}
 
 static void expect_success(struct error *error)
 {
@@ -72,14 +79,13 @@ static struct error *stage_open(struct stage *s, const char *checks)
     expect_success(method->create(s->solver, &s->simulation, s->input->solver.value));
     expect_success(generate_particles(&s->simulation, particles_of(&s->simulation)));
     expect_success(method->start(s->solver, &s->simulation));
-    method->observe(s->solver, &s->simulation, &s->views);
     s->start = population_totals(simulation_population(&s->simulation), &s->ranks, -1);
-    return checks_prepare(&s->simulation, &s->views, NULL, &s->checks);
+    return checks_prepare(&s->simulation, look(s), NULL, &s->checks);
 }
 
 static struct check_moment stage_moment(struct stage *s)
 {
-    return (struct check_moment){&s->simulation, &s->views, &s->start, s->memory};
+    return (struct check_moment){&s->simulation, look(s), &s->start, s->memory};
 }
 
 static void stage_begin(struct stage *s, const char *checks)
@@ -117,10 +123,10 @@ static void stage_close(struct stage *s)
 }
 
 /* The place at the start of particle I, and where it is now. */
-static struct vec3 start_of(const struct stage *s, int32_t i)
+static struct vec3 start_of(struct stage *s, int32_t i)
 {
     double place[1][3];
-    start_places(&s->simulation, i, i + 1, place);
+    start_places(look(s), i, i + 1, place);
     return vec3_make(place[0][0], place[0][1], place[0][2]);
 }
 
@@ -137,7 +143,7 @@ static void places_at_the_start_are_those_of_the_lattice(void **state)
     stage_begin(&s, "  it: {minimum: displacement.x, at_least: -1 m}");
     struct particles *p = particles_of(&s.simulation);
     double(*place)[3] = calloc((size_t)p->count, sizeof *place);
-    start_places(&s.simulation, 0, p->count, place);
+    start_places(look(&s), 0, p->count, place);
     assert_memory_equal(place, p->position, (size_t)p->count * sizeof *place);
     free(place);
     assert_true(stage_value(&s, 0) == 0.0);

@@ -55,9 +55,8 @@ static void drop(struct simulation *simulation)
 static struct error *draw_in(const struct simulation *simulation, const char *field, double low,
                              double high)
 {
-    struct views views = {0};
-    views_of_population(&views, simulation);
-    return picture_particles(path, simulation, &views, field, low, high);
+    const struct population population = simulation_population(simulation);
+    return picture_particles(path, simulation, &population, field, low, high);
 }
 
 /* Reads the picture back; it must be whole, with nothing left beside it. */

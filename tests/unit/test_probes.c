@@ -32,10 +32,17 @@ struct bench {
     struct simulation_case input;
     struct ranks ranks;
     struct simulation simulation;
-    struct views views;
+    struct population population;
     struct probes probes;
     char folder[64];
 };
+
+/* The members as they are now. */
+static const struct population *look(struct bench *b)
+{
+    b->population = simulation_population(&b->simulation);
+    return &b->population;
+}
 
 static char it[] = "it", left[] = "left", right[] = "right", pressure[] = "pressure";
 
@@ -93,7 +100,6 @@ static struct bench *make_bench(int dimension)
     b->simulation.ranks = &b->ranks;
     problem_of(&b->simulation)->dimension = dimension;
     place_particles(b, dimension);
-    views_of_population(&b->views, &b->simulation);
     strcpy(b->folder, "/tmp/bolide-test-XXXXXX");
     assert_non_null(mkdtemp(b->folder));
     return b;
@@ -117,7 +123,7 @@ static struct error *prepare(struct bench *b, const char *kind, void *parameters
         if (!strcmp(probe_choices[i].name, kind))
             b->given.probe.choice = &probe_choices[i];
     TRY(probes_create(&b->input, &b->probes));
-    return probes_prepare(&b->probes, &b->simulation, &b->views);
+    return probes_prepare(&b->probes, &b->simulation, look(b));
 }
 
 /* Readies a probe of KIND that keeps its rows. */
@@ -130,7 +136,7 @@ static struct probe *ready(struct bench *b, const char *kind, void *parameters)
 
 static void watch(struct bench *b, bool last)
 {
-    assert_null(probes_watch(&b->probes, &b->simulation, &b->views, last));
+    assert_null(probes_watch(&b->probes, &b->simulation, look(b), last));
 }
 
 /* The number in COLUMN of the last row. */
@@ -366,7 +372,7 @@ static void ready_many(struct bench *b, int count, char (*name)[16], char **name
     probes_free(&b->probes);
     b->input.probes = (struct named_map){count, names, given, {0}};
     assert_null(probes_create(&b->input, &b->probes));
-    assert_null(probes_prepare(&b->probes, &b->simulation, &b->views));
+    assert_null(probes_prepare(&b->probes, &b->simulation, look(b)));
 }
 
 static void there_may_be_more_probes_than_open_files(void **state)
@@ -385,7 +391,7 @@ static void there_may_be_more_probes_than_open_files(void **state)
     for (int step = 0; step < STEPS && !error; step++) {
         b->simulation.step = step;
         b->simulation.time = step;
-        error = probes_watch(&b->probes, &b->simulation, &b->views, false);
+        error = probes_watch(&b->probes, &b->simulation, look(b), false);
         if (step == STEPS / 2 && !error)
             error = probes_mark(&b->probes);
     }
@@ -415,14 +421,14 @@ static double recorded(struct bench *b, const double (*rows)[2], int count,
     struct checks *checks;
     struct check_results results;
     struct check_memory memory = {NAN, NAN, NAN};
-    const struct check_moment moment = {&b->simulation, &b->views, NULL, &memory};
+    const struct check_moment moment = {&b->simulation, look(b), NULL, &memory};
     recorded.probe = it;
     recorded.column = (char[]){"mass"};
     for (int i = 0; i < MEASURES; i++)
         if (!strcmp(measure_choices[i].name, "recorded"))
             b->check.measure = (struct one_of){i, &measure_choices[i], &recorded};
     b->check.at_most.dimension = dimension;
-    assert_null(checks_prepare(&b->simulation, &b->views, &b->probes, &checks));
+    assert_null(checks_prepare(&b->simulation, look(b), &b->probes, &checks));
     free(probe->value);
     probe->value = calloc((size_t)(count * probe->columns), sizeof(double));
     probe->room = count * probe->columns;
@@ -523,13 +529,13 @@ static void a_check_of_a_probe_that_is_not_there_is_told(void **state)
             b->check.measure = (struct one_of){i, &measure_choices[i], &r};
     r.probe = (char[]){"its"};
     r.column = (char[]){"mass"};
-    struct error *error = checks_prepare(&b->simulation, &b->views, &b->probes, &checks);
+    struct error *error = checks_prepare(&b->simulation, look(b), &b->probes, &checks);
     assert_string_equal(error_message(error, 0),
                         "checks.it: there is no probe \"its\" (did you mean \"it\"?)");
     error_free(error);
     r.probe = it;
     r.column = (char[]){"velocity.z"};
-    error = checks_prepare(&b->simulation, &b->views, &b->probes, &checks);
+    error = checks_prepare(&b->simulation, look(b), &b->probes, &checks);
     assert_string_equal(error_message(error, 0), "checks.it: the probe \"it\" has no column "
                                                  "\"velocity.z\" (did you mean \"velocity.x\"?)");
     error_free(error);
@@ -547,8 +553,8 @@ static void a_profile_has_mean_and_scatter_of_each_bin(void **state)
     b->profile.width = 0.2;
     b->profile.of = left;
     b->profile.by = PROFILE_BY_BODY;
-    assert_null(profiles_prepare(&b->simulation, &b->views, &profiles));
-    assert_null(profiles_write(&profiles, &b->simulation, &b->views, b->folder, 7));
+    assert_null(profiles_prepare(&b->simulation, look(b), &profiles));
+    assert_null(profiles_write(&profiles, &b->simulation, look(b), b->folder, 7));
     char path[128];
     struct csv csv;
     snprintf(path, sizeof path, "%s/profiles/it-000007.csv", b->folder);
@@ -575,8 +581,8 @@ static void an_empty_bin_of_a_profile_is_not_a_number_and_has_no_sign(void **sta
     struct profiles profiles;
     b->profile.fields = (struct name_list){1, (char *[]){pressure}};
     b->profile.width = 0.2;
-    assert_null(profiles_prepare(&b->simulation, &b->views, &profiles));
-    assert_null(profiles_write(&profiles, &b->simulation, &b->views, b->folder, 7));
+    assert_null(profiles_prepare(&b->simulation, look(b), &profiles));
+    assert_null(profiles_write(&profiles, &b->simulation, look(b), b->folder, 7));
     char path[128];
     struct csv csv;
     snprintf(path, sizeof path, "%s/profiles/it-000007.csv", b->folder);

@@ -106,13 +106,6 @@ static struct error *flight_state(void *solver, struct visitor *visitor)
     return NULL;
 }
 
-static void flight_observe(const void *solver, const struct simulation *simulation,
-                           struct views *views)
-{
-    (void)solver;
-    views_of_population(views, simulation);
-}
-
 static void flight_destroy(void *solver) { particles_drop(((struct flight *)solver)->particles); }
 
 static double flight_bytes(const void *parameters, int dimension)
@@ -138,7 +131,6 @@ static const struct solver_class flight_class = {.size = sizeof(struct flight),
                                                  .prepare = flight_prepare,
                                                  .advance = flight_advance,
                                                  .state = flight_state,
-                                                 .observe = flight_observe,
                                                  .destroy = flight_destroy,
                                                  .bytes = flight_bytes,
                                                  .step = flight_step};

@@ -39,21 +39,23 @@ static int remove_folder(void **state)
     return system(command);
 }
 
-static void compute_lever(const void *context, int64_t begin, int64_t end, double *out)
+static void compute_lever(const struct population *population, int64_t begin, int64_t end,
+                          double *out)
 {
-    (void)context;
+    (void)population;
     for (int64_t i = begin; i < end; i++)
         *out++ = 0.25 * (double)i;
 }
 
 static struct error *write_snapshot(const struct simulation *simulation)
 {
-    struct views views = {0};
-    views_of_population(&views, simulation);
-    views_add(&views,
-              (struct view){
-                  .name = "lever", .unit = "J/(kg*K)", .components = 1, .compute = compute_lever});
-    return snapshot_write(path, simulation, &views);
+    struct population population = simulation_population(simulation);
+    struct column columns[COLUMNS_MAX];
+    memcpy(columns, population.column, (size_t)population.columns * sizeof *columns);
+    columns[population.columns++] =
+        (struct column){"lever", "J/(kg*K)", NULL, 1, -1, compute_lever};
+    population.column = columns;
+    return snapshot_write(path, simulation, &population);
 }
 
 /* Reads the dataset NAME as doubles, ROWS x COMPONENTS of them. */

@@ -126,13 +126,6 @@ static struct error *nonsense_state(void *solver, struct visitor *visitor)
     return NULL;
 }
 
-static void nonsense_observe(const void *solver, const struct simulation *simulation,
-                             struct views *views)
-{
-    (void)solver;
-    views_of_population(views, simulation);
-}
-
 static void nonsense_destroy(void *solver)
 {
     particles_drop(((struct nonsense *)solver)->particles);
@@ -162,7 +155,6 @@ static const struct solver_class nonsense_class = {.size = sizeof(struct nonsens
                                                    .prepare = nonsense_prepare,
                                                    .advance = nonsense_advance,
                                                    .state = nonsense_state,
-                                                   .observe = nonsense_observe,
                                                    .destroy = nonsense_destroy,
                                                    .bytes = nonsense_bytes,
                                                    .step = nonsense_step,

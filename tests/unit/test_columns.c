@@ -1,4 +1,4 @@
-/* Views: the fields of the store by name, quantities computed from them, and single components. */
+/* Columns: the fields of the store by name, quantities computed from them, and single components. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -7,7 +7,7 @@
 #include <cmocka.h>
 #include <string.h>
 
-#include "model/views.h"
+#include "model/columns.h"
 #include "populations.h"
 
 enum { COUNT = 700 };
@@ -19,10 +19,9 @@ static const struct field_declaration solver_fields[] = {
 
 static const struct problem three = {.dimension = 3};
 
-static void set_up(struct simulation *simulation, struct views *views)
+static void set_up(struct simulation *simulation, struct population *population)
 {
     *simulation = (struct simulation){.problem = &three};
-    *views = (struct views){0};
     int32_t first;
     assert_null(give_particles(simulation, 1.0, solver_fields, (int)COUNT_OF(solver_fields)));
     struct particles *p = particles_of(simulation);
@@ -37,63 +36,63 @@ static void set_up(struct simulation *simulation, struct views *views)
             p->deviator[i][k] = i * (k + 1);
     }
     p->count = COUNT;
-    views_of_population(views, simulation);
+    *population = simulation_population(simulation);
 }
 
-static void every_double_field_with_a_unit_is_a_view(void **state)
+static void every_double_field_with_a_unit_is_a_column(void **state)
 {
     (void)state;
     struct simulation simulation;
-    struct views views;
-    set_up(&simulation, &views);
+    struct population population;
+    set_up(&simulation, &population);
     static const char *const shown[] = {"mass",     "density",  "energy",      "pressure",
                                         "position", "velocity", "deviator",    "plastic_strain",
                                         "stress",   "speed",    "sound_speed", "equivalent_stress"};
     int component;
     for (size_t i = 0; i < COUNT_OF(shown); i++) {
-        assert_non_null(views_find(&views, shown[i], &component));
+        assert_non_null(column_find(&population, shown[i], &component));
         assert_int_equal(component, -1);
     }
-    assert_int_equal(views.count, (int)COUNT_OF(shown));
-    assert_ptr_equal(views_find(&views, "pressure", &component)->data,
-                     particles_of(&simulation)->pressure);
-    assert_string_equal(views_find(&views, "sound_speed", &component)->unit, "m/s");
+    assert_int_equal(population.columns, (int)COUNT_OF(shown));
+    const struct column *pressure = column_find(&population, "pressure", &component);
+    assert_ptr_equal(population.field[pressure->field].data, particles_of(&simulation)->pressure);
+    assert_string_equal(column_find(&population, "sound_speed", &component)->unit, "m/s");
     free_particles(&simulation);
 }
 
-static void names_that_are_no_view_are_not_found(void **state)
+static void names_that_are_no_column_are_not_found(void **state)
 {
     (void)state;
     struct simulation simulation;
-    struct views views;
-    set_up(&simulation, &views);
+    struct population population;
+    set_up(&simulation, &population);
     static const char *const unknown[] = {
         "id",         "hidden",   "press",     "pressures", "pressure.x", "velocity.xx",
         "velocity.w", "stress.x", "velocity.", "",          ".x"};
     int component;
     for (size_t i = 0; i < COUNT_OF(unknown); i++)
-        assert_null(views_find(&views, unknown[i], &component));
+        assert_null(column_find(&population, unknown[i], &component));
     free_particles(&simulation);
 }
 
-static void a_component_reads_as_a_column_of_the_whole(void **state)
+static void a_component_reads_as_part_of_the_whole(void **state)
 {
     (void)state;
     struct simulation simulation;
-    struct views views;
-    set_up(&simulation, &views);
+    struct population population;
+    set_up(&simulation, &population);
     static const char *const names[] = {"velocity.x", "velocity.z", "stress.xx",
                                         "stress.zz",  "stress.zx",  "pressure"};
     for (size_t n = 0; n < COUNT_OF(names); n++) {
         int component;
-        const struct view *view = views_find(&views, names[n], &component);
-        assert_non_null(view);
-        double whole[6 * COUNT], column[COUNT];
+        const struct column *column = column_find(&population, names[n], &component);
+        assert_non_null(column);
+        double whole[6 * COUNT], part[COUNT];
         const int64_t begin = 13, end = COUNT - 5;
-        view_read(view, begin, end, whole);
-        view_read_component(view, component, begin, end, column);
+        column_read(&population, column, begin, end, whole);
+        column_read_component(&population, column, component, begin, end, part);
         for (int64_t i = 0; i < end - begin; i++)
-            assert_true(column[i] == whole[i * view->components + (component < 0 ? 0 : component)]);
+            assert_true(part[i] == whole[i * column->components + (component < 0 ? 0 : component)]);
     }
     free_particles(&simulation);
 }
@@ -102,14 +101,15 @@ static void stress_and_speed_follow_from_the_fields(void **state)
 {
     (void)state;
     struct simulation simulation;
-    struct views views;
-    set_up(&simulation, &views);
+    struct population population;
+    set_up(&simulation, &population);
     int component;
     double stress[6], mises, speed;
     const int i = 2;
-    view_read(views_find(&views, "stress", &component), i, i + 1, stress);
-    view_read(views_find(&views, "equivalent_stress", &component), i, i + 1, &mises);
-    view_read(views_find(&views, "speed", &component), i, i + 1, &speed);
+    column_read(&population, column_find(&population, "stress", &component), i, i + 1, stress);
+    column_read(&population, column_find(&population, "equivalent_stress", &component), i, i + 1,
+                &mises);
+    column_read(&population, column_find(&population, "speed", &component), i, i + 1, &speed);
     const double wanted[6] = {2.0 - 102.0, 4.0 - 102.0, 6.0 - 102.0, 8.0, 10.0, 12.0};
     assert_memory_equal(stress, wanted, sizeof wanted);
     const double square_sum = 4.0 + 16.0 + 36.0 + 2.0 * (64.0 + 100.0 + 144.0);
@@ -122,8 +122,8 @@ static void a_field_that_cannot_be_chosen_is_told_with_what_could(void **state)
 {
     (void)state;
     struct simulation simulation;
-    struct views views;
-    set_up(&simulation, &views);
+    struct population population;
+    set_up(&simulation, &population);
     static const struct {
         const char *field, *told;
     } cases[] = {
@@ -137,20 +137,21 @@ static void a_field_that_cannot_be_chosen_is_told_with_what_could(void **state)
         {"pressure.x", "\"pressure.x\": pressure has no components"},
     };
     static const char *const more[] = {"material"};
-    const struct view *view;
+    const struct column *column;
     int component;
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
-        struct error *error = views_choose(&views, cases[i].field, more, 1, &view, &component);
+        struct error *error =
+            column_choose(&population, cases[i].field, more, 1, &column, &component);
         assert_non_null(error);
         assert_string_equal(error_message(error, 0), cases[i].told);
         error_free(error);
     }
-    struct error *error = views_choose(&views, "colour", NULL, 0, &view, &component);
+    struct error *error = column_choose(&population, "colour", NULL, 0, &column, &component);
     assert_non_null(strstr(error_message(error, 0), "(known: mass, "));
     error_free(error);
-    assert_null(views_choose(&views, "pressure", NULL, 0, &view, &component));
+    assert_null(column_choose(&population, "pressure", NULL, 0, &column, &component));
     assert_int_equal(component, 0);
-    assert_null(views_choose(&views, "stress.zx", NULL, 0, &view, &component));
+    assert_null(column_choose(&population, "stress.zx", NULL, 0, &column, &component));
     assert_int_equal(component, 5);
     free_particles(&simulation);
 }
@@ -174,12 +175,12 @@ static void only_components_that_a_case_has_are_offered(void **state)
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         struct simulation simulation = {.problem =
                                             &(struct problem){.dimension = cases[i].dimension}};
-        struct views views = {0};
-        const struct view *view;
+        const struct column *column;
         int component;
         assert_null(give_particles(&simulation, 1.0, NULL, 0));
-        views_of_population(&views, &simulation);
-        struct error *error = views_choose(&views, cases[i].field, NULL, 0, &view, &component);
+        const struct population population = simulation_population(&simulation);
+        struct error *error =
+            column_choose(&population, cases[i].field, NULL, 0, &column, &component);
         assert_non_null(error);
         assert_string_equal(error_message(error, 0), cases[i].told);
         error_free(error);
@@ -202,11 +203,10 @@ static void a_particle_has_a_mass_in_the_unit_of_the_totals(void **state)
         struct simulation simulation = {
             .problem =
                 &(struct problem){.dimension = cases[i].dimension, .geometry = cases[i].geometry}};
-        struct views views = {0};
         int component;
         assert_null(give_particles(&simulation, 1.0, NULL, 0));
-        views_of_population(&views, &simulation);
-        assert_string_equal(views_find(&views, "mass", &component)->unit, cases[i].unit);
+        const struct population population = simulation_population(&simulation);
+        assert_string_equal(column_find(&population, "mass", &component)->unit, cases[i].unit);
         free_particles(&simulation);
     }
 }
@@ -214,9 +214,9 @@ static void a_particle_has_a_mass_in_the_unit_of_the_totals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_double_field_with_a_unit_is_a_view),
-        cmocka_unit_test(names_that_are_no_view_are_not_found),
-        cmocka_unit_test(a_component_reads_as_a_column_of_the_whole),
+        cmocka_unit_test(every_double_field_with_a_unit_is_a_column),
+        cmocka_unit_test(names_that_are_no_column_are_not_found),
+        cmocka_unit_test(a_component_reads_as_part_of_the_whole),
         cmocka_unit_test(stress_and_speed_follow_from_the_fields),
         cmocka_unit_test(a_field_that_cannot_be_chosen_is_told_with_what_could),
         cmocka_unit_test(only_components_that_a_case_has_are_offered),
