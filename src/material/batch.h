@@ -9,7 +9,8 @@
 /* Whether batches can take the material. */
 BOLIDE_INLINE bool batch_takes(const struct material *material)
 {
-    return !material_burns(material) && !material_fails(material) && !eos_history(&material->eos) &&
+    return !material_burns(material) && !eos_history(&material->eos) &&
+           (!material_fails(material) || failure_traits(&material->failure).batched) &&
            (!material_has_strength(material) || strength_traits(&material->strength).batched);
 }
 
@@ -25,38 +26,55 @@ BOLIDE_INLINE void batch_work(struct batch *b)
     }
 }
 
-/* Point K, whose energy is ENERGY but for the work of the new pressure. */
-BOLIDE_INLINE void batch_finish(const struct eos *eos, struct batch *b, int k, double energy,
-                                double shear_modulus)
+/* The densities at which the equation of state sees the points of a batch, and the least pressure
+ * that they have there. */
+struct batch_matter {
+    double density[BATCH], least[BATCH];
+};
+
+/* The equation of state of point K at ENERGY. */
+BOLIDE_INLINE struct eos_value batch_value(const struct eos *eos, const struct batch_matter *matter,
+                                           int k, double energy)
 {
-    const double density = b->new_density[k], none[POINT_HISTORY] = {0.0};
-    struct eos_value value = eos_evaluate(eos, density, energy, none);
-    b->energy[k] = energy + material_work_of_pressure(b->density[k], density, &value);
-    value = eos_evaluate(eos, density, b->energy[k], none);
-    b->pressure[k] = value.pressure;
-    b->sound_long[k] = material_response(&value, density, shear_modulus, 0.0).sound_long;
+    const double none[POINT_HISTORY] = {0.0};
+    struct eos_value value = eos_evaluate(eos, matter->density[k], energy, none);
+    value.pressure = maximum(value.pressure, matter->least[k]);
+    return value;
 }
 
-/* Takes the points of a batch through the step. The loop evaluates the form of the source, which
- * has no branches; the few points beyond it are done once more. */
-BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b)
+/* Point K, whose energy is ENERGY but for the work of the new pressure. */
+BOLIDE_INLINE void batch_finish(const struct eos *eos, struct batch *b,
+                                const struct batch_matter *matter, int k, double energy,
+                                double shear_modulus)
+{
+    struct eos_value value = batch_value(eos, matter, k, energy);
+    b->energy[k] = energy + material_work_of_pressure(b->density[k], b->new_density[k], &value);
+    value = batch_value(eos, matter, k, b->energy[k]);
+    b->pressure[k] = value.pressure;
+    b->sound_long[k] = material_response(&value, matter->density[k], shear_modulus, 0.0).sound_long;
+}
+
+/* Energies and pressures after the step. The loop evaluates the form of the source, which has no
+ * branches; the few points beyond it are done once more. */
+BOLIDE_INLINE void batch_energies(const struct material *material, struct batch *b,
+                                  const struct batch_matter *matter)
 {
     const double shear_modulus = strength_shear_modulus(&material->strength);
     const double none[POINT_HISTORY] = {0.0};
     double energy[BATCH];
     uint64_t beyond[BATCH], any = 0;
-    strength_batch(&material->strength, b);
-    batch_work(b);
     switch (material->eos.kind) {
 #define BATCH_CASE(name)                                                                          \
     case EOS_##name:                                                                              \
         for (int k = 0; k < b->count; k++) {                                                      \
             const struct eos_##name *eos = &material->eos.of.name;                                \
-            const double density = b->new_density[k];                                             \
+            const double density = matter->density[k], least = matter->least[k];                  \
             energy[k] = b->energy[k];                                                             \
             struct eos_value value = eos_##name(eos, density, energy[k], none);                   \
-            b->energy[k] += material_work_of_pressure(b->density[k], density, &value);            \
+            value.pressure = maximum(value.pressure, least);                                      \
+            b->energy[k] += material_work_of_pressure(b->density[k], b->new_density[k], &value);  \
             value = eos_##name(eos, density, b->energy[k], none);                                 \
+            value.pressure = maximum(value.pressure, least);                                      \
             b->pressure[k] = value.pressure;                                                      \
             b->sound_long[k] = material_response(&value, density, shear_modulus, 0.0).sound_long; \
             beyond[k] = value.status & POINT_BEYOND; /* which depends on the density alone */     \
@@ -70,7 +88,112 @@ BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b)
     }
     for (int k = 0; any && k < b->count; k++)
         if (beyond[k])
-            batch_finish(&material->eos, b, k, energy[k], shear_modulus);
+            batch_finish(&material->eos, b, matter, k, energy[k], shear_modulus);
+}
+
+/* Pressures at the densities of MATTER and the energies before the work of the step. */
+BOLIDE_INLINE void batch_trial(const struct eos *of, const struct batch *b,
+                               const struct batch_matter *matter, double *pressure)
+{
+    const double none[POINT_HISTORY] = {0.0};
+    uint64_t beyond[BATCH], any = 0;
+    switch (of->kind) {
+#define BATCH_CASE(name)                                                          \
+    case EOS_##name:                                                              \
+        for (int k = 0; k < b->count; k++) {                                      \
+            const struct eos_value value =                                        \
+                eos_##name(&of->of.name, matter->density[k], b->energy[k], none); \
+            pressure[k] = value.pressure;                                         \
+            beyond[k] = value.status & POINT_BEYOND;                              \
+            any |= beyond[k];                                                     \
+        }                                                                         \
+        break;
+        EOS_LIST(BATCH_CASE)
+#undef BATCH_CASE
+    default:
+        break;
+    }
+    for (int k = 0; any && k < b->count; k++)
+        if (beyond[k])
+            pressure[k] = eos_evaluate(of, matter->density[k], b->energy[k], none).pressure;
+}
+
+/* Point K of a batch, which has failed, as material_fail leaves it. */
+BOLIDE_INLINE void batch_leave_rubble(const struct material *material, struct batch *b,
+                                      struct batch_matter *matter, int k)
+{
+    struct point point = {.density = matter->density[k],
+                          .energy = b->energy[k],
+                          .deviator = batch_tensor(b->new_deviator, k)};
+    for (int slot = 0; slot < POINT_HISTORY; slot++)
+        point.history[slot] = 0.0;
+    point.history[HISTORY_damage] = b->damage[k];
+    material_leave_rubble(material, &point);
+    b->void_ratio[k] = point.history[HISTORY_void_ratio];
+    batch_keep_tensor(b->new_deviator, k, point.deviator);
+    matter->density[k] = point.density;
+    matter->least[k] = 0.0;
+}
+
+/* The failure model, after the strength; STRAIN is the plastic strain before. */
+BOLIDE_INLINE void batch_fail(const struct material *material, struct batch *b,
+                              const double *strain, struct batch_matter *matter)
+{
+    const bool softens = material->strength.kind == STRENGTH_johnson_cook &&
+                         johnson_cook_softens(&material->strength.of.johnson_cook);
+    double pressure[BATCH], damage[BATCH];
+    uint64_t failed = 0;
+    for (int k = 0; k < b->count; k++)
+        matter->density[k] = b->new_density[k] / (1.0 + b->void_ratio[k]);
+    batch_trial(&material->eos, b, matter, pressure);
+    switch (material->failure.kind) {
+#define BATCH_CASE(name)                                                                          \
+    case FAILURE_##name:                                                                          \
+        for (int k = 0; k < b->count; k++) {                                                      \
+            const struct motion motion = batch_motion(b, k);                                      \
+            const struct point point = {.density = matter->density[k],                            \
+                                        .deviator = batch_tensor(b->new_deviator, k)};            \
+            struct failing failing =                                                              \
+                material_failing(&motion, &point, b->plastic_strain[k] - strain[k], pressure[k]); \
+            if (softens)                                                                          \
+                failing.homologous = johnson_cook_homologous(&material->strength.of.johnson_cook, \
+                                                             b->plastic_heating[k]);              \
+            damage[k] = failure_##name(&material->failure.of.name, &failing, b->damage[k]);       \
+        }                                                                                         \
+        break;
+        FAILURE_LIST(BATCH_CASE)
+#undef BATCH_CASE
+    default:
+        break;
+    }
+    for (int k = 0; k < b->count; k++) {
+        b->damage[k] = b->damage[k] < 1.0 ? minimum(damage[k], 1.0) : b->damage[k];
+        failed |= b->damage[k] >= 1.0;
+    }
+    for (int k = 0; failed && k < b->count; k++)
+        if (b->damage[k] >= 1.0)
+            batch_leave_rubble(material, b, matter, k);
+}
+
+/* Takes the points of a batch through the step. */
+BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b)
+{
+    const bool fails = material_fails(material);
+    struct batch_matter matter;
+    double strain[BATCH];
+    if (fails)
+        memcpy(strain, b->plastic_strain, sizeof strain);
+    strength_batch(&material->strength, b);
+    for (int k = 0; k < b->count; k++) {
+        matter.density[k] = b->new_density[k];
+        matter.least[k] = -(double)INFINITY;
+    }
+    if (fails)
+        batch_fail(material, b, strain, &matter);
+    batch_work(b);
+    batch_energies(material, b, &matter);
+    if (fails)
+        memcpy(b->new_density, matter.density, sizeof b->new_density);
 }
 
 #endif

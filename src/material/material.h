@@ -162,6 +162,34 @@ BOLIDE_INLINE void material_open(const struct material *material, struct point *
     point->density = density;
 }
 
+/* What of POINT the damage of a step depends on: FLOW is the plastic strain of the step, PRESSURE
+ * that of the density and energy that are known. */
+BOLIDE_INLINE struct failing material_failing(const struct motion *motion,
+                                              const struct point *point, double flow,
+                                              double pressure)
+{
+    struct failing failing = {0};
+    failing.density = point->density;
+    failing.pressure = pressure;
+    failing.deviator = point->deviator;
+    failing.flow = flow;
+    failing.rate = strength_strain_rate(motion->strain_rate);
+    failing.stretching = sym3_trace(motion->strain_rate);
+    return failing;
+}
+
+/* Leaves of POINT, which has failed, what failed material bears: voids open or close, and friction
+ * limits the shear. */
+BOLIDE_INLINE void material_leave_rubble(const struct material *material, struct point *point)
+{
+    material_open(material, point);
+    const double friction =
+        material->failure.of.friction * material_pressure(material, point).pressure;
+    const double mises = sym3_mises(point->deviator);
+    if (mises > friction)
+        point->deviator = sym3_scale(friction / mises, point->deviator);
+}
+
 /* What the failure model does to POINT after the elastic and plastic part of a step, which flowed
  * FLOW. */
 BOLIDE_INLINE void material_fail(const struct material *material, const struct motion *motion,
@@ -171,26 +199,14 @@ BOLIDE_INLINE void material_fail(const struct material *material, const struct m
     if (*damage < 1.0) {
         const struct eos_value value = material_pressure(material, point);
         const double bulk = value.dp_drho + value.dp_de * value.pressure / square(point->density);
-        struct failing failing;
-        failing.density = point->density;
+        struct failing failing = material_failing(motion, point, flow, value.pressure);
         failing.sound = sqrt(maximum(bulk, 0.0));
         failing.yield = strength_yield(&material->strength, point);
-        failing.pressure = value.pressure;
-        failing.deviator = point->deviator;
-        failing.flow = flow;
-        failing.rate = strength_strain_rate(motion->strain_rate);
-        failing.stretching = sym3_trace(motion->strain_rate);
         failing.homologous = strength_homologous(&material->strength, point);
         *damage = minimum(failure_damage(&material->failure, &failing, *damage), 1.0);
     }
-    if (*damage < 1.0)
-        return;
-    material_open(material, point);
-    const double friction =
-        material->failure.of.friction * material_pressure(material, point).pressure;
-    const double mises = sym3_mises(point->deviator);
-    if (mises > friction)
-        point->deviator = sym3_scale(friction / mises, point->deviator);
+    if (*damage >= 1.0)
+        material_leave_rubble(material, point);
 }
 
 /* Takes deviator and history of a point to its new density: burning, compaction, then elastic trial, rotation and plastic

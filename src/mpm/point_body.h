@@ -84,7 +84,9 @@ BOLIDE_INLINE void points_load(const struct point_loop *loop, const int32_t *lis
                                const double *rate, int count, struct batch *b)
 {
     const double *strain = loop->history[HISTORY_plastic_strain],
-                 *heating = loop->history[HISTORY_plastic_heating];
+                 *heating = loop->history[HISTORY_plastic_heating],
+                 *damage = loop->history[HISTORY_damage],
+                 *voids = loop->history[HISTORY_void_ratio];
     b->dt = loop->dt;
     b->count = (count + LANES - 1) / LANES * LANES;
     for (int c = 0; c < 9; c++)
@@ -99,6 +101,8 @@ BOLIDE_INLINE void points_load(const struct point_loop *loop, const int32_t *lis
         b->pressure[k] = loop->pressure[i];
         b->plastic_strain[k] = strain[i];
         b->plastic_heating[k] = heating ? heating[i] : 0.0;
+        b->damage[k] = voids ? damage[i] : 0.0;
+        b->void_ratio[k] = voids ? voids[i] : 0.0;
         b->viscous_pressure[k] = loop->viscosity[i];
         b->sound_long[k] = loop->sound[i];
     }
@@ -154,6 +158,7 @@ BOLIDE_INLINE bool points_keep(const struct point_loop *loop, const int32_t *lis
 {
     double *strain = loop->history[HISTORY_plastic_strain],
            *heating = loop->history[HISTORY_plastic_heating],
+           *damage = loop->history[HISTORY_damage], *voids = loop->history[HISTORY_void_ratio],
            *energy = loop->at_state ? loop->at_state : loop->energy;
     int64_t wrong = 0;
     double zero = 0.0; /* unless a place or velocity is not finite */
@@ -173,6 +178,10 @@ BOLIDE_INLINE bool points_keep(const struct point_loop *loop, const int32_t *lis
         strain[i] = b->plastic_strain[k];
         if (heating)
             heating[i] = b->plastic_heating[k];
+        if (voids) {
+            damage[i] = b->damage[k];
+            voids[i] = b->void_ratio[k];
+        }
         loop->viscosity[i] = of->viscosity[k];
         if (loop->shock)
             loop->shock[i] =

@@ -58,6 +58,8 @@ static void put(struct batch *b, int k, const struct point *point, const struct 
     b->spin[2][k] = motion->spin.z;
     b->plastic_strain[k] = point->history[HISTORY_plastic_strain];
     b->plastic_heating[k] = point->history[HISTORY_plastic_heating];
+    b->damage[k] = point->history[HISTORY_damage];
+    b->void_ratio[k] = point->history[HISTORY_void_ratio];
 }
 
 static void check(const struct batch *b, int k, const struct point *point,
@@ -68,6 +70,9 @@ static void check(const struct batch *b, int k, const struct point *point,
     assert_true(b->sound_long[k] == response->sound_long);
     assert_true(b->plastic_strain[k] == point->history[HISTORY_plastic_strain]);
     assert_true(b->plastic_heating[k] == point->history[HISTORY_plastic_heating]);
+    assert_true(b->damage[k] == point->history[HISTORY_damage]);
+    assert_true(b->void_ratio[k] == point->history[HISTORY_void_ratio]);
+    assert_true(b->new_density[k] == point->density);
     for (int c = 0; c < 6; c++)
         assert_true(b->new_deviator[c][k] == s[c]);
 }
@@ -87,16 +92,31 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
         {STRENGTH_perfect_plastic, {.perfect_plastic = {23e9, 0.3e9}}},
         {STRENGTH_johnson_cook, {.johnson_cook = hard}},
         {STRENGTH_johnson_cook, {.johnson_cook = soft()}}};
+    const struct failure failures[] = {
+        {.kind = FAILURE_NONE},
+        {FAILURE_spall, {.spall = {0.3, 1e9, SPALL_PRINCIPAL}}},
+        {FAILURE_spall, {.spall = {0.3, 0.5e9, SPALL_MEAN}}},
+        {FAILURE_johnson_cook, {.johnson_cook = {0.3, 0.01, 0.1, -1.5, 0.01, 0.5, 1.0, 1e-3, 2e9}}},
+        {FAILURE_cockcroft_latham, {.cockcroft_latham = {0.3, 1e7, NAN}}}};
     struct dice dice = {3};
-    for (size_t m = 0; m < COUNT_OF(forms) * COUNT_OF(strengths) * 20; m++) {
-        const struct material material = {.eos = forms[m % COUNT_OF(forms)],
-                                          .strength = strengths[m / COUNT_OF(forms) % 4]};
+    size_t broken = 0, whole = 0;
+    for (size_t m = 0; m < COUNT_OF(forms) * COUNT_OF(strengths) * COUNT_OF(failures) * 20; m++) {
+        const struct material material = {
+            .eos = forms[m % COUNT_OF(forms)],
+            .strength = strengths[m / COUNT_OF(forms) % 4],
+            .failure = failures[m / COUNT_OF(forms) / 4 % COUNT_OF(failures)]};
         struct batch batch = {.count = LANES * (1 + dice_below(&dice, 8)), .dt = 1e-8};
         struct point point[BATCH];
         struct motion motion[BATCH];
         assert_true(batch_takes(&material));
         for (int k = 0; k < batch.count; k++) {
             throw_point(&dice, material_density(&material), &point[k], &motion[k]);
+            if (material_fails(&material)) {
+                const double damage = 0.5 * dice_below(&dice, 3);
+                point[k].history[HISTORY_damage] = damage;
+                point[k].history[HISTORY_void_ratio] =
+                    damage == 1.0 ? dice_between(&dice, 0.0, VOIDS_MOST) : 0.0;
+            }
             put(&batch, k, &point[k], &motion[k]);
         }
         batch_step(&material, &batch);
@@ -104,14 +124,21 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
             const struct response response =
                 material_step_by_work(&material, &point[k], &motion[k]);
             check(&batch, k, &point[k], &response);
+            broken += material_failed(&material, point[k].history);
+            whole += material_fails(&material) && !material_failed(&material, point[k].history);
         }
     }
+    assert_true(broken > 1000 && whole > 1000);
 }
 
 static void what_batches_do_not_take_is_told(void **state)
 {
     (void)state;
     struct material material = {.strength = {STRENGTH_johnson_cook, {.johnson_cook = hard}}};
+    assert_true(batch_takes(&material));
+    material.failure.kind = FAILURE_grady;
+    assert_false(batch_takes(&material));
+    material.failure.kind = FAILURE_spall;
     assert_true(batch_takes(&material));
     material.strength.of.johnson_cook.return_map = JOHNSON_COOK_EXPLICIT;
     assert_false(batch_takes(&material));

@@ -27,15 +27,16 @@ struct failure_cockcroft_latham {
 BOLIDE_INLINE double failure_cockcroft_latham(const struct failure_cockcroft_latham *failure,
                                               const struct failing *point, double damage)
 {
-    if (-point->pressure >= failure->spall)
-        return 1.0;
-    return damage + maximum(failing_largest_stress(point), 0.0) * point->flow / failure->work;
+    const double grown =
+        damage + maximum(failing_largest_stress(point), 0.0) * point->flow / failure->work;
+    return -point->pressure >= failure->spall ? 1.0 : grown; /* not where there is none: NAN */
 }
 
 BOLIDE_INLINE struct failure_traits failure_cockcroft_latham_traits(
     const struct failure_cockcroft_latham *failure)
 {
     struct failure_traits traits = failure_default_traits();
+    traits.batched = true;
     traits.limits_tension = !isnan(failure->spall);
     return traits;
 }

@@ -51,22 +51,18 @@ BOLIDE_INLINE double johnson_cook_failure_strain(const struct failure_johnson_co
 BOLIDE_INLINE double failure_johnson_cook(const struct failure_johnson_cook *failure,
                                           const struct failing *point, double damage)
 {
-    if (-point->pressure >= failure->spall) /* not where it is NAN */
-        return 1.0;
-    if (!(point->flow > 0.0))
-        return damage;
-    const double mises = sym3_mises(point->deviator);
-    const double triaxiality = mises > 0.0             ? -point->pressure / mises
-                               : point->pressure < 0.0 ? 1.5
-                                                       : -1.5;
-    return damage + point->flow / johnson_cook_failure_strain(failure, triaxiality, point->rate,
-                                                              point->homologous);
+    const double mises = maximum(sym3_mises(point->deviator), 1e-100);
+    const double strain = johnson_cook_failure_strain(
+        failure, maximum(-point->pressure / mises, -20.0), point->rate, point->homologous);
+    const double grown = damage + (point->flow > 0.0 ? point->flow / strain : 0.0);
+    return -point->pressure >= failure->spall ? 1.0 : grown; /* not where there is none: NAN */
 }
 
 BOLIDE_INLINE struct failure_traits failure_johnson_cook_traits(
     const struct failure_johnson_cook *failure)
 {
     struct failure_traits traits = failure_default_traits();
+    traits.batched = true;
     traits.limits_tension = !isnan(failure->spall);
     return traits;
 }

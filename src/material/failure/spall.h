@@ -34,6 +34,7 @@ BOLIDE_INLINE struct failure_traits failure_spall_traits(const struct failure_sp
 {
     struct failure_traits traits = failure_default_traits();
     (void)spall;
+    traits.batched = true;
     traits.limits_tension = true;
     return traits;
 }
