@@ -263,6 +263,8 @@ static void step_plain_points(struct particles *p, const struct advance *step,
 {
     struct material m = *passage->material;
     const enum strength_kind strength = m.strength.kind;
+    m.failure.kind = FAILURE_NONE; /* constants here, as for all plain points */
+    m.burn.kind = BURN_INSTANT;
     switch (m.eos.kind) {
 #define STEP_SOLID(name)                                 \
     case STRENGTH_##name:                                \

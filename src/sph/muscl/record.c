@@ -50,10 +50,13 @@ static __attribute__((noinline)) void flow_rarely(const struct strength *strengt
     strength_step(strength, motion, bulk, point);
 }
 
-/* Whether particle I has failed by the failure model of its MATERIAL. */
-BOLIDE_INLINE bool has_failed(const struct material *material, const struct particles *p, int32_t i)
+/* Whether particle I has failed by the failure model of its material. */
+BOLIDE_INLINE bool has_failed(const struct simulation *simulation, const struct particles *p,
+                              int32_t i)
 {
-    return material_fails(material) && p->history[HISTORY_damage][i] >= 1.0;
+    return p->history[HISTORY_void_ratio] && /* a material of the case fails */
+           material_fails(&simulation->problem->material[p->material[i]]) &&
+           p->history[HISTORY_damage][i] >= 1.0;
 }
 
 /* By how much velocity and stress of particle I change in half a step. The pressure follows the
@@ -63,9 +66,8 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
                                        double ahead, int32_t i, double velocity[3])
 {
     const struct particles *p = f->sph.particles;
-    const struct material *material = &simulation->problem->material[p->material[i]];
-    const struct strength *strength = &material->strength;
-    const bool failed = has_failed(material, p, i);
+    const struct strength *strength = &simulation->problem->material[p->material[i]].strength;
+    const bool failed = has_failed(simulation, p, i);
     const struct expected rates = expected_rates(simulation, f, kind, i);
     const double(*u)[3] = rates.gradient, *s = p->deviator[i];
     for (int axis = 0; axis < 3; axis++)
@@ -157,9 +159,8 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     if (dimension > 1)
         record[k++] = across_impedance(f, kind, p->density[i], i);
     record[k++] = p->density[i] * state->shock_slope[p->material[i]];
-    const double mark = has_failed(&simulation->problem->material[p->material[i]], p, i)
-                            ? muscl_failed_mark(p->material[i])
-                            : state->mark[p->material[i]];
+    const double mark = has_failed(simulation, p, i) ? muscl_failed_mark(p->material[i])
+                                                     : state->mark[p->material[i]];
     record[k++] = body_is_held(simulation, p->body[i]) ? -2.0 - mark : mark;
     if (dimension > 1) {
         record[k++] = p->density[i] / f->sph.density_start[i];
