@@ -30,10 +30,4 @@ BOLIDE_INLINE double minimum(double a, double b) { return a < b ? a : b; }
 BOLIDE_INLINE double maximum(double a, double b) { return a > b ? a : b; }
 BOLIDE_INLINE double square(double a) { return a * a; }
 
-/* D = V^(1/dimension): the edge of a cube, the side of a square, a length (1.70). */
-BOLIDE_INLINE double diameter_of_volume(double volume, int dimension)
-{
-    return dimension == 1 ? volume : dimension == 2 ? sqrt(volume) : cbrt(volume);
-}
-
 #endif

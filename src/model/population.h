@@ -70,4 +70,10 @@ struct population_class {
     uint64_t (*hash)(const void *store);
 };
 
+/* D = V^(1/dimension): the edge of a cube, the side of a square, a length (1.70). */
+BOLIDE_INLINE double diameter_of_volume(double volume, int dimension)
+{
+    return dimension == 1 ? volume : dimension == 2 ? sqrt(volume) : cbrt(volume);
+}
+
 #endif
