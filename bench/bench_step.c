@@ -6,7 +6,7 @@
  *        bench_step CASE.yaml [let.n=VALUE [STEPS [THREADS]]] */
 #include "bench.h"
 
-#include "model/particle_population.h"
+#include "model/particles/population.h"
 #include "sph/lanes.h"
 #include "sph/scheme.h"
 

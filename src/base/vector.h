@@ -18,6 +18,7 @@ BOLIDE_INLINE struct vec3 vec3_make(double x, double y, double z)
     struct vec3 v = {x, y, z};
     return v;
 }
+BOLIDE_INLINE struct vec3 vector_at(const double v[3]) { return vec3_make(v[0], v[1], v[2]); }
 
 BOLIDE_INLINE struct vec3 vec3_add(struct vec3 a, struct vec3 b)
 {

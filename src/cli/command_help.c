@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "cli/cli.h"
 #include "material/material.h"
-#include "model/particle_population.h"
+#include "model/particles/population.h"
 #include "model/solver.h"
 
 static void print_commands(void)

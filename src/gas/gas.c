@@ -10,7 +10,7 @@
 #include "gas/gas_internal.h"
 #include "material/any.h"
 #include "material/material.h"
-#include "model/held.h"
+#include "model/bodies.h"
 
 static const char *const form_names[] = {"richtmyer", "printed", NULL};
 static const char *const viscosity_names[] = {"faces", "cells", NULL};

@@ -6,8 +6,7 @@
 #include "base/memory.h"
 #include "measure/measure.h"
 #include "measure/near_points.h"
-#include "model/particle_population.h"
-#include "particle/halo.h"
+#include "model/particles/population.h"
 
 const struct parameter measure_pieces_table[] = {
     {.key = "link",
@@ -188,7 +187,6 @@ static struct error *measure(const struct measurement *measurement, double *valu
     const struct column *column = column_find(particles, "diameter", &component);
     double *diameter = memory_allocate(((size_t)particles->count + 1) * sizeof *diameter);
     struct ghosts ghosts = {0};
-    struct halo halo = {0};
     struct error *error = NULL;
     if (!diameter)
         error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles",
@@ -196,13 +194,12 @@ static struct error *measure(const struct measurement *measurement, double *valu
     error = ranks_agree(measurement->simulation->ranks, error);
     if (!error) {
         column_read(particles, column, 0, particles->count, diameter);
-        error = halo_plan(particles_in(&measurement->simulation->population[0]), NULL,
-                          (struct reach){diameter, parameters->link}, 0.0, &ghosts, &halo);
+        error = particles_see(&measurement->simulation->population[0], diameter, parameters->link,
+                              &ghosts);
     }
     if (!error)
         error = find_pieces(measurement, diameter, &ghosts, value);
     ghosts_free(&ghosts);
-    halo_free(&halo);
     free(diameter);
     return error;
 }

@@ -91,8 +91,6 @@ struct body_motion {
     struct sym3 inertia;
 };
 
-static struct vec3 vector_at(const double *at) { return vec3_make(at[0], at[1], at[2]); }
-
 static void sum_whole(const struct ranks *ranks, const struct population *particles, int body,
                       struct body_motion *motion)
 {

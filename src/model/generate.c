@@ -1,5 +1,5 @@
 /* From bodies to particles. A lattice is walked twice (walk.h): once to count what stays and to find
- * mistakes, once more to make it.
+ * mistakes, as here, once more to make it (particles/fill.c).
  * Particle mass and diameter: Parshikov (2013), (1.69). */
 #include "model/generate.h"
 
@@ -21,12 +21,6 @@ static const char *place_text(const struct simulation_case *input, struct vec3 p
                                            "[%.6g m, %.6g m, %.6g m]"};
     snprintf(buffer, PLACE_TEXT, formats[input->dimension - 1], place.x, place.y, place.z);
     return buffer;
-}
-
-/* What a square metre of the plane stands for at PLACE: a metre of depth, or the radius, for a radian. */
-static double depth_at(const struct simulation_case *input, struct vec3 place)
-{
-    return input->geometry == GEOMETRY_AXISYMMETRIC ? place.x : 1.0;
 }
 
 /* The wall that PLACE lies behind, -1 for none, and from the number of walls on the outflow that it lies
@@ -64,15 +58,6 @@ struct finding {
     struct vec3 start_place;
 };
 
-/* What a particle of BODY starts with: NULL, or what is wrong. */
-static const char *start_at(const struct simulation_case *input, int body, struct vec3 place,
-                            struct point *point, double velocity[3], const char **key)
-{
-    const struct body_input *of = case_body(input, body);
-    const struct material *material = case_material(input, of->material_index)->material;
-    return body_start_at(of, material, place, point, velocity, key);
-}
-
 static void extend(struct range *range, double value)
 {
     range->low = fmin(range->low, value);
@@ -100,7 +85,7 @@ static void explore_start(const struct simulation_case *input, int body, struct 
     struct body_summary *summary = &finding->summary;
     struct point point;
     double velocity[3] = {0.0};
-    const char *key, *wrong = start_at(input, body, place, &point, velocity, &key);
+    const char *key, *wrong = walk_start(input, body, place, &point, velocity, &key);
     if (wrong) {
         if (!finding->start_wrong) {
             finding->start_wrong = wrong;
@@ -133,7 +118,7 @@ static struct error *explore_body(const struct overlaps *overlaps, int body,
     while (!error && summary->particles <= INT32_MAX && walk_next(&walk, &site, &place)) {
         summary->particles++;
         finding->volume += walk.row.volume;
-        explore_start(input, body, place, walk.row.volume * depth_at(input, place), finding);
+        explore_start(input, body, place, walk.row.volume * walk_depth(input, place), finding);
         if (finding->wall < 0) {
             finding->wall = wall_before(input, place);
             finding->wall_place = place;
@@ -218,67 +203,18 @@ static struct error *explore(const struct simulation_case *input, const struct r
     return ranks_agree(ranks, error);
 }
 
-/* Makes the particles of BODY from index *next on, and moves it behind the last. */
-static struct error *fill_body(const struct simulation *simulation, struct particles *particles,
-                               const struct overlaps *overlaps, int body, int32_t *next)
+struct error *generate_count(const struct simulation_case *input, const struct ranks *ranks,
+                             int64_t *particles)
 {
-    const struct simulation_case *input = simulation->problem->input;
-    const struct body_input *of = case_body(input, body);
-    struct walk walk;
-    struct error *error = walk_begin(&walk, overlaps, body, simulation->ranks);
-    int64_t site;
-    struct vec3 place;
-    while (!error && walk_next(&walk, &site, &place)) {
-        const int32_t i = (*next)++;
-        struct point start;
-        const char *key;
-        start_at(input, body, place, &start, particles->velocity[i], &key);
-        particles->id[i] = particle_id(body, site);
-        particles->body[i] = (uint16_t)body;
-        particles->material[i] = (uint16_t)of->material_index;
-        particles->mass[i] = start.density * walk.row.volume * depth_at(input, place);
-        particles->density[i] = start.density;
-        particles->energy[i] = start.energy;
-        particles->pressure[i] = start.pressure;
-        memcpy(particles->deviator[i], &start.deviator, sizeof start.deviator);
-        if (particles->history[HISTORY_plastic_heating])
-            particles->history[HISTORY_plastic_heating][i] =
-                material_start_heating(case_material(input, of->material_index)->material, &start);
-        if (particles->history[HISTORY_lighting_time])
-            particles->history[HISTORY_lighting_time][i] = detonation_arrival(input, body, place);
-        particles->position[i][0] = place.x;
-        particles->position[i][1] = place.y;
-        particles->position[i][2] = place.z;
-    }
-    walk_end(&walk);
-    return error;
-}
-
-struct error *generate_particles(const struct simulation *simulation, struct particles *particles)
-{
-    const struct simulation_case *input = simulation->problem->input;
     struct finding *findings = memory_allocate((size_t)input->bodies.count * sizeof *findings);
-    struct error *error =
-        ranks_agree(simulation->ranks, findings ? NULL : error_new(ERROR_SYSTEM, "out of memory"));
-    assert(error || findings);
-    if (!error)
-        error = explore(input, simulation->ranks, findings);
-    int64_t total = 0;
+    TRY(ranks_agree(ranks, findings ? NULL : error_new(ERROR_SYSTEM, "out of memory")));
+    assert(findings);
+    struct error *error = explore(input, ranks, findings);
+    *particles = 0;
     for (int body = 0; !error && body < input->bodies.count; body++)
-        total += findings[body].summary.particles;
+        *particles += findings[body].summary.particles;
     free(findings);
-    int32_t next = 0;
-    if (!error)
-        error = particles_append(particles, (int32_t)total, &next);
-    struct overlaps overlaps = {0};
-    if (!error)
-        error = overlaps_make(input, &overlaps);
-    for (int body = 0; !error && body < input->bodies.count; body++)
-        error = fill_body(simulation, particles, &overlaps, body, &next);
-    overlaps_free(&overlaps);
-    if (!error)
-        error = particles_commit(particles);
-    return ranks_agree(simulation->ranks, error);
+    return error;
 }
 
 struct error *generate_summary(const struct simulation_case *input, struct body_summary *summary)

@@ -1,8 +1,9 @@
-/* From bodies to particles: a lattice fills each shape. */
+/* From bodies to particles: a lattice fills each shape. What can be said of them before there are
+ * any. */
 #ifndef BOLIDE_GENERATE_H
 #define BOLIDE_GENERATE_H
 
-#include "model/particle_population.h"
+#include "model/simulation.h"
 #include "shape/lattice.h"
 
 struct range {
@@ -29,12 +30,11 @@ struct lattice body_lattice(const struct simulation_case *input, int body);
 /* Largest initial particle diameter of a case, m: the store's cell follows from it. */
 double largest_diameter(const struct simulation_case *input);
 
-/* Collective. Appends the particles of all bodies to PARTICLES, each rank its slice of every lattice, with id, body,
- * material, mass, density, energy, position and velocity, and commits. ERROR_INPUT (located) when two
- * bodies overlap and neither replaces the other, when a body has no particle, or when a particle lies
- * behind a wall. A particle's mass is rho times the volume of its site. In axisymmetry x is the radius:
- * bodies are cut at the axis. */
-struct error *generate_particles(const struct simulation *simulation, struct particles *particles);
+/* Collective: counts the PARTICLES that this rank will make. ERROR_INPUT (located) when two bodies
+ * overlap and neither replaces the other, when a body has no particle, or when a particle lies behind a
+ * wall. */
+struct error *generate_count(const struct simulation_case *input, const struct ranks *ranks,
+                             int64_t *particles);
 
 /* What is no mistake but may be none of the user's wishes: a body so thin that others get through it, or that
  * one particle stands for its thickness; a start below 0 K. NULL, or messages to show, each located as an error would be. */

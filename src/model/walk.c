@@ -217,3 +217,16 @@ struct error *walk_check_work(const struct simulation_case *input, const struct 
         "bodies in place of the shapes of a union",
         body_lattice(input, worst).sites, shape_work(&case_body(input, worst)->shape));
 }
+
+double walk_depth(const struct simulation_case *input, struct vec3 place)
+{
+    return input->geometry == GEOMETRY_AXISYMMETRIC ? place.x : 1.0;
+}
+
+const char *walk_start(const struct simulation_case *input, int body, struct vec3 place,
+                       struct point *point, double velocity[3], const char **key)
+{
+    const struct body_input *of = case_body(input, body);
+    const struct material *material = case_material(input, of->material_index)->material;
+    return body_start_at(of, material, place, point, velocity, key);
+}

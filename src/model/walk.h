@@ -29,6 +29,15 @@ struct error *walk_begin(struct walk *walk, const struct overlaps *overlaps, int
 bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place);
 void walk_end(struct walk *walk);
 
+/* What a square metre of the plane stands for at PLACE: a metre of depth, or the radius, for a
+ * radian. */
+double walk_depth(const struct simulation_case *input, struct vec3 place);
+
+/* What a particle of BODY starts with: NULL, or what is wrong, and *key, of the body, that it is
+ * about. */
+const char *walk_start(const struct simulation_case *input, int body, struct vec3 place,
+                       struct point *point, double velocity[3], const char **key);
+
 /* ERROR_INPUT for the body with the most work when all walks of a case take too long
  * (generate_work). */
 struct error *walk_check_work(const struct simulation_case *input, const struct ranks *ranks);

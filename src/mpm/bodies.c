@@ -5,7 +5,7 @@
 #include "material/any.h"
 #include "material/material.h"
 #include "model/generate.h"
-#include "model/held.h"
+#include "model/particles/held.h"
 #include "mpm/mpm_internal.h"
 
 /* The layer of a contact group for bodies that are HELD or not, a frozen one's own; it becomes one if there is none yet.

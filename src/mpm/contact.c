@@ -81,8 +81,6 @@ void mpm_note_surfaces(struct mpm *mpm)
     }
 }
 
-static struct vec3 vector_at(const double *v) { return vec3_make(v[0], v[1], v[2]); }
-
 static void push_node(double *node, double factor, struct vec3 impulse)
 {
     node[NODE_FORCE] += factor * impulse.x;

@@ -8,6 +8,8 @@
 #include "base/memory.h"
 #include "material/any.h"
 #include "material/material.h"
+#include "model/particles/fill.h"
+#include "model/particles/population.h"
 #include "mpm/mpm_internal.h"
 
 /* Conditions of the fields. */

@@ -6,6 +6,7 @@
 #include "mpm/mpm.h"
 #include "mpm/transfer.h"
 #include "parallel/exchange.h"
+#include "particle/particles.h"
 
 /* A node on a wall or, where shape functions reach beyond walls, next to one. */
 struct wall_node {

@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "model/held.h"
+#include "model/particles/held.h"
 #include "mpm/mpm_internal.h"
 
 /* The store is sorted again when so much of it has left the cells that it was stored by. */

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "particle/particles.h"
+
 static bool exists(const struct field_row *row, const struct field_needs *needs)
 {
     return (row->when & needs->conditions) == row->when;

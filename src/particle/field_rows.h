@@ -4,7 +4,9 @@
 #ifndef BOLIDE_FIELD_ROWS_H
 #define BOLIDE_FIELD_ROWS_H
 
-#include "particle/particles.h"
+#include "base/field.h"
+
+struct particles;
 
 /* A table ends with FIELD_ROWS_END. A field without unit is not shown to the user. */
 struct field_row {

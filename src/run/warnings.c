@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "material/any.h"
 #include "material/material.h"
-#include "model/held.h"
+#include "model/bodies.h"
 #include "run/warnings_internal.h"
 
 /* Of the largest speed that needs no warning. Gas of gamma = 1.3 that expands into vacuum in one

@@ -18,7 +18,7 @@
 #include "base/memory.h"
 #include "material/any.h"
 #include "material/material.h"
-#include "model/held.h"
+#include "model/bodies.h"
 #include "model/solver.h"
 #include "run/warnings_internal.h"
 

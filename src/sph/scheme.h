@@ -8,7 +8,7 @@
 #ifndef BOLIDE_SPH_SCHEME_H
 #define BOLIDE_SPH_SCHEME_H
 
-#include "model/held.h"
+#include "model/particles/held.h"
 #include "particle/field_rows.h"
 #include "particle/neighbours.h"
 #include "sph/conduction/conduction.h"

@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "material/any.h"
 #include "model/generate.h"
+#include "model/particles/fill.h"
 #include "riemann/shock_slope.h"
 #include "sph/conduction/kernel.h"
 #include "sph/scheme.h"

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "model/particle_population.h"
+#include "model/particles/population.h"
 #include "riemann/dukowicz.h"
 #include "riemann/exact_gas.h"
 #include "sph/contact/kernel.h"

@@ -4,7 +4,8 @@
 
 #include <stdlib.h>
 
-#include "model/particle_population.h"
+#include "model/particles/population.h"
+#include "particle/particles.h"
 
 /* The particles of SIMULATION, whose first population they are. */
 static inline struct particles *particles_of(const struct simulation *simulation)

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/particle_population.h"
+#include "model/particles/population.h"
 #include "parallel/periodic.h"
 #include "particle/neighbours.h"
 #include "sph/prune.h"

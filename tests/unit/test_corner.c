@@ -1,5 +1,6 @@
 /* A corner of two mirror walls stands for the whole: particle by particle, a quarter between walls moves
  * as the same quarter of the whole body without them. So does one half of a body of revolution. */
+#include "model/particles/fill.h"
 #include "populations.h"
 #include "running.h"
 

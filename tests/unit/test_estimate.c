@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "model/generate.h"
+#include "model/particles/fill.h"
 #include "populations.h"
 #include "run/catalogue.h"
 #include "run/estimate.h"

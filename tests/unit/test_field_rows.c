@@ -1,8 +1,9 @@
 /* The rows of a solver's fields: which are declared, with how many components, and where their pointers go. */
 #include "dice.h"
 
-#include "model/particle_population.h"
+#include "model/particles/population.h"
 #include "particle/field_rows.h"
+#include "particle/particles.h"
 
 enum { WARM = 1, FLAT = 2 };
 enum { SIZE_TENSOR = 1 };

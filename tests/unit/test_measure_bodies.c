@@ -11,6 +11,7 @@
 
 #include "exact/stokes_layer.h"
 #include "model/generate.h"
+#include "model/particles/fill.h"
 #include "model/solver.h"
 #include "model/start_place.h"
 #include "populations.h"

@@ -1,5 +1,6 @@
 /* Noble and Abel's stiffened gas: values worked out by hand, the ideal gas as a limit, and shocks.
  * */
+#include "model/particles/fill.h"
 #include "populations.h"
 #include "running.h"
 #include "source_folder.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/particle_population.h"
+#include "model/particles/population.h"
 #include "parallel/block.h"
 #include "particle/particles.h"
 

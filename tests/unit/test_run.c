@@ -13,7 +13,8 @@
 
 #include "base/results.h"
 #include "model/generate.h"
-#include "model/held.h"
+#include "model/particles/fill.h"
+#include "model/particles/held.h"
 #include "model/solver.h"
 #include "populations.h"
 #include "run/catalogue.h"

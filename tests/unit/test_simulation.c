@@ -8,7 +8,8 @@
 
 #include "base/clock.h"
 #include "build_case.h"
-#include "model/particle_population.h"
+#include "model/particles/population.h"
+#include "particle/particles.h"
 
 enum { BODIES = 30, CONTACTS = 30 };
 

@@ -11,7 +11,8 @@
 
 #include "messages.h"
 #include "model/generate.h"
-#include "model/held.h"
+#include "model/particles/fill.h"
+#include "model/particles/held.h"
 #include "model/solver.h"
 #include "populations.h"
 #include "run/catalogue.h"

@@ -7,6 +7,7 @@
 #include "build_case.h"
 #include "material/material.h"
 #include "model/generate.h"
+#include "model/particles/fill.h"
 #include "populations.h"
 
 enum { BODIES = 3, WALLS = 2 };

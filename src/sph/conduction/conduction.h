@@ -3,7 +3,7 @@
 #ifndef BOLIDE_SPH_CONDUCTION_H
 #define BOLIDE_SPH_CONDUCTION_H
 
-#include "model/particle_population.h"
+#include "model/particles/population.h"
 #include "model/solver.h"
 
 struct sph;

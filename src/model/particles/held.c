@@ -1,34 +1,7 @@
-/* Bodies that something outside holds, and what it takes to stop them. */
-#include "model/held.h"
+/* The particles of bodies that something outside holds, and what it takes to stop them. */
+#include "model/particles/held.h"
 
-bool body_stands(const struct simulation *simulation, int body)
-{
-    return simulation->time >= case_body(simulation->problem->input, body)->stop;
-}
-
-bool body_is_frozen(const struct simulation *simulation, int body)
-{
-    return case_body(simulation->problem->input, body)->frozen;
-}
-
-bool body_is_held(const struct simulation *simulation, int body)
-{
-    const struct body_input *input = case_body(simulation->problem->input, body);
-    return body_stands(simulation, body) || input->driven || input->frozen;
-}
-
-bool body_is_heavy(const struct simulation *simulation, int body)
-{
-    return problem_has_gravity(simulation->problem) && !body_is_held(simulation, body);
-}
-
-bool any_body(const struct simulation *simulation, bool (*is)(const struct simulation *, int))
-{
-    for (int body = 0; body < simulation->problem->input->bodies.count; body++)
-        if (is(simulation, body))
-            return true;
-    return false;
-}
+#include "particle/particles.h"
 
 void act_on_particles(struct simulation *simulation, const struct particles *p,
                       bool (*is)(const struct simulation *, int), particle_act *act, const void *of)
@@ -117,23 +90,4 @@ struct error *drive_bodies(struct simulation *simulation, const struct particles
         act_on_particles(simulation, particles, follows_time, drive_particle, &drive);
     }
     return NULL;
-}
-
-/* The earlier of an EVENT and one at TIME, NAN never, if that has yet to come. */
-static double earlier(const struct simulation *simulation, double event, double time)
-{
-    return time > simulation->time && time < event ? time : event;
-}
-
-double next_event(const struct simulation *simulation)
-{
-    const struct simulation_case *input = simulation->problem->input;
-    double event = INFINITY;
-    for (int i = 0; i < input->bodies.count; i++)
-        event = earlier(simulation, event, case_body(input, i)->stop);
-    for (int i = 0; i < input->loads.count; i++) {
-        event = earlier(simulation, event, case_load(input, i)->after);
-        event = earlier(simulation, event, case_load(input, i)->before);
-    }
-    return event;
 }

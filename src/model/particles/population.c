@@ -1,9 +1,10 @@
-/* The population of solvers whose members are particles; see particle_population.h. */
-#include "model/particle_population.h"
+/* The population of solvers whose members are particles; see population.h. */
+#include "model/particles/population.h"
 
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "particle/halo.h"
 
 struct population population_of_particles(const struct particles *particles)
 {
@@ -75,4 +76,14 @@ void particles_drop(struct particles *particles)
     if (particles)
         particles_destroy(particles);
     free(particles);
+}
+
+struct error *particles_see(const struct population_source *population, const double *diameter,
+                            double link, struct ghosts *ghosts)
+{
+    struct halo halo = {0};
+    struct error *error = halo_plan(particles_in(population), NULL, (struct reach){diameter, link},
+                                    0.0, ghosts, &halo);
+    halo_free(&halo);
+    return error;
 }

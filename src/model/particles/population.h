@@ -3,7 +3,8 @@
 #define BOLIDE_PARTICLE_POPULATION_H
 
 #include "model/simulation.h"
-#include "particle/particles.h"
+
+struct particles;
 
 extern const struct population_class particle_population;
 
@@ -22,5 +23,11 @@ struct error *particles_add(struct simulation *simulation, double cell,
                             const struct field_declaration *more, int count,
                             struct particles **particles);
 void particles_drop(struct particles *particles);
+
+/* Collective: plans the exchange of GHOSTS, the particles of other ranks within LINK diameters of those
+ * of POPULATION, and takes down what they are. Nothing crosses periodic faces. Free them also after an
+ * error. */
+struct error *particles_see(const struct population_source *population, const double *diameter,
+                            double link, struct ghosts *ghosts);
 
 #endif

@@ -1,0 +1,63 @@
+/* The particles of bodies, made in a walk over each lattice; see fill.h. */
+#include "model/particles/fill.h"
+
+#include <string.h>
+
+#include "case/internal.h"
+#include "material/material.h"
+#include "model/walk.h"
+#include "particle/particles.h"
+
+/* Makes the particles of BODY from index *next on, and moves it behind the last. */
+static struct error *fill_body(const struct simulation *simulation, struct particles *particles,
+                               const struct overlaps *overlaps, int body, int32_t *next)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    const struct body_input *of = case_body(input, body);
+    struct walk walk;
+    struct error *error = walk_begin(&walk, overlaps, body, simulation->ranks);
+    int64_t site;
+    struct vec3 place;
+    while (!error && walk_next(&walk, &site, &place)) {
+        const int32_t i = (*next)++;
+        struct point start;
+        const char *key;
+        walk_start(input, body, place, &start, particles->velocity[i], &key);
+        particles->id[i] = particle_id(body, site);
+        particles->body[i] = (uint16_t)body;
+        particles->material[i] = (uint16_t)of->material_index;
+        particles->mass[i] = start.density * walk.row.volume * walk_depth(input, place);
+        particles->density[i] = start.density;
+        particles->energy[i] = start.energy;
+        particles->pressure[i] = start.pressure;
+        memcpy(particles->deviator[i], &start.deviator, sizeof start.deviator);
+        if (particles->history[HISTORY_plastic_heating])
+            particles->history[HISTORY_plastic_heating][i] =
+                material_start_heating(case_material(input, of->material_index)->material, &start);
+        if (particles->history[HISTORY_lighting_time])
+            particles->history[HISTORY_lighting_time][i] = detonation_arrival(input, body, place);
+        particles->position[i][0] = place.x;
+        particles->position[i][1] = place.y;
+        particles->position[i][2] = place.z;
+    }
+    walk_end(&walk);
+    return error;
+}
+
+struct error *generate_particles(const struct simulation *simulation, struct particles *particles)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    int64_t total;
+    TRY(generate_count(input, simulation->ranks, &total));
+    int32_t next = 0;
+    struct error *error = particles_append(particles, (int32_t)total, &next);
+    struct overlaps overlaps = {0};
+    if (!error)
+        error = overlaps_make(input, &overlaps);
+    for (int body = 0; !error && body < input->bodies.count; body++)
+        error = fill_body(simulation, particles, &overlaps, body, &next);
+    overlaps_free(&overlaps);
+    if (!error)
+        error = particles_commit(particles);
+    return ranks_agree(simulation->ranks, error);
+}
