@@ -15,23 +15,21 @@ struct answer {
 
 static const struct answer answers[] = {
     {" spall fracture fragmentation fragment crack failure pull.back scabbing ",
-     "Not available for metals: they carry any tension that their equation of state allows,\n"
-     "and a run warns when it exceeds their strength. Instead:\n"
-     "  materials.NAME.tensile_strength   sets the tension above which a run warns\n"
-     "  eos: {tillotson: {tension: ...}}  limits the tension; the material does not break\n"
-     "  strength: hjc                     concrete, with damage by crushing and by tension\n"
-     "  strength: drucker-prager          soil, with a tension cut-off\n"
-     "End a run before the release waves meet if the tension must not matter.",
-     "materials.md"},
+     "Give the material a failure model; `bolide help failure` lists them:\n"
+     "  failure: {spall: {strength: 1.3 GPa}}   breaks where the tension reaches a strength\n"
+     "  failure: {johnson-cook: ...}            ductile damage; the library has sets\n"
+     "A metal without one carries any tension, and a run warns when it exceeds what the metal\n"
+     "would bear. Concrete (strength: hjc) and soil (drucker-prager) fail by themselves.",
+     "failure.md"},
     {" damage ",
-     "Damage exists in concrete only (strength: hjc): the fields `damage` and\n"
-     "`tensile_damage`. Failure of metals is not available.",
-     "materials.md"},
+     "The field `damage` is that of a failure model (`bolide help failure`) or of crushed\n"
+     "concrete (strength: hjc), 1: failed. Concrete has `tensile_damage` too.",
+     "failure.md"},
     {" whipple shield debris crater perforation hole hypervelocity bumper ballistic.limit plate ",
      "A projectile through a plate, with hole and debris cloud: a worked case is on the page\n"
      "below. There is no measure of holes and craters; `minimum: position.x` of a body in a\n"
-     "slice of `axis: y` gives the radius. Ballistic limits need failure of metals, which is\n"
-     "not available.",
+     "slice of `axis: y` gives the radius. For ballistic limits give plate and projectile a\n"
+     "`failure` (bolide help failure) and run two resolutions.",
      "tasks/impact-on-a-plate.md"},
     {" rod long.rod penetration penetrator depth.of.penetration armour armor ",
      "A long rod into a thick target, beside the theory (bolide help long-rod): see the page\n"

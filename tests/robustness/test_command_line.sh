@@ -60,7 +60,7 @@ for word in spall failure fracture whipple craters penetration Hugoniot foam cal
     [ -z "$page" ] || [ -f "$BOLIDE_SOURCE_DIR/$page" ] ||
         { echo "FAILED: help $word names $page, which does not exist"; status=1; }
 done
-expect 0 "Not available for metals" "$BOLIDE" help spall
+expect 0 "Give the material a failure model" "$BOLIDE" help spall
 expect 0 "GPa" "$BOLIDE" help units of stress
 expect 0 "--resume" "$BOLIDE" help restart
 [ "$("$BOLIDE" help fields | grep -c '^  sound_long ')" = 1 ] ||
