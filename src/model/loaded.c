@@ -21,6 +21,8 @@ static struct error *check_indices(const struct simulation *simulation, int64_t 
             return error_new(ERROR_SYSTEM,
                              "row %lld of material is %d, where the case has %d of them",
                              (long long)(first + i), p->material[i], materials);
+        if (p->kind == POPULATION_OF_CELLS)
+            continue; /* their ids are places, which the solver knows */
         if (of >= bodies || (double)(p->id[i] & PARTICLE_SITE) >= sites[of])
             return error_new(ERROR_SYSTEM, "row %lld of id is %llu, a site that no body has",
                              (long long)(first + i), (unsigned long long)p->id[i]);
@@ -35,8 +37,12 @@ static struct error *check_field(const struct simulation *simulation, int64_t fi
     const int components = field->declaration.components;
     const double *number = field->data;
     const bool positive = number == population.mass || number == population.density;
+    /* a cell that an obstacle blocks has neither */
+    const double *mass = population.mass, *density = population.density;
+    const bool cells = population.kind == POPULATION_OF_CELLS;
     for (int64_t k = 0; k < (int64_t)population.count * components; k++)
-        if (!isfinite(number[k]) || (positive && number[k] <= 0.0))
+        if (!isfinite(number[k]) ||
+            (positive && number[k] <= 0.0 && !(cells && mass[k] == 0.0 && density[k] == 0.0)))
             return error_new(
                 ERROR_SYSTEM, "row %lld of %s is %g, %s", (long long)(first + k / components),
                 field->declaration.name, number[k],

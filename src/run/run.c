@@ -293,11 +293,12 @@ static void tell_end(struct run *run)
 {
     const struct run_result *result = run->result;
     const struct simulation *s = &run->simulation;
-    run_say(
-        run,
-        "%s at step %lld, t = %.9g s, after %.1f s; %.3g M particle updates/s; energy drift %.2g",
-        result->finished ? "finished" : "stopped", (long long)result->steps, result->time,
-        result->seconds, 1e-6 * result->updates_per_second, result->energy_drift);
+    const struct population population = simulation_population(s);
+    run_say(run,
+            "%s at step %lld, t = %.9g s, after %.1f s; %.3g M updates/s of %s; energy drift %.2g",
+            result->finished ? "finished" : "stopped", (long long)result->steps, result->time,
+            result->seconds, 1e-6 * result->updates_per_second, population_members(&population),
+            result->energy_drift);
     for (int i = 0; i < s->phases; i++)
         run_say(run, "  %-16s %8.2f s  %4.1f %%", s->phase[i].name, s->phase[i].seconds,
                 100.0 * s->phase[i].seconds / maximum(result->seconds, 1e-9));

@@ -39,25 +39,31 @@ for name in $names; do
     same_but_for_order "one/$name" "four/$name" || fail "$name divided anew on 4 ranks: $(tail -n 5 four.log)"
 done
 
-everything=$BOLIDE_SOURCE_DIR/tests/data/everything.yaml
-rm -rf whole killed few fewer
-"$BOLIDE" run "$everything" --output whole >whole.log 2>&1 || fail "the whole run: $(cat whole.log)"
-
 # One rank is killed when the first checkpoint is there; others go on, in another number.
-OMP_NUM_THREADS=1 $BOLIDE_MPIRUN -n 2 "$BOLIDE" run "$everything" --output killed >killed.log 2>&1 </dev/null &
-runner=$!
-while [ ! -e killed/checkpoint.h5 ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
-rank=$(grep -l "^PPid:[[:space:]]*$runner\$" /proc/[0-9]*/status 2>/dev/null | tail -n 1)
-rank=${rank//[^0-9]/}
-kill -KILL "${rank:?no rank runs}"
-wait $runner && fail "a run with a killed rank must fail"
-grep -q "rank [01] .* signal 9" killed.log || fail "a killed rank must be told of: $(cat killed.log)"
-[ ! -e killed/checks.csv ] || fail "the killed run came to its end"
-on 3 run "$everything" --output killed --resume >resumed.log 2>&1 ||
-    fail "resuming after a kill: $(cat resumed.log)"
-grep -q "^resumed at step" resumed.log || fail "nothing was resumed: $(cat resumed.log)"
-same_but_for_order whole killed || fail "killed on 2 ranks and resumed on 3"
+kill_and_resume() {
+    local everything=$1
+    rm -rf whole killed
+    "$BOLIDE" run "$everything" --output whole >whole.log 2>&1 || fail "the whole run: $(cat whole.log)"
+    OMP_NUM_THREADS=1 $BOLIDE_MPIRUN -n 2 "$BOLIDE" run "$everything" --output killed >killed.log 2>&1 </dev/null &
+    local runner=$!
+    while [ ! -e killed/checkpoint.h5 ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+    local rank
+    rank=$(grep -l "^PPid:[[:space:]]*$runner\$" /proc/[0-9]*/status 2>/dev/null | tail -n 1)
+    rank=${rank//[^0-9]/}
+    kill -KILL "${rank:?no rank runs}"
+    wait $runner && fail "a run with a killed rank must fail"
+    grep -q "rank [01] .* signal 9" killed.log || fail "a killed rank must be told of: $(cat killed.log)"
+    [ ! -e killed/checks.csv ] || fail "the killed run came to its end"
+    on 3 run "$everything" --output killed --resume >resumed.log 2>&1 ||
+        fail "resuming after a kill: $(cat resumed.log)"
+    grep -q "^resumed at step" resumed.log || fail "nothing was resumed: $(cat resumed.log)"
+    same_but_for_order whole killed || fail "$everything killed on 2 ranks and resumed on 3"
+}
+kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-gas.yaml"
+everything=$BOLIDE_SOURCE_DIR/tests/data/everything.yaml
+kill_and_resume "$everything" # whose `whole` serves below
 
+rm -rf few fewer
 # Ranks that have no particle.
 "$BOLIDE" run "$everything" --set "resolution=1 mm" --output few >few.log 2>&1 || fail "few particles: $(cat few.log)"
 on 4 run "$everything" --set "resolution=1 mm" --output fewer >few.log 2>&1 || fail "ranks without any: $(cat few.log)"
