@@ -20,7 +20,7 @@ static const char log_name[] = "run.log", list_name[] = ".bolide-files",
                   lock_name[] = ".bolide-lock";
 static const char *const result_files[] = {
     "case.yaml",   "history.csv", "checkpoint.h5",           "checks.csv",
-    "summary.csv", "report.html", "snapshots.vtkhdf.series",
+    "summary.csv", "report.html", "snapshots.vtkhdf.series", "fragments.csv",
 };
 static const char *const result_folders[] = {"snapshots", "pictures", "probes", "profiles"};
 

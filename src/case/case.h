@@ -149,6 +149,8 @@ struct output_input {
     double checkpoint;         /* s of wall clock between checkpoints; 0: at the end only */
     struct name_list pictures; /* fields to draw at every snapshot */
     bool snapshots;            /* write VTKHDF files */
+    bool fragments;            /* write fragments.csv and the field `fragment` */
+    double fragment_link;      /* up to which their particles are connected (measure/connected.h) */
 };
 
 struct run_input {

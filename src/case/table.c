@@ -191,6 +191,19 @@ static const struct parameter output_table[] = {
      .offset = offsetof(struct output_input, snapshots),
      .standard = "yes",
      .help = "whether snapshots are written as VTKHDF files"},
+    {.key = "fragments",
+     .kind = PARAMETER_FLAG,
+     .offset = offsetof(struct output_input, fragments),
+     .standard = "no",
+     .help = "whether fragments.csv lists the fragments into which bodies have broken by the last "
+             "snapshot, and snapshots and pictures have their numbers as the field `fragment`"},
+    {.key = "fragment_link",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct output_input, fragment_link),
+     .standard = "0.8",
+     .below = INFINITY,
+     .help = "distance up to which two particles of a fragment are connected, over the sum of "
+             "their diameters"},
     PARAMETER_END,
 };
 

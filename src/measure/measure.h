@@ -91,6 +91,21 @@ struct measure_pieces {
     double link;
 };
 
+struct measure_fragments {
+    struct quantity above; /* mass; NAN: any */
+    double link;
+};
+
+struct measure_largest_fragment {
+    int take;
+    double link;
+};
+
+struct measure_length {
+    int along;
+    double link;
+};
+
 struct measure_asymmetry {
     char *field;
     int across, parity;
@@ -116,7 +131,7 @@ struct measure_shear_layer {
 double conserved_change(const struct simulation *simulation, const struct totals *start,
                         enum conserved_total total);
 
-enum { MEASURES = 22 };
+enum { MEASURES = 25 };
 extern const struct choice measure_choices[MEASURES];
 
 extern const struct parameter measure_field_table[];
@@ -124,9 +139,11 @@ extern const struct parameter measure_front_table[], measure_width_table[],
     measure_conserved_table[];
 extern const struct parameter measure_total_table[], measure_extent_table[], measure_turn_table[],
     measure_pieces_table[], measure_asymmetry_table[], measure_radius_table[],
-    measure_shear_layer_table[], measure_recorded_table[];
+    measure_shear_layer_table[], measure_recorded_table[], measure_fragments_table[],
+    measure_largest_fragment_table[], measure_length_table[];
 extern const struct measure_class measure_total, measure_decay, measure_spread, measure_extent,
     measure_turn, measure_pieces, measure_asymmetry, measure_radius, measure_shear_layer;
+extern const struct measure_class measure_fragments, measure_largest_fragment, measure_length;
 extern const struct measure_class measure_mean, measure_minimum, measure_maximum, measure_l1,
     measure_rms, measure_max_error, measure_contact_max, measure_contact_rms, measure_front,
     measure_width, measure_conserved, measure_finite, measure_recorded;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "measure/probes.h"
+#include "measure/spin.h"
 
 const struct parameter probe_body_table[] = {
     {.key = "name",
@@ -28,16 +29,12 @@ static void add_vector(struct probe *probe, const char *name, const char *unit, 
     }
 }
 
-/* The first axis about which a body turns in DIMENSION dimensions, and how many there are. */
-static int first_turn(int dimension) { return dimension == 2 ? 2 : 0; }
-static int turns(int dimension) { return dimension == 3 ? 3 : dimension == 2 ? 1 : 0; }
-
 static struct error *prepare(struct probe *probe, const struct simulation *simulation,
                              const struct population *population)
 {
     const struct probe_body *body = probe->input->probe.value;
     const struct named_map *bodies = &simulation->problem->input->bodies;
-    const int dimension = simulation->problem->dimension, first = first_turn(dimension);
+    const int dimension = simulation->problem->dimension, first = spin_first(dimension);
     const char *joule =
         ledger_unit(LEDGER_ENERGY, simulation->problem->dimension, simulation->problem->geometry);
     (void)population;
@@ -56,8 +53,8 @@ static struct error *prepare(struct probe *probe, const struct simulation *simul
     add_vector(probe, "angular_momentum",
                ledger_unit(LEDGER_ANGULAR_Z, simulation->problem->dimension,
                            simulation->problem->geometry),
-               first, turns(dimension));
-    add_vector(probe, "angular_velocity", "rad/s", first, turns(dimension));
+               first, spin_count(dimension));
+    add_vector(probe, "angular_velocity", "rad/s", first, spin_count(dimension));
     probe_add_column(probe, "kinetic_energy", joule);
     probe_add_column(probe, "kinetic_energy_about_centre", joule);
     probe_add_column(probe, "internal_energy", joule);
@@ -158,21 +155,6 @@ static void sum_about_centre(const struct ranks *ranks, const struct population 
     motion->spread = exact_sum_value(&sums[SPREAD]);
 }
 
-/* w of J w = L by Cramer's rule; in a plane it has one component. Not a number for a body that has no
- * moment of inertia about some axis. */
-static struct vec3 angular_velocity(const struct body_motion *motion, int dimension)
-{
-    struct sym3 j = motion->inertia;
-    struct vec3 l = motion->angular;
-    if (dimension < 3)
-        return vec3_make(0.0, 0.0, l.z / j.zz);
-    struct sym3 minors = {j.yy * j.zz - j.yz * j.yz, j.xx * j.zz - j.zx * j.zx,
-                          j.xx * j.yy - j.xy * j.xy, j.yz * j.zx - j.xy * j.zz,
-                          j.xy * j.zx - j.xx * j.yz, j.xy * j.yz - j.yy * j.zx};
-    double determinant = j.xx * minors.xx + j.xy * minors.xy + j.zx * minors.zx;
-    return vec3_scale(1.0 / determinant, sym3_dot(minors, l));
-}
-
 static double *put_vector(double *row, struct vec3 value, int first, int count)
 {
     const double at[3] = {value.x, value.y, value.z};
@@ -183,15 +165,16 @@ static double *put_vector(double *row, struct vec3 value, int first, int count)
 static struct error *sample(struct probe *probe, const struct simulation *simulation,
                             const struct population *population, double *row)
 {
-    const int dimension = simulation->problem->dimension, first = first_turn(dimension);
+    const int dimension = simulation->problem->dimension, first = spin_first(dimension);
     struct body_motion motion;
     sum_whole(simulation->ranks, population, probe->selection.body, &motion);
     sum_about_centre(simulation->ranks, population, probe->selection.body, &motion);
     *row++ = motion.mass;
     row = put_vector(row, motion.centre, 0, dimension);
     row = put_vector(row, motion.velocity, 0, dimension);
-    row = put_vector(row, motion.angular, first, turns(dimension));
-    row = put_vector(row, angular_velocity(&motion, dimension), first, turns(dimension));
+    row = put_vector(row, motion.angular, first, spin_count(dimension));
+    row = put_vector(row, spin_of(motion.inertia, motion.angular, dimension), first,
+                     spin_count(dimension));
     *row++ = motion.kinetic;
     *row++ = motion.spread;
     *row++ = motion.internal;

@@ -42,6 +42,7 @@ struct population {
     const struct field *field;
     int columns; /* the same throughout a run */
     const struct column *column;
+    const int64_t *fragment; /* of each member, from 0 (measure/fragments.h); NULL: not wanted */
 };
 
 /* Whether member I holds matter: a cell that an obstacle blocks does not. */

@@ -15,6 +15,8 @@
 #include "base/memory.h"
 #include "material/any.h"
 #include "material/material.h"
+#include "measure/connected.h"
+#include "measure/fragments.h"
 #include "model/generate.h"
 #include "picture/picture.h"
 #include "run/estimate.h"
@@ -188,20 +190,21 @@ static struct error *make_particles(struct run *run)
     return NULL;
 }
 
-/* Readies what comes later, probes, checks and pictures, so that their mistakes are told now. */
-static struct error *look_ahead(struct run *run)
+/* The pictures that cannot be drawn. */
+static struct error *check_pictures(const struct run *run)
 {
     const struct name_list *pictures = &run->input->output.pictures;
-    run_observe(run);
-    struct error *error = probes_prepare(&run->probes, &run->simulation, &run->population);
-    error = error_join(error, profiles_prepare(&run->simulation, &run->population, &run->profiles));
-    error = error_join(
-        error, checks_prepare(&run->simulation, &run->population, &run->probes, &run->checks));
-    if (run->checks)
-        error = error_join(error, fits_prepare(run->input, run->checks));
+    const bool fragments = run->input->output.fragments;
+    struct column columns[COLUMNS_MAX];
+    const struct population shown =
+        fragments ? fragments_show(&run->population, NULL, columns) : run->population;
+    struct error *error = NULL;
     for (int i = 0; i < pictures->count; i++) {
+        const bool off = !fragments && !strcmp(pictures->names[i], fragments_column);
         struct error *mistake =
-            picture_field_check(&run->simulation, &run->population, pictures->names[i]);
+            off ? error_new(ERROR_INPUT, "\"%s\" needs `fragments: yes` beside it",
+                            fragments_column)
+                : picture_field_check(&run->simulation, &shown, pictures->names[i]);
         if (!mistake)
             continue;
         char key[32];
@@ -211,6 +214,28 @@ static struct error *look_ahead(struct run *run)
         error_free(mistake);
     }
     return error;
+}
+
+static struct error *check_fragments(const struct run *run)
+{
+    if (!run->input->output.fragments || connected_has_diameters(&run->population))
+        return NULL;
+    return input_error(run->input, "output", "fragments",
+                       "only particles form fragments, not the cells of this solver");
+}
+
+/* Readies what comes later, probes, checks and pictures, so that their mistakes are told now. */
+static struct error *look_ahead(struct run *run)
+{
+    run_observe(run);
+    struct error *error = probes_prepare(&run->probes, &run->simulation, &run->population);
+    error = error_join(error, profiles_prepare(&run->simulation, &run->population, &run->profiles));
+    error = error_join(
+        error, checks_prepare(&run->simulation, &run->population, &run->probes, &run->checks));
+    if (run->checks)
+        error = error_join(error, fits_prepare(run->input, run->checks));
+    error = error_join(error, check_fragments(run));
+    return error_join(error, check_pictures(run));
 }
 
 static struct error *begin(struct run *run)

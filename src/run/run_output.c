@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "measure/fragments.h"
 #include "output/snapshot.h"
 #include "picture/picture.h"
 #include "run/run_internal.h"
@@ -48,13 +49,15 @@ static struct error *make_text(const struct simulation_case *input, char **text)
     return error;
 }
 
-/* A run may be resumed with another limit of the drift, with checkpoints at other times, and with
- * other warnings expected: none of these changes the state. */
+/* A run may be resumed with another limit of the drift, with checkpoints at other times, with other
+ * warnings expected, and with or without fragments: none of these changes the state. */
 static struct error *make_case_texts(struct run *run)
 {
     struct simulation_case state = *run->input;
     state.run.energy_drift = 0.0;
     state.output.checkpoint = 0.0;
+    state.output.fragments = false;
+    state.output.fragment_link = 1.0;
     state.expected = (struct named_map){0};
     TRY(make_text(run->input, &run->case_text));
     return make_text(&state, &run->state_text);
@@ -306,8 +309,9 @@ static double history_interval(const struct run *run)
     return isnan(given) ? 0.01 * run->input->run.until : given;
 }
 
-/* Draws the fields that the case wants, as FIELD-NNNNNN.png. */
-static struct error *draw_pictures(struct run *run, int64_t number)
+/* Draws the fields of POPULATION that the case wants, as FIELD-NNNNNN.png. */
+static struct error *draw_pictures(struct run *run, const struct population *population,
+                                   int64_t number)
 {
     const struct name_list *fields = &run->input->output.pictures;
     struct error *error = NULL;
@@ -316,11 +320,60 @@ static struct error *draw_pictures(struct run *run, int64_t number)
         char *path = name ? run_path(run, name) : NULL;
         error = ranks_agree(&run->ranks, path ? NULL : out_of_memory());
         if (!error)
-            error = picture_particles(path, &run->simulation, &run->population, fields->names[i],
-                                      NAN, NAN);
+            error =
+                picture_particles(path, &run->simulation, population, fields->names[i], NAN, NAN);
         free(name);
         free(path);
     }
+    return error;
+}
+
+/* The pictures, profiles and file of snapshot NUMBER, with the fields of POPULATION. */
+static struct error *write_population(struct run *run, const struct population *population,
+                                      int64_t number)
+{
+    TRY(draw_pictures(run, population, number));
+    TRY(profiles_write(&run->profiles, &run->simulation, &run->population, run->options->output,
+                       number));
+    if (!run->input->output.snapshots)
+        return NULL;
+    char *name = text_format("snapshots/%06lld.vtkhdf", (long long)number);
+    char *path = name ? run_path(run, name) : NULL;
+    struct error *error =
+        path ? snapshot_write(path, &run->simulation, population) : out_of_memory();
+    free(name);
+    free(path);
+    if (!error && run_writes(run))
+        error = write_series(run);
+    return ranks_agree(&run->ranks, error);
+}
+
+/* fragments.csv of this moment, which replaces an earlier one. */
+static struct error *write_fragments(const struct run *run, const struct fragments *fragments)
+{
+    if (!run_writes(run))
+        return NULL;
+    char *path = run_path(run, "fragments.csv");
+    struct error *error =
+        path ? fragments_write(path, &run->simulation, fragments) : out_of_memory();
+    free(path);
+    return error;
+}
+
+/* The same as write_population with the column of fragments, and the table of these. */
+static struct error *write_with_fragments(struct run *run, int64_t number)
+{
+    struct fragments fragments;
+    struct column columns[COLUMNS_MAX];
+    struct error *error =
+        fragments_find(&run->simulation, -1, run->input->output.fragment_link, &fragments);
+    if (!error)
+        error = ranks_agree(&run->ranks, write_fragments(run, &fragments));
+    if (!error) {
+        const struct population shown = fragments_show(&run->population, &fragments, columns);
+        error = write_population(run, &shown, number);
+    }
+    fragments_free(&fragments);
     return error;
 }
 
@@ -333,20 +386,8 @@ static struct error *write_snapshot(struct run *run)
     run->snapshot_times[run->snapshots++] = run->simulation.time;
     if (!run->options->output)
         return NULL;
-    TRY(draw_pictures(run, number));
-    TRY(profiles_write(&run->profiles, &run->simulation, &run->population, run->options->output,
-                       number));
-    if (!run->input->output.snapshots)
-        return NULL;
-    char *name = text_format("snapshots/%06lld.vtkhdf", (long long)number);
-    char *path = name ? run_path(run, name) : NULL;
-    struct error *error =
-        path ? snapshot_write(path, &run->simulation, &run->population) : out_of_memory();
-    free(name);
-    free(path);
-    if (!error && run_writes(run))
-        error = write_series(run);
-    return ranks_agree(&run->ranks, error);
+    return run->input->output.fragments ? write_with_fragments(run, number)
+                                        : write_population(run, &run->population, number);
 }
 
 /* A resumed run stands where outputs have been taken: the row of this step, the snapshot of this

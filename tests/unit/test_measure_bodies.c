@@ -10,13 +10,7 @@
 #include <cmocka.h>
 
 #include "exact/stokes_layer.h"
-#include "model/generate.h"
-#include "model/particles/fill.h"
-#include "model/solver.h"
-#include "model/start_place.h"
-#include "populations.h"
-#include "run/catalogue.h"
-#include "run/checks.h"
+#include "stage.h"
 
 /* Two squares of 10 x 10 particles, side by side with a gap of one, and a ring. */
 static const char case_text[] =
@@ -34,114 +28,11 @@ static const char case_text[] =
     "run: {until: 1 s}\n"
     "checks:\n";
 
-struct stage {
-    struct simulation_case *input;
-    struct ranks ranks;
-    struct simulation simulation;
-    void *solver;
-    struct population population;
-    struct totals start;
-    struct checks *checks;
-    struct check_memory memory[5];
-    struct check_results results;
-};
-
-/* The members as they are now. */
-static const struct population *look(struct stage *s)
-{
-    s->population = simulation_population(&s->simulation);
-    return &s->population;
-}
-
-static void expect_success(struct error *error)
-{
-    if (error)
-        fail_msg("%s", error_message(error, 0));
-}
-
-static struct error *read_checks(const char *checks, struct simulation_case **input)
-{
-    static const char path[] = "test_measure_bodies.yaml";
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fprintf(file, "%s%s\n", case_text, checks);
-    fclose(file);
-    return case_read(path, &(struct case_options){0}, &bolide_catalogue, input);
-}
-
-/* The case with CHECKS at time zero. */
-static struct error *stage_open(struct stage *s, const char *checks)
-{
-    *s = (struct stage){.ranks = ranks_alone()};
-    expect_success(read_checks(checks, &s->input));
-    expect_success(simulation_create(s->input, &s->ranks, 1, &s->simulation));
-    const struct solver_class *method = s->input->solver.choice->thing;
-    s->solver = calloc(1, method->size);
-    expect_success(method->create(s->solver, &s->simulation, s->input->solver.value));
-    expect_success(generate_particles(&s->simulation, particles_of(&s->simulation)));
-    expect_success(method->start(s->solver, &s->simulation));
-    s->start = population_totals(simulation_population(&s->simulation), &s->ranks, -1);
-    return checks_prepare(&s->simulation, look(s), NULL, &s->checks);
-}
-
-static struct check_moment stage_moment(struct stage *s)
-{
-    return (struct check_moment){&s->simulation, look(s), &s->start, s->memory};
-}
-
-static void stage_begin(struct stage *s, const char *checks)
-{
-    expect_success(stage_open(s, checks));
-    const struct check_moment moment = stage_moment(s);
-    expect_success(checks_start(s->checks, &moment));
-}
-
-static void stage_watch(struct stage *s, double time)
-{
-    const struct check_moment moment = stage_moment(s);
-    s->simulation.time = time;
-    expect_success(checks_watch(s->checks, &moment));
-}
-
-/* What the check at INDEX measures. */
-static double stage_value(struct stage *s, int index)
-{
-    const struct check_moment moment = stage_moment(s);
-    check_results_free(&s->results);
-    expect_success(checks_evaluate(s->checks, &moment, &s->results));
-    return s->results.item[index].measured;
-}
-
-static void stage_close(struct stage *s)
-{
-    const struct solver_class *method = s->input->solver.choice->thing;
-    check_results_free(&s->results);
-    checks_free(s->checks);
-    method->destroy(s->solver);
-    free(s->solver);
-    simulation_destroy(&s->simulation);
-    case_free(s->input);
-}
-
-/* The place at the start of particle I, and where it is now. */
-static struct vec3 start_of(struct stage *s, int32_t i)
-{
-    double place[1][3];
-    start_places(look(s), i, i + 1, place);
-    return vec3_make(place[0][0], place[0][1], place[0][2]);
-}
-
-static void move_to(struct stage *s, int32_t i, double x, double y)
-{
-    particles_of(&s->simulation)->position[i][0] = x;
-    particles_of(&s->simulation)->position[i][1] = y;
-}
-
 static void places_at_the_start_are_those_of_the_lattice(void **state)
 {
     (void)state;
     struct stage s;
-    stage_begin(&s, "  it: {minimum: displacement.x, at_least: -1 m}");
+    stage_begin(&s, case_text, "  it: {minimum: displacement.x, at_least: -1 m}");
     struct particles *p = particles_of(&s.simulation);
     double(*place)[3] = calloc((size_t)p->count, sizeof *place);
     start_places(look(&s), 0, p->count, place);
@@ -157,9 +48,10 @@ static void a_total_is_that_of_a_body(void **state)
 {
     (void)state;
     struct stage s;
-    stage_begin(&s, "  push: {total: momentum.y, of: right, at_most: 1 kg/s}\n"
-                    "  spin: {total: angular_momentum.z, at_most: 1 kg*m/s}\n"
-                    "  motion: {total: kinetic_energy, of: left, at_most: 1 J/m}\n");
+    stage_begin(&s, case_text,
+                "  push: {total: momentum.y, of: right, at_most: 1 kg/s}\n"
+                "  spin: {total: angular_momentum.z, at_most: 1 kg*m/s}\n"
+                "  motion: {total: kinetic_energy, of: left, at_most: 1 J/m}\n");
     struct particles *p = particles_of(&s.simulation);
     for (int32_t i = 0; i < p->count; i++)
         p->velocity[i][1] = p->body[i] == 1 ? 3.0 : p->body[i] == 0 ? -2.0 : 0.0;
@@ -174,7 +66,7 @@ static void turn_is_the_angle_of_a_rigid_rotation(void **state)
     (void)state;
     static const double angles[] = {0.0, 0.3, -3.0, 3.1};
     struct stage s;
-    stage_begin(&s, "  it: {turn: z, of: left, at_most: 1}");
+    stage_begin(&s, case_text, "  it: {turn: z, of: left, at_most: 1}");
     struct particles *p = particles_of(&s.simulation);
     for (size_t k = 0; k < COUNT_OF(angles); k++) {
         for (int32_t i = 0; i < p->count; i++) {
@@ -191,9 +83,10 @@ static void extent_is_measured_between_centers_of_particles(void **state)
 {
     (void)state;
     struct stage s;
-    stage_begin(&s, "  width: {extent: x, of: left, at_most: 1 m}\n"
-                    "  all: {extent: y, at_most: 1 m}\n"
-                    "  radius: {extent: radius, of: ring, at_most: 1 m}\n");
+    stage_begin(&s, case_text,
+                "  width: {extent: x, of: left, at_most: 1 m}\n"
+                "  all: {extent: y, at_most: 1 m}\n"
+                "  radius: {extent: radius, of: ring, at_most: 1 m}\n");
     assert_float_equal(stage_value(&s, 0), 9e-3, 1e-17);
     assert_true(stage_value(&s, 1) > 45e-3);
     assert_true(stage_value(&s, 2) > 4e-3 && stage_value(&s, 2) < 5e-3);
@@ -204,10 +97,11 @@ static void extent_reaches_edges_and_keeps_to_a_slice(void **state)
 {
     (void)state;
     struct stage s;
-    stage_begin(&s, "  edges: {extent: {along: x, edges: yes}, of: left, at_most: 1 m}\n"
-                    "  slice: {extent: x, of: left, between: [2.6 mm, 5.4 mm], at_most: 1 m}\n"
-                    "  centres: {extent: radius, of: ring, at_most: 1 m}\n"
-                    "  radius: {extent: {along: radius, edges: yes}, of: ring, at_most: 1 m}\n");
+    stage_begin(&s, case_text,
+                "  edges: {extent: {along: x, edges: yes}, of: left, at_most: 1 m}\n"
+                "  slice: {extent: x, of: left, between: [2.6 mm, 5.4 mm], at_most: 1 m}\n"
+                "  centres: {extent: radius, of: ring, at_most: 1 m}\n"
+                "  radius: {extent: {along: radius, edges: yes}, of: ring, at_most: 1 m}\n");
     assert_float_equal(stage_value(&s, 0), 10e-3, 1e-16);
     assert_float_equal(stage_value(&s, 1), 2e-3, 1e-16);
     assert_true(stage_value(&s, 3) > stage_value(&s, 2) + 0.3e-3);
@@ -218,7 +112,7 @@ static void radius_follows_a_surface_that_no_particle_stands_on(void **state)
 {
     (void)state;
     struct stage s;
-    stage_begin(&s,
+    stage_begin(&s, case_text,
                 "  inner: {radius: {start: 3 mm, center: [0 mm, 40 mm]}, of: ring, at_most: 1 m}\n"
                 "  outer: {radius: {start: 5 mm, center: [0 mm, 40 mm]}, of: ring, at_most: 1 m}\n"
                 "  round: {radius: {start: 5 mm, take: spread, center: [0 mm, 40 mm]}, "
@@ -265,7 +159,7 @@ static void spread_is_the_standard_deviation(void **state)
 {
     (void)state;
     struct stage s;
-    stage_begin(&s, "  it: {spread: pressure, of: left, at_most: 1 GPa}");
+    stage_begin(&s, case_text, "  it: {spread: pressure, of: left, at_most: 1 GPa}");
     struct particles *p = particles_of(&s.simulation);
     for (int32_t i = 0; i < p->count; i++)
         p->pressure[i] = 1e9 + (p->id[i] % 2 ? 3.0 : -3.0);
@@ -303,8 +197,9 @@ static void pieces_are_what_hangs_together(void **state)
 {
     (void)state;
     struct stage s;
-    stage_begin(&s, "  all: {pieces: {link: 0.8}, at_most: 1}\n"
-                    "  one: {pieces: 0.8, of: right, at_most: 1}\n");
+    stage_begin(&s, case_text,
+                "  all: {pieces: {link: 0.8}, at_most: 1}\n"
+                "  one: {pieces: 0.8, of: right, at_most: 1}\n");
     struct particles *p = particles_of(&s.simulation);
     const double *diameter = particles_field(p, "diameter");
     assert_float_equal(stage_value(&s, 0), 3.0, 0.0); /* the squares do not hang together */
@@ -331,11 +226,12 @@ static void asymmetry_compares_with_the_particle_that_stood_at_the_image(void **
 {
     (void)state;
     struct stage s;
-    stage_begin(&s, "  it: {asymmetry: {field: velocity.x, across: x, parity: odd}, of: left, "
-                    "at_most: 1}\n"
-                    "  ring: {asymmetry: {field: velocity.x, across: xy, center: [0 mm, 40 mm]}, "
-                    "of: ring, at_most: 1}\n"
-                    "  none: {asymmetry: {field: velocity.x, across: y}, of: ring, at_most: 1}\n");
+    stage_begin(&s, case_text,
+                "  it: {asymmetry: {field: velocity.x, across: x, parity: odd}, of: left, "
+                "at_most: 1}\n"
+                "  ring: {asymmetry: {field: velocity.x, across: xy, center: [0 mm, 40 mm]}, "
+                "of: ring, at_most: 1}\n"
+                "  none: {asymmetry: {field: velocity.x, across: y}, of: ring, at_most: 1}\n");
     struct particles *p = particles_of(&s.simulation);
     for (int32_t i = 0; i < p->count; i++) {
         const struct vec3 x = start_of(&s, i);
@@ -374,12 +270,13 @@ static void shear_layer_finds_the_viscosity_that_moved_the_rows(void **state)
 {
     (void)state;
     struct stage s;
-    stage_begin(&s, "  viscosity: {shear_layer: {speed: 2 m/s, plane: 1 mm}, of: left, "
-                    "between: [-8 mm, -3 mm], at_most: 1 m^2/s}\n"
-                    "  misfit: {shear_layer: {value: displacement, speed: 2 m/s, plane: 1 mm}, "
-                    "of: left, between: [-8 mm, -3 mm], at_most: 1 m}\n"
-                    "  velocity: {shear_layer: {value: velocity, speed: 2 m/s, plane: 1 mm}, "
-                    "of: left, between: [-8 mm, -3 mm], at_most: 1 m/s}\n");
+    stage_begin(&s, case_text,
+                "  viscosity: {shear_layer: {speed: 2 m/s, plane: 1 mm}, of: left, "
+                "between: [-8 mm, -3 mm], at_most: 1 m^2/s}\n"
+                "  misfit: {shear_layer: {value: displacement, speed: 2 m/s, plane: 1 mm}, "
+                "of: left, between: [-8 mm, -3 mm], at_most: 1 m}\n"
+                "  velocity: {shear_layer: {value: velocity, speed: 2 m/s, plane: 1 mm}, "
+                "of: left, between: [-8 mm, -3 mm], at_most: 1 m/s}\n");
     struct particles *p = particles_of(&s.simulation);
     static const double viscosity = 0.031;
     s.simulation.time = 3e-4;
@@ -401,8 +298,9 @@ static void a_check_is_measured_at_its_time_and_remembered(void **state)
 {
     (void)state;
     struct stage s;
-    stage_begin(&s, "  early: {mean: velocity.x, of: left, at: 0.2 s, at_most: 4 m/s}\n"
-                    "  last: {mean: velocity.x, of: left, at_most: 4 m/s}\n");
+    stage_begin(&s, case_text,
+                "  early: {mean: velocity.x, of: left, at: 0.2 s, at_most: 4 m/s}\n"
+                "  last: {mean: velocity.x, of: left, at_most: 4 m/s}\n");
     struct particles *p = particles_of(&s.simulation);
     for (int step = 0; step <= 10; step++) {
         for (int32_t i = 0; i < p->count; i++)
@@ -422,13 +320,14 @@ static void a_known_deviation_is_no_failure_until_it_passes(void **state)
     (void)state;
     struct stage s;
     stage_begin(
-        &s, "  short: {mean: velocity.x, at_most: -1 m/s, known_deviation: it creeps}\n"
-            "  now: {mean: velocity.x, at_most: 4 m/s, known_deviation: it creeps}\n"
-            "  here: {mean: velocity.x, at_most: 4 m/s, known_deviation: it creeps, "
-            "known_deviation_if: 1 - 1}\n"
-            "  there: {mean: velocity.x, at_most: -1 m/s, known_deviation: it creeps, "
-            "known_deviation_if: -2}\n"
-            "  never: {mean: velocity.x, at: 0.9 s, at_most: 4 m/s, known_deviation: it creeps}\n");
+        &s, case_text,
+        "  short: {mean: velocity.x, at_most: -1 m/s, known_deviation: it creeps}\n"
+        "  now: {mean: velocity.x, at_most: 4 m/s, known_deviation: it creeps}\n"
+        "  here: {mean: velocity.x, at_most: 4 m/s, known_deviation: it creeps, "
+        "known_deviation_if: 1 - 1}\n"
+        "  there: {mean: velocity.x, at_most: -1 m/s, known_deviation: it creeps, "
+        "known_deviation_if: -2}\n"
+        "  never: {mean: velocity.x, at: 0.9 s, at_most: 4 m/s, known_deviation: it creeps}\n");
     for (int32_t i = 0; i < particles_of(&s.simulation)->count; i++)
         particles_of(&s.simulation)->velocity[i][0] = 0.0;
     stage_watch(&s, 0.1);
@@ -452,7 +351,7 @@ static void a_check_whose_time_never_came_fails(void **state)
 {
     (void)state;
     struct stage s;
-    stage_begin(&s, "  it: {mean: velocity.x, at: 0.2 s, at_most: 4 m/s}\n");
+    stage_begin(&s, case_text, "  it: {mean: velocity.x, at: 0.2 s, at_most: 4 m/s}\n");
     stage_watch(&s, 0.1);
     assert_true(isnan(stage_value(&s, 0)));
     assert_int_equal(s.results.item[0].verdict, CHECK_FAILED);
@@ -463,10 +362,11 @@ static void a_value_is_divided_by_that_at_the_start_or_of_another_check(void **s
 {
     (void)state;
     struct stage s;
-    stage_begin(&s, "  grown: {extent: x, of: left, relative: start, is: 2, within: 1 %}\n"
-                    "  slope: {mean: position.y, of: left, relative: way, is: 3, within: 1 %}\n"
-                    "  way: {mean: position.x, of: left, at_most: 1 m}\n"
-                    "  rate: {decay: mass, of: left, at_most: 1 s^-1}\n");
+    stage_begin(&s, case_text,
+                "  grown: {extent: x, of: left, relative: start, is: 2, within: 1 %}\n"
+                "  slope: {mean: position.y, of: left, relative: way, is: 3, within: 1 %}\n"
+                "  way: {mean: position.x, of: left, at_most: 1 m}\n"
+                "  rate: {decay: mass, of: left, at_most: 1 s^-1}\n");
     struct particles *p = particles_of(&s.simulation);
     for (int32_t i = 0; i < p->count; i++) {
         const struct vec3 x = start_of(&s, i);
@@ -499,7 +399,7 @@ static void what_makes_no_sense_of_a_body_is_told_before_the_run(void **state)
     };
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         struct stage s;
-        struct error *error = stage_open(&s, cases[i][0]);
+        struct error *error = stage_open(&s, case_text, cases[i][0]);
         assert_non_null(error);
         assert_int_equal(error_kind(error), ERROR_INPUT);
         if (!strstr(error_message(error, 0), cases[i][1]))
