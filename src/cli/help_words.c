@@ -95,8 +95,9 @@ static const struct answer answers[] = {
     {" shock.tube sod gas.dynamics cfd euler wind.tunnel air grid cells fdm ",
      "`solver: gas` computes a gas in cells, with walls, inflow, outflow, periodic faces and "
      "rigid\n"
-     "obstacles.",
-     "gas.md"},
+     "obstacles. A shock tube beside its exact solution: see the page below; docs/gas.md has\n"
+     "the method.",
+     "tasks/shock-tube.md"},
     {" explosive detonation tnt charge detonate ",
      "An explosive is a material with `burn` (bolide help burn; library: tnt), lit by\n"
      "`detonations`.",
