@@ -28,8 +28,8 @@ static const struct answer answers[] = {
      "failure.md"},
     {" whipple shield debris crater perforation hole hypervelocity bumper ballistic.limit plate ",
      "A projectile through a plate, with hole and debris cloud: a worked case is on the page\n"
-     "below. There is no measure of holes and craters; `minimum: position.x` of a body in a\n"
-     "slice of `axis: y` gives the radius. For ballistic limits give plate and projectile a\n"
+     "below. Checks measure `hole`, `crater`, `bulge` and `fragments`. For ballistic limits give "
+     "plate and projectile a\n"
      "`failure` (bolide help failure) and run two resolutions.",
      "tasks/impact-on-a-plate.md"},
     {" rod long.rod penetration penetrator depth.of.penetration armour armor ",

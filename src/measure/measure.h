@@ -106,6 +106,24 @@ struct measure_length {
     double link;
 };
 
+struct measure_hole {
+    int along;
+    double at; /* m; NAN: all along the axis */
+    struct vector_value center;
+    double link;
+};
+
+struct measure_crater {
+    int along, side, take;
+    struct vector_value center;
+    double link;
+};
+
+struct measure_bulge {
+    int along, side;
+    double link;
+};
+
 struct measure_asymmetry {
     char *field;
     int across, parity;
@@ -131,7 +149,7 @@ struct measure_shear_layer {
 double conserved_change(const struct simulation *simulation, const struct totals *start,
                         enum conserved_total total);
 
-enum { MEASURES = 25 };
+enum { MEASURES = 28 };
 extern const struct choice measure_choices[MEASURES];
 
 extern const struct parameter measure_field_table[];
@@ -140,10 +158,12 @@ extern const struct parameter measure_front_table[], measure_width_table[],
 extern const struct parameter measure_total_table[], measure_extent_table[], measure_turn_table[],
     measure_pieces_table[], measure_asymmetry_table[], measure_radius_table[],
     measure_shear_layer_table[], measure_recorded_table[], measure_fragments_table[],
-    measure_largest_fragment_table[], measure_length_table[];
+    measure_largest_fragment_table[], measure_length_table[], measure_hole_table[],
+    measure_crater_table[], measure_bulge_table[];
 extern const struct measure_class measure_total, measure_decay, measure_spread, measure_extent,
     measure_turn, measure_pieces, measure_asymmetry, measure_radius, measure_shear_layer;
-extern const struct measure_class measure_fragments, measure_largest_fragment, measure_length;
+extern const struct measure_class measure_fragments, measure_largest_fragment, measure_length,
+    measure_hole, measure_crater, measure_bulge;
 extern const struct measure_class measure_mean, measure_minimum, measure_maximum, measure_l1,
     measure_rms, measure_max_error, measure_contact_max, measure_contact_rms, measure_front,
     measure_width, measure_conserved, measure_finite, measure_recorded;
