@@ -21,6 +21,7 @@ struct cli_options {
     int64_t threads, points, ranks_wanted;
     bool overwrite, resume, quick, thorough, all, convergence, curves, record;
     const char *time, *template_name;
+    const char *key, *from, *to, *check, *within; /* of a search */
     struct text_list settings, names;
     char **located;            /* the paths of cases that names gives by their folders */
     const struct ranks *ranks; /* all processes that were started together */
@@ -35,6 +36,7 @@ enum command_bit {
     COMMAND_NEW = 256,
     COMMAND_SCHEMA = 512,
     COMMAND_MATERIALS = 1024,
+    COMMAND_SEARCH = 2048,
     COMMAND_HELP = 16
 };
 
@@ -56,6 +58,7 @@ int command_report(const struct cli_options *options);
 int command_new(const struct cli_options *options);
 int command_schema(const struct cli_options *options);
 int command_materials(const struct cli_options *options);
+int command_search(const struct cli_options *options);
 int command_help(const struct cli_options *options);
 
 /* material_curves.c: false where MATERIAL has no state of rest. */

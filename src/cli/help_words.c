@@ -28,9 +28,9 @@ static const struct answer answers[] = {
      "failure.md"},
     {" whipple shield debris crater perforation hole hypervelocity bumper ballistic.limit plate ",
      "A projectile through a plate, with hole and debris cloud: a worked case is on the page\n"
-     "below. Checks measure `hole`, `crater`, `bulge` and `fragments`. For ballistic limits give "
-     "plate and projectile a\n"
-     "`failure` (bolide help failure) and run two resolutions.",
+     "below. Checks measure `hole`, `crater`, `bulge` and `fragments`. `bolide search` finds a\n"
+     "ballistic limit: give plate and projectile a `failure` (bolide help failure) and run two\n"
+     "resolutions.",
      "tasks/impact-on-a-plate.md"},
     {" rod long.rod penetration penetrator depth.of.penetration armour armor ",
      "A long rod into a thick target, beside the theory (bolide help long-rod): see the page\n"
@@ -48,7 +48,8 @@ static const struct answer answers[] = {
      "tasks/mesostructures.md"},
     {" calibrate calibration optimise optimize fit fitting taylor taylor.test taylor.bar ",
      "There is no optimiser. Run a sweep of the constant, and interpolate in sweep.csv; `fits`\n"
-     "puts lines and power laws through the runs of a sweep.",
+     "puts lines and power laws through the runs of a sweep. `bolide search` bisects one key on\n"
+     "whether a check passes.",
      "tasks/strength-calibration.md"},
     {" restart resume checkpoint continue extend ",
      "bolide run --resume continues a run from its last checkpoint, with the same bits. The\n"

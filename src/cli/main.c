@@ -13,6 +13,9 @@ const struct command commands[] = {
      1, 1000, command_check},
     {COMMAND_VERIFY, "verify", "CASE... | --all",
      "run cases and print all their checks as one table", 0, 1000, command_verify},
+    {COMMAND_SEARCH, "search", "CASE",
+     "bisect a key between two values on whether a check passes: a ballistic limit", 1, 1,
+     command_search},
     {COMMAND_EXACT, "exact", "[NAME | CASE]",
      "print an exact solution: its numbers, and its profile", 0, 1, command_exact},
     {COMMAND_REPORT, "report", "FOLDER...", "make report.html of the results in a folder", 1, 1000,
@@ -88,12 +91,12 @@ static int run_command(int count, char **words, const struct ranks *ranks)
         options_free(&options);
         return launch_ranks(count, words, options.ranks_wanted);
     }
-    if (!error && command->bit & (COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY))
+    if (!error && command->bit & (COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_SEARCH))
         error = ranks_agree(ranks, cases_locate(&options));
     int status = EXIT_OK;
     if (error)
         status = report_error(error);
-    else if (ranks->rank == 0 || command->bit & (COMMAND_RUN | COMMAND_VERIFY))
+    else if (ranks->rank == 0 || command->bit & (COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH))
         status = command->run(&options);
     options_free(&options);
     if (fflush(stdout) && status == EXIT_OK)

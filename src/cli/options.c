@@ -23,22 +23,25 @@ enum { THREADS_MOST = 1024, COUNT_MOST = 1000000 };
 #define AT(member) offsetof(struct cli_options, member)
 
 static const struct option option_table[] = {
-    {"--output", "DIR", "folder of the results (run: results/<name of the case>; verify: none)",
-     OPTION_TEXT, AT(output), COMMAND_RUN | COMMAND_VERIFY},
+    {"--output", "DIR",
+     "folder of the results (run: results/<name of the case>; search: results/<name>-search; "
+     "verify: none)",
+     OPTION_TEXT, AT(output), COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH},
     {"--overwrite", NULL, "replace the results that the folder holds", OPTION_FLAG, AT(overwrite),
-     COMMAND_RUN | COMMAND_VERIFY},
+     COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH},
     {"--resume", NULL, "continue from the folder's checkpoint (restart)", OPTION_FLAG, AT(resume),
-     COMMAND_RUN},
+     COMMAND_RUN | COMMAND_SEARCH},
     {"--threads", "N", "number of threads, at most (all processors)", OPTION_THREADS, AT(threads),
-     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY},
+     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_SEARCH},
     {"--ranks", "N", "number of processes that compute a case together, started by mpirun (1)",
-     OPTION_COUNT, AT(ranks_wanted), COMMAND_RUN | COMMAND_VERIFY},
+     OPTION_COUNT, AT(ranks_wanted), COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH},
     {"--set", "PATH=VALUE", "replace a value of the case: run.until=3us; may be repeated",
-     OPTION_LIST, AT(settings), COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
+     OPTION_LIST, AT(settings),
+     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT | COMMAND_SEARCH},
     {"--short", NULL, "use the short form of cases that have one", OPTION_FLAG, AT(quick),
-     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
+     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT | COMMAND_SEARCH},
     {"--long", NULL, "use the long form of cases that have one", OPTION_FLAG, AT(thorough),
-     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT},
+     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT | COMMAND_SEARCH},
     {"--all", NULL, "all cases that come with bolide", OPTION_FLAG, AT(all), COMMAND_VERIFY},
     {"--convergence", NULL,
      "study the errors of each case on several resolutions, into results/<its name>; with --all "
@@ -55,6 +58,16 @@ static const struct option option_table[] = {
      COMMAND_EXACT},
     {"--curves", NULL, "print isentropes and shock adiabats of the material as CSV", OPTION_FLAG,
      AT(curves), COMMAND_MATERIALS},
+    {"--key", "PATH", "the key to vary: a name of let or a path, bodies.plate.density", OPTION_TEXT,
+     AT(key), COMMAND_SEARCH},
+    {"--from", "A", "one end of the values, with its unit: 300m/s", OPTION_TEXT, AT(from),
+     COMMAND_SEARCH},
+    {"--to", "B", "the other end", OPTION_TEXT, AT(to), COMMAND_SEARCH},
+    {"--check", "NAME", "the check that passes with one of the two values and fails with the other",
+     OPTION_TEXT, AT(check), COMMAND_SEARCH},
+    {"--within", "W",
+     "the interval to end at: 5m/s, or 1% of the value (a hundredth of the first interval)",
+     OPTION_TEXT, AT(within), COMMAND_SEARCH},
     {"--template", "NAME",
      "what to start from: impact (the usual), riemann, plate-2d, block-3d, bar-mpm", OPTION_TEXT,
      AT(template_name), COMMAND_NEW},
@@ -191,7 +204,8 @@ struct error *options_read(const struct command *command, int count, char **word
         error = error_new(ERROR_INPUT, "--short and --long exclude each other");
     if (!error && options->record && options->convergence)
         error = error_new(ERROR_INPUT, "--record and --convergence exclude each other");
-    if (!error && !options->threads && command->bit & (COMMAND_RUN | COMMAND_VERIFY))
+    if (!error && !options->threads &&
+        command->bit & (COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH))
         error = check_environment();
     if (!error && options->output)
         error = own_folder_check("--output", options->output);
