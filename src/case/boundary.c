@@ -199,6 +199,8 @@ const char *boundary_state_at(const struct boundary_input *boundary,
         *key = "velocity";
         if (!isfinite(velocity[axis]))
             return "the velocity is not finite";
+        if (fabs(velocity[axis]) > SPEED_OF_LIGHT)
+            return "this is faster than light";
     }
     return start_state(&given, material, point, key);
 }

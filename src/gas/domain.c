@@ -106,8 +106,10 @@ struct error *gas_check_inflows(const struct simulation *simulation, int materia
     struct error *error = NULL;
     for (int b = 0; b < input->boundaries.count; b++) {
         const struct boundary_input *boundary = case_boundary(input, b);
-        const bool varies =
+        bool varies =
             boundary->density.varying || boundary->pressure.varying || boundary->energy.varying;
+        for (int axis = 0; axis < boundary->velocity.count; axis++)
+            varies |= boundary->velocity.at[axis].varying != NULL;
         struct point point;
         double velocity[3];
         const char *key = "", *wrong = NULL;

@@ -36,14 +36,6 @@ static bool meets(const struct bounds *bounds, const double low[3], const double
     return meets;
 }
 
-static bool in_obstacle(const struct simulation_case *input, struct vec3 place)
-{
-    for (int i = 0; i < input->obstacles.count; i++)
-        if (shape_inside(&case_obstacle(input, i)->shape, place))
-            return true;
-    return false;
-}
-
 /* PLACE as the case writes it. */
 static struct error *tell(const struct filling *f, int body, const char *key, struct vec3 place,
                           const char *text)
@@ -148,7 +140,7 @@ static bool has_all(struct filling *f, int body, const double centre[3])
     }
     for (int64_t k = 0; k < points_in(2, cells->dimension); k++) {
         const struct vec3 place = point_of(cells, centre, corner, 2, k);
-        if (body_at(f, place) != body && !in_obstacle(input, place))
+        if (body_at(f, place) != body && !gas_in_obstacle(input, place))
             return false;
     }
     return true;
@@ -185,7 +177,7 @@ static void fill_parts(struct filling *f, const double centre[3], double *sum)
         if (body >= 0) {
             add_state(f, body, place, weight, sum);
             all += weight;
-        } else if (!in_obstacle(f->simulation->problem->input, place))
+        } else if (!gas_in_obstacle(f->simulation->problem->input, place))
             f->error = tell(f, -1, "", place,
                             "no body fills the domain here: bodies and obstacles must fill all of "
                             "it");
@@ -213,7 +205,7 @@ static void fill_cell(struct filling *f, int32_t i)
     cells->body[i] = (uint16_t)(body < 0 ? 0 : body);
     cells->material[i] = (uint16_t)gas->material;
     if (gas->blocked) {
-        gas->u[GAS_OPEN][i] = in_obstacle(f->simulation->problem->input, place) ? 0.0 : 1.0;
+        gas->u[GAS_OPEN][i] = gas_in_obstacle(f->simulation->problem->input, place) ? 0.0 : 1.0;
         if (gas->u[GAS_OPEN][i] == 0.0)
             return;
     }

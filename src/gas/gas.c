@@ -130,6 +130,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     cells->threads = simulation->threads;
     TRY(error_join(gas_find_domain(simulation, cells),
                    gas_check_inflows(simulation, gas->material)));
+    TRY(gas_check_shapes(simulation, cells));
     gas_find_faces(simulation, cells, &gas->halo);
     gas->halo.depth = gas->second_order ? 2 : CELL_GHOSTS;
     gas->halo.numbers = gas->blocked ? GAS_FIELDS : GAS_NUMBERS;

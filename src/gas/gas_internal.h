@@ -57,6 +57,13 @@ struct error *gas_refuse(const struct simulation *simulation);
  * bodies. ERROR_INPUT: a face does not lie on a plane of the grid. */
 struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells);
 
+bool gas_in_obstacle(const struct simulation_case *input, struct vec3 place);
+
+/* Obstacles that leave no cell of the domain of CELLS open, and boundaries whose part holds no place of their
+ * face. */
+struct error *gas_check_shapes(const struct simulation *simulation,
+                               const struct cell_blocks *cells);
+
 /* Inflows of constant density, pressure and energy that have no state. */
 struct error *gas_check_inflows(const struct simulation *simulation, int material);
 

@@ -1,6 +1,9 @@
 /* What of a case the gas solver cannot do, told where it stands in the case. */
+#include <stdio.h>
+
 #include "gas/gas_internal.h"
 #include "material/material.h"
+#include "shape/shape.h"
 
 static struct error *refuse_map(const struct simulation_case *input, const char *section,
                                 const struct named_map *map, const char *text)
@@ -65,4 +68,99 @@ struct error *gas_refuse(const struct simulation *simulation)
     for (int b = 0; b < input->bodies.count; b++)
         error = error_join(error, refuse_body(input, b));
     return error_join(error, refuse_materials(simulation));
+}
+
+bool gas_in_obstacle(const struct simulation_case *input, struct vec3 place)
+{
+    for (int i = 0; i < input->obstacles.count; i++)
+        if (shape_inside(&case_obstacle(input, i)->shape, place))
+            return true;
+    return false;
+}
+
+/* The centre of cell K of the COUNT of a box that begins at LOW; along an axis across which the box is a
+ * face, -1 for none, the place of the face at PLANE. */
+static struct vec3 centre_of(const int64_t low[3], const int64_t count[3], int64_t k, int face,
+                             int64_t plane, double edge, int dimension)
+{
+    double at[3] = {0.0, 0.0, 0.0};
+    for (int axis = 0; axis < dimension; axis++) {
+        at[axis] = ((double)(low[axis] + k % count[axis]) + 0.5) * edge;
+        if (axis == face)
+            at[axis] = (double)plane * edge;
+        k /= count[axis];
+    }
+    return vec3_make(at[0], at[1], at[2]);
+}
+
+static int64_t common_divisor(int64_t a, int64_t b)
+{
+    while (b) {
+        const int64_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+/* A step through ALL places that comes to each of them once, and soon to every region. */
+static int64_t spread_step(int64_t all)
+{
+    int64_t step = (int64_t)(0.618034 * (double)all);
+    while (step > 1 && common_divisor(step, all) != 1)
+        step--;
+    return step > 0 ? step : 1;
+}
+
+/* Whether some cell of the domain is open. */
+static bool any_open(const struct simulation_case *input, const struct cell_blocks *cells)
+{
+    int64_t count[3], all = 1, k = 0;
+    for (int axis = 0; axis < 3; axis++)
+        all *= count[axis] = cells->high[axis] - cells->low[axis];
+    const int64_t step = spread_step(all);
+    for (int64_t tried = 0; tried < all; tried++, k = (k + step) % all)
+        if (!gas_in_obstacle(input,
+                             centre_of(cells->low, count, k, -1, 0, cells->edge, cells->dimension)))
+            return true;
+    return false;
+}
+
+/* Whether the part of BOUNDARY holds the centre of some cell's face. */
+static bool part_holds_any(const struct boundary_input *boundary, const struct cell_blocks *cells)
+{
+    int64_t count[3], all = 1;
+    for (int axis = 0; axis < 3; axis++)
+        all *= count[axis] = axis == boundary->axis ? 1 : cells->high[axis] - cells->low[axis];
+    const int64_t plane = (boundary->side ? cells->high : cells->low)[boundary->axis];
+    for (int64_t k = 0; k < all; k++)
+        if (shape_inside(&boundary->part, centre_of(cells->low, count, k, boundary->axis, plane,
+                                                    cells->edge, cells->dimension)))
+            return true;
+    return false;
+}
+
+struct error *gas_check_shapes(const struct simulation *simulation, const struct cell_blocks *cells)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    struct error *error = NULL;
+    if (input->obstacles.count && !any_open(input, cells))
+        error = input_error(input, "obstacles", NULL,
+                            "they block all cells of the domain: leave room for the gas");
+    for (int b = 0; b < input->boundaries.count; b++) {
+        const struct boundary_input *boundary = case_boundary(input, b);
+        char name[160];
+        if (!boundary->part.choice || part_holds_any(boundary, cells))
+            continue;
+        snprintf(name, sizeof name, "%.100s.part", input->boundaries.names[b]);
+        error = error_join(
+            error,
+            input_error(input, "boundaries", name,
+                        "no cell at the face %c = %.6g m has the centre of its outer side in "
+                        "this shape: move or enlarge it",
+                        "xyz"[boundary->axis],
+                        (double)(boundary->side ? cells->high : cells->low)[boundary->axis] *
+                            cells -> edge));
+    }
+    return error;
 }
