@@ -62,7 +62,7 @@ const struct parameter gas_table[] = {
      .standard = PARAMETER_OPTIONAL,
      .above = 1e-6, /* a smaller step adds less than rounding takes, and no run of it ends */
      .below = 1.0,
-     .help = "K of dt = min K h/(|u_i| + c); default: 0.8, with lax-wendroff 0.4"},
+     .help = "K of dt = min K h/(|u_i| + c); default: 0.8, with lax-wendroff 0.2"},
     PARAMETER_END,
 };
 
@@ -92,7 +92,7 @@ static double courant_of(const struct gas_parameters *parameters)
 {
     if (!isnan(parameters->courant))
         return parameters->courant;
-    return parameters->method.index == GAS_LAX_WENDROFF ? 0.4 : 0.8;
+    return parameters->method.index == GAS_LAX_WENDROFF ? 0.2 : 0.8;
 }
 
 static void choose_scheme(struct gas *gas)
