@@ -190,6 +190,7 @@ static struct error *inflow(const struct simulation *simulation, int material, i
     }
     number[GAS_DENSITY] = point.density;
     number[GAS_ENERGY] = point.density * (point.energy + kinetic);
+    number[GAS_SHOCK] = 0.0;
     number[GAS_OPEN] = 1.0;
     return NULL;
 }

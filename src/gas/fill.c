@@ -204,6 +204,7 @@ static void fill_cell(struct filling *f, int32_t i)
     const int body = body_at(f, place);
     cells->body[i] = (uint16_t)(body < 0 ? 0 : body);
     cells->material[i] = (uint16_t)gas->material;
+    gas->u[GAS_SHOCK][i] = 0.0;
     if (gas->blocked) {
         gas->u[GAS_OPEN][i] = gas_in_obstacle(f->simulation->problem->input, place) ? 0.0 : 1.0;
         if (gas->u[GAS_OPEN][i] == 0.0)

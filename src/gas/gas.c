@@ -73,6 +73,8 @@ static const struct field_row field_rows[] = {
     {.field = {"momentum_z", NULL, "momentum per volume", NUMBER_DOUBLE, 1, FIELD_STATE}},
     {.field = {"total_energy", NULL, "energy per volume, kinetic energy included", NUMBER_DOUBLE, 1,
                FIELD_STATE}},
+    {.field = {"shock", NULL, "sum of 1, 2, 4 for the axes x, y, z of strong shocks", NUMBER_DOUBLE,
+               1, FIELD_STATE}},
     {.field = {"open", NULL, "1, or 0 where an obstacle blocks the cell", NUMBER_DOUBLE, 1,
                FIELD_STATE}},
     FIELD_ROWS_END,
@@ -133,7 +135,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     TRY(gas_check_shapes(simulation, cells));
     gas_find_faces(simulation, cells, &gas->halo);
     gas->halo.depth = gas->second_order ? 2 : CELL_GHOSTS;
-    gas->halo.numbers = gas->blocked ? GAS_FIELDS : GAS_NUMBERS;
+    gas->halo.numbers = gas->blocked ? GAS_FIELDS : GAS_WRITTEN;
     TRY(make_store(cells, gas->blocked));
     simulation_add_population(simulation, "gas", &cell_population, cells);
     return NULL;
@@ -146,6 +148,7 @@ void gas_bind(struct gas *gas, const struct cell_blocks *cells)
     gas->u[GAS_MOMENTUM + 1] = cell_blocks_field(cells, "momentum_y");
     gas->u[GAS_MOMENTUM + 2] = cell_blocks_field(cells, "momentum_z");
     gas->u[GAS_ENERGY] = cell_blocks_field(cells, "total_energy");
+    gas->u[GAS_SHOCK] = cell_blocks_field(cells, "shock");
     gas->u[GAS_OPEN] = gas->blocked ? cell_blocks_field(cells, "open") : NULL;
     gas->sound = cell_blocks_field(cells, "sound_long");
 }
@@ -187,7 +190,7 @@ struct error *gas_plan(struct gas *gas, struct simulation *simulation)
 {
     struct cell_blocks *cells = gas->cells;
     struct error *error = NULL;
-    for (int n = 0; n < GAS_NUMBERS && cells->count > gas->room; n++) {
+    for (int n = 0; n < GAS_WRITTEN && cells->count > gas->room; n++) {
         free(gas->other[n]);
         gas->other[n] = memory_allocate(((size_t)cells->count + 1) * sizeof(double));
         if (!gas->other[n])
@@ -197,8 +200,14 @@ struct error *gas_plan(struct gas *gas, struct simulation *simulation)
     if (!memory_reserve((void **)&gas->block, &gas->block_capacity, cells->blocks + 1, 0,
                         sizeof *gas->block))
         error = error_join(error, error_new(ERROR_SYSTEM, "out of memory for blocks of cells"));
+    free(gas->shocked);
+    gas->shocked = memory_allocate(((size_t)cells->blocks + 1) * sizeof *gas->shocked);
+    if (gas->shocked)
+        memset(gas->shocked, 0, ((size_t)cells->blocks + 1) * sizeof *gas->shocked);
+    else
+        error = error_join(error, error_new(ERROR_SYSTEM, "out of memory for blocks of cells"));
     for (int32_t b = 0; !error && b < cells->blocks; b++)
-        gas->block[b] = (struct gas_block){.awake = true};
+        gas->block[b] = (struct gas_block){.awake = true, .shocked = true, .stale = true};
     gas_bind(gas, cells);
     TRY(ranks_agree(simulation->ranks, error));
     return cell_halo_plan(&gas->halo, cells);
@@ -307,9 +316,10 @@ static void gas_destroy(void *solver)
     struct gas *gas = solver;
     gas_free_strips(gas);
     cell_halo_free(&gas->halo);
-    for (int n = 0; n < GAS_NUMBERS; n++)
+    for (int n = 0; n < GAS_WRITTEN; n++)
         free(gas->other[n]);
     free(gas->block);
+    free(gas->shocked);
     free(gas->through);
     if (gas->cells)
         cell_blocks_destroy(gas->cells);
@@ -323,7 +333,7 @@ static double gas_bytes(const void *parameters, int dimension)
     error_free(make_store(&store, false));
     const double bytes = (double)cell_blocks_bytes(&store);
     cell_blocks_destroy(&store);
-    return bytes + GAS_NUMBERS * sizeof(double);
+    return bytes + GAS_WRITTEN * sizeof(double);
 }
 
 static double gas_step(const void *parameters, int dimension, const struct material *material,

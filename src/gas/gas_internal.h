@@ -22,7 +22,9 @@ struct gas_strips {
 struct gas_block {
     struct gas_fastest fastest;
     bool awake; /* a sweep of this step took it, or it was not still at its start */
-    bool same;  /* what sweeps wrote last is its state */
+    bool shocked,
+        stale; /* strong shocks are in it, in what sweeps wrote before it became its state */
+    bool same; /* what sweeps wrote last is its state */
 };
 
 struct gas {
@@ -39,12 +41,13 @@ struct gas {
     int32_t room;   /* cells for which `other` has room */
     struct gas_block *block;
     int64_t block_capacity;
+    bool *shocked;  /* of each block, found by a sweep */
     bool sleepless; /* all blocks are swept always: gravity pulls them, or a test wants it */
     struct gas_through *through; /* one a thread */
     int throughs;
     struct gas_strips strips[3];
     double *u[GAS_FIELDS];      /* conserved numbers, as the store has them */
-    double *other[GAS_NUMBERS]; /* where sweeps write */
+    double *other[GAS_WRITTEN]; /* where sweeps write */
     double *sound;
     double fastest; /* |u_i| + c of all of this rank's cells, m/s */
     uint64_t fastest_id;

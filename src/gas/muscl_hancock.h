@@ -5,6 +5,10 @@
  * and pressure are reconstructed, so that both sides of a contact have one pressure; the energy
  * of a face follows from the equation of state, which is linear in it.
  *
+ * HLLC lets strong shocks along the grid break up (Quirk, Int. J. Numer. Methods Fluids 18 (1994) 555):
+ * each sweep marks the cells of strong shocks along its axis, and the sweeps across them have HLL fluxes
+ * there.
+ *
  * A face whose flux would take too much out of either cell in half a cell's width has the first-order
  * flux of the cells themselves (after Hu, Adams and Shu, J. Comput. Phys. 242 (2013) 169): both
  * cells and all ranks decide alike, since nothing but the two cells counts. */
@@ -26,6 +30,9 @@ struct row_states {
 /* How far density and specific energy may fall at once: the density to this part of itself, the energy
  * by as much of what an ideal gas of the same sound speed c and G = (dp/de)/rho has, c^2/(G (G + 1)). */
 static const double GAS_LEAST = 0.2;
+
+/* The rise of pressure over rho c^2 from which a shock is strong: its Mach number is about 1.5. */
+static const double GAS_STRONG = 1.0;
 
 /* (d p / d rho)_s at K; PRESSURE is the pressure there. */
 BOLIDE_INLINE double row_sound_square(const struct row_values *values, double pressure,
@@ -165,15 +172,27 @@ struct gas_flow {
     double mass, normal, across[2], energy;
 };
 
-/* HLLC: what flows between the gases LOW and HIGH. Without branches: loops over faces call it. */
-BOLIDE_INLINE struct gas_flow gas_hllc(struct gas_side low, struct gas_side high)
+/* The fastest waves between the gases on both sides of a face. */
+struct gas_waves {
+    double slow, fast;
+};
+
+BOLIDE_INLINE struct gas_waves gas_waves_of(struct gas_side low, struct gas_side high)
 {
     const double a = sqrt(low.density), b = sqrt(high.density), part = b / (a + b);
     const double apart = high.normal - low.normal, mean = low.normal + part * apart,
                  sound = sqrt(square(low.sound) + part * (square(high.sound) - square(low.sound)) +
                               0.5 * part * (1.0 - part) * square(apart));
-    const double slow = minimum(low.normal - low.sound, mean - sound),
-                 fast = maximum(high.normal + high.sound, mean + sound);
+    const struct gas_waves waves = {minimum(low.normal - low.sound, mean - sound),
+                                    maximum(high.normal + high.sound, mean + sound)};
+    return waves;
+}
+
+/* HLLC: what flows between the gases LOW and HIGH. Without branches: loops over faces call it. */
+BOLIDE_INLINE struct gas_flow gas_hllc(struct gas_side low, struct gas_side high)
+{
+    const struct gas_waves waves = gas_waves_of(low, high);
+    const double slow = waves.slow, fast = waves.fast;
     const double ml = low.density * (slow - low.normal), mh = high.density * (fast - high.normal);
     const double contact =
         (high.pressure - low.pressure + ml * low.normal - mh * high.normal) / (ml - mh);
@@ -222,6 +241,84 @@ BOLIDE_INLINE void row_hllc(const struct gas_row *row, const struct row_states *
     }
 }
 
+/* HLL (Harten, Lax and van Leer, SIAM Review 25 (1983) 35) with the same waves: contacts and shear are
+ * smeared. */
+BOLIDE_INLINE struct gas_flow gas_hll(struct gas_side low, struct gas_side high)
+{
+    const struct gas_waves waves = gas_waves_of(low, high);
+    const double slow = minimum(waves.slow, 0.0), fast = maximum(waves.fast, 0.0);
+    const double from_low = fast / (fast - slow), from_high = -slow / (fast - slow),
+                 spread = slow * fast / (fast - slow);
+    const double energy[2] = {
+        low.density * (low.energy +
+                       0.5 * (square(low.normal) + square(low.across[0]) + square(low.across[1]))),
+        high.density * (high.energy + 0.5 * (square(high.normal) + square(high.across[0]) +
+                                             square(high.across[1])))};
+    const double ml = low.density * low.normal, mh = high.density * high.normal;
+    struct gas_flow flow;
+    flow.mass = from_low * ml + from_high * mh + spread * (high.density - low.density);
+    flow.normal = from_low * (ml * low.normal + low.pressure) +
+                  from_high * (mh * high.normal + high.pressure) + spread * (mh - ml);
+    for (int n = 0; n < 2; n++)
+        flow.across[n] = from_low * ml * low.across[n] + from_high * mh * high.across[n] +
+                         spread * (high.density * high.across[n] - low.density * low.across[n]);
+    flow.energy = from_low * low.normal * (energy[0] + low.pressure) +
+                  from_high * high.normal * (energy[1] + high.pressure) +
+                  spread * (energy[1] - energy[0]);
+    return flow;
+}
+
+/* Whether a strong shock along another axis than that of ROW is in cell K, as sweeps along that left it. */
+BOLIDE_INLINE bool row_shock_across(const struct gas_row *row, int k)
+{
+    return ((int)row->shock[k] & ~(1 << row->axis)) != 0;
+}
+
+/* Puts HLL fluxes through the faces 0 .. cells along a strong shock across which the gas flows at a right
+ * angle to the row. */
+static inline void row_damp(const struct gas_row *row, const struct row_states *below,
+                            const struct row_states *above, struct gas_numbers *flux)
+{
+    const struct gas_axes axes = gas_axes_of(row->axis);
+    FOR_ROW (k, 0, row->cells) {
+        if (!row_shock_across(row, k - 1) && !row_shock_across(row, k))
+            continue;
+        const struct gas_flow flow =
+            gas_hll(gas_side_of(below, axes, k), gas_side_of(above, axes, k));
+        flux->of[GAS_DENSITY][k] = flow.mass;
+        flux->of[GAS_MOMENTUM + axes.normal][k] = flow.normal;
+        flux->of[GAS_MOMENTUM + axes.across[0]][k] = flow.across[0];
+        flux->of[GAS_MOMENTUM + axes.across[1]][k] = flow.across[1];
+        flux->of[GAS_ENERGY][k] = flow.energy;
+    }
+}
+
+/* Where strong shocks along the row are in its cells: the pressure rises over two cells by more than
+ * GAS_STRONG times rho c^2 of the cells, and the gas is compressed; and one cell to each side. */
+BOLIDE_INLINE void row_find_shocks(struct gas_row *row, const struct row_states *cell)
+{
+    const double *pressure = cell->of.of[PRIMITIVE_PRESSURE],
+                 *density = cell->of.of[PRIMITIVE_DENSITY],
+                 *u = cell->of.of[PRIMITIVE_VELOCITY + row->axis];
+    double stiff[ROW_ROOM];
+    uint64_t strong[ROW_ROOM], any = 0;
+    FOR_ROW (k, -2, row->cells + 1)
+        stiff[k] = density[k] * square(cell->sound[k]);
+    FOR_ROW (k, -1, row->cells) {
+        const double least = minimum(stiff[k], minimum(stiff[k - 1], stiff[k + 1]));
+        const double rise = fabs(pressure[k + 1] - pressure[k - 1]) - GAS_STRONG * least;
+        strong[k] = minimum(rise, u[k - 1] - u[k + 1]) > 0.0;
+        any |= strong[k];
+    }
+    row->shocked = any != 0;
+    if (row->shocked || row->crossed)
+        FOR_ROW (k, 0, row->cells - 1) {
+            const bool here = (strong[k - 1] | strong[k] | strong[k + 1]) != 0;
+            const int others = (int)row->shock[k] & ~(1 << row->axis);
+            row->shock[k] = (double)(others | (here ? 1 << row->axis : 0));
+        }
+}
+
 /* Marks in LOST the faces 0 .. cells whose FLUX would take too much out of half of the cell that is
  * OFFSET from them, on its side that SIDE names: 1 for the high, -1 for the low one. */
 BOLIDE_INLINE void row_mark_lost(const struct gas_row *row, const struct row_states *cell,
@@ -267,6 +364,9 @@ BOLIDE_INLINE void row_muscl_hancock(struct gas_row *row, double r, struct gas_n
     row_close_faces(row, &cell, -1, &below);
     row_close_faces(row, &cell, 0, &above);
     row_hllc(row, &below, 0, &above, 0, row->cells, flux);
+    if (row->crossed)
+        row_damp(row, &below, &above, flux);
+    row_find_shocks(row, &cell);
     FOR_ROW (k, 0, row->cells)
         lost[k] = 0.0;
     row_mark_lost(row, &cell, fall, -1, 1.0, r, flux, lost);

@@ -31,6 +31,9 @@ struct gas_row {
     bool around;     /* it runs along the radius */
     double first;    /* radius of the face below its first cell, in cells */
     struct gas_numbers u;
+    double shock[ROW_ROOM]; /* axes of strong shocks in cells: the sum of 1, 2, 4 for x, y, z */
+    bool crossed; /* some of `shock` may not be zero; else it is zero in cells -2 .. cells + 1 */
+    bool shocked; /* found by a sweep: a strong shock runs along the row */
     double push[ROW_ROOM]; /* found along a radius: mean pressures in a sweep, Pa */
 };
 

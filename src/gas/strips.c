@@ -139,9 +139,23 @@ static void copy_block(struct gas *gas, int32_t b)
 {
     const struct cell_block *block = &gas->cells->block[b];
     const size_t cells = (size_t)(block->count[0] * block->count[1] * block->count[2]);
-    for (int n = 0; n < GAS_NUMBERS; n++)
+    for (int n = 0; n < GAS_WRITTEN; n++)
         memcpy(gas->other[n] + block->first, gas->u[n] + block->first, cells * sizeof(double));
     gas->block[b].same = true;
+}
+
+/* Whether no shock is in a strip, in the cells beyond its ends, and in what was written there last. */
+static bool is_calm(const struct gas *gas, const struct gas_strip *strip, int axis)
+{
+    const struct cell_halo_axis *halo = &gas->halo.axis[axis];
+    const int32_t first = strip->block[0], last = strip->block[strip->count - 1];
+    bool calm = !strip->waits;
+    for (int k = 0; k < strip->count; k++)
+        calm &= !gas->block[strip->block[k]].shocked && !gas->block[strip->block[k]].stale;
+    for (int depth = 0; calm && depth < gas->halo.depth; depth++)
+        calm = !gas->block[halo->beyond[first][0][depth].block].shocked &&
+               !gas->block[halo->beyond[last][1][depth].block].shocked;
+    return calm;
 }
 
 /* Which strips of a sweep along AXIS sleep; blocks of the others are awake for the rest of the step. */
@@ -151,6 +165,9 @@ static void choose_strips(struct gas *gas, const struct simulation *simulation, 
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t s = 0; s < strips->count; s++)
         strips->strip[s].sleeps = may_sleep(gas, &strips->strip[s], axis);
+#pragma omp parallel for schedule(static) num_threads(simulation->threads)
+    for (int32_t s = 0; s < strips->count; s++)
+        strips->strip[s].calm = is_calm(gas, &strips->strip[s], axis);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t s = 0; s < strips->count; s++)
         for (int k = 0; k < strips->strip[s].count; k++) {
@@ -187,13 +204,18 @@ static void sweep_strips(const struct gas *gas, struct simulation *simulation,
 /* What sweeps have written becomes the state. */
 static void take_written(struct gas *gas, struct cell_blocks *cells)
 {
-    for (int n = 0; n < GAS_NUMBERS; n++) {
+    for (int n = 0; n < GAS_WRITTEN; n++) {
         for (int k = 0; k < cells->fields; k++)
             if (cells->field[k].data == (void *)gas->u[n])
                 cells->field[k].data = gas->other[n];
         double *written = gas->other[n];
         gas->other[n] = gas->u[n];
         gas->u[n] = written;
+    }
+    for (int32_t b = 0; b < cells->blocks; b++) {
+        gas->block[b].stale = gas->block[b].shocked;
+        gas->block[b].shocked = gas->shocked[b];
+        gas->shocked[b] = false;
     }
     cells->density = gas->u[GAS_DENSITY];
 }
@@ -207,6 +229,7 @@ struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis
                               .axis = axis,
                               .r = dt / cells->edge,
                               .around = axis == 0 && gas->around,
+                              .shocked = gas->shocked,
                               .second_order = gas->second_order,
                               .scheme = gas->scheme};
     memcpy(sweep.from, gas->u, sizeof sweep.from);

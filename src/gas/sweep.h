@@ -6,8 +6,9 @@
 #include "gas/lax_wendroff.h"
 #include "grid/cell_halo.h"
 
-/* Conserved numbers of a cell, and behind them whether it is open, 1, or blocked by a rigid body, 0. */
-enum { GAS_OPEN = GAS_NUMBERS, GAS_FIELDS };
+/* Conserved numbers of a cell, and behind them the axes of strong shocks in it, as sweeps left them, and
+ * whether it is open, 1, or blocked by a rigid body, 0. */
+enum { GAS_SHOCK = GAS_NUMBERS, GAS_WRITTEN, GAS_OPEN = GAS_WRITTEN, GAS_FIELDS };
 
 /* A sweep along an axis: what all strips share. */
 struct gas_sweep {
@@ -15,10 +16,11 @@ struct gas_sweep {
     const struct cell_halo *halo;
     const struct eos *eos;
     const double *from[GAS_FIELDS]; /* [GAS_OPEN] is NULL where no cell is blocked */
-    double *to[GAS_NUMBERS];
+    double *to[GAS_WRITTEN];
     int axis;
     double r;          /* dt/h */
     bool around;       /* the axis is a radius */
+    bool *shocked;     /* of each block, found: it has strong shocks */
     bool second_order; /* MUSCL-Hancock, else Lax-Wendroff */
     struct lax_wendroff scheme;
 };
@@ -29,6 +31,7 @@ struct gas_strip {
     int count;
     bool waits;  /* it needs planes */
     bool bounds; /* what leaves it is booked: an end is a face of the domain, or it is a radius */
+    bool calm;   /* no strong shocks are in it and beyond its ends, and none where it is written */
     bool sleeps; /* all of it and what is beyond its ends is one gas at rest: it stays as it is */
 };
 

@@ -2,6 +2,8 @@
  * sweep.h. */
 #include "gas/sweep.h"
 
+#include <string.h>
+
 #include "base/isa.h"
 #include "gas/muscl_hancock.h"
 
@@ -31,27 +33,28 @@ static int32_t place_of(const struct gather *g, const struct cell_block *block)
            g->j * cell_stride(block, across.second);
 }
 
-/* The NUMBERS of a ghost of the row into place K. */
-static void load_ghost(const struct gather *g, const struct cell_source *source, int numbers, int k,
-                       double (*out)[ROW_ROOM])
+/* The fields FIRST to END - 1 of a ghost of the row into place K. */
+static void load_ghost(const struct gather *g, const struct cell_source *source, int first, int end,
+                       int k, double (*out)[ROW_ROOM])
 {
     const struct gas_sweep *sweep = g->sweep;
     const int dimension = sweep->cells->dimension;
     if (source->block >= 0) {
         const struct cell_block *block = &sweep->cells->block[source->block];
         const int32_t at = place_of(g, block) + source->at * cell_stride(block, sweep->axis);
-        for (int n = 0; n < numbers; n++)
-            out[n][k] = sweep->from[n][at];
+        for (int n = first; n < end; n++)
+            out[n - first][k] = sweep->from[n][at];
     } else
-        for (int n = 0; n < numbers; n++)
-            out[n][k] = cell_plane(sweep->halo, dimension, sweep->axis, source->at,
-                                   n)[g->i + g->j * g->rows];
-    if (source->turned)
+        for (int n = first; n < end; n++)
+            out[n - first][k] = cell_plane(sweep->halo, dimension, sweep->axis, source->at,
+                                           n)[g->i + g->j * g->rows];
+    if (source->turned && first == 0)
         out[GAS_MOMENTUM + sweep->axis][k] = -out[GAS_MOMENTUM + sweep->axis][k];
 }
 
-/* The cells of a row and those beyond its ends. Returns the number of its cells. */
-static int load_row(const struct gather *g, int numbers, double (*out)[ROW_ROOM])
+/* The fields FIRST to END - 1, all conserved numbers or none, of the cells of a row and those beyond its
+ * ends. Returns the number of its cells. */
+static int load_row(const struct gather *g, int first, int end, double (*out)[ROW_ROOM])
 {
     const struct gas_sweep *sweep = g->sweep;
     const struct gas_strip *strip = g->strip;
@@ -61,17 +64,17 @@ static int load_row(const struct gather *g, int numbers, double (*out)[ROW_ROOM]
         const struct cell_block *block = &sweep->cells->block[strip->block[s]];
         const int32_t at = place_of(g, block), stride = cell_stride(block, sweep->axis);
         const int count = block->count[sweep->axis];
-        for (int n = 0; n < numbers; n++) {
+        for (int n = first; n < end; n++) {
             const double *in = sweep->from[n] + at;
             for (int c = 0; c < count; c++)
-                out[n][k + c] = in[c * stride];
+                out[n - first][k + c] = in[c * stride];
         }
         k += count;
     }
     const int32_t low = strip->block[0], high = strip->block[strip->count - 1];
     for (int depth = 0; depth < sweep->halo->depth; depth++) {
-        load_ghost(g, &halo->beyond[low][0][depth], numbers, ROW_GHOSTS - 1 - depth, out);
-        load_ghost(g, &halo->beyond[high][1][depth], numbers, k + depth, out);
+        load_ghost(g, &halo->beyond[low][0][depth], first, end, ROW_GHOSTS - 1 - depth, out);
+        load_ghost(g, &halo->beyond[high][1][depth], first, end, k + depth, out);
     }
     return k - ROW_GHOSTS;
 }
@@ -80,17 +83,21 @@ static int load_row(const struct gather *g, int numbers, double (*out)[ROW_ROOM]
 static void store_row(const struct gather *g, const struct gas_row *row, int first)
 {
     const struct gas_sweep *sweep = g->sweep;
+    const int fields = g->strip->calm && !row->shocked ? GAS_NUMBERS : GAS_WRITTEN;
     int k = 0;
     for (int s = 0; s < g->strip->count; s++) {
         const struct cell_block *block = &sweep->cells->block[g->strip->block[s]];
         const int32_t at = place_of(g, block), stride = cell_stride(block, sweep->axis);
         const int count = block->count[sweep->axis], begin = first > k ? first - k : 0,
                   end = first + row->cells < k + count ? first + row->cells - k : count;
-        for (int n = 0; n < GAS_NUMBERS && begin < end; n++) {
+        for (int n = 0; n < fields && begin < end; n++) {
+            const double *in = n == GAS_SHOCK ? row->shock : row->u.of[n];
             double *out = sweep->to[n] + at;
             for (int c = begin; c < end; c++)
-                out[c * stride] = row->u.of[n][ROW_GHOSTS + k - first + c];
+                out[c * stride] = in[ROW_GHOSTS + k - first + c];
         }
+        for (int c = begin; c < end && fields == GAS_WRITTEN; c++)
+            sweep->shocked[g->strip->block[s]] |= row->shock[ROW_GHOSTS + k - first + c] != 0.0;
         k += count;
     }
 }
@@ -135,11 +142,12 @@ static void note_obstacle(const struct gas_numbers *flux, int face, int row, int
 }
 
 /* Copies cell FROM of ALL to place TO of a row, turned where it is an image. */
-static void copy_cell(double (*all)[ROW_ROOM], int from, bool turned, int axis,
-                      struct gas_numbers *to, int k)
+static void copy_cell(double (*all)[ROW_ROOM], int from, bool turned, int axis, struct gas_row *to,
+                      int k)
 {
+    to->shock[k] = all[GAS_SHOCK][from];
     for (int n = 0; n < GAS_NUMBERS; n++)
-        to->of[n][k] = turned && n == GAS_MOMENTUM + axis ? -all[n][from] : all[n][from];
+        to->u.of[n][k] = turned && n == GAS_MOMENTUM + axis ? -all[n][from] : all[n][from];
 }
 
 /* The place in a run LOW .. HIGH of open cells that stands for place K outside it, reflected at its
@@ -168,7 +176,7 @@ static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cell
         if (open[k] == 0.0) {
             if (k >= begin && k < end) { /* as it was */
                 row->cells = 1;
-                copy_cell(all, k, false, axis, &row->u, ROW_GHOSTS);
+                copy_cell(all, k, false, axis, row, ROW_GHOSTS);
                 store_row(g, row, k - begin);
             }
             k++;
@@ -188,7 +196,7 @@ static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cell
                 if ((closed_low && at < k) || (closed_high && at > last))
                     source =
                         reflected(at, closed_low ? k : -1000, closed_high ? last : 1000, &turned);
-                copy_cell(all, source, turned, axis, &row->u, at - from + ROW_GHOSTS);
+                copy_cell(all, source, turned, axis, row, at - from + ROW_GHOSTS);
             }
             sweep_row(g->sweep, row, &flux);
             store_row(g, row, from - begin);
@@ -223,11 +231,12 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
     const struct cell_block *block = &sweep->cells->block[strip->block[0]];
     const struct across across = across_of(sweep->axis);
     const int rows = block->count[across.first], columns = block->count[across.second];
-    const int numbers = sweep->from[GAS_OPEN] ? GAS_FIELDS : GAS_NUMBERS;
+    const bool blocked = sweep->from[GAS_OPEN] != NULL;
     struct gas_row row;
     row.eos = sweep->eos;
     row.axis = sweep->axis;
     row.around = sweep->around;
+    row.shocked = true;
     row.first = (double)block->corner[sweep->axis];
     through->obstacles = 0;
     for (int j = 0; j < columns; j++)
@@ -244,9 +253,16 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
             const int number = i + j * rows;
             double all[GAS_FIELDS][ROW_ROOM];
             struct gas_numbers flux;
-            const int cells = load_row(&g, numbers, numbers == GAS_FIELDS ? all : row.u.of);
+            const int cells =
+                blocked ? load_row(&g, 0, GAS_FIELDS, all) : load_row(&g, 0, GAS_NUMBERS, row.u.of);
             row.cells = cells;
-            if (numbers == GAS_FIELDS) {
+            row.crossed = !strip->calm;
+            if (!blocked && !strip->calm)
+                load_row(&g, GAS_SHOCK, GAS_WRITTEN, &row.shock);
+            else if (row.shocked)
+                memset(row.shock, 0, sizeof row.shock);
+            row.shocked = false;
+            if (blocked) {
                 if (any_blocked(all[GAS_OPEN], cells, sweep->halo->depth)) {
                     for (int n = 0; n < GAS_NUMBERS; n++)
                         through->end[0][number][n] = through->end[1][number][n] = 0.0;
@@ -256,6 +272,8 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
                 for (int n = 0; n < GAS_NUMBERS; n++)
                     FOR_ROW (k, -sweep->halo->depth, cells - 1 + sweep->halo->depth)
                         row.u.of[n][k] = all[n][k];
+                FOR_ROW (k, -sweep->halo->depth, cells - 1 + sweep->halo->depth)
+                    row.shock[k] = all[GAS_SHOCK][k];
             }
             sweep_row(sweep, &row, &flux);
             store_row(&g, &row, 0);
@@ -356,6 +374,8 @@ static bool is_still(const struct gas_look *look, int32_t first, int32_t end)
         for (int32_t i = first; i < end; i++)
             still &= u[i] == value;
     }
+    for (int32_t i = first; i < end && still; i++)
+        still &= look->u[GAS_SHOCK][i] == 0.0;
     return still;
 }
 
