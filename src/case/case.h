@@ -185,6 +185,13 @@ struct check_input {
     struct quantity recorded; /* filled by case_read from the record; NAN: none */
 };
 
+/* False where a check only measures. */
+static inline bool check_has_limit(const struct check_input *check)
+{
+    return !isnan(check->within.value) || !isnan(check->at_most.value) ||
+           !isnan(check->at_least.value) || !isnan(check->regression_bound.value);
+}
+
 /* fits: NAME: {of: CHECK, over: KEY, take: slope, is: ..., within: ...}: a line or a power law
  * through what the runs of a sweep measured. */
 struct fit_input {

@@ -18,11 +18,6 @@ static void check_limits(struct checking *checking, const struct check_input *ch
     const bool bounded = is_given(&check->regression_bound);
     if (is_given(is) && !is_given(within) && !bounded)
         case_wrong(checking, "is", "this needs `within` or `regression_bound` beside it");
-    else if (!is_given(within) && !is_given(&check->at_most) && !is_given(&check->at_least) &&
-             !bounded)
-        case_wrong(checking, "",
-                   "a limit is missing: `is` and `within`, `at_most`, `at_least` or "
-                   "`regression_bound`");
     if (check->regression_bound.value < 0.0)
         case_wrong(checking, "regression_bound", "this cannot be negative");
     if (is_given(&check->recorded) && !bounded)
@@ -42,6 +37,10 @@ static void check_limits(struct checking *checking, const struct check_input *ch
 
 static void check_deviation(struct checking *checking, const struct check_input *check)
 {
+    if (check->known_deviation && !check_has_limit(check))
+        case_wrong(checking, "known_deviation",
+                   "this needs a limit beside it: `is` and `within`, `at_most`, `at_least` or "
+                   "`regression_bound`");
     if (check->known_deviation && !check->known_deviation[0])
         case_wrong(checking, "known_deviation", "a reason is required");
     if (!check->known_deviation && check->known_deviation_if != 1.0)

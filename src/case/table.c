@@ -425,7 +425,8 @@ const struct parameter case_table[] = {
      .standard = PARAMETER_OPTIONAL,
      .table = check_table,
      .size = sizeof(struct check_input),
-     .help = "conditions that the result must meet, by name"},
+     .help = "values that are measured and compared with limits, by name; without a limit, "
+             "measured only"},
     {.key = "fits",
      .kind = PARAMETER_MAP,
      .offset = offsetof(struct simulation_case, fits),

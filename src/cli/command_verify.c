@@ -51,6 +51,7 @@ static const char *colour_of(const struct check_result *result)
 {
     return colour(check_failed(result)                       ? COLOUR_BAD
                   : result->verdict == CHECK_KNOWN_DEVIATION ? COLOUR_WARN
+                  : result->verdict == CHECK_MEASURED_ONLY   ? COLOUR_NONE
                                                              : COLOUR_GOOD);
 }
 

@@ -22,6 +22,19 @@ static const struct answer answers[] = {
      "would bear. Concrete (strength: hjc) and soil (drucker-prager) fail by themselves.\n"
      "Checks measure fragments and largest_fragment; output: {fragments: yes} lists them.",
      "failure.md"},
+    {" tension tensile.strength ",
+     "A run warns (`tension in NAME`) when a solid carries a mean tension above its\n"
+     "`tensile_strength` or, without one, above K/20. Real material would break there. Set\n"
+     "`materials.NAME.failure` (bolide help failure), or choose an end of the run before it.\n"
+     "If the checks do not depend on it, list it in `expected_warnings` with the reason.\n"
+     "Contacts with `tension: none` let bodies separate.",
+     "failure.md"},
+    {" warning tensile.instability expected.warning ",
+     "A run warns by name when something happens that its models do not cover: `tension`,\n"
+     "`speed`, `temperature`, `density`, `tensile-instability` (SPH in lasting tension: use\n"
+     "`solver: mpm`) and `energy`. The run goes on. `bolide verify` fails, unless the case\n"
+     "lists the warning in `expected_warnings` with the reason why its checks hold.",
+     "case.md"},
     {" damage ",
      "The field `damage` is that of a failure model (`bolide help failure`) or of crushed\n"
      "concrete (strength: hjc), 1: failed. Concrete has `tensile_damage` too.",

@@ -85,9 +85,14 @@ static bool known_deviation(const struct check *check)
     return !strcmp(check->verdict, "known deviation");
 }
 
+static bool measured_only(const struct check *check)
+{
+    return !strcmp(check->verdict, "measured only");
+}
+
 static bool has_failed(const struct check *check)
 {
-    return !has_passed(check) && !known_deviation(check);
+    return !has_passed(check) && !known_deviation(check) && !measured_only(check);
 }
 
 /* True where the limits lie evenly about the wanted value. */
@@ -120,9 +125,10 @@ static void put_check(FILE *file, const struct check *check)
 {
     bool passed = has_passed(check), lacking = known_deviation(check);
     fprintf(file, "<tr class=\"%s\"><th scope=\"row\">",
-            passed    ? "good"
-            : lacking ? "warn"
-                      : "bad");
+            passed                 ? "good"
+            : lacking              ? "warn"
+            : measured_only(check) ? "neutral"
+                                   : "bad");
     page_text(file, check->name);
     fputs(" <span class=\"unit\">", file);
     page_text(file, check->measure);
@@ -130,6 +136,7 @@ static void put_check(FILE *file, const struct check *check)
             passed && check->regression_bound       ? "✓ regression bound"
             : passed                                ? "✓ passed"
             : lacking                               ? "△ known deviation"
+            : measured_only(check)                  ? "measured only"
             : !strcmp(check->verdict, "passes now") ? "✗ passes now: remove known_deviation"
                                                     : "✗ failed");
     fputs("<td class=\"num\" data-label=\"measured\">", file);
@@ -207,13 +214,15 @@ static void put_warnings(const struct page *page)
 static void put_judged(const struct page *page)
 {
     const int64_t warnings = count_warnings(page);
-    int64_t failed = 0, lacking = 0, bounds = 0, count = page->checks.rows;
-    for (int64_t row = 0; row < count; row++) {
+    int64_t failed = 0, lacking = 0, bounds = 0, unlimited = 0, count = page->checks.rows;
+    for (int64_t row = 0; row < page->checks.rows; row++) {
         struct check check = read_check(&page->checks, row);
         failed += has_failed(&check);
         lacking += known_deviation(&check);
+        unlimited += measured_only(&check);
         bounds += has_passed(&check) && check.regression_bound;
     }
+    count -= unlimited;
     if (failed) {
         fprintf(page->file,
                 "<p class=\"verdict bad\"><strong>Failed: %lld of %lld checks.</strong>",
@@ -236,8 +245,11 @@ static void put_judged(const struct page *page)
                 bounds == 1 ? "is a regression bound" : "are regression bounds");
     if (!count)
         fprintf(page->file,
-                "<p class=\"verdict%s\"><strong>Finished.</strong> The case has no checks.",
-                warnings ? " warn" : "");
+                "<p class=\"verdict%s\"><strong>Finished.</strong> The case has no checks%s.",
+                warnings ? " warn" : "", unlimited ? " with a limit" : "");
+    if (unlimited)
+        fprintf(page->file, " %lld value%s measured only.", (long long)unlimited,
+                unlimited == 1 ? " was" : "s were");
     if (warnings)
         fprintf(page->file, " <strong>%lld warning%s, below.</strong>", (long long)warnings,
                 warnings == 1 ? "" : "s");

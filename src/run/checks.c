@@ -60,9 +60,6 @@ struct error *check_find_limits(const struct check_input *check, const char *wha
         *low = maximum(*low, is - distance);
         *high = minimum(*high, is + distance);
     }
-    if (isinf(*low) && isinf(*high) && !bounded)
-        return error_new(ERROR_INPUT, "nothing to compare with: give `is` and `within`, `at_most`, "
-                                      "`at_least` or `regression_bound`");
     return NULL;
 }
 
@@ -303,8 +300,9 @@ void check_judge(const struct check_input *check, bool is_error, struct check_re
     const bool expected =
         check->known_deviation && check->known_deviation_if > 0.0 && !isnan(result->measured);
     result->source = text_copy(check->source);
-    result->verdict = within ? (expected ? CHECK_PASSES_NOW : CHECK_PASSED)
-                             : (expected ? CHECK_KNOWN_DEVIATION : CHECK_FAILED);
+    result->verdict = !check_has_limit(check) ? CHECK_MEASURED_ONLY
+                      : within                ? (expected ? CHECK_PASSES_NOW : CHECK_PASSED)
+                                              : (expected ? CHECK_KNOWN_DEVIATION : CHECK_FAILED);
     result->known_deviation =
         result->verdict == CHECK_KNOWN_DEVIATION ? text_copy(check->known_deviation) : NULL;
     result->regression_bound = given(&check->regression_bound);
@@ -329,6 +327,9 @@ static struct error *judge(const struct prepared_check *prepared, const struct c
     else if (check->relative)
         result->measured /= memory[check->relative_check].measured;
     check_judge(check, class_of(check)->needs_exact, result);
+    if (class_of(check)->needs_exact && !result->source)
+        result->source =
+            text_format("exact solution %s", against_of(&prepared->measurement)->choice->name);
     return result->name ? NULL : error_new(ERROR_SYSTEM, "out of memory for checks");
 }
 
@@ -337,6 +338,7 @@ void check_results_count(struct check_results *results)
     const struct check_result *result = &results->item[results->count++];
     results->failed += check_failed(result);
     results->known_deviations += result->verdict == CHECK_KNOWN_DEVIATION;
+    results->measured_only += result->verdict == CHECK_MEASURED_ONLY;
     results->regression_bounds += result->verdict == CHECK_PASSED && result->regression_bound;
 }
 

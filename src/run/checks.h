@@ -10,6 +10,7 @@ enum check_verdict {
     CHECK_PASSED,
     CHECK_KNOWN_DEVIATION, /* outside its limits, for the reason that the case states */
     CHECK_PASSES_NOW,      /* within them although the case gives a reason: a failure too */
+    CHECK_MEASURED_ONLY,   /* the case gives no limit */
 };
 
 /* One line of the table; SI units. It stands by itself when the run is gone. */
@@ -32,7 +33,8 @@ static inline bool check_failed(const struct check_result *result)
 }
 
 struct check_results {
-    int count, failed, known_deviations, regression_bounds; /* the last: passed, and of that kind */
+    int count, failed, known_deviations, measured_only;
+    int regression_bounds; /* passed, with such a bound */
     struct check_result *item;
 };
 

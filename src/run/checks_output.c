@@ -44,6 +44,10 @@ void check_measured_text(const struct check_result *result, char *buffer, size_t
 void check_allowed_text(const struct check_result *result, char *buffer, size_t size)
 {
     char low[48], high[48], wanted[48], distance[48];
+    if (result->verdict == CHECK_MEASURED_ONLY) {
+        snprintf(buffer, size, "no limit");
+        return;
+    }
     quantity_text(result->low, result->unit, low, sizeof low);
     quantity_text(result->high, result->unit, high, sizeof high);
     double above = result->high - result->wanted, below = result->wanted - result->low;
@@ -74,6 +78,7 @@ const char *check_verdict_name(enum check_verdict verdict)
 {
     return verdict == CHECK_PASSED            ? "passed"
            : verdict == CHECK_KNOWN_DEVIATION ? "known deviation"
+           : verdict == CHECK_MEASURED_ONLY   ? "measured only"
                                               : "FAILED";
 }
 
@@ -90,7 +95,8 @@ char *check_verdict_text(const struct check_result *result)
 
 struct error *check_results_write(const struct check_results *results, const char *path)
 {
-    static const char *const verdicts[] = {"failed", "passed", "known deviation", "passes now"};
+    static const char *const verdicts[] = {"failed", "passed", "known deviation", "passes now",
+                                           "measured only"};
     FILE *file;
     TRY(file_begin(path, &file));
     fprintf(file, "check,measure,unit,measured,wanted,low,high,verdict,source,time,known_deviation,"

@@ -333,6 +333,10 @@ static void tell_end(struct run *run)
         const struct check_result *check = &result->checks.item[i];
         check_measured_text(check, measured, sizeof measured);
         check_allowed_text(check, allowed, sizeof allowed);
+        if (check->verdict == CHECK_MEASURED_ONLY) {
+            run_say(run, "  measured only: %s: %s", check->name, measured);
+            continue;
+        }
         run_say(run, "  check %s: %s: %s (%s)%s%s", check_verdict_name(check->verdict), check->name,
                 measured, allowed, check->known_deviation ? ": " : "",
                 check->known_deviation               ? check->known_deviation
@@ -348,9 +352,10 @@ static void tell_warnings(struct run *run)
     const struct warning_results *warnings = &run->result->warnings;
     for (int i = 0; i < warnings->count; i++) {
         const struct warning *warning = &warnings->item[i];
-        run_say(run, "  %swarning: %s%s%s", warning->expected ? "expected " : "", warning->text,
-                warning->expected ? "; expected: " : "",
-                warning->expected ? warning->expected : "");
+        if (warning->expected)
+            run_say(run, "  expected warning: %s: %s", warning->name, warning->expected);
+        else
+            run_say(run, "  warning: %s", warning->text);
     }
 }
 

@@ -25,7 +25,7 @@ static struct error *watch_energy(struct run *run, const struct totals *now)
                      (long long)run->simulation.step, run->simulation.time, drift, allowed);
 }
 
-static void tell_warning(void *context, const char *text) { run_say(context, "warning: %s", text); }
+static void tell_warning(void *context, const char *text) { run_say(context, "%s", text); }
 
 struct error *run_watch_physics(struct run *run)
 {

@@ -298,7 +298,7 @@ struct tell {
 static struct error *tell_new(const struct warnings *w, const struct simulation *simulation, int k,
                               const struct tell *tell)
 {
-    char *text = warning_text(w, simulation, k);
+    char *text = warning_line(w, simulation, k);
     if (!text)
         return error_new(ERROR_SYSTEM, "out of memory for a warning");
     tell->tell(tell->context, text);

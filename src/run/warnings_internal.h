@@ -60,5 +60,7 @@ bool tension_check_loaded(const struct warnings *warnings);
  * out. */
 char *warning_name(const struct warnings *warnings, const struct simulation *simulation, int index);
 char *warning_text(const struct warnings *warnings, const struct simulation *simulation, int index);
+/* What a run says when it first occurs: the whole text, or the name alone where it is expected. */
+char *warning_line(const struct warnings *warnings, const struct simulation *simulation, int index);
 
 #endif

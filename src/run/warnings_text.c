@@ -12,22 +12,16 @@ static const struct {
     const char *name, *unit, *what, *advice;
     double sign; /* of the value that is shown */
 } kinds[WARNING_KINDS] = {
-    [WARNING_TENSION] = {"tension", "Pa", "mean tension of",
-                         "it carries more than it would bear, so holes and fragments are missing: "
-                         "give the model a tension limit",
-                         1.0},
-    [WARNING_SPEED] =
-        {"speed", "m/s", "a speed of",
-         "nothing in the case moves members that fast: look for an instability of the "
-         "method or a state outside its models",
-         1.0},
+    [WARNING_TENSION] = {"tension", "Pa", "mean tension of", NULL, 1.0},
+    [WARNING_SPEED] = {"speed", "m/s", "a speed of",
+                       "look for an instability of the method or a state outside its models", 1.0},
     [WARNING_TEMPERATURE] = {"temperature", "K", "a temperature of",
                              "its equation of state ends before this state", -1.0},
     [WARNING_DENSITY] = {"density", "kg/m^3", "a density of", NULL, 1.0},
     [WARNING_INSTABILITY] =
         {"tensile-instability", "", "lasting tension of",
-         "in lasting tension bodies creep and break without reason, with energy conserved: use "
-         "`solver: mpm`",
+         "SPH bodies creep and break in lasting tension, without a physical cause and with energy "
+         "conserved: use `solver: mpm`",
          1.0},
     [WARNING_ENERGY] = {"energy", "", NULL, NULL, 1.0},
 };
@@ -69,23 +63,48 @@ static void put_limit(const struct warnings *warnings, const struct simulation *
                  value);
         break;
     case WARNING_SPEED:
-        snprintf(text, size, "more than %s, three times what set the case in motion", value);
+        snprintf(text, size, "more than %s, three times what the case can cause", value);
         break;
     case WARNING_DENSITY:
         snprintf(text, size, "more than %.3g times that at rest, where its equation of state ends",
                  limit / material_density(material));
         break;
     case WARNING_INSTABILITY:
-        snprintf(text, size, "where this method bears 1");
+        snprintf(text, size, "more than the 1 that SPH can hold");
         break;
     default:
         snprintf(text, size, "below 0 K");
     }
 }
 
-/* A model without energy lacks the heat of shocks. */
-static const char *advice_of(const struct simulation *simulation, int index, enum warning_kind kind)
+/* The key that limits the tension of the material NAME. */
+static void put_remedy(const struct material *material, const char *name, char *text, size_t size)
 {
+    if (!material_has_strength(material))
+        snprintf(text, size,
+                 "voids are missing: `materials.%s.eos` does not limit the tension of this fluid",
+                 name);
+    else if (strength_takes_pressure(&material->strength))
+        snprintf(text, size, "see the tension limit of `materials.%s.strength`", name);
+    else if (material_fails(material))
+        snprintf(text, size, "see the tension limit of `materials.%s.failure`", name);
+    else
+        snprintf(text, size,
+                 "holes and fragments are missing: set `materials.%s.failure` (bolide help "
+                 "failure)",
+                 name);
+}
+
+/* A model without energy lacks the heat of shocks. BUFFER is for advice that names a material. */
+static const char *advice_of(const struct simulation *simulation, int index, enum warning_kind kind,
+                             char *buffer, size_t size)
+{
+    const int material = index / WARNING_ENERGY;
+    if (kind == WARNING_TENSION) {
+        put_remedy(&simulation->problem->material[material],
+                   simulation->problem->input->materials.names[material], buffer, size);
+        return buffer;
+    }
     if (kind != WARNING_DENSITY)
         return kinds[kind].advice;
     const struct eos *eos = &simulation->problem->material[index / WARNING_ENERGY].eos;
@@ -114,7 +133,7 @@ char *warning_text(const struct warnings *warnings, const struct simulation *sim
 {
     const struct warning_memory *memory = &warnings->memory[index];
     const enum warning_kind kind = kind_of(warnings, index);
-    char value[48], worst[48], time[48], later[128] = "", limit[160];
+    char value[48], worst[48], time[48], later[128] = "", limit[160], advice[256];
     if (kind == WARNING_ENERGY)
         return energy_text(memory, simulation->problem->input);
     readable(kinds[kind].sign * memory->value, kinds[kind].unit, value, sizeof value);
@@ -133,7 +152,7 @@ char *warning_text(const struct warnings *warnings, const struct simulation *sim
                            simulation->problem->input->bodies.names[(int)memory->body],
                            memory->place[0], memory->place[1], memory->place[2], memory->count,
                            "particle", memory->count == 1.0 ? "" : "s", later,
-                           advice_of(simulation, index, kind))
+                           advice_of(simulation, index, kind, advice, sizeof advice))
              : NULL;
     free(name);
     return text;
@@ -152,6 +171,25 @@ static const char *expected(const struct simulation_case *input, enum warning_ki
             return item->reason;
     }
     return NULL;
+}
+
+char *warning_line(const struct warnings *warnings, const struct simulation *simulation, int index)
+{
+    const enum warning_kind kind = kind_of(warnings, index);
+    const struct warning_memory *memory = &warnings->memory[index];
+    const int material = kind == WARNING_ENERGY ? -1 : index / WARNING_ENERGY;
+    const bool is_expected = expected(simulation->problem->input, kind, material) != NULL;
+    char time[48], *line = NULL;
+    char *text = is_expected ? warning_name(warnings, simulation, index)
+                             : warning_text(warnings, simulation, index);
+    readable(memory->time, "s", time, sizeof time);
+    if (text && is_expected)
+        line = text_format("expected warning: %s, first seen at step %.0f, t = %s", text,
+                           memory->step, time);
+    else if (text)
+        line = text_format("warning: %s", text);
+    free(text);
+    return line;
 }
 
 static bool add(const struct warnings *warnings, const struct simulation *simulation, int index,

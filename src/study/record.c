@@ -63,7 +63,8 @@ static void put_number(FILE *stream, double value)
 static void put_result(FILE *stream, const struct record_key *key,
                        const struct check_result *result)
 {
-    static const char *const verdicts[] = {"failed", "", "known deviation", "passes now"};
+    static const char *const verdicts[] = {"failed", "", "known deviation", "passes now",
+                                           "measured only"};
     const char *const texts[] = {key->form, key->settings, key->run, result->name};
     for (size_t i = 0; i < COUNT_OF(texts); i++) {
         if (strpbrk(texts[i], ",\"\n"))

@@ -48,7 +48,12 @@ static struct error *find_check(const struct simulation_case *input, const char 
     const struct named_map *checks = &input->checks;
     for (int i = 0; i < checks->count; i++)
         if (!strcmp(checks->names[i], check))
-            return NULL;
+            return check_has_limit(case_check(input, i))
+                       ? NULL
+                       : error_new(ERROR_INPUT,
+                                   "--check: \"%s\" has no limit: give it `at_most`, "
+                                   "`at_least` or `is` and `within`",
+                                   check);
     const char *nearest = nearest_name(check, (const char *const *)checks->names, checks->count);
     return error_new(ERROR_INPUT, "--check: the case has no check \"%s\"%s%s%s", check,
                      nearest ? " (did you mean \"" : "", nearest ? nearest : "",

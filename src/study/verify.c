@@ -324,7 +324,7 @@ static struct error *sum_up(struct verify_result *result)
 {
     struct error *error = NULL;
     result->cases = result->passed = result->checks = result->checks_passed = 0;
-    result->regression_bounds = result->known_deviations = 0;
+    result->regression_bounds = result->known_deviations = result->measured_only = 0;
     result->warnings = result->unexpected = 0;
     for (int i = 0; i < result->count; i++) {
         const struct verify_case *verified = &result->item[i];
@@ -332,10 +332,11 @@ static struct error *sum_up(struct verify_result *result)
         result->cases += !verified->fits;
         result->passed += verified->passed && !verified->fits;
         result->checks += checks->count;
-        result->checks_passed +=
-            checks->count - checks->failed - checks->known_deviations - checks->regression_bounds;
+        result->checks_passed += checks->count - checks->failed - checks->known_deviations -
+                                 checks->regression_bounds - checks->measured_only;
         result->regression_bounds += checks->regression_bounds;
         result->known_deviations += checks->known_deviations;
+        result->measured_only += checks->measured_only;
         result->warnings += verified->result.warnings.count;
         result->unexpected += verified->result.warnings.unexpected;
         if (verified->error)
@@ -357,9 +358,9 @@ const struct check_result *verify_find_check(const struct verify_case *run, cons
 char *verify_checks_text(const struct verify_result *result)
 {
     const int passed = result->checks_passed, bounds = result->regression_bounds,
-              deviations = result->known_deviations,
-              failed = result->checks - passed - bounds - deviations;
-    char parts[3][64] = {"", "", ""};
+              deviations = result->known_deviations, unlimited = result->measured_only,
+              failed = result->checks - passed - bounds - deviations - unlimited;
+    char parts[4][64] = {"", "", "", ""};
     char *warnings = warnings_count_text(result->warnings, result->unexpected);
     if (bounds)
         snprintf(parts[0], sizeof parts[0], ", %d within regression bounds", bounds);
@@ -368,9 +369,11 @@ char *verify_checks_text(const struct verify_result *result)
                  deviations == 1 ? "" : "s");
     if (failed)
         snprintf(parts[2], sizeof parts[2], ", %d failed", failed);
-    char *text = text_format("; %d check%s: %d passed%s%s%s%s", result->checks,
+    if (unlimited)
+        snprintf(parts[3], sizeof parts[3], ", %d measured only", unlimited);
+    char *text = text_format("; %d check%s: %d passed%s%s%s%s%s", result->checks,
                              result->checks == 1 ? "" : "s", passed, parts[0], parts[1], parts[2],
-                             warnings ? warnings : "");
+                             parts[3], warnings ? warnings : "");
     free(warnings);
     return text;
 }

@@ -37,7 +37,7 @@ struct verify_result {
     int count;         /* items */
     int cases, passed; /* items that ran: not the fits through a sweep */
     /* REGRESSION_BOUNDS passed too, and are not counted among CHECKS_PASSED. */
-    int checks, checks_passed, regression_bounds, known_deviations;
+    int checks, checks_passed, regression_bounds, known_deviations, measured_only;
     int warnings, unexpected; /* of the runs, and those that no case expects */
     struct verify_case *item;
 };

@@ -46,7 +46,7 @@ expect 0 "--overwrite" "$BOLIDE" run --help
 expect 0 "--overwrite" "$BOLIDE" run case.yaml -h
 expect 2 "did you mean \"units\"" "$BOLIDE" help unit
 expect 0 "run --resume" "$BOLIDE" help restart
-expect 0 "tillotson.tension" "$BOLIDE" help tension
+expect 0 "drucker-prager.cohesion" "$BOLIDE" help cohesion
 expect 0 "bolide materials tungsten-alloy-johnson-cook" "$BOLIDE" help tungsten
 expect 0 "bolide materials rha-johnson-cook" "$BOLIDE" help rha-johnson-cook
 expect 2 "no help on \"qwertyuiop\"" "$BOLIDE" help qwertyuiop

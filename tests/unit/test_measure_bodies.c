@@ -347,6 +347,26 @@ static void a_known_deviation_is_no_failure_until_it_passes(void **state)
     stage_close(&s);
 }
 
+static void a_check_without_a_limit_only_measures(void **state)
+{
+    (void)state;
+    struct stage s;
+    char text[96];
+    stage_begin(&s, case_text,
+                "  speed: {mean: velocity.x}\n  never: {mean: velocity.x, at: 0.9 s}\n");
+    for (int32_t i = 0; i < particles_of(&s.simulation)->count; i++)
+        particles_of(&s.simulation)->velocity[i][0] = 2.0;
+    stage_watch(&s, 0.1);
+    assert_float_equal(stage_value(&s, 0), 2.0, 0.0);
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(s.results.item[i].verdict, CHECK_MEASURED_ONLY);
+    assert_int_equal(s.results.failed, 0);
+    assert_int_equal(s.results.measured_only, 2);
+    check_allowed_text(&s.results.item[0], text, sizeof text);
+    assert_string_equal(text, "no limit");
+    stage_close(&s);
+}
+
 static void a_check_whose_time_never_came_fails(void **state)
 {
     (void)state;
@@ -425,6 +445,7 @@ int main(void)
         cmocka_unit_test(shear_layer_finds_the_viscosity_that_moved_the_rows),
         cmocka_unit_test(a_check_is_measured_at_its_time_and_remembered),
         cmocka_unit_test(a_known_deviation_is_no_failure_until_it_passes),
+        cmocka_unit_test(a_check_without_a_limit_only_measures),
         cmocka_unit_test(a_check_whose_time_never_came_fails),
         cmocka_unit_test(a_value_is_divided_by_that_at_the_start_or_of_another_check),
         cmocka_unit_test(what_makes_no_sense_of_a_body_is_told_before_the_run),
