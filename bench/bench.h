@@ -87,8 +87,13 @@ static inline double take_steps(struct started *s, int steps)
     return clock_seconds() - begin;
 }
 
+/* A phase of the step, and its name in the columns of the tables. */
+struct bench_phase {
+    const char *name, *column;
+};
+
 static inline struct measured measured_of(const struct started *s, int steps, double seconds,
-                                          const char *const *phases, int count)
+                                          const struct bench_phase *phases, int count)
 {
     const struct simulation *simulation = s->simulation;
     const int64_t members = simulation_members(simulation);
@@ -97,7 +102,7 @@ static inline struct measured measured_of(const struct started *s, int steps, do
                          .hash = simulation_hash(simulation)};
     for (int k = 0; k < simulation->phases; k++)
         for (int name = 0; name < count; name++)
-            if (!strcmp(simulation->phase[k].name, phases[name]))
+            if (!strcmp(simulation->phase[k].name, phases[name].name))
                 m.share[name] = simulation->phase[k].seconds / seconds;
     return m;
 }
@@ -128,7 +133,7 @@ static inline void print_shares(const struct measured *m, int count, int width)
 
 /* An empty file gets a line of names, in the order of write_csv: NAME and NUMBERS are those of the bench's own columns. */
 static inline FILE *open_csv(const char *path, const char *name, const char *numbers,
-                             const char *const *phases, int count)
+                             const struct bench_phase *phases, int count)
 {
     FILE *csv = fopen(path, "a");
     if (!csv) {
@@ -140,7 +145,7 @@ static inline FILE *open_csv(const char *path, const char *name, const char *num
                 "compiler,%s,particles,threads,steps,repeats,updates_per_second,slowest,fastest,%s",
                 name, numbers);
         for (int k = 0; k < count; k++)
-            fprintf(csv, ",share_%s", phases[k]);
+            fprintf(csv, ",share_%s", phases[k].column);
         fprintf(csv, ",hash\n");
     }
     return csv;

@@ -7,8 +7,10 @@
 
 enum { STEPS = 20, FIRST_STEPS = 2, PHASES = 6 }; /* in the first steps memory is touched */
 
-static const char *const phase_names[PHASES] = {"cells", "scatter",    "limit",
-                                                "nodes", "velocities", "states"};
+static const struct bench_phase phases[PHASES] = {
+    {"cell search", "cells"}, {"particles to grid", "scatter"},    {"time step", "limit"},
+    {"grid update", "nodes"}, {"grid to particles", "velocities"}, {"stresses", "states"},
+};
 
 struct measured_mpm {
     struct measured all;
@@ -21,7 +23,7 @@ static struct measured_mpm measure(const struct run *run)
     take_steps(&s, FIRST_STEPS);
     const double seconds = take_steps(&s, run->steps);
     const struct measured_mpm m = {
-        measured_of(&s, run->steps, seconds, phase_names, PHASES),
+        measured_of(&s, run->steps, seconds, phases, PHASES),
         s.class->bytes(s.input->solver.value, s.simulation->problem->dimension)};
     finish(&s);
     return m;
@@ -32,7 +34,7 @@ static void print_head(void)
     printf("%-26s %8s %7s %8s %-16s %6s ", "", "", "", "M upd.", "", "");
     printf("\n%-26s %8s %7s %8s %-16s %6s ", "mpm", "partic.", "threads", "a second", "", "bytes");
     for (int k = 0; k < PHASES; k++)
-        printf(" %10s", phase_names[k]);
+        printf(" %10s", phases[k].column);
     printf("\n");
 }
 
@@ -87,7 +89,7 @@ int main(int count, char **arguments)
         printf("hash %016llx\n", (unsigned long long)m.all.hash);
         return 0;
     }
-    FILE *csv = wishes.csv ? open_csv(wishes.csv, "case", "bytes", phase_names, PHASES) : NULL;
+    FILE *csv = wishes.csv ? open_csv(wishes.csv, "case", "bytes", phases, PHASES) : NULL;
     bool wanted = wishes.next == count;
     for (int k = wishes.next; k < count; k++)
         wanted |= !strcmp(arguments[k], "mpm");

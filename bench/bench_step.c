@@ -12,7 +12,10 @@
 
 enum { VARIANTS = 4, PHASES = 4, STEPS = 50 };
 
-static const char *const phase_names[PHASES] = {"neighbours", "records", "pairs", "points"};
+static const struct bench_phase phases[PHASES] = {{"neighbour search", "neighbours"},
+                                                  {"gather", "records"},
+                                                  {"pair sums", "pairs"},
+                                                  {"state update", "points"}};
 
 struct measured_sph {
     struct measured all;
@@ -59,7 +62,7 @@ static struct measured_sph measure(const struct run *run)
                  count = (double)simulation_members(s.simulation);
     const double pairs = (double)count_pairs(sph, s.simulation);
     const struct measured_sph m = {
-        .all = measured_of(&s, run->steps, seconds, phase_names, PHASES),
+        .all = measured_of(&s, run->steps, seconds, phases, PHASES),
         .pairs = pairs / count,
         .seconds_a_pair = seconds / (pairs * run->steps),
         .state_bytes = state_bytes(sph, sph->particles),
@@ -177,7 +180,7 @@ int main(int argc, char **argv)
     FILE *csv = wishes.csv ? open_csv(wishes.csv, "case,order",
                                       "neighbours,ns_per_pair,bytes_state,bytes_list,"
                                       "steps_per_build",
-                                      phase_names, PHASES)
+                                      phases, PHASES)
                            : NULL;
     for (size_t k = 0; k < COUNT_OF(benches); k++)
         if (wanted(&benches[k], wishes.quick, argv + wishes.next, argc - wishes.next))

@@ -31,8 +31,8 @@ static void say(const struct listener *listener, char *text)
     free(text);
 }
 
-static void tell_sweep(const struct listener *listener, const struct verify_result *result,
-                       int runs, const char *folder)
+static void report_sweep(const struct listener *listener, const struct verify_result *result,
+                         int runs, const char *folder)
 {
     char *checks = verify_checks_text(result);
     if (checks)
@@ -57,7 +57,7 @@ static int run_sweep(const struct simulation_case *input, const struct cli_optio
     struct error *error =
         verify_case(options->names.text[0], input->name, folder, &verifying, &result);
     if (result.count && result.item[0].sweep_values)
-        tell_sweep(&listener, &result, input->sweep_runs, folder);
+        report_sweep(&listener, &result, input->sweep_runs, folder);
     int status = error ? report_error(error) : EXIT_OK;
     if (*verifying.running.stop) {
         say(&listener, text_copy("continue with --resume"));

@@ -184,7 +184,7 @@ int verify_convergence(const char *const *paths, int count, bool of_all,
         .ended = run_ended,
     };
     struct error *error = NULL;
-    for (int i = 0; i < count && !verify_told_to_stop(&verifying); i++) {
+    for (int i = 0; i < count && !verify_stop_requested(&verifying); i++) {
         struct simulation_case *input = NULL;
         struct error *wrong = ranks_agree(
             options->ranks, case_read(paths[i], &verifying.reading, &bolide_catalogue, &input));

@@ -92,14 +92,14 @@ static void prepare_environment(int64_t ranks)
 }
 
 /* Signals that this process waits for, and does not take otherwise. */
-static sigset_t signals_to_hear(void)
+static sigset_t signals_to_handle(void)
 {
-    static const int heard[] = {SIGCHLD, SIGUSR1, SIGTSTP, SIGCONT, SIGINT,
-                                SIGTERM, SIGHUP,  SIGQUIT, SIGXCPU};
+    static const int handled[] = {SIGCHLD, SIGUSR1, SIGTSTP, SIGCONT, SIGINT,
+                                  SIGTERM, SIGHUP,  SIGQUIT, SIGXCPU};
     sigset_t set;
     sigemptyset(&set);
-    for (size_t i = 0; i < COUNT_OF(heard); i++)
-        sigaddset(&set, heard[i]);
+    for (size_t i = 0; i < COUNT_OF(handled); i++)
+        sigaddset(&set, handled[i]);
     return set;
 }
 
@@ -144,12 +144,12 @@ static struct error *start(char **words, const sigset_t *mask, pid_t *child)
 
 /* Until CHILD ends; its status as of waitpid. mpirun passes SIGUSR2 on, which asks ranks to stop (signals.c), and kills
  * them after a SIGTERM, which a later request sends. *STOP is the signal that asked first, or zero. */
-static int attend(pid_t child, const sigset_t *heard, int *stop)
+static int attend(pid_t child, const sigset_t *handled, int *stop)
 {
     const double patience = 3.0; /* s: some senders signal twice at once */
     double asked = 0.0;
     for (int status;;) {
-        const int number = sigwaitinfo(heard, NULL);
+        const int number = sigwaitinfo(handled, NULL);
         if (number == SIGCHLD) {
             if (waitpid(child, &status, WNOHANG) == child)
                 return status;
@@ -206,16 +206,16 @@ static char **command_line(int count, char **words, const char *number, const ch
 
 static int launch(char **line, const char *path)
 {
-    const sigset_t heard = signals_to_hear();
+    const sigset_t handled = signals_to_handle();
     sigset_t before;
     pid_t child = -1;
     int stop = 0;
     signal(SIGCHLD, SIG_DFL);
-    sigprocmask(SIG_BLOCK, &heard, &before);
+    sigprocmask(SIG_BLOCK, &handled, &before);
     struct error *error = start(line, &before, &child);
     if (error)
         return report_error(error);
-    const int ended = attend(child, &heard, &stop);
+    const int ended = attend(child, &handled, &stop);
     return status_of(path, ended, stop);
 }
 

@@ -206,17 +206,17 @@ static struct error *fill_in(struct node *map, struct node *library, bool within
     return NULL;
 }
 
-static void make_foreign(struct node *node)
+static void mark_included(struct node *node)
 {
     node->foreign = true;
     for (int i = 0; i < node->count; i++)
-        make_foreign(node->child[i]);
+        mark_included(node->child[i]);
 }
 
 struct error *document_include(struct document *document, struct node *map,
                                struct document *library)
 {
-    make_foreign(library->root);
+    mark_included(library->root);
     while (library->origin_count > 0) {
         if (!document_keep(document, library->origins[--library->origin_count]))
             return out_of_memory();

@@ -20,7 +20,7 @@ static bool is_fan(enum front_kind kind)
 }
 
 struct front {
-    double birth, end; /* s; end INFINITY: it lives when the tracking stops */
+    double birth, end; /* s; end INFINITY: it still exists when the tracking stops */
     double x, speed;   /* place at birth */
     struct exact_state left, right;
     enum front_kind kind;
@@ -370,7 +370,7 @@ static struct error *impact_solve(const void *parameters, void *solved)
     }
 }
 
-static bool lives(const struct front *front, double time)
+static bool is_alive_at(const struct front *front, double time)
 {
     return time >= front->birth && time < front->end;
 }
@@ -385,7 +385,7 @@ static struct between find_between(const struct impact *impact, double x, double
     struct between found = {NULL, NULL, NULL};
     for (int i = 0; i < impact->fronts; i++) {
         const struct front *front = &impact->front[i];
-        if (!lives(front, time))
+        if (!is_alive_at(front, time))
             continue;
         double at = place_of(front, time);
         if (front->kind == FRONT_INTERFACE)
@@ -452,7 +452,7 @@ static const struct front *outermost(const struct impact *impact, enum exact_sid
     double direction = side_direction(side);
     for (int i = 0; i < impact->fronts; i++) {
         const struct front *front = &impact->front[i];
-        if (lives(front, time) && front->kind <= FRONT_PLASTIC_FAN &&
+        if (is_alive_at(front, time) && front->kind <= FRONT_PLASTIC_FAN &&
             (!found || direction * (place_of(front, time) - place_of(found, time)) > 0.0))
             found = front;
     }
@@ -474,7 +474,7 @@ static int impact_numbers(const void *solved, double time, struct exact_number *
     number_add(&list, "strain of a piece of a fan", "", impact->coarse * piece_strain);
     for (int i = 0; i < impact->fronts; i++) {
         const struct front *front = &impact->front[i];
-        if (!lives(front, time) || front->kind != FRONT_FREE)
+        if (!is_alive_at(front, time) || front->kind != FRONT_FREE)
             continue;
         enum exact_side side = front->left.density == 0.0 ? SIDE_LEFT : SIDE_RIGHT;
         number_add(&list, names[side][0], "m/s", front->speed);

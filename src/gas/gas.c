@@ -247,7 +247,7 @@ static struct error *gas_prepare(void *solver, struct simulation *simulation, st
     const double edge = gas->cells->edge;
     const struct ranked own = {gas->parameters.courant * edge / gas->fastest, gas->fastest_id, 0};
     *limit = limit_of_ranks(simulation->ranks, own, reasons);
-    simulation_end_phase(simulation, PHASE_SHARED, "limit");
+    simulation_end_phase(simulation, PHASE_SHARED, "time step");
     return NULL;
 }
 

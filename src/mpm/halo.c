@@ -262,7 +262,7 @@ void mpm_exchange(struct mpm *mpm, struct simulation *simulation, size_t field)
     for (int32_t k = 0; k < halo->exchange.goes; k++)
         memcpy((char *)halo->exchange.buffer + (size_t)k * bytes,
                patch_of(mpm, halo->goes[k], field), bytes);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "nodes");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "grid update");
     exchange_start(&halo->exchange, NULL, bytes, halo->received);
     exchange_finish(&halo->exchange);
     simulation_end_waiting(simulation);

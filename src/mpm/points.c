@@ -73,11 +73,11 @@ static bool is_possible(const struct particles *p, const struct point_loop *loop
            isfinite(x[0] + x[1] + x[2]) && isfinite(u[0] + u[1] + u[2]);
 }
 
-/* A gas that runs into nothing turns all of its energy into motion, and may overdraw it a little: half
- * a step lies between the energy that stresses have worked with and the state. Such a particle goes on
- * as next to cold, and what it has overdrawn stays in its energy. */
-static void let_go_on(const struct mpm *mpm, const struct simulation *simulation,
-                      const struct point_loop *loop, int32_t i)
+/* A gas that expands into vacuum converts all of its internal energy to kinetic energy, and a little
+ * more: the work of the stresses uses the energy of half a step earlier. Such a particle gets a small
+ * positive energy in its state, and the deficit stays in its conserved energy. */
+static void restore_overdrawn(const struct mpm *mpm, const struct simulation *simulation,
+                              const struct point_loop *loop, int32_t i)
 {
     const double little = 0.1, least = 1e-3, *u = loop->velocity[i];
     const double motion = 0.5 * (square(u[0]) + square(u[1]) + square(u[2]));
@@ -132,7 +132,7 @@ int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
     }
     for (int32_t k = 0; k < count && !possible; k++) {
         if (!is_possible(p, &loop, list[k]))
-            let_go_on(mpm, simulation, &loop, list[k]);
+            restore_overdrawn(mpm, simulation, &loop, list[k]);
         if (!is_possible(p, &loop, list[k]) &&
             (impossible < 0 || p->id[list[k]] < p->id[impossible]))
             impossible = list[k];

@@ -211,7 +211,7 @@ static struct error *sum_particles(struct mpm *mpm, struct simulation *simulatio
                 transfer_scatter(&transfer, b);
     }
     mpm_push_faces(mpm, simulation);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "scatter");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "particles to grid");
     mpm_exchange(mpm, simulation, offsetof(struct layer, main));
     double shocks = 0.0;
     for (int g = 0; g < mpm->layers && !error; g++) {
@@ -219,7 +219,7 @@ static struct error *sum_particles(struct mpm *mpm, struct simulation *simulatio
         if (!error && mpm_find_shocks(mpm, simulation, &mpm->layer[g]))
             shocks = 1.0;
     }
-    simulation_end_phase(simulation, PHASE_BLOCKS, "nodes");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "grid update");
     TRY(ranks_agree_on(simulation->ranks, error, &shocks, 1));
     simulation_end_waiting(simulation);
     mpm->shocks = shocks > 0.0;
@@ -276,7 +276,7 @@ struct error *mpm_prepare(void *solver, struct simulation *simulation, struct li
     struct mpm *mpm = solver;
     mpm_stop_bodies(mpm, simulation);
     TRY(refresh_grid(mpm, simulation));
-    simulation_end_phase(simulation, PHASE_SHARED, "cells");
+    simulation_end_phase(simulation, PHASE_SHARED, "cell search");
     TRY(sum_particles(mpm, simulation));
     *limit = limit_step(mpm, simulation);
     const double allowed = mpm->limit_before > 0.0
@@ -286,7 +286,7 @@ struct error *mpm_prepare(void *solver, struct simulation *simulation, struct li
     if (allowed < limit->dt)
         *limit = (struct limit){allowed, "growth of the step", limit->id, INFINITY};
     limit->event = next_event(simulation);
-    simulation_end_phase(simulation, PHASE_SHARED, "limit");
+    simulation_end_phase(simulation, PHASE_SHARED, "time step");
     return NULL;
 }
 
@@ -307,7 +307,7 @@ static void find_velocities(struct mpm *mpm, struct simulation *simulation,
                 transfer_velocity(&transfer, b, step, scatter);
         }
     }
-    simulation_end_phase(simulation, PHASE_BLOCKS, "velocities");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "grid to particles");
     if (scatter)
         mpm_exchange(mpm, simulation, offsetof(struct layer, back));
 }
@@ -361,11 +361,11 @@ static struct error *update_states(struct mpm *mpm, struct simulation *simulatio
         mpm_raise_order(mpm, simulation, dt, false);
     if (mpm->layers > 1 && !of_main)
         mpm_join_velocities(mpm, simulation);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "nodes");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "grid update");
     for (int g = 0; g < mpm->layers; g++)
         find_states(mpm, simulation, &mpm->layer[g], (struct transfer_step){dt, !first}, of_main,
                     &failed);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "states");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "stresses");
     return failed < 0 ? NULL : simulation_impossible(simulation, failed);
 }
 
@@ -388,7 +388,7 @@ struct error *mpm_advance(void *solver, struct simulation *simulation, double dt
     for (int g = 0; g < mpm->layers; g++)
         mpm_advance_nodes(mpm, simulation, &mpm->layer[g], dt);
     mpm_raise_order(mpm, simulation, dt, true);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "nodes");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "grid update");
     find_velocities(mpm, simulation, (struct transfer_step){dt, scheme == MPM_USF},
                     scheme == MPM_MUSL);
     mpm_book_ambient(mpm, simulation);

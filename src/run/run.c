@@ -81,7 +81,7 @@ static bool at_end(const struct run *run)
 static bool at_stop(const struct run *run)
 {
     int64_t most = run->options->max_steps;
-    return at_end(run) || run->told_to_stop ||
+    return at_end(run) || run->stop_requested ||
            (most > 0 && run->simulation.step - run->first_step >= most);
 }
 
@@ -104,7 +104,7 @@ static struct error *loop(struct run *run)
         TRY(checks_start(run->checks, &beginning));
     TRY(run_watch(run, at_end(run)));
     TRY(watch_checks(run));
-    TRY(run_hear_ranks(run, NULL));
+    TRY(run_agree(run, NULL));
     while (!at_stop(run)) {
         TRY(run_take_step(run));
         adapt_threads(run);
@@ -245,7 +245,7 @@ static struct error *begin(struct run *run)
     return ranks_agree(&run->ranks, error_join(error, look_ahead(run)));
 }
 
-static void tell_beginning(struct run *run)
+static void report_beginning(struct run *run)
 {
     const struct simulation *s = &run->simulation;
     const int threads = (int)ranks_maximum(&run->ranks, s->threads);
@@ -306,7 +306,7 @@ static void measure_speed(struct run *run)
 }
 
 /* For the log alone: it is no concern of the results. */
-static void tell_threads(const struct run *run)
+static void report_threads(const struct run *run)
 {
     const double mean = threads_mean(&run->threads, clock_seconds());
     if (run->log && mean < 0.95 * run->threads.most)
@@ -314,7 +314,7 @@ static void tell_threads(const struct run *run)
                      mean, run->threads.most);
 }
 
-static void tell_end(struct run *run)
+static void report_end(struct run *run)
 {
     const struct run_result *result = run->result;
     const struct simulation *s = &run->simulation;
@@ -325,9 +325,9 @@ static void tell_end(struct run *run)
             result->seconds, 1e-6 * result->updates_per_second, population_members(&population),
             result->energy_drift);
     for (int i = 0; i < s->phases; i++)
-        run_say(run, "  %-16s %8.2f s  %4.1f %%", s->phase[i].name, s->phase[i].seconds,
+        run_say(run, "  %-18s %8.2f s  %4.1f %%", s->phase[i].name, s->phase[i].seconds,
                 100.0 * s->phase[i].seconds / maximum(result->seconds, 1e-9));
-    tell_threads(run);
+    report_threads(run);
     for (int i = 0; i < result->checks.count; i++) {
         char measured[96], allowed[96];
         const struct check_result *check = &result->checks.item[i];
@@ -347,7 +347,7 @@ static void tell_end(struct run *run)
 }
 
 /* No verdict stands alone over what the models do not cover. */
-static void tell_warnings(struct run *run)
+static void report_warnings(struct run *run)
 {
     const struct warning_results *warnings = &run->result->warnings;
     for (int i = 0; i < warnings->count; i++) {
@@ -359,8 +359,8 @@ static void tell_warnings(struct run *run)
     }
 }
 
-/* An error that the other ranks do not know of: nothing may be asked of them any more. */
-static bool is_lonely(const struct run *run, const struct error *error)
+/* Whether ERROR is known on this rank alone: collective operations would then wait for ever. */
+static bool is_local_error(const struct run *run, const struct error *error)
 {
     return error && run->ranks.joined && !error_is_known_to_all(error);
 }
@@ -370,12 +370,12 @@ static struct error *run_through(struct run *run)
     TRY(run_check_folder(run));
     TRY(begin(run));
     TRY(run_open_folder(run));
-    tell_beginning(run);
+    report_beginning(run);
     run->began = run->last_checkpoint = run->last_progress = clock_seconds();
     struct error *error = run_summary_begin(run);
     if (!error)
         error = loop(run);
-    if (is_lonely(run, error))
+    if (is_local_error(run, error))
         return error;
     measure_speed(run);
     if (error && error_kind(error) == ERROR_STATE)
@@ -384,8 +384,8 @@ static struct error *run_through(struct run *run)
         error = conclude(run);
     if (!error) {
         run->result->hash = simulation_hash(&run->simulation);
-        tell_end(run);
-        tell_warnings(run);
+        report_end(run);
+        report_warnings(run);
     } else
         for (int i = 0; run->log && i < error_count(error); i++)
             run_log_line(run->log, "error: %s", error_message(error, i));
@@ -429,7 +429,7 @@ static struct run *run_new(const struct simulation_case *input, const struct run
     run->ranks = options->ranks ? *options->ranks : ranks_alone();
     run->history_step = run->checkpoint_step = -1;
     run->sound = true;
-    run->checkpoints_heard = options->checkpoints ? *options->checkpoints : 0;
+    run->checkpoints_requested = options->checkpoints ? *options->checkpoints : 0;
     return run;
 }
 
@@ -440,13 +440,13 @@ struct error *run_case(const struct simulation_case *input, const struct run_opt
     if (!run)
         return error_new(ERROR_SYSTEM, "out of memory");
     struct error *error = run_through(run);
-    const bool lonely = is_lonely(run, error);
+    const bool local = is_local_error(run, error);
     error = run_close_files(run, error);
-    if (lonely && options->alarm)
+    if (local && options->alarm)
         options->alarm(&run->ranks, error);
-    if (!lonely)
+    if (!local)
         error = ranks_agree(&run->ranks, error);
-    if (!lonely && run->began > 0.0)
+    if (!local && run->began > 0.0)
         error = run_report(run, error);
     destroy(run);
     return error;

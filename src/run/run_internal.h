@@ -26,14 +26,14 @@ struct run {
     struct checks *checks;
     struct warnings *warnings;
     struct limit limit;
-    double step;                          /* the last one taken, s */
-    double largest_step;                  /* of all, s */
-    int64_t collapsed_steps;              /* the last so many were far too short */
-    bool sound;                           /* the state is that of the end of a step */
-    int64_t particles;                    /* of all ranks */
-    bool told_to_stop, checkpoint_is_due; /* a rank of them was, to a rank it is */
-    bool checkpoint_is_wanted;            /* by the user, and not yet written */
-    sig_atomic_t checkpoints_heard;       /* requests for one that have been seen */
+    double step;                            /* the last one taken, s */
+    double largest_step;                    /* of all, s */
+    int64_t collapsed_steps;                /* the last so many were far too short */
+    bool sound;                             /* the state is that of the end of a step */
+    int64_t particles;                      /* of all ranks */
+    bool stop_requested, checkpoint_is_due; /* on any rank */
+    bool checkpoint_is_wanted;              /* by the user, and not yet written */
+    sig_atomic_t checkpoints_requested;     /* requests for one that have been seen */
 
     /* What a resumed run needs beside the state: the totals at time zero, how many times each
      * output has been due and been written, and when. */
@@ -97,10 +97,9 @@ struct error *run_load(struct run *run);
  * in the writing. */
 struct error *run_save_failure(struct run *run, struct error *error);
 
-/* Collective, once a step: what one rank says holds for all, be it that its particles came to an
- * impossible state, that some were made or went, that it was told to stop, or that it is time for a
- * checkpoint. Takes ERROR. */
-struct error *run_hear_ranks(struct run *run, struct error *error);
+/* Collective, once a step: all ranks learn of errors, of particles that were added or removed, of a
+ * request to stop, and of a checkpoint that is due on any rank. Takes ERROR. */
+struct error *run_agree(struct run *run, struct error *error);
 struct error *run_take_step(struct run *run);
 
 /* Collective, after a step: ERROR_STATE when steps have become so short that no run would end. */

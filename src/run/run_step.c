@@ -94,7 +94,7 @@ struct error *run_check_step(struct run *run)
                          "`run.until`");
 }
 
-struct error *run_hear_ranks(struct run *run, struct error *error)
+struct error *run_agree(struct run *run, struct error *error)
 {
     const struct run_options *options = run->options;
     const sig_atomic_t wanted = options->checkpoints ? *options->checkpoints : 0;
@@ -102,10 +102,10 @@ struct error *run_hear_ranks(struct run *run, struct error *error)
     double said[SAID] = {[CHANGED] = simulation_changed(&run->simulation),
                          [STOP] = options->stop && *options->stop,
                          [CHECKPOINT] = run_checkpoint_is_due(run),
-                         [WANTED] = wanted != run->checkpoints_heard};
-    run->checkpoints_heard = wanted;
+                         [WANTED] = wanted != run->checkpoints_requested};
+    run->checkpoints_requested = wanted;
     TRY(ranks_agree_on(&run->ranks, error, said, SAID));
-    run->told_to_stop = said[STOP] > 0.0;
+    run->stop_requested = said[STOP] > 0.0;
     run->checkpoint_is_due = said[CHECKPOINT] > 0.0;
     run->checkpoint_is_wanted = run->checkpoint_is_wanted || said[WANTED] > 0.0;
     if (said[CHANGED] > 0.0) {
@@ -126,7 +126,7 @@ struct error *run_take_step(struct run *run)
     double after = dt == event - simulation->time ? event : simulation->time + dt;
     if (!(dt > 0.0) || !(after > simulation->time))
         return no_step(run);
-    TRY(run_hear_ranks(run, run->method->advance(run->solver, simulation, dt)));
+    TRY(run_agree(run, run->method->advance(run->solver, simulation, dt)));
     simulation->time = after;
     simulation->step++;
     run->step = dt;

@@ -25,7 +25,7 @@ static struct error *watch_energy(struct run *run, const struct totals *now)
                      (long long)run->simulation.step, run->simulation.time, drift, allowed);
 }
 
-static void tell_warning(void *context, const char *text) { run_say(context, "%s", text); }
+static void report_warning(void *context, const char *text) { run_say(context, "%s", text); }
 
 struct error *run_watch_physics(struct run *run)
 {
@@ -35,5 +35,5 @@ struct error *run_watch_physics(struct run *run)
     const bool drift_is_limited = !isnan(run->input->run.energy_drift);
     return error_join(error, warnings_watch(run->warnings, &run->simulation, &now,
                                             drift_is_limited ? 0.0 : run->result->energy_drift,
-                                            tell_warning, run));
+                                            report_warning, run));
 }

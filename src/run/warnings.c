@@ -295,8 +295,8 @@ struct tell {
     void *context;
 };
 
-static struct error *tell_new(const struct warnings *w, const struct simulation *simulation, int k,
-                              const struct tell *tell)
+static struct error *report_new(const struct warnings *w, const struct simulation *simulation,
+                                int k, const struct tell *tell)
 {
     char *text = warning_line(w, simulation, k);
     if (!text)
@@ -329,7 +329,7 @@ static struct error *take_found(struct warnings *w, const struct simulation *sim
             continue;
         memory->body = place[0];
         memcpy(memory->place, place + 1, sizeof memory->place);
-        error = error_join(error, tell_new(w, simulation, k, tell));
+        error = error_join(error, report_new(w, simulation, k, tell));
     }
     free(counts);
     return error;
@@ -353,7 +353,7 @@ struct error *warnings_watch(struct warnings *w, const struct simulation *simula
     const int last = w->memories - 1;
     if (!error && drift > DRIFT_TO_WARN_OF &&
         remember(&w->memory[last], simulation, drift, DRIFT_TO_WARN_OF, 1.0))
-        error = tell_new(w, simulation, last, &teller);
+        error = report_new(w, simulation, last, &teller);
     return error;
 }
 

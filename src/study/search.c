@@ -14,7 +14,7 @@ enum { BISECTIONS_MOST = 40 };
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
 /* A search in progress. */
-struct hunt {
+struct bisection {
     const char *path, *name, *folder;
     const struct search *search;
     struct verify_options options; /* with room for our own settings behind the user's */
@@ -25,21 +25,21 @@ struct hunt {
     struct search_result *result;
 };
 
-static const struct ranks *ranks_of(const struct hunt *hunt)
+static const struct ranks *ranks_of(const struct bisection *bisection)
 {
     static const struct ranks alone = {0, 1, false};
-    return hunt->options.running.ranks ? hunt->options.running.ranks : &alone;
+    return bisection->options.running.ranks ? bisection->options.running.ranks : &alone;
 }
 
 /* The settings that make the case a sweep of one run with VALUE. Free *SWEEP. */
-static struct error *set_value(struct hunt *hunt, const char *value, char **sweep)
+static struct error *set_value(struct bisection *bisection, const char *value, char **sweep)
 {
-    struct case_options *reading = &hunt->options.reading;
-    *sweep = text_format("sweep={\"%s\": [\"%s\"]}", hunt->search->key, value);
+    struct case_options *reading = &bisection->options.reading;
+    *sweep = text_format("sweep={\"%s\": [\"%s\"]}", bisection->search->key, value);
     if (!*sweep)
         return out_of_memory();
-    hunt->settings[reading->setting_count - 2] = "fits={}";
-    hunt->settings[reading->setting_count - 1] = *sweep;
+    bisection->settings[reading->setting_count - 2] = "fits={}";
+    bisection->settings[reading->setting_count - 1] = *sweep;
     return NULL;
 }
 
@@ -81,20 +81,21 @@ static struct error *in_words_of_user(struct error *error, const char *sweep, co
 }
 
 /* Reads the case with VALUE, of OPTION, for the key, and gives the quantity that it comes to. */
-static struct error *read_value(struct hunt *hunt, const char *option, const char *value,
+static struct error *read_value(struct bisection *bisection, const char *option, const char *value,
                                 struct quantity *quantity)
 {
     char *sweep = NULL;
     struct simulation_case *input = NULL;
-    struct error *error = set_value(hunt, value, &sweep);
+    struct error *error = set_value(bisection, value, &sweep);
     if (!error) {
-        struct case_options reading = hunt->options.reading;
+        struct case_options reading = bisection->options.reading;
         reading.sweep_run = 1;
-        error = in_words_of_user(case_read(hunt->path, &reading, hunt->options.catalogue, &input),
-                                 sweep, option, value);
+        error = in_words_of_user(
+            case_read(bisection->path, &reading, bisection->options.catalogue, &input), sweep,
+            option, value);
     }
     if (!error)
-        error = find_check(input, hunt->search->check);
+        error = find_check(input, bisection->search->check);
     if (!error) {
         *quantity = input->sweep[0].quantity;
         if (isnan(quantity->value))
@@ -122,84 +123,86 @@ static const char *unit_behind(const char *text)
 }
 
 /* Values of the search are in the unit of its ends where both have the same, else in SI units. */
-static struct error *choose_unit(struct hunt *hunt, const struct quantity *from)
+static struct error *choose_unit(struct bisection *bisection, const struct quantity *from)
 {
-    const char *one = unit_behind(hunt->search->from), *other = unit_behind(hunt->search->to);
-    char *unit = hunt->result->unit;
+    const char *one = unit_behind(bisection->search->from),
+               *other = unit_behind(bisection->search->to);
+    char *unit = bisection->result->unit;
     if (one && other && !strcmp(one, other))
         strcpy(unit, one);
     else
         dimension_text(from->dimension, unit);
-    return unit_parse(unit, &hunt->unit);
+    return unit_parse(unit, &bisection->unit);
 }
 
-static struct error *read_within(struct hunt *hunt, const struct quantity *from)
+static struct error *read_within(struct bisection *bisection, const struct quantity *from)
 {
-    const char *text = hunt->search->within;
+    const char *text = bisection->search->within;
     const struct dimension none = {0};
     struct quantity within;
-    hunt->within = 0.01 * fabs(hunt->to - hunt->from);
+    bisection->within = 0.01 * fabs(bisection->to - bisection->from);
     if (!text)
         return NULL;
     TRY(error_context(expression_evaluate(text, NULL, &within), "--within"));
-    hunt->relative =
+    bisection->relative =
         dimension_equal(within.dimension, none) && !dimension_equal(from->dimension, none);
-    if (!hunt->relative && !dimension_equal(within.dimension, from->dimension)) {
+    if (!bisection->relative && !dimension_equal(within.dimension, from->dimension)) {
         char unit[DIMENSION_TEXT];
         return error_new(ERROR_INPUT, "--within: \"%s\" is no quantity in %s, as the values are",
                          text, dimension_text(from->dimension, unit));
     }
-    hunt->within = hunt->relative ? within.value : within.value / hunt->unit.scale;
-    return hunt->within > 0.0
+    bisection->within = bisection->relative ? within.value : within.value / bisection->unit.scale;
+    return bisection->within > 0.0
                ? NULL
                : error_new(ERROR_INPUT, "--within: \"%s\" must be more than 0", text);
 }
 
 /* The interval at which a search between A and B ends. */
-static double interval(const struct hunt *hunt, double a, double b)
+static double interval(const struct bisection *bisection, double a, double b)
 {
-    return hunt->relative ? hunt->within * maximum(fabs(a), fabs(b)) : hunt->within;
+    return bisection->relative ? bisection->within * maximum(fabs(a), fabs(b)) : bisection->within;
 }
 
 /* Reads what the user wants. No run yet. */
-static struct error *prepare(struct hunt *hunt)
+static struct error *prepare(struct bisection *bisection)
 {
-    const struct search *search = hunt->search;
+    const struct search *search = bisection->search;
     struct quantity from, to;
     const char *texts[] = {search->key, search->from, search->to};
     for (size_t i = 0; i < COUNT_OF(texts); i++)
         if (strpbrk(texts[i], "\"\\"))
             return error_new(ERROR_INPUT, "%s: quotes and backslashes are not allowed here",
                              texts[i]);
-    TRY(read_value(hunt, "--from", search->from, &from));
-    TRY(read_value(hunt, "--to", search->to, &to));
+    TRY(read_value(bisection, "--from", search->from, &from));
+    TRY(read_value(bisection, "--to", search->to, &to));
     if (!dimension_equal(from.dimension, to.dimension))
         return error_new(ERROR_INPUT, "--from %s --to %s: values of different dimensions",
                          search->from, search->to);
-    TRY(choose_unit(hunt, &from));
-    hunt->from = from.value / hunt->unit.scale;
-    hunt->to = to.value / hunt->unit.scale;
-    if (hunt->from == hunt->to)
+    TRY(choose_unit(bisection, &from));
+    bisection->from = from.value / bisection->unit.scale;
+    bisection->to = to.value / bisection->unit.scale;
+    if (bisection->from == bisection->to)
         return error_new(ERROR_INPUT, "--from %s --to %s: there is nothing between", search->from,
                          search->to);
-    TRY(read_within(hunt, &from));
-    const double steps =
-        ceil(log2(fabs(hunt->to - hunt->from) / interval(hunt, hunt->from, hunt->to)));
+    TRY(read_within(bisection, &from));
+    const double steps = ceil(log2(fabs(bisection->to - bisection->from) /
+                                   interval(bisection, bisection->from, bisection->to)));
     if (steps > BISECTIONS_MOST)
         return error_new(ERROR_INPUT, "--within: \"%s\" takes more than %d runs", search->within,
                          BISECTIONS_MOST);
-    hunt->result->expected = 2 + (int)maximum(steps, 0.0);
+    bisection->result->expected = 2 + (int)maximum(steps, 0.0);
     return NULL;
 }
 
 /* Collective: the table and plots of all runs so far. */
-static struct error *write_runs(const struct hunt *hunt)
+static struct error *write_runs(const struct bisection *bisection)
 {
-    const struct verify_result *runs = &hunt->result->runs;
-    const bool writes = ranks_of(hunt)->rank == 0 && runs->count && runs->item[0].sweep_values;
-    return ranks_agree(ranks_of(hunt), writes ? sweep_write(hunt->folder, runs->item, runs->count,
-                                                            &(struct check_results){0})
-                                              : NULL);
+    const struct verify_result *runs = &bisection->result->runs;
+    const bool writes = ranks_of(bisection)->rank == 0 && runs->count && runs->item[0].sweep_values;
+    return ranks_agree(
+        ranks_of(bisection),
+        writes ? sweep_write(bisection->folder, runs->item, runs->count, &(struct check_results){0})
+               : NULL);
 }
 
 /* Why RUN did not come to its end; NULL: it did. */
@@ -213,32 +216,34 @@ static struct error *run_error(const struct verify_case *run)
 }
 
 /* Runs the case with VALUE and tells whether the check passes. */
-static struct error *try_value(struct hunt *hunt, double value, bool *passes)
+static struct error *try_value(struct bisection *bisection, double value, bool *passes)
 {
-    struct verify_result *runs = &hunt->result->runs;
+    struct verify_result *runs = &bisection->result->runs;
     const int before = runs->count;
     char text[96], *sweep = NULL;
-    snprintf(text, sizeof text, "%.10g%s%s", value, *hunt->result->unit ? " " : "",
-             hunt->result->unit);
-    struct error *error = ranks_agree(ranks_of(hunt), set_value(hunt, text, &sweep));
+    snprintf(text, sizeof text, "%.10g%s%s", value, *bisection->result->unit ? " " : "",
+             bisection->result->unit);
+    struct error *error = ranks_agree(ranks_of(bisection), set_value(bisection, text, &sweep));
     if (!error)
-        error = verify_case(hunt->path, hunt->name, hunt->folder, &hunt->options, runs);
+        error = verify_case(bisection->path, bisection->name, bisection->folder,
+                            &bisection->options, runs);
     if (runs->count > before) { /* that checks fail is no error here */
         error_free(error);
         error = run_error(&runs->item[before]);
     }
     free(sweep);
-    if (!hunt->options.running.resume)
-        hunt->options.running.overwrite = true; /* the table of the run before */
+    if (!bisection->options.running.resume)
+        bisection->options.running.overwrite = true; /* the table of the run before */
     const struct check_result *check =
-        runs->count > before ? verify_find_check(&runs->item[before], hunt->search->check) : NULL;
+        runs->count > before ? verify_find_check(&runs->item[before], bisection->search->check)
+                             : NULL;
     *passes = check && (check->verdict == CHECK_PASSED || check->verdict == CHECK_PASSES_NOW);
-    return error_join(error, write_runs(hunt));
+    return error_join(error, write_runs(bisection));
 }
 
-static struct error *same_at_both(const struct hunt *hunt, bool passes)
+static struct error *same_at_both(const struct bisection *bisection, bool passes)
 {
-    const struct search *search = hunt->search;
+    const struct search *search = bisection->search;
     return error_new(ERROR_INPUT,
                      "check \"%s\" %s with %s = %s and with %s: choose values between which it "
                      "changes",
@@ -246,23 +251,23 @@ static struct error *same_at_both(const struct hunt *hunt, bool passes)
                      search->to);
 }
 
-static struct error *bisect(struct hunt *hunt)
+static struct error *bisect(struct bisection *bisection)
 {
-    struct search_result *result = hunt->result;
-    double low = hunt->from, high = hunt->to;
+    struct search_result *result = bisection->result;
+    double low = bisection->from, high = bisection->to;
     bool at_low, at_high, at_middle;
-    TRY(try_value(hunt, low, &at_low));
-    if (verify_told_to_stop(&hunt->options))
+    TRY(try_value(bisection, low, &at_low));
+    if (verify_stop_requested(&bisection->options))
         return NULL;
-    TRY(try_value(hunt, high, &at_high));
-    if (verify_told_to_stop(&hunt->options))
+    TRY(try_value(bisection, high, &at_high));
+    if (verify_stop_requested(&bisection->options))
         return NULL;
     if (at_low == at_high)
-        return same_at_both(hunt, at_low);
-    while (fabs(high - low) > (1.0 + 1e-9) * interval(hunt, low, high)) {
+        return same_at_both(bisection, at_low);
+    while (fabs(high - low) > (1.0 + 1e-9) * interval(bisection, low, high)) {
         const double middle = 0.5 * (low + high);
-        TRY(try_value(hunt, middle, &at_middle));
-        if (verify_told_to_stop(&hunt->options))
+        TRY(try_value(bisection, middle, &at_middle));
+        if (verify_stop_requested(&bisection->options))
             return NULL;
         if (at_middle == at_low)
             low = middle;
@@ -279,20 +284,22 @@ struct error *search_run(const char *path, const char *name, const char *folder,
                          const struct verify_options *options, const struct search *search,
                          struct search_result *result)
 {
-    struct hunt hunt = {path, name, folder, search, .options = *options, .result = result};
-    struct case_options *reading = &hunt.options.reading;
+    struct bisection bisection = {
+        path, name, folder, search, .options = *options, .result = result};
+    struct case_options *reading = &bisection.options.reading;
     *result = (struct search_result){0};
-    hunt.settings = memory_allocate(((size_t)reading->setting_count + 2) * sizeof *hunt.settings);
-    if (!hunt.settings)
+    bisection.settings =
+        memory_allocate(((size_t)reading->setting_count + 2) * sizeof *bisection.settings);
+    if (!bisection.settings)
         return out_of_memory();
     for (int i = 0; i < reading->setting_count; i++)
-        hunt.settings[i] = reading->settings[i];
-    reading->settings = hunt.settings;
+        bisection.settings[i] = reading->settings[i];
+    reading->settings = bisection.settings;
     reading->setting_count += 2;
-    struct error *error = ranks_agree(ranks_of(&hunt), prepare(&hunt));
+    struct error *error = ranks_agree(ranks_of(&bisection), prepare(&bisection));
     if (!error)
-        error = bisect(&hunt);
-    free(hunt.settings);
+        error = bisect(&bisection);
+    free(bisection.settings);
     return error;
 }
 

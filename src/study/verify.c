@@ -50,7 +50,7 @@ static const struct ranks *ranks_of(const struct verify_options *options)
     return options->running.ranks ? options->running.ranks : &alone;
 }
 
-bool verify_told_to_stop(const struct verify_options *options)
+bool verify_stop_requested(const struct verify_options *options)
 {
     const bool stop = options->running.stop && *options->running.stop;
     return ranks_maximum(ranks_of(options), stop) > 0.0;
@@ -91,7 +91,7 @@ static struct verify_case *add_case(struct verify_result *result, const char *pa
     return &grown[result->count++];
 }
 
-static void tell_end(const struct verify_options *options, const struct verify_case *verified)
+static void report_end(const struct verify_options *options, const struct verify_case *verified)
 {
     if (options->ended)
         options->ended(options->context, verified);
@@ -139,7 +139,7 @@ static struct error *run_of_sweep(struct simulation_case *input, const char *pat
         verified->sweep_values = input->sweep_values;
         input->sweep = NULL;
         input->sweep_values = 0;
-        tell_end(options, verified);
+        report_end(options, verified);
     }
     free(own_folder);
     free(own_name);
@@ -227,7 +227,7 @@ static struct error *run_all(const char *path, const char *name, const char *fol
 {
     int first = result->count;
     struct case_options reading = options->reading;
-    for (int run = 1; run <= runs && !verify_told_to_stop(options); run++) {
+    for (int run = 1; run <= runs && !verify_stop_requested(options); run++) {
         struct simulation_case *input = NULL;
         reading.sweep_run = run;
         TRY(read_case(path, &reading, options, &input));
@@ -281,7 +281,7 @@ static struct error *run_path(const char *path, const char *name, const char *fo
     struct error *error = runs || verified ? NULL : out_of_memory();
     if (verified) {
         run_input(input, folder, options, &options->running, verified);
-        tell_end(options, verified);
+        report_end(options, verified);
     }
     case_free(input);
     return runs && !error ? run_sweep(path, name, folder, runs, options, result) : error;
@@ -387,7 +387,7 @@ static struct error *run_or_note(const char *path, const char *name, const char 
     if (!verified)
         return error;
     verified->error = error;
-    tell_end(options, verified);
+    report_end(options, verified);
     return NULL;
 }
 
@@ -408,7 +408,7 @@ static struct error *run_and_record(const char *path, const char *name, const ch
     if (options->record)
         TRY(ranks_agree(ranks_of(options), writes ? record_check(path) : NULL));
     TRY(run_or_note(path, name, folder, options, result));
-    if (!options->record || verify_told_to_stop(options))
+    if (!options->record || verify_stop_requested(options))
         return NULL;
     return ranks_agree(ranks_of(options),
                        writes ? record_store(path, name, &options->reading, result->item + first,
@@ -421,7 +421,7 @@ struct error *verify_cases(const char *const *paths, int count,
 {
     *result = (struct verify_result){0};
     const char *output = options->running.output;
-    for (int i = 0; i < count && !verify_told_to_stop(options); i++) {
+    for (int i = 0; i < count && !verify_stop_requested(options); i++) {
         char *name = verify_name(paths[i]);
         char *folder = name && output ? path_join(output, name) : NULL;
         struct error *error = name && (folder || !output)

@@ -62,8 +62,8 @@ struct error *verify_case(const char *path, const char *name, const char *folder
                           const struct verify_options *options, struct verify_result *result);
 void verify_result_free(struct verify_result *result);
 
-/* Collective: a rank was told to stop. */
-bool verify_told_to_stop(const struct verify_options *options);
+/* Collective: whether any rank received a request to stop. */
+bool verify_stop_requested(const struct verify_options *options);
 
 /* "riemann/gas" of ".../riemann/gas/case.yaml", the path itself where it has no such folders. A path
  * with "." or ".." in it is resolved before. NULL when memory is out; free it. */

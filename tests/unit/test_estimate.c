@@ -139,7 +139,7 @@ static void a_shape_or_lattice_that_cannot_be_is_told_in_its_place(void **state)
 }
 
 /* Bytes that a step of a square of the method takes, a particle. */
-static double bytes_taken(const char *method, double *foreseen)
+static double bytes_taken(const char *method, double *estimated)
 {
     char more[400];
     snprintf(more, sizeof more,
@@ -165,21 +165,21 @@ static double bytes_taken(const char *method, double *foreseen)
         ((double)p->scratch.size + (double)sph.place_capacity * PLACE_STRIDE * sizeof(double) +
          (double)neighbours_bytes(&sph.neighbours)) /
             p->count;
-    *foreseen = class->bytes(input->solver.value, 2);
+    *estimated = class->bytes(input->solver.value, 2);
     class->destroy(&sph);
     simulation_destroy(&simulation);
     case_free(input);
     return taken;
 }
 
-static void the_bytes_foreseen_are_those_taken(void **state)
+static void estimated_bytes_match_allocated_ones(void **state)
 {
     (void)state;
     const char *const methods[] = {"contact", "muscl", "hllc", "monaghan"};
     for (size_t k = 0; k < COUNT_OF(methods); k++) {
-        double foreseen, taken = bytes_taken(methods[k], &foreseen);
-        if (!(fabs(foreseen / taken - 1.0) < 0.15))
-            fail_msg("%s: %.0f bytes foreseen, %.0f taken", methods[k], foreseen, taken);
+        double estimated, taken = bytes_taken(methods[k], &estimated);
+        if (!(fabs(estimated / taken - 1.0) < 0.15))
+            fail_msg("%s: %.0f bytes estimated, %.0f taken", methods[k], estimated, taken);
     }
 }
 
@@ -264,7 +264,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mixture_has_a_mean_density_and_a_mass_of_each_material),
         cmocka_unit_test(two_walls_bound_the_mean_density_of_their_axis),
-        cmocka_unit_test(the_bytes_foreseen_are_those_taken),
+        cmocka_unit_test(estimated_bytes_match_allocated_ones),
         cmocka_unit_test(a_shape_or_lattice_that_cannot_be_is_told_in_its_place),
         cmocka_unit_test(a_plate_of_less_than_three_particles_is_a_warning),
         cmocka_unit_test(a_start_below_0_k_is_a_warning),

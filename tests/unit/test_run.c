@@ -674,7 +674,7 @@ static void a_picture_that_cannot_be_is_told_before_anything_is_written(void **s
     assert_false(file_there("test_run_picture", "."));
 }
 
-static void what_a_run_would_refuse_is_foreseen_at_once(void **state)
+static void all_errors_of_a_run_are_found_before_it(void **state)
 {
     (void)state;
     const char *const settings[] = {
@@ -773,7 +773,7 @@ int main(void)
         cmocka_unit_test(a_start_from_rest_does_not_stop_a_run),
         cmocka_unit_test(a_mistake_in_a_check_is_told_before_the_first_step),
         cmocka_unit_test(a_picture_that_cannot_be_is_told_before_anything_is_written),
-        cmocka_unit_test(what_a_run_would_refuse_is_foreseen_at_once),
+        cmocka_unit_test(all_errors_of_a_run_are_found_before_it),
         cmocka_unit_test(a_body_thinner_than_the_resolution_is_a_warning),
         cmocka_unit_test(acoustic_contacts_of_a_strong_shock_are_a_warning),
         cmocka_unit_test(two_runs_write_the_same_files),

@@ -39,7 +39,7 @@ void contact_sum_pairs(struct sph *sph, struct simulation *simulation,
     sph->neighbours.prune = false;
     if (sph_axisymmetric(simulation))
         sph_add_hoop(sph, simulation, fields, NULL);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "pairs");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "pair sums");
 }
 
 static struct ranked limit_of_particle(const struct sph *sph, const struct simulation *simulation,
@@ -55,17 +55,17 @@ void contact_prepare(struct sph *sph, struct simulation *simulation, struct limi
 {
     const struct sph_fields fields = sph_fields_of(sph, simulation);
     contact_pack(sph, simulation, &fields);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "records");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "gather");
     contact_sum_pairs(sph, simulation, &fields);
     *limit = sph_smallest_limit(sph, simulation, limit_of_particle, &fields);
-    simulation_end_phase(simulation, PHASE_SHARED, "limit");
+    simulation_end_phase(simulation, PHASE_SHARED, "time step");
 }
 
 struct error *contact_advance(struct sph *sph, struct simulation *simulation, double dt)
 {
     const struct sph_fields fields = sph_fields_of(sph, simulation);
     struct error *error = sph_update(sph, simulation, &fields, dt);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "points");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "state update");
     return error;
 }
 

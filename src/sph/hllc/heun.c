@@ -140,7 +140,7 @@ static struct error *take_stage(struct simulation *simulation, const struct hllc
                 failed = i;
         }
     }
-    simulation_end_phase(simulation, PHASE_BLOCKS, "points");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "state update");
     return failed < 0 ? NULL : simulation_impossible(simulation, failed);
 }
 

@@ -94,12 +94,12 @@ void hllc_find_rates(struct sph *sph, struct simulation *simulation, const struc
         const struct sph_sweep sweep = {pass ? forces_of_block : gradients_of_block, &loop, 4,
                                         pass ? "pairs" : "gradients"};
         hllc_pack(sph, simulation, f, pass == 1);
-        simulation_end_phase(simulation, PHASE_BLOCKS, "records");
+        simulation_end_phase(simulation, PHASE_BLOCKS, "gather");
         sph_sweep(sph, simulation, &records, &sweep);
     }
     if (state->kind.depth)
         add_hoop(sph, simulation, f);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "pairs");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "pair sums");
 }
 
 /* dt = K h/c_E. */
@@ -117,7 +117,7 @@ void hllc_prepare(struct sph *sph, struct simulation *simulation, struct limit *
     const struct hllc_fields f = hllc_fields_of(sph, simulation);
     hllc_find_rates(sph, simulation, &f);
     *limit = sph_smallest_limit(sph, simulation, limit_of_particle, &f);
-    simulation_end_phase(simulation, PHASE_SHARED, "limit");
+    simulation_end_phase(simulation, PHASE_SHARED, "time step");
 }
 
 struct error *hllc_choose_kind(struct sph *sph, const struct simulation *simulation, bool viscous,

@@ -11,7 +11,7 @@
  * and `shock_slope` rho times the slope of the shock adiabat (riemann/shock_slope.h). Z_across is
  * the shear impedance; of a material that has none, minus the fraction of compression in its
  * velocity gradient. In 2-D and 3-D `compression` is rho over that of the start, and `packing` what
- * volumes filled too much of the space a step before (muscl_told).
+ * volumes filled too much of the space a step before (muscl_limit_excess).
  *
  * Of q, the first four or eight values (the most that there are) stand at the end of the record, a
  * row for dq/dx, one for dq/dy, ..., one for q': the kernel takes these a neighbour at a time, a
@@ -62,7 +62,10 @@ BOLIDE_INLINE int muscl_packing(struct muscl_kind kind)
 }
 /* An excess of packing as neighbours are told of it. At a surface, and in a lattice that is
  * compressed along one axis, there is far less than at the start; that does not count in full. */
-BOLIDE_INLINE double muscl_told(double excess) { return minimum(0.1, maximum(-0.05, excess)); }
+BOLIDE_INLINE double muscl_limit_excess(double excess)
+{
+    return minimum(0.1, maximum(-0.05, excess));
+}
 BOLIDE_INLINE int muscl_depth(struct muscl_kind kind)
 {
     return muscl_packing(kind) + (kind.dimension > 1);

@@ -155,7 +155,7 @@ BOLIDE_INLINE void find_packing(struct muscl_kind kind, double smoothing, struct
     const double inverse_h = 1.0 / (smoothing * batch->diameter[k]);
     const double self =
         batch->volume[k] * kernel_value(0.0, inverse_h, dimension) * square(inverse_h);
-    const double sum = batch->all[at.packing][k] + self * muscl_told(excess);
+    const double sum = batch->all[at.packing][k] + self * muscl_limit_excess(excess);
     const double mean = sum / (batch->all[at.like][k] + self);
     double det;
     const double norm = sqrt(sym3_square(adjoint_of(dimension, moment_of_forces(m, first), &det)));

@@ -164,7 +164,7 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     record[k++] = body_is_held(simulation, p->body[i]) ? -2.0 - mark : mark;
     if (dimension > 1) {
         record[k++] = p->density[i] / f->sph.density_start[i];
-        record[k++] = muscl_told(f->sph.packing[i][PACKING_EXCESS]);
+        record[k++] = muscl_limit_excess(f->sph.packing[i][PACKING_EXCESS]);
     }
     if (kind.depth)
         record[k++] = sph_depth(simulation, &f->sph, i);

@@ -58,7 +58,7 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
     const struct particles *p = sph->particles;
     sph->ahead = 0.5 * step;
     muscl_pack(sph, simulation);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "records");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "gather");
     const struct sph_records records = muscl_records(sph);
     const struct muscl_sweep sweep = {
         .pairs = {.kind = muscl_kind_of(sph),
@@ -81,7 +81,7 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
     frozen_push(sph, simulation, fields);
     if (sph_axisymmetric(simulation))
         sph_add_hoop(sph, simulation, &fields->sph, fields->own.hoop_stress);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "pairs");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "pair sums");
 }
 
 static struct ranked limit_of_particle(const struct sph *sph, const struct simulation *simulation,
@@ -105,7 +105,7 @@ static void prepare(struct sph *sph, struct simulation *simulation, struct limit
     const struct muscl_fields fields = muscl_fields_of(sph, simulation);
     for (int round = simulation->step == 0 ? 0 : 1; round < 2; round++) {
         *limit = sph_smallest_limit(sph, simulation, limit_of_particle, &fields);
-        simulation_end_phase(simulation, PHASE_SHARED, "limit");
+        simulation_end_phase(simulation, PHASE_SHARED, "time step");
         sum_pairs(sph, simulation, &fields, limit->dt);
     }
 }
@@ -116,7 +116,7 @@ static struct error *advance(struct sph *sph, struct simulation *simulation, dou
     if (!sph_has(sph, SPH_STILL))
         frozen_book(sph, simulation, dt);
     struct error *error = sph_update(sph, simulation, &fields, dt);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "points");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "state update");
     return error;
 }
 

@@ -23,7 +23,7 @@ static void prepare(struct sph *sph, struct simulation *simulation, struct limit
     for (int32_t i = 0; i < sph->particles->count; i++)
         fields.viscosity[i] = 0.0;
     contact_pack(sph, simulation, &fields);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "records");
+    simulation_end_phase(simulation, PHASE_BLOCKS, "gather");
     contact_sum_pairs(sph, simulation, &fields);
     find_viscosity(sph->parameters.method.value, simulation, &fields);
     simulation_end_phase(simulation, PHASE_BLOCKS, "viscosity");
