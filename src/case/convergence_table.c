@@ -21,8 +21,8 @@ static const struct parameter order_table[] = {
      .kind = PARAMETER_TEXT,
      .offset = offsetof(struct order_input, known_deviation),
      .standard = PARAMETER_OPTIONAL,
-     .help = "why the limit is expected to be missed: missing it does not fail the study, meeting "
-             "it does"},
+     .help = "why the order is expected to be outside its limits: this does not fail the study; if "
+             "it is within them, the study fails, so that the key gets removed"},
     PARAMETER_END,
 };
 

@@ -11,10 +11,10 @@ const struct parameter case_expected_table[] = {
      .offset = offsetof(struct expected_warning_input, warning),
      .standard = PARAMETER_REQUIRED,
      .names = warning_names,
-     .help = "what is expected: tension beyond the strength of a material; a speed above three "
-             "times that which set the case in motion; a temperature below 0 K; a density outside "
-             "the range of the equation of state; tension that lasts longer than SPH holds a "
-             "body; energy that is not conserved"},
+     .help = "what is expected: tension above the strength of a material; a speed above three "
+             "times what the case can cause; a temperature below 0 K; a density outside the range "
+             "of the equation of state; tension for longer than SPH is reliable; a drift of the "
+             "total energy"},
     {.key = "of",
      .kind = PARAMETER_NAMES,
      .offset = offsetof(struct expected_warning_input, of),

@@ -130,10 +130,10 @@ struct error *case_take_record(struct simulation_case *input, const char *path);
     {                                                                                              \
         .key = "regression_bound", .kind = PARAMETER_QUANTITY,                                     \
         .offset = offsetof(type, member regression_bound), .standard = PARAMETER_OPTIONAL,         \
-        .help = "how much larger than recorded the error may be, as a fraction of it or a "        \
-                "quantity: the "                                                                   \
-                "distance from `is` or the exact solution, else the change of the value; proves "  \
-                "nothing more: counted separately"                                                 \
+        .help = "by how much the error may exceed the recorded one, as a fraction of it or a "     \
+                "quantity; the error is the distance from `is` or from the exact solution. "       \
+                "Without either, by how much the value may change. It detects changes only, and "  \
+                "is counted separately"                                                            \
     }
 
 #endif

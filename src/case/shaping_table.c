@@ -5,7 +5,8 @@ const struct parameter case_shaping_table[] = {
     {.key = "include",
      .kind = PARAMETER_NAMES,
      .standard = PARAMETER_OPTIONAL,
-     .help = "files whose keys this file extends and overrides; paths start at this file's folder"},
+     .help = "files whose keys this file extends and overrides; paths are relative to this file's "
+             "folder"},
     {.key = "let",
      .kind = PARAMETER_MAP,
      .standard = PARAMETER_OPTIONAL,

@@ -31,9 +31,10 @@ static const struct option option_table[] = {
      COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH},
     {"--resume", NULL, "continue from the folder's checkpoint (restart)", OPTION_FLAG, AT(resume),
      COMMAND_RUN | COMMAND_SEARCH},
-    {"--threads", "N", "number of threads, at most (all processors)", OPTION_THREADS, AT(threads),
-     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_SEARCH},
-    {"--ranks", "N", "number of processes that compute a case together, started by mpirun (1)",
+    {"--threads", "N", "largest number of threads (default: all processors)", OPTION_THREADS,
+     AT(threads), COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_SEARCH},
+    {"--ranks", "N",
+     "number of processes that compute a case together, started by mpirun (default: 1)",
      OPTION_COUNT, AT(ranks_wanted), COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH},
     {"--set", "PATH=VALUE", "replace a value of the case: run.until=3us; may be repeated",
      OPTION_LIST, AT(settings),
@@ -48,12 +49,11 @@ static const struct option option_table[] = {
      "those that have `convergence`",
      OPTION_FLAG, AT(convergence), COMMAND_VERIFY},
     {"--record", NULL,
-     "store what the checks measured beside each case, in results.csv; other forms and settings "
-     "keep "
-     "theirs",
+     "store what the checks measured in results.csv beside each case; rows of other forms and "
+     "settings are kept",
      OPTION_FLAG, AT(record), COMMAND_VERIFY},
-    {"--time", "T", "the time of the solution, with its unit: 5us (CASE: its end)", OPTION_TEXT,
-     AT(time), COMMAND_EXACT},
+    {"--time", "T", "the time of the solution, with its unit: 5us; default for a CASE: its end",
+     OPTION_TEXT, AT(time), COMMAND_EXACT},
     {"--points", "N", "print the profile at the time in N points, as CSV", OPTION_COUNT, AT(points),
      COMMAND_EXACT},
     {"--curves", NULL, "print isentropes and shock adiabats of the material as CSV", OPTION_FLAG,
@@ -66,10 +66,10 @@ static const struct option option_table[] = {
     {"--check", "NAME", "the check that passes with one of the two values and fails with the other",
      OPTION_TEXT, AT(check), COMMAND_SEARCH},
     {"--within", "W",
-     "the interval to end at: 5m/s, or 1% of the value (a hundredth of the first interval)",
+     "the interval to end at: 5m/s, or 1% of the value (default: a hundredth of the first one)",
      OPTION_TEXT, AT(within), COMMAND_SEARCH},
     {"--template", "NAME",
-     "what to start from: impact (the usual), riemann, plate-2d, block-3d, bar-mpm", OPTION_TEXT,
+     "what to start from: impact (default), riemann, plate-2d, block-3d, bar-mpm", OPTION_TEXT,
      AT(template_name), COMMAND_NEW},
 };
 
