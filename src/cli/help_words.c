@@ -39,12 +39,14 @@ static const struct answer answers[] = {
      "The field `damage` is that of a failure model (`bolide help failure`) or of crushed\n"
      "concrete (strength: hjc), 1: failed. Concrete has `tensile_damage` too.",
      "failure.md"},
-    {" whipple shield debris crater perforation hole hypervelocity bumper ballistic.limit plate ",
+    {" whipple shield debris crater hole hypervelocity bumper plate ",
      "A projectile through a plate, with hole and debris cloud: a worked case is on the page\n"
-     "below. Checks measure `hole`, `crater`, `bulge` and `fragments`. `bolide search` finds a\n"
-     "ballistic limit: give plate and projectile a `failure` (bolide help failure) and run two\n"
-     "resolutions.",
+     "below. Checks measure `hole`, `crater`, `bulge` and `fragments`.",
      "tasks/impact-on-a-plate.md"},
+    {" ballistic.limit ballistic limit.velocity v50 perforation perforate plug plugging bullet ",
+     "`bolide search` finds a ballistic limit by bisection: give the plate a `failure` (bolide\n"
+     "help failure) and run two resolutions. A worked case is on the page below.",
+     "tasks/ballistic-limit.md"},
     {" rod long.rod penetration penetrator depth.of.penetration armour armor ",
      "A long rod into a thick target, beside the theory (bolide help long-rod): see the page\n"
      "below.",
