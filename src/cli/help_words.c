@@ -14,7 +14,12 @@ struct answer {
 };
 
 static const struct answer answers[] = {
-    {" spall fracture fragmentation fragment crack failure pull.back scabbing ",
+    {" spall spalling spallation pull.back pullback scabbing visar pdv free.surface.velocity ",
+     "Give the material a failure model with a spall strength (bolide help failure):\n"
+     "  failure: {spall: {strength: 1.3 GPa, stress: mean}}\n"
+     "and put a tracer on the free face, as a VISAR does. A worked case is on the page below.",
+     "tasks/spall.md"},
+    {" fracture fragmentation fragment crack failure ",
      "Give the material a failure model; `bolide help failure` lists them:\n"
      "  failure: {spall: {strength: 1.3 GPa}}   breaks where the tension reaches a strength\n"
      "  failure: {johnson-cook: ...}            ductile damage; the library has sets\n"
