@@ -1,5 +1,5 @@
-/* The members that a run computes with, particles or cells: their fields, what these are and where
- * their numbers lie, and their ids. */
+/* The fields of the members of a run, particles or cells: their descriptions, their storage, and
+ * the ids of the members. */
 #ifndef BOLIDE_FIELD_H
 #define BOLIDE_FIELD_H
 
@@ -8,7 +8,7 @@
 enum field_kind {
     FIELD_STATE = 1,   /* saved, migrated */
     FIELD_DERIVED = 2, /* found again from the state */
-    FIELD_PASSING = 4, /* holds nothing from before to after a sort: not moved with the particle */
+    FIELD_PASSING = 4, /* not kept when members are sorted */
 };
 
 struct field_declaration {
@@ -36,7 +36,7 @@ uint64_t fields_hash(const struct field *field, int fields, int64_t count);
 struct error *fields_visit(const char *store, const struct field *field, int fields, int64_t count,
                            struct visitor *visitor);
 
-/* An id tells what made the particle: a body and the index of its lattice site. */
+/* An id identifies the origin of a particle: a body and the index of its lattice site. */
 enum { PARTICLE_SITE_BITS = 48 };
 #define PARTICLE_SITE (((uint64_t)1 << PARTICLE_SITE_BITS) - 1)
 BOLIDE_INLINE uint64_t particle_id(int body, int64_t site)

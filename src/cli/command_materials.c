@@ -38,7 +38,7 @@ static struct error *print_row(const char *name, const struct material_input *in
     return NULL;
 }
 
-/* A file with mistakes is told after the others. */
+/* Files with mistakes are reported after the table. */
 static struct error *list_materials(const char *folder)
 {
     struct name_list names;

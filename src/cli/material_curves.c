@@ -1,4 +1,4 @@
-/* bolide materials NAME --curves: what the equation of state says, as CSV. */
+/* bolide materials NAME --curves: curves of the equation of state as CSV. */
 #include <math.h>
 #include <stdio.h>
 
@@ -18,7 +18,7 @@ static void print_state(const char *curve, const struct curve_state *s)
     printf("\n");
 }
 
-/* The shocks from AHEAD to rising densities, as far as they lead. */
+/* The shock adiabat from AHEAD with rising density, as far as it exists. */
 static void print_shocks(const char *curve, const struct material *material,
                          const struct curve_state *ahead, double density_ahead)
 {

@@ -1,4 +1,4 @@
-/* Words to the user: errors, lines of a run, the progress line, colours. */
+/* Output to the terminal: errors, lines of a run, the progress line, colours. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +8,8 @@
 #include "base/visible.h"
 #include "cli/cli.h"
 
-/* open() gives the lowest free number, so that streams opened in this order get their own. */
+/* open() returns the lowest free descriptor, so streams opened in this order get the standard
+ * numbers. */
 void terminal_open_closed_streams(void)
 {
     for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++)
@@ -16,7 +17,7 @@ void terminal_open_closed_streams(void)
             exit(ERROR_SYSTEM);
 }
 
-/* Where the alarm of a silenced rank goes. */
+/* The original stderr of a rank whose output is discarded, for alarms. */
 static FILE *alarm_stream;
 
 void terminal_silence(const struct ranks *ranks)
@@ -37,7 +38,7 @@ void terminal_alarm(const struct ranks *ranks, const struct error *error)
     ranks_abort(ranks, (int)error_kind(error));
 }
 
-/* The progress line goes to stderr, so that stdout holds whole lines only. */
+/* The progress line goes to stderr, so that stdout has complete lines only. */
 static bool draws_over(void) { return isatty(STDERR_FILENO); }
 
 void terminal_clear_line(void)

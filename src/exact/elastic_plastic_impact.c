@@ -1,6 +1,7 @@
-/* Front tracking; see elastic_plastic_impact.h. All fronts that there ever are stay in a list, each with
- * its birth, its end, and the states on either side: the solution at any time is read off those that live
- * then. The alive ones, from left to right, separate the regions of the moment. */
+/* Front tracking; see elastic_plastic_impact.h. All fronts stay in a list, each with its times of
+ * birth and end and the states on both sides, so the solution at any time is given by the fronts
+ * that exist then. The active fronts, from left to right, separate the regions at the current time.
+ * */
 #include "exact/elastic_plastic_impact.h"
 
 #include <string.h>
@@ -40,10 +41,11 @@ struct impact {
     double coarse; /* factor on the strains of pieces and of weak waves */
 };
 
-/* The strain of a piece of a fan. Waves and slips of less than WEAK relative change of density are let go:
- * the next Riemann problem beside them meets their change again. Waves go to and fro between a surface and
- * a shock that comes up to it, ever faster and weaker; fronts within NEAR of the bodies' thickness meet.
- * Where waves meet too often to be followed like that, all is taken coarser. */
+/* The strain of a piece of a rarefaction fan. Waves and slips with a relative change of density
+ * below WEAK are dropped: the next Riemann problem beside them includes their change. Waves that
+ * reverberate between a surface and an approaching shock become ever faster and weaker; fronts
+ * closer than NEAR times the thickness of the bodies are merged. Where there are too many
+ * interactions even so, all tolerances are increased. */
 static const double piece_strain = 1.0 / 2048.0, weak = 3e-6, near = 1e-4;
 enum { COARSEST = 512 };
 
@@ -83,7 +85,8 @@ static bool is_weak(const struct exact_state *a, const struct exact_state *b, do
     return fabs(a->density - b->density) < coarse * weak * a->density;
 }
 
-/* A front that moves DIRECTION from OUTER into the other state: as fast as mass is conserved. */
+/* A front that moves in DIRECTION between OUTER and the other state, with the speed given by
+ * conservation of mass. */
 static void leave(struct leaving *leaving, double direction, enum front_kind kind,
                   const struct exact_state *outer, const struct exact_state *inner)
 {
@@ -115,7 +118,7 @@ static void leave_in_pieces(struct leaving *leaving, double direction,
     }
 }
 
-/* The waves of SIDE; *star becomes the state beside the contact. */
+/* Computes the waves of SIDE; *star becomes the state at the contact. */
 static void leave_side(const struct solid_path *path, enum exact_side side,
                        const struct solid_meeting *meeting, struct leaving *leaving,
                        struct exact_state *star)
@@ -137,13 +140,13 @@ static void leave_side(const struct solid_path *path, enum exact_side side,
     }
 }
 
-/* The fronts at FIRST to LAST of the alive ones meet at X. */
+/* Resolves the interaction at X of the active fronts FIRST to LAST. */
 struct encounter {
     int first, last;
     double x, time;
 };
 
-/* The family of a fan's piece that comes with DIRECTION into the meeting, or a new one. */
+/* The fan to which a piece that arrives with DIRECTION belongs, or a new one. */
 static int family_of(struct impact *impact, const struct encounter *meeting, double direction)
 {
     for (int i = meeting->first; i <= meeting->last; i++) {
@@ -183,7 +186,8 @@ static struct error *replace(struct impact *impact, const struct encounter *meet
     return NULL;
 }
 
-/* What separates the two sides of a meeting: the interface or a surface if one is in it, else a slip. */
+/* The front that separates the two sides of an interaction: the interface or a surface if it takes
+ * part, else a slip line. */
 static struct front middle_of(const struct impact *impact, const struct encounter *meeting,
                               const struct solid_meeting *found, const struct exact_state star[2])
 {
@@ -198,7 +202,7 @@ static struct front middle_of(const struct impact *impact, const struct encounte
     return middle;
 }
 
-/* The side of the interface on which alive front INDEX lies; of the interface itself AT_IT. */
+/* The side of the interface on which active front INDEX lies; AT_IT for the interface itself. */
 static enum exact_side side_of(const struct impact *impact, int index, enum exact_side at_it)
 {
     for (int i = 0; i < impact->alive_count; i++)
@@ -251,7 +255,7 @@ static struct error *resolve(struct impact *impact, const struct exact_solid sol
     return replace(impact, meeting, fresh, count);
 }
 
-/* The time at which alive front INDEX and the next one meet; INFINITY: never. */
+/* The time at which active front INDEX meets the next one; INFINITY: never. */
 static double meeting_time(const struct impact *impact, int index)
 {
     const struct front *a = &impact->front[impact->alive[index]];
@@ -262,7 +266,8 @@ static double meeting_time(const struct impact *impact, int index)
     return born + maximum(place_of(b, born) - place_of(a, born), 0.0) / closing;
 }
 
-/* Whether alive front INDEX would join MEETING, in which fronts are as fast as SPEED, within a touch. */
+/* Whether active front INDEX would join MEETING, whose fronts have SPEED, within the merging
+ * distance. */
 static bool joins(const struct impact *impact, const struct encounter *meeting, int index,
                   const double speed[2])
 {
@@ -273,7 +278,7 @@ static bool joins(const struct impact *impact, const struct encounter *meeting, 
     return comes && fabs(place_of(front, meeting->time) - meeting->x) < impact->touch;
 }
 
-/* Widens MEETING by the fronts that would join it within the distance of a touch. */
+/* Extends MEETING by the fronts within the merging distance. */
 static void widen(const struct impact *impact, struct encounter *meeting)
 {
     for (bool grown = true; grown;) {
@@ -305,7 +310,7 @@ static struct encounter next_meeting(const struct impact *impact)
     return next;
 }
 
-/* A front at PLACE that is to be resolved at the start. */
+/* Adds a front at PLACE that is resolved at the start. */
 static void begin(struct impact *impact, double place, enum front_kind kind,
                   struct exact_state left, struct exact_state right)
 {
@@ -428,7 +433,7 @@ static struct exact_state impact_sample(const void *solved, enum exact_side side
         return at.interface->left;
     if (side == SIDE_RIGHT && x < contact)
         return at.interface->right;
-    if (!at.left) /* outside of a free surface, the state at it */
+    if (!at.left) /* outside a free surface, the state at the surface */
         return at.right->left.density > 0.0 ? at.right->left : at.right->right;
     if (at.left->right.density == 0.0)
         return at.left->left;

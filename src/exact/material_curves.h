@@ -1,6 +1,5 @@
-/* What an equation of state says of compression and expansion, apart from any flow: the isentrope
- * of the state at rest, the shock adiabats from rest, from behind a shock and from a porous body.
- * Without strength. */
+/* Compression and expansion curves of an equation of state, without strength: the isentrope of the
+ * state at rest, and shock adiabats from rest, from a shocked state and from a porous body. */
 #ifndef BOLIDE_EXACT_MATERIAL_CURVES_H
 #define BOLIDE_EXACT_MATERIAL_CURVES_H
 

@@ -38,11 +38,11 @@
     X(hjc)                   \
     X(noble_abel)
 
-/* Those whose pores close for good: eos_<identifier>_compact() notes it in the history. */
+/* Models of irreversible compaction: eos_<identifier>_compact() notes it in the history. */
 #define EOS_COMPACTING(X) X(hjc)
 
-/* Those whose source's form ends somewhere: eos_<identifier>() says so by POINT_BEYOND, and
- * eos_<identifier>_beyond() continues it. */
+/* Models whose published formula has a limited range: outside it eos_<identifier>() returns
+ * POINT_BEYOND, and eos_<identifier>_beyond() continues it. */
 #define EOS_CONTINUED(X)     \
     X(mie_grueneisen)        \
     X(grueneisen_eta)        \
@@ -132,7 +132,7 @@ BOLIDE_INLINE struct eos_traits eos_traits(const struct eos *eos)
     }
 }
 
-/* The curve that temperatures are counted from, at DENSITY. */
+/* The reference curve of the temperature, at DENSITY. */
 BOLIDE_INLINE struct heat_curve eos_curve(const struct eos *eos, const struct heat *heat,
                                           double density)
 {
@@ -151,7 +151,7 @@ BOLIDE_INLINE struct heat_curve eos_curve(const struct eos *eos, const struct he
 /* The slots of history that it needs. */
 BOLIDE_INLINE unsigned eos_history(const struct eos *eos) { return eos_traits(eos).history; }
 
-/* gamma of an ideal gas; NAN of any other medium. */
+/* gamma of an ideal gas; NAN for others. */
 BOLIDE_INLINE double eos_ratio_of_heats(const struct eos *eos)
 {
     return eos_traits(eos).ratio_of_heats;
@@ -165,8 +165,8 @@ BOLIDE_INLINE const char *eos_wrong(const struct eos *eos, const char **key)
     return traits.wrong;
 }
 
-/* Notes in HISTORY the pores that close on the way to DENSITY. Returns the change of rho/rho_0 that
- * will not come back. */
+/* Notes in HISTORY the compaction on the way to DENSITY. Returns its irreversible part of
+ * rho/rho_0. */
 BOLIDE_INLINE double eos_compact(const struct eos *eos, double density, double *history)
 {
     switch (eos->kind) {

@@ -1,13 +1,12 @@
-/* Whether a state that was loaded can be one of the case: what follows believes its indices and its
- * numbers. */
+/* Checks a loaded state: later code relies on its indices and numbers. */
 #ifndef BOLIDE_LOADED_H
 #define BOLIDE_LOADED_H
 
 #include "model/simulation.h"
 
 /* Collective. ERROR_SYSTEM names the first array, row and number of SIMULATION, just loaded, that
- * no run of its case writes: a material, body or site that the case has not, a mass or density that
- * is not positive, a number that is not finite. Of this rank's members. */
+ * cannot be of its case: a material, body or site that the case does not have, a mass or density
+ * that is not positive, a number that is not finite. Checks the members of this rank. */
 struct error *simulation_check_loaded(const struct simulation *simulation);
 
 #endif

@@ -1,5 +1,5 @@
-/* What is to be computed, which no step changes: the case, its materials, mirror walls and contact
- * laws, and gravity. */
+/* The problem of a run, which no step changes: the case, its materials, mirror walls, contact laws
+ * and gravity. */
 #ifndef BOLIDE_PROBLEM_H
 #define BOLIDE_PROBLEM_H
 
@@ -10,7 +10,7 @@
 
 enum { CONTACT_GROUPS = 16, MATERIALS_MAX = 256 };
 
-/* What else a law may say. Surface 0 has no friction and the mean normal. */
+/* Further properties of a contact law. Surface 0 has no friction and the mean normal. */
 struct contact_surface {
     double friction;
     int normal; /* enum contact_normal; the first is the group whose row of laws it is */
@@ -32,8 +32,8 @@ struct problem {
     struct contact_surface surface[CONTACT_SURFACES];
 };
 
-/* The problem of INPUT, which must last as long. ERROR_INPUT: walls or contacts contradict each
- * other; PROBLEM is to be destroyed then too. */
+/* Creates the problem of INPUT, which must outlive it. ERROR_INPUT: walls or contacts contradict
+ * each other; PROBLEM must be destroyed then too. */
 struct error *problem_create(const struct simulation_case *input, struct problem *problem);
 void problem_destroy(struct problem *problem);
 
@@ -42,13 +42,13 @@ void problem_destroy(struct problem *problem);
 struct error *input_error(const struct simulation_case *input, const char *section,
                           const char *name, const char *format, ...) BOLIDE_PRINTF(4, 5);
 
-/* That a case for particles names obstacles, or a domain and boundaries of one, which its solver has
- * not. */
+/* The error of a case that has obstacles, or a domain and its boundaries, and a solver for
+ * particles that does not support them. */
 struct error *refuse_obstacles(const struct simulation_case *input);
 struct error *refuse_boundaries(const struct simulation_case *input);
 
-/* The fields for what the case's materials remember beyond the core's, POINT_HISTORY at most: the
- * solver adds them to its store. Returns how many. */
+/* The fields for the history variables of the case's materials beyond the core's, POINT_HISTORY at
+ * most, which the solver adds to its store. Returns their number. */
 int problem_history(const struct problem *problem, struct field_declaration *fields);
 
 /* True when the case has gravity. */

@@ -1,5 +1,4 @@
-/* The sites of a body's lattice, one by one; see walk.h. A lattice is walked and never held in
- * memory. */
+/* Iteration over the sites of a body's lattice, which is never stored; see walk.h. */
 #include "model/walk.h"
 
 #include <stdlib.h>
@@ -11,11 +10,11 @@
 /* An id keeps the index of a site in 48 bits. */
 static const double sites_limit = 281474976710656.0;
 
-/* More than a rank can hold particles, and as many as it looks through in a minute. */
+/* More than a rank can store, and as many as it can iterate over in a minute. */
 static const int64_t sites_a_rank = INT64_C(1) << 32;
 
-/* Where mirrors cut a body about an axis: the y that stays, infinite where none cuts it. A body wholly
- * behind a mirror is not cut: that is a mistake. */
+/* In axisymmetry, the range of y that mirrors leave of a body; infinite where none cuts it. A body
+ * entirely outside a mirror is not cut but reported as an error. */
 static struct range kept_by_mirrors(const struct simulation_case *input, const struct bounds *shape)
 {
     struct range kept = {-INFINITY, INFINITY};
@@ -60,8 +59,8 @@ double largest_diameter(const struct simulation_case *input)
     return largest;
 }
 
-/* Far from the origin doubles lie too far apart for the distances of neighbours, whose error is up to
- * half a step of them: FINEST of the spacing at most. */
+/* Far from the origin, positions are rounded too coarsely for the distances of neighbours, whose
+ * error is up to half a unit in the last place. At most FINEST of the spacing is allowed. */
 static struct error *check_place(const struct simulation_case *input, int body,
                                  const struct lattice *lattice)
 {
@@ -125,7 +124,8 @@ struct error *walk_begin(struct walk *walk, const struct overlaps *overlaps, int
     return walk->near ? NULL : error_new(ERROR_SYSTEM, "out of memory");
 }
 
-/* A matrix may hold thousands of grains: a row of sites tests only those that it meets. */
+/* A matrix may contain thousands of grains, so the sites of a row are tested only against the
+ * bodies whose bounds meet the row. */
 static void walk_to_row(struct walk *walk, int64_t site)
 {
     const struct lattice_row *row = &walk->row;
@@ -155,8 +155,7 @@ static bool site_dropped(struct walk *walk, struct vec3 place)
     return false;
 }
 
-/* Beyond the axis of symmetry or a mirror across it, or on one of them, but for rounding: there is
- * nothing of a body. */
+/* Whether a site is on or outside the axis of symmetry or a mirror across it, but for rounding. */
 static bool site_beyond_axis(const struct walk *walk, struct vec3 place)
 {
     const double margin = 1e-9 * walk->input->resolution;
@@ -180,7 +179,7 @@ bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place)
     return false;
 }
 
-/* A site itself takes as long as a few simple shapes. What walk_begin refuses counts as nothing. */
+/* A site costs as much as a few simple shapes. Bodies that walk_begin refuses cost nothing. */
 static double work_of_body(const struct simulation_case *input, int body, const struct ranks *ranks)
 {
     static const double work_a_site = 4.0;

@@ -1,4 +1,5 @@
-/* What the material point method takes from the bodies of a case; gravity and the hoop stress in the ledger. */
+/* Bodies of a case as MPM uses them: layers, prescribed motion, and gravity and the hoop stress in
+ * the ledger. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -8,8 +9,8 @@
 #include "model/particles/held.h"
 #include "mpm/mpm_internal.h"
 
-/* The layer of a contact group for bodies that are HELD or not, a frozen one's own; it becomes one if there is none yet.
- * BIN_GROUPS when there are too many. */
+/* The layer of a contact group for bodies with prescribed motion (HELD) or without, or that of one
+ * frozen body; created if it does not exist yet. BIN_GROUPS when there are too many. */
 static int layer_for(struct mpm *mpm, const struct simulation *simulation, int body, bool held)
 {
     const bool frozen = body_is_frozen(simulation, body);
@@ -23,7 +24,7 @@ static int layer_for(struct mpm *mpm, const struct simulation *simulation, int b
     return g;
 }
 
-/* How fast waves are in a frozen body at the start. */
+/* The wave speed in a frozen body at the start. */
 static void note_sound(struct layer *layer, const struct simulation *simulation, int body)
 {
     const struct body_input *input = case_body(simulation->problem->input, body);
@@ -85,7 +86,7 @@ void mpm_move_held(const struct mpm *mpm, const struct simulation *simulation, d
     }
 }
 
-/* The density that decides from which mass on a node's velocity counts. */
+/* The density below which the mass of a node is too small for its velocity to be used. */
 static double least_density(const struct simulation *simulation)
 {
     double least = INFINITY;
@@ -135,7 +136,8 @@ struct weight {
     bool begin;
 };
 
-/* Work goes with the mean velocity of the step, so that free fall keeps its energy to rounding. */
+/* Work is computed with the mean velocity of the step, so that free fall conserves energy to
+ * rounding. */
 static void book_weight(const struct simulation *simulation, const struct particles *p,
                         const void *of, int32_t i, struct ledger *ledger)
 {
@@ -191,7 +193,7 @@ void mpm_book_ambient(const struct mpm *mpm, struct simulation *simulation)
         act_on_particles(simulation, mpm->particles, is_free, book_ambient, ambient);
 }
 
-/* Nodes without mass, which shape functions around the axis reach and others do not, give their forces to nothing. */
+/* Near the axis the hoop weights may reach nodes without mass; their forces are dropped. */
 static void unbook_lost(const struct mpm *mpm, const struct layer *layer, int32_t block, double dt,
                         struct ledger *ledger)
 {
@@ -207,7 +209,7 @@ static void unbook_lost(const struct mpm *mpm, const struct layer *layer, int32_
     }
 }
 
-/* By faces, what pushes the nodes that the particles of bin BIN reach. */
+/* With stresses on faces: the forces on the nodes that the particles of bin BIN reach. */
 static void book_ring(const struct mpm *mpm, const struct layer *layer, int32_t bin, double dt,
                       struct ledger *ledger)
 {
@@ -272,7 +274,8 @@ void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulat
                     (field_at(&velocity->at[k], vec3_make(high[0], high[1], high[2]), 0.0) -
                      field_at(&velocity->at[k], vec3_make(low[0], low[1], low[2]), 0.0)) /
                     (2.0 * away);
-                /* rounding may have left where the expression has a value */
+                /* rounding may have moved the position outside the range where the expression has a
+                 * value */
                 gradient[i][3 * k + j] = isfinite(slope) ? slope : 0.0;
             }
         }

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "mpm/mpm_internal.h"
 
-/* Which blocks of nodes a layer shares with others. */
+/* Finds the blocks of nodes that a layer has in common with others. */
 static struct error *find_meetings(struct mpm *mpm, struct layer *layer)
 {
     const struct grid *grid = &layer->grid;
@@ -24,7 +24,8 @@ static struct error *find_meetings(struct mpm *mpm, struct layer *layer)
     return NULL;
 }
 
-/* Patches of the gradient of mass, where the layer meets others; of several ranks all, as another may need them. */
+/* Patches of the mass gradient where the layer meets others; with several ranks all patches, since
+ * another rank may need them. */
 static void find_slopes(struct mpm *mpm, const struct simulation *simulation, struct layer *layer)
 {
     const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
@@ -49,7 +50,8 @@ static void find_normals(const struct mpm *mpm, const struct simulation *simulat
     mpm_fold_vectors(mpm, layer, &layer->normal);
 }
 
-/* Mass per gradient of it, in cells, of a half-space of particles of a SIZE that fill it up to S beyond a node. */
+/* Ratio of mass to mass gradient, in cells, at a node of a half-space filled with particles of a
+ * SIZE, whose surface is at distance S beyond the node. */
 static double ratio_at(enum grid_shape shape, double s, double size)
 {
     double mass = 0.0, slope = 0.0;
@@ -95,10 +97,10 @@ static struct contact_side side_of(const double *node, double dt)
         vec3_add(vector_at(node + NODE_MOMENTUM), vec3_scale(dt, vector_at(node + NODE_FORCE)))};
 }
 
-/* Which layer of a meeting keeps its velocity. */
+/* Which layer of a meeting has prescribed motion. */
 enum held_side { HELD_NONE, HELD_FIRST, HELD_SECOND };
 
-/* Two layers and the blocks of nodes that are the same. */
+/* Two layers, and two blocks of theirs at the same position. */
 struct meeting {
     struct layer *a, *b;
     int32_t in_a, in_b;
@@ -112,7 +114,8 @@ struct meeting {
     double edge;
 };
 
-/* How far the surface of a layer lies beyond a node, in cells, from the mass that it has there and its gradient. */
+/* The distance from a node to the surface of a layer, in cells, positive outwards, from the layer's
+ * mass and mass gradient at the node. */
 static double surface_beyond(const struct meeting *m, const struct layer *layer, const double *node,
                              struct vec3 gradient)
 {
@@ -132,8 +135,9 @@ static double surface_beyond(const struct meeting *m, const struct layer *layer,
     return SURFACE_REACH * (2.0 * (low + part) / SURFACES - 1.0);
 }
 
-/* Out of the first body at node K, from both gradients of mass; zero where there is none. A body whose surface is a cell
- * or more beyond the node has none: there may be no slope but rounding. */
+/* The outward normal of the first body at node K, from both mass gradients; zero where there is
+ * none. A body whose surface is a cell or more outside the node has none, since its gradient may be
+ * rounding only. */
 static struct vec3 normal_at(const struct meeting *m, int k)
 {
     const struct vec3 first = vector_at(grid_node(&m->a->normal, m->in_a, k)),
@@ -151,7 +155,7 @@ static struct vec3 normal_at(const struct meeting *m, int k)
     return length > 0.0 ? vec3_scale(1.0 / length, g) : vec3_make(0.0, 0.0, 0.0);
 }
 
-/* Whether there is room between the surfaces of two bodies at a node. */
+/* Whether there is a gap between the surfaces of two bodies at a node. */
 static bool is_apart(const struct meeting *m, int k)
 {
     const double *first = grid_node(&m->a->main, m->in_a, k),
@@ -163,7 +167,8 @@ static bool is_apart(const struct meeting *m, int k)
     return minimum(a, 1.0) + minimum(b, 1.0) < 0.0;
 }
 
-/* How a node of layer a touches others is a number of two bits for each of them, in the last number of its normal. */
+/* The state of contact of a node of layer a with each other layer, two bits each, in the last
+ * component of its normal. */
 enum { TOUCH_NUMBER = 3 };
 
 static enum contact_state touch_of(const double *normal, int other)
@@ -176,8 +181,8 @@ static void set_touch(double *normal, int other, enum contact_state state)
     normal[TOUCH_NUMBER] += (double)((uint64_t)state << 2 * other);
 }
 
-/* The impulse that the body of FREE gets from a held one in a step of DT, NORMAL out of it; it is noted with its work in the
- * second field of the held layer. */
+/* The impulse on the body of FREE from one with prescribed motion in a step of DT; NORMAL points
+ * out of FREE. The impulse and its work are noted in the second field of the prescribed layer. */
 static struct contact_push push_by_held(const struct meeting *m, int k, const double *node,
                                         const double *held, struct vec3 normal, double dt)
 {
@@ -241,7 +246,8 @@ static void meet_block(const struct meeting *m, double least, double dt)
     }
 }
 
-/* The same of velocities that particles have mapped back: where layers touched in the step, or in full contact. */
+/* The same for velocities that were mapped back from particles, where layers were in contact during
+ * the step, or in full contact. */
 static void join_block(const struct meeting *m)
 {
     for (int k = 0; k < BLOCK_CELLS; k++) {
@@ -275,7 +281,7 @@ static int law_of(const struct simulation *simulation, const struct layer *a, co
     return simulation->problem->law[a->group][b->group];
 }
 
-/* Laws are about normals, and so is what frozen bodies do. */
+/* Contact laws and frozen bodies need normals. */
 static bool wants_normals(const struct mpm *mpm, const struct simulation *simulation)
 {
     for (int g = 0; g < mpm->layers; g++) {
@@ -288,7 +294,7 @@ static bool wants_normals(const struct mpm *mpm, const struct simulation *simula
     return false;
 }
 
-/* Layers G and H, in a step of DT, or with DT zero their velocities. */
+/* Contact of layers G and H in a step of DT; with DT zero, contact of their velocities. */
 static void meet_pair(struct mpm *mpm, const struct simulation *simulation, int g, int h, double dt)
 {
     struct layer *a = &mpm->layer[g], *b = &mpm->layer[h];
@@ -341,8 +347,8 @@ static void clear_notes(const struct layer *layer)
             memset(grid_node(&layer->back, n, k), 0, BACK_STRIDE * sizeof(double));
 }
 
-/* What held bodies have done. At walls the ledger of these has it too: a node before a wall gets what it shares with its
- * image. */
+/* Books the impulse and work of bodies with prescribed motion. Nodes before a wall also get what
+ * they have in common with their image, so their entry includes the wall's. */
 static void book_notes(const struct mpm *mpm, struct simulation *simulation,
                        const struct layer *layer)
 {
@@ -367,7 +373,7 @@ static void book_notes(const struct mpm *mpm, struct simulation *simulation,
     }
 }
 
-/* Blocks that lie side by side have no normals yet. */
+/* Clears all normals, since adjacent blocks may be read before theirs are computed. */
 static void clear_touches(struct layer *layer)
 {
     for (int32_t n = 0; n < layer->grid.blocks; n++)
@@ -384,7 +390,7 @@ struct error *mpm_find_meetings(struct mpm *mpm)
     return NULL;
 }
 
-/* Forces before contact, which the nodes of a layer that moves keep in the second field. */
+/* Stores the forces before contact in the second field of layers without prescribed motion. */
 static void keep_forces(const struct layer *layer, int threads)
 {
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -394,7 +400,7 @@ static void keep_forces(const struct layer *layer, int threads)
                    3 * sizeof(double));
 }
 
-/* What the pushes of a step of DT give to the motion of a layer at node K of its block. */
+/* The work of the contact forces of a step of DT on a layer at node K of its block. */
 static double work_of_contact(const struct layer *layer, int32_t block, int k, double dt)
 {
     const double *node = grid_node(&layer->main, block, k),
@@ -406,7 +412,8 @@ static double work_of_contact(const struct layer *layer, int32_t block, int k, d
     return work;
 }
 
-/* What all layers lose by contact at node K of a block of layer G, per mass of those that move. */
+/* The energy that contact dissipates at node K of a block of layer G, per mass of the layers
+ * without prescribed motion. */
 static double heat_of_contact(const struct mpm *mpm, int g, int32_t block, int k, double dt)
 {
     double heat = 0.0, mass = 0.0;
@@ -428,7 +435,8 @@ static double heat_of_contact(const struct mpm *mpm, int g, int32_t block, int k
     return mass > 0.0 ? heat / mass : 0.0;
 }
 
-/* The particles of all layers that move get what contact takes from the motion. */
+/* Adds the energy that contact dissipates to the particles of all layers without prescribed motion.
+ * */
 static void heat_by_contact(struct mpm *mpm, const struct simulation *simulation, double dt)
 {
     for (int g = 0; g < mpm->layers; g++) {

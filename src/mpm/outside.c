@@ -1,19 +1,18 @@
-/* What pushes on surfaces, and what leaves through faces.
- *
- * The surface of a body is where the gradient of its volume, A_I = sum V grad N, does not vanish: its area at a node times
- * the normal, as the forces of stresses have it. So a pressure P pushes with -P A_I, and balances one inside to rounding
- * (in place of (2-11) of Cui, dissertation (2014), which marks particles). At a face of outflow the normal stress becomes
- * that of matter at rest behind it, which waves run out into (Lysmer and Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859),
- *   f_n = -(p - p0) A_n - rho c A_n v_n'
- * with v' at the end of the step, or else that of what leaves. */
+/* Loads on surfaces, and outflow through faces. The area of a body's surface at a node, times the
+ * normal, is A_I = sum V grad N, as in the forces of stresses; inside the body it vanishes. A
+ * pressure P gives the force -P A_I, which balances an equal pressure inside to rounding. (Cui,
+ * dissertation (2014), (2-11), marks surface particles instead.) At an outflow face the normal
+ * stress becomes that of material at rest outside, into which waves leave (Lysmer and Kuhlemeyer,
+ * J. Eng. Mech. Div. ASCE 95 (1969) 859): f_n = -(p - p0) A_n - rho c A_n v_n' with v' at the end
+ * of the step; or else that of the leaving material. */
 #include <assert.h>
 #include <string.h>
 
 #include "mpm/mpm_internal.h"
 
-/* What a particle gives to the numbers of its nodes: number n gets the sum over axes k of
- * by_slope[n][k] dN/dx_k. By faces the slope along k is that of what has the factors of its faces
- * where k is filled[n], so that a pressure balances the stress inside. */
+/* The contributions of a particle to the values of its nodes: value n gets the sum over axes k of
+ * by_slope[n][k] dN/dx_k. With stresses on faces, the slope along k includes the factors of the
+ * node's faces where k is filled[n], so that a pressure balances the stress inside. */
 struct given {
     double by_slope[3][3];
     int filled[3];
@@ -28,9 +27,9 @@ struct reached {
     double half;
 };
 
-/* The slope of a shape function along an axis with the factors FILL of the two faces of its node, from
- * the slopes SLOPE of the window; K is the number of the node in it, and BEFORE how far back in FILL the
- * one before stands. */
+/* The slope of a shape function along an axis, computed with the factors FILL of the two faces of
+ * its node and the slopes SLOPE of the window. K is the number of the node in the window, and
+ * BEFORE the distance in FILL to the preceding node. */
 static double filled_slope(const double *slope, int k, int window, const double *fill,
                            size_t before)
 {
@@ -87,10 +86,10 @@ static void give(const struct mpm *mpm, const struct layer *layer, const struct 
             }
 }
 
-/* Whose surface, and what its particles give. */
+/* A loaded surface, and the contributions of its particles. */
 struct surface {
     int body;         /* -1: all */
-    double low, high; /* nodes between these have it, in cells along AXIS */
+    double low, high; /* range of nodes on the surface, in cells along AXIS */
     int axis;
     struct given (*of)(const struct mpm *, const struct simulation *, const struct surface *,
                        int32_t i);
@@ -109,7 +108,7 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
     struct given given = {{{0.0}}, {0, 1, 2}};
     (void)mpm;
     for (int k = 0; k < simulation->problem->dimension; k++)
-        if (load->traction.count) { /* is to give its force, not to balance a stress */
+        if (load->traction.count) { /* a prescribed force, which balances no stress */
             given.by_slope[k][load->axis] = sign * surface->traction[k];
             given.filled[k] = -1;
         } else
@@ -139,7 +138,7 @@ static struct given by_outflow(const struct mpm *mpm, const struct simulation *s
     return given;
 }
 
-/* Whether a bin reaches nodes that may have the surface. */
+/* Whether particles of a bin may contribute to nodes of the surface. */
 static bool is_near(const struct layer *layer, const struct surface *surface, int32_t b)
 {
     int64_t corner[3];
@@ -180,7 +179,7 @@ static void give_bin(const struct mpm *mpm, const struct simulation *simulation,
     }
 }
 
-/* Collective: the sums of a surface at the nodes of all layers that move. */
+/* Collective: the sums of a surface at the nodes of all layers without prescribed motion. */
 static void sum_surface(struct mpm *mpm, struct simulation *simulation,
                         const struct surface *surface)
 {
@@ -201,7 +200,8 @@ static void sum_surface(struct mpm *mpm, struct simulation *simulation,
     }
 }
 
-/* The force along the outward normal of a face in a step of DT, from what a node has without walls and SUM of the face. */
+/* The force along the outward normal of a face in a step of DT, computed from the state of a node
+ * before walls act, and the node's SUM of the face. */
 static double face_force(const struct surface *surface, const double *node, const double *sum,
                          double dt)
 {
@@ -217,7 +217,8 @@ static double face_force(const struct surface *surface, const double *node, cons
     return -sum[FACE_PUSH] - damping * momentum / (mass + dt * damping);
 }
 
-/* Turns the sums of a face into forces: first all, then those at walls, which the main field does not have as they were. */
+/* Converts the sums of a face to forces: at all nodes, then again at nodes near walls, whose state
+ * before the walls acted is stored separately. */
 static void push_face(struct layer *layer, const struct surface *surface, double dt, int threads)
 {
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -240,7 +241,7 @@ static void push_face(struct layer *layer, const struct surface *surface, double
         }
 }
 
-/* The nodes of a block that do not have the surface get no force. */
+/* Sets the force to zero at nodes of a block that are not on the surface. */
 static void keep_surface(const struct layer *layer, const struct surface *surface, int32_t block)
 {
     int64_t corner[3], at[3];
@@ -254,8 +255,8 @@ static void keep_surface(const struct layer *layer, const struct surface *surfac
     }
 }
 
-/* Books the force F on a node in a step of DT, with the mean velocity of the step. NODE has all
- * forces, F too. */
+/* Books the impulse and work of the force F on a node in a step of DT, with the mean velocity of
+ * the step. The forces of NODE include F. */
 static void book_force(const struct mpm *mpm, const struct surface *surface, const double *node,
                        const int64_t at[3], const double f[3], double dt, struct ledger *ledger)
 {
@@ -271,7 +272,7 @@ static void book_force(const struct mpm *mpm, const struct surface *surface, con
                 work);
 }
 
-/* The same of the nodes of a block that walls do not change, where the block is this rank's. */
+/* The same for the nodes of a block that are not near a wall, if this rank owns the block. */
 static void book_block(const struct mpm *mpm, const struct layer *layer,
                        const struct surface *surface, int32_t block, double dt,
                        struct ledger *ledger)
@@ -288,8 +289,9 @@ static void book_block(const struct mpm *mpm, const struct layer *layer,
     }
 }
 
-/* Pushes with what stands in the second field. Particles get the forces of their own nodes, and
- * move with velocities that walls have folded: so those at walls are noted before they are. */
+/* Applies the forces in the second field. Particles get the forces of their own nodes but move with
+ * velocities that include the images at walls, so the forces near walls are saved before images are
+ * added. */
 static void push_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
                        const struct surface *surface, double dt)
 {

@@ -1,7 +1,7 @@
-/* What the loops of transfer.h do with a block, a cell and a particle of it. Weights are found
- * for some particles of a cell at once, one a lane; what a particle takes from nodes is summed
- * in the lanes of these, and what it gives to a node is one record, summed in the lanes of that:
- * over the particles of a cell, then over cells. All of it compiles as CUDA device code too. */
+/* The bodies of the loops in transfer.h, for a block, a cell and a particle. Weights are computed
+ * for several particles of a cell at a time, one a lane. Transfers to particles are summed in the
+ * lanes of the particles. Transfers to nodes form one record a node, which is summed over the
+ * particles of a cell and then over cells. Everything here also compiles as CUDA device code. */
 #ifndef BOLIDE_MPM_TRANSFER_BODY_H
 #define BOLIDE_MPM_TRANSFER_BODY_H
 
@@ -10,8 +10,8 @@
 #include "base/wide.h"
 #include "mpm/transfer_work.h"
 
-/* Where the nodes of a particle may have a velocity that changes over them: what its gradient
- * adds at a node. */
+/* With an affine velocity field in a particle: the contribution of its velocity gradient to the
+ * momentum of a node. */
 BOLIDE_INLINE void add_affine(const struct transfer *t, struct kind kind, const struct chunk *chunk,
                               int lane, const int at[3], double *momentum)
 {
@@ -23,9 +23,9 @@ BOLIDE_INLINE void add_affine(const struct transfer *t, struct kind kind, const 
             momentum[i] += factor * g[3 * i + j] * chunk->away[j][at[j]][lane];
 }
 
-/* What a particle gives to nodes: PLAIN goes with the shape function, BY_SLOPE with its slopes,
- * AROUND with what stands for the shape function around the axis. What is always zero is set
- * once. */
+/* The contributions of a particle to its nodes: PLAIN is multiplied by the shape function, BY_SLOPE
+ * by its slopes, AROUND by the weight of the hoop direction. Components that are always zero are
+ * set once. */
 struct node_record {
     ALIGNED double plain[NODE_STRIDE], by_slope[3][NODE_STRIDE], around[NODE_STRIDE];
 };
@@ -50,7 +50,7 @@ BOLIDE_INLINE void node_record_of(const struct transfer *t, struct kind kind, in
         record->plain[NODE_MOMENTUM + k] = mass * u[k];
     if (t->axisymmetric)
         record->around[NODE_FORCE] = v * (s[2] - p) / t->position[i][0];
-    /* force = -V sigma grad N (2-10); what an axis that there is not would get stays zero */
+    /* force = -V sigma grad N (2-10); components of axes that the case has not stay zero */
     by_slope[0][NODE_FORCE] = v * (s[0] - p);
     if (kind.dimension > 1) {
         by_slope[0][NODE_FORCE + 1] = by_slope[1][NODE_FORCE] = v * s[3];
@@ -63,8 +63,9 @@ BOLIDE_INLINE void node_record_of(const struct transfer *t, struct kind kind, in
     }
 }
 
-/* Adds a particle's record to the sums of a row of nodes along the last axis: those share all
- * but that axis' factor. LEVEL goes with the shape function along it, TILT with its slope. */
+/* Adds a particle's record to the sums of a row of nodes along the last axis, which have all
+ * factors but that axis' in common. LEVEL is multiplied by the shape function along it, TILT by its
+ * slope. */
 BOLIDE_INLINE void add_row(const struct chunk *chunk, struct kind kind, int lane,
                            const vector8 *level, const vector8 *tilt, vector8 *sum)
 {
@@ -120,7 +121,8 @@ BOLIDE_INLINE void add_sums4(const struct transfer *t, struct kind kind, size_t 
         vector4_add_to(patch + node_of(t, kind, base, a, b, c) * BACK_STRIDE, *sum++);
 }
 
-/* Adds what the lanes of a chunk have to the sums of their nodes; by faces without forces. */
+/* Adds the contributions of the particles of a chunk to the sums of their nodes, without forces
+ * where these act through faces. */
 BOLIDE_INLINE void scatter_nodes(const struct transfer *t, struct kind kind,
                                  const struct chunk *chunk, const double (*weight)[LANES],
                                  vector8 *sum)
@@ -424,8 +426,8 @@ BOLIDE_INLINE void keep_rates(const struct transfer *t, struct kind kind, const 
     }
 }
 
-/* Of the divergence of the lanes of a chunk in the step before, what their nodes do not have; that of
- * this step is kept for the next one. */
+/* Stores for each particle of a chunk the part of last step's divergence that the nodes cannot
+ * represent, and keeps the divergence of this step for the next one. */
 BOLIDE_INLINE void filter_divergence(const struct transfer *t, struct kind kind,
                                      const struct chunk *chunk, const double (*weight)[LANES],
                                      struct window back, struct rates rates)

@@ -1,4 +1,4 @@
-/* The blocks of other ranks that touch ours, and how they have moved; see block_motion.h. */
+/* The blocks of other ranks that are adjacent to ours, and their motion; see block_motion.h. */
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -35,7 +35,8 @@ struct sends {
     int32_t count;
 };
 
-/* Block B goes to the rank of the block of KEY, once; those from FIRST on are of B. */
+/* Adds block B, once, to the list for the rank that owns the block of KEY. Entries from FIRST on
+ * are of B. */
 static bool add_send(const struct particles *p, const struct halo *halo, uint64_t key, int32_t b,
                      int32_t first, struct sends *sends)
 {
@@ -53,7 +54,7 @@ static bool add_send(const struct particles *p, const struct halo *halo, uint64_
     return true;
 }
 
-/* Which of our blocks touch those of other ranks. */
+/* Finds our blocks that are adjacent to blocks of other ranks. */
 static bool find_send_items(const struct particles *p, struct near_walls walls,
                             const struct halo *halo, struct sends *sends)
 {

@@ -30,7 +30,7 @@ BOLIDE_INLINE struct range range_empty(void)
     return range;
 }
 
-/* Widens RANGE to hold VALUE; what is not finite is left out. */
+/* Extends RANGE to VALUE, if that is finite. */
 BOLIDE_INLINE void range_include(struct range *range, double value)
 {
     if (isfinite(value)) {
@@ -39,7 +39,7 @@ BOLIDE_INLINE void range_include(struct range *range, double value)
     }
 }
 
-/* Collective: what the ranges of all ranks hold together. */
+/* Collective: the union of the ranges of all ranks. */
 BOLIDE_INLINE struct range range_of_all(const struct ranks *ranks, struct range range)
 {
     struct range all = {ranks_minimum(ranks, range.low), ranks_maximum(ranks, range.high)};

@@ -1,11 +1,12 @@
-/* Points of all ranks for one plot: where several would lie on each other, one is enough. */
+/* Points of all ranks for a plot, without those that would coincide in it. */
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "picture/picture.h"
 #include "picture/scale.h"
 
-/* Of the points in one of so many by so many cells over the range of all the first is kept: a cell is about a pixel. */
+/* The plot is divided into this many cells along each axis, about one a pixel; only the first point
+ * in each is kept. */
 enum { CELLS = 1024 };
 
 struct drawn_point {
@@ -34,7 +35,7 @@ static uint32_t cell_of(struct range range, double value)
     return (uint32_t)(cell > 0.0 ? minimum(cell, CELLS - 1) : 0.0);
 }
 
-/* Sorts COUNT points and keeps one of each cell; their number. */
+/* Sorts COUNT points, keeps one in each cell, and returns how many remain. */
 static int64_t thin(struct drawn_point *point, int64_t count)
 {
     int64_t kept = 0;

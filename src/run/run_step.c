@@ -51,7 +51,7 @@ static struct error *no_step(const struct run *run)
     return stop_for_step(run, what, "");
 }
 
-/* How many steps as long as the method allows now lead to the end of the run. */
+/* The number of steps to the end of the run, at the present limit of the method. */
 static double steps_remaining(const struct run *run)
 {
     const int64_t most = run->input->run.max_steps;
@@ -69,9 +69,9 @@ void run_warn_of_length(struct run *run)
             run->limit.why ? run->limit.why : "unknown", steps_remaining(run));
 }
 
-/* A shock or a detonation shortens steps by the ratio of sound speeds and of sizes, by some hundred
- * at most, and a tiny step at the start of a run soon grows. Steps that stay below COLLAPSED of the
- * largest one, and leave a hopeless number to go, belong to no run that could end. */
+/* A shock or a detonation shortens steps by the ratio of sound speeds and particle sizes, at most
+ * some hundred times, and a tiny first step of a run soon grows. A run cannot end in reasonable
+ * time if its steps stay below COLLAPSED of the largest one and too many remain. */
 static const double COLLAPSED = 1e-6;
 enum { COLLAPSED_STEPS = 1000 };
 

@@ -5,7 +5,8 @@
 
 #include "shape/shape.h"
 
-/* Low faces belong to the box, high faces do not, so that boxes side by side share no point. */
+/* Low faces belong to the box, high faces do not, so that adjacent boxes have no point in common.
+ * */
 struct shape_box {
     struct vector_value from, to;
 };
@@ -97,7 +98,7 @@ struct shape_rotate {
 SHAPE_LIST(SHAPE_DECLARE)
 #undef SHAPE_DECLARE
 
-/* The coordinates of a case as a point; those that it has not are zero. */
+/* The coordinates of a case as a point; missing ones are zero. */
 BOLIDE_INLINE struct vec3 vec3_of(const struct vector_value *value)
 {
     return vec3_make(value->count > 0 ? value->at[0] : 0.0, value->count > 1 ? value->at[1] : 0.0,

@@ -1,5 +1,5 @@
-/* Shapes: where a body is. A shape is a choice of the catalogue's kind "shape"; its thing is a struct
- * shape_class. Those made of other shapes ask them in turn. */
+/* Shapes of bodies. A shape is a choice of the catalogue's kind "shape", and its thing is a struct
+ * shape_class. Shapes that are made of others call the functions of these. */
 #ifndef BOLIDE_SHAPE_H
 #define BOLIDE_SHAPE_H
 
@@ -10,7 +10,7 @@ struct bounds {
     struct vec3 low, high;
 };
 
-/* A middle, and how far from it the matter of a round shape begins and ends. */
+/* The centre of a round shape, and its inner and outer radius. */
 struct radii {
     struct vec3 center;
     double inner, outer;
@@ -18,13 +18,13 @@ struct radii {
 
 struct shape_class {
     bool (*inside)(const void *shape, struct vec3 point);
-    /* The smallest box known to hold the shape; infinite where it has no end. */
+    /* The smallest box known to contain the shape; infinite if the shape is unbounded. */
     struct bounds (*bounds)(const void *shape);
     /* NULL when the parameters make sense in DIMENSION, else what is wrong (static text). */
     const char *(*wrong)(const void *shape, int dimension);
     /* Fills *radii; false, or NULL instead of a function, when the shape is not round. */
     bool (*radii)(const void *shape, struct radii *radii);
-    /* How many simple shapes a single question may ask, at most; NULL: one. */
+    /* The largest number of simple shapes that one query tests; NULL: one. */
     double (*work)(const void *shape);
 };
 
@@ -45,8 +45,8 @@ const char *shapes_wrong(const struct one_of_list *shapes, int dimension);
 
 bool bounds_finite(const struct bounds *bounds);
 
-/* What holds both of two bounds, and what they have in common, whose low end is above its high end where
- * they lie apart. */
+/* The union and the intersection of two bounds. The intersection of disjoint bounds has low above
+ * high. */
 struct bounds bounds_around(struct bounds a, struct bounds b);
 struct bounds bounds_common(struct bounds a, struct bounds b);
 

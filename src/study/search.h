@@ -1,12 +1,12 @@
-/* Searches: bisection of a key of a case on whether one of its checks passes, for a ballistic limit or the
- * thickness that holds. A search is a sweep whose values are chosen as it goes: it writes the same
+/* Bisection of a key of a case on whether one of its checks passes, for a ballistic limit or a
+ * minimum thickness. A search is a sweep whose values are chosen as it proceeds: it writes the same
  * table and plots. */
 #ifndef BOLIDE_SEARCH_H
 #define BOLIDE_SEARCH_H
 
 #include "study/verify.h"
 
-/* What is searched for, as the user typed it. */
+/* The arguments of a search, as the user typed them. */
 struct search {
     const char *key;       /* a name of let or a path, as in a sweep */
     const char *from, *to; /* values of the key */

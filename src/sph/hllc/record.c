@@ -5,7 +5,7 @@
 #include "material/material.h"
 #include "sph/hllc/hllc.h"
 
-/* What both records begin with; returns what comes behind. */
+/* Writes the part that both records begin with, and returns its end. */
 static double *pack_plain(const struct simulation *simulation, const struct hllc_fields *f,
                           int32_t i, double *record)
 {
@@ -18,7 +18,7 @@ static double *pack_plain(const struct simulation *simulation, const struct hllc
     return record + 2 * dimension + 2;
 }
 
-/* The components of a symmetric tensor that a record has; returns what comes behind. */
+/* Writes the components of a symmetric tensor, and returns their end. */
 static double *pack_tensor(int dimension, const double *tensor, double less, double *record)
 {
     *record++ = tensor[0] - less;
@@ -128,7 +128,7 @@ void hllc_pack(struct sph *sph, const struct simulation *simulation, const struc
             pack_for_gradients(simulation, f, i, record);
     }
     double *empty = sph_records_start(sph, simulation, &records);
-    if (forces) { /* the contact problem of the record that fills up lanes must have an answer */
+    if (forces) { /* the record that fills up lanes must have a solvable contact problem */
         empty[hllc_density(kind.dimension)] = 1.0;
         empty[hllc_response(kind.dimension) + (kind.viscous ? 0 : 1)] = 1.0;
     }

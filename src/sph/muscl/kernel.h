@@ -21,7 +21,7 @@
 
 #include "sph/contact/kernel.h"
 
-/* Marks what carries no tension: more than any index of a material. */
+/* Marks a material that carries no tension; larger than any index of a material. */
 enum { MUSCL_GAS = 1 << 16, MUSCL_FAILED = 2 << 16 };
 
 struct muscl_kind {
@@ -60,8 +60,8 @@ BOLIDE_INLINE int muscl_packing(struct muscl_kind kind)
 {
     return muscl_compression(kind) + (kind.dimension > 1);
 }
-/* An excess of packing as neighbours are told of it. At a surface, and in a lattice that is
- * compressed along one axis, there is far less than at the start; that does not count in full. */
+/* The excess of packing as it enters means over neighbours. At a surface, and in a lattice
+ * compressed along one axis, it is far below zero, which must not count in full. */
 BOLIDE_INLINE double muscl_limit_excess(double excess)
 {
     return minimum(0.1, maximum(-0.05, excess));
@@ -74,7 +74,8 @@ BOLIDE_INLINE int muscl_correction(struct muscl_kind kind)
 {
     return muscl_depth(kind) + kind.depth;
 }
-/* Values of q: velocity, then stress; how many of them stand in rows, and how many before. */
+/* The number of values of q (velocity, then stress), of those in rows, and of those before the
+ * rows. */
 BOLIDE_INLINE int muscl_values(struct muscl_kind kind)
 {
     return kind.dimension + muscl_stresses(kind);
@@ -97,8 +98,7 @@ BOLIDE_INLINE int muscl_wide_rows(struct muscl_kind kind)
 {
     return muscl_wide(kind) == 8 ? (muscl_fields(kind) + 7) / 8 * 8 : muscl_fields(kind);
 }
-/* Where dq/dx of value F stands; the same along the next axis, at last q', are a step further each.
- */
+/* The offset of dq/dx of value F; those of the other axes and of q' follow, a step each. */
 BOLIDE_INLINE int muscl_slope(struct muscl_kind kind, int f)
 {
     return f < muscl_wide(kind) ? muscl_wide_rows(kind) + f
@@ -118,8 +118,8 @@ BOLIDE_INLINE int muscl_stride(struct muscl_kind kind)
     return (used + 7) / 8 * 8;
 }
 
-/* Sums for particle i, as contact/kernel.h has them, with a for W' e and L_i W' e in gradients.
- * Beyond them: */
+/* Sums for particle i as in contact/kernel.h, with a in place of W' e, and L_i W' e in gradients.
+ * In addition: */
 struct muscl_rates {
     struct pair_rates sums;
     double *correction; /* L, 1, 3, 6 components */
