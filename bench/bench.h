@@ -1,5 +1,5 @@
-/* What the benches of solvers share: a case run for so many steps, what is measured of any solver, and the rows of the
- * CSV file. */
+/* What the benches of solvers share: a case run for so many steps, what is measured of any solver,
+ * and the rows of the CSV file. */
 #ifndef BOLIDE_BENCH_H
 #define BOLIDE_BENCH_H
 
@@ -131,7 +131,8 @@ static inline void print_shares(const struct measured *m, int count, int width)
     fflush(stdout);
 }
 
-/* An empty file gets a line of names, in the order of write_csv: NAME and NUMBERS are those of the bench's own columns. */
+/* An empty file gets a line of names, in the order of write_csv: NAME and NUMBERS are those of the
+ * bench's own columns. */
 static inline FILE *open_csv(const char *path, const char *name, const char *numbers,
                              const struct bench_phase *phases, int count)
 {
@@ -151,7 +152,8 @@ static inline FILE *open_csv(const char *path, const char *name, const char *num
     return csv;
 }
 
-/* The MEDIAN of repeats, whose rates go from SLOWEST to FASTEST; without a file nothing is written. */
+/* The MEDIAN of repeats, whose rates go from SLOWEST to FASTEST; without a file nothing is
+ * written. */
 static inline void write_csv(FILE *csv, const char *name, const struct run *run, int repeats,
                              const struct measured *median, double slowest, double fastest,
                              const char *numbers, int count)
@@ -171,7 +173,8 @@ static inline void write_csv(FILE *csv, const char *name, const struct run *run,
     fflush(csv);
 }
 
-/* What both are called with: [--quick] [--csv FILE], then names of groups or a case of one's own. */
+/* What both are called with: [--quick] [--csv FILE], then names of groups or a case of one's
+ * own. */
 struct wishes {
     bool quick;
     const char *csv;

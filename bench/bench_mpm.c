@@ -1,5 +1,6 @@
-/* The speed of whole steps of the material point method, all of it counted: particle updates a second, bytes a particle, and
- * what share each phase takes. One thread beside two; the median of repeats that take turns.
+/* The speed of whole steps of the material point method, all of it counted: particle updates a
+ * second, bytes a particle, and what share each phase takes. One thread beside two; the median of
+ * repeats that take turns.
  *
  * Usage: bench_mpm [--quick] [--csv FILE] [mpm]
  *        bench_mpm CASE.yaml [let.n=VALUE [STEPS [THREADS]]] */

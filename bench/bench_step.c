@@ -1,6 +1,7 @@
-/* The speed of whole steps, neighbour rows built as they fall: particle updates a second, nanoseconds a pair, bytes a
- * particle, and what share each phase takes. First order beside second, one thread beside two; the median of repeats that
- * take turns, so that what disturbs the machine disturbs all alike.
+/* The speed of whole steps, neighbour rows built as they fall: particle updates a second,
+ * nanoseconds a pair, bytes a particle, and what share each phase takes. First order beside second,
+ * one thread beside two; the median of repeats that take turns, so that what disturbs the machine
+ * disturbs all alike.
  *
  * Usage: bench_step [--quick] [--csv FILE] [line|plane|space|size|sparse|NAME OF A CASE]...
  *        bench_step CASE.yaml [let.n=VALUE [STEPS [THREADS]]] */
@@ -93,7 +94,8 @@ static void print_head(void)
     printf("%6s %6s %6s %6s\n", "bours", "records", "pairs", "points");
 }
 
-/* Cases side by side: the two orders of one, or the two of group "sparse", which compares two cases of one order. */
+/* Cases side by side: the two orders of one, or the two of group "sparse", which compares two cases
+ * of one order. */
 struct bench {
     const char *group, *name[2], *path[2], *setting;
     int steps, repeats;

@@ -1,5 +1,6 @@
-/* The ceilings of this machine that a pair loop meets: clock, vector arithmetic, divisions and roots, bandwidth by size of
- * the working set, and records at random places as neighbours are. Compiled for the processor that it is built on.
+/* The ceilings of this machine that a pair loop meets: clock, vector arithmetic, divisions and
+ * roots, bandwidth by size of the working set, and records at random places as neighbours are.
+ * Compiled for the processor that it is built on.
  *
  * Usage: probe [THREADS]   Bandwidth and records by that many threads at once; 1 by default. */
 #include <math.h>
@@ -61,7 +62,8 @@ static vector vector_of(double value)
     return zero + value;
 }
 
-/* Operations on vectors a second. Twelve chains keep two units of a latency of four busy, and are few enough for registers. */
+/* Operations on vectors a second. Twelve chains keep two units of a latency of four busy, and are
+ * few enough for registers. */
 #define TWELVE(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7) DO(8) DO(9) DO(10) DO(11)
 #define BEGIN(k) vector a##k = start + k;
 #define FINISH(k) total += a##k;
@@ -93,8 +95,8 @@ RATE(fused_a_second, 20 * 1000 * 1000L, FUSE)
 RATE(sums_a_second, 20 * 1000 * 1000L, ADD)
 RATE(quotients_a_second, 1000 * 1000L, DIVIDE)
 
-/* There is no operator for roots; these go through the nearest cache, which takes far less time than they do, and never
- * settle on a number whose root is easy. */
+/* There is no operator for roots; these go through the nearest cache, which takes far less time
+ * than they do, and never settle on a number whose root is easy. */
 static double roots_a_second(void)
 {
     const long steps = 1000 * 1000;
@@ -188,7 +190,8 @@ static void shuffle(unsigned *order, size_t count)
 
 enum job { READ, WRITE, RECORDS };
 
-/* Bytes a second of all threads together, each with a set of its own of MEGABYTES; RECORD bytes long are RECORDS. */
+/* Bytes a second of all threads together, each with a set of its own of MEGABYTES; RECORD bytes
+ * long are RECORDS. */
 static double bandwidth(enum job job, struct area *areas, int threads, size_t megabytes,
                         size_t record)
 {

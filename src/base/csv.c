@@ -10,8 +10,8 @@
 #include "base/file.h"
 #include "base/memory.h"
 
-/* Unquotes the field at *AT in place, goes behind what ends it, and returns that: a comma, the end of
- * the line or of the text. */
+/* Unquotes the field at *AT in place, goes behind what ends it, and returns that: a comma, the end
+ * of the line or of the text. */
 static char take_field(char **at, const char **field)
 {
     char *from = *at, *to = from;

@@ -1,5 +1,5 @@
-/* Tables of comma-separated values, as this program writes them: one line of heads, fields in quotes
- * where they hold commas, quotes or line breaks. */
+/* Tables of comma-separated values, as this program writes them: one line of heads, fields in
+ * quotes where they hold commas, quotes or line breaks. */
 #ifndef BOLIDE_CSV_H
 #define BOLIDE_CSV_H
 
@@ -51,8 +51,8 @@ struct error *csv_visit_mark(struct csv_mark *mark, const char *name, struct vis
 /* Writes the head of a column in UNIT, "" for a plain number: `pressure [Pa]`. */
 void csv_put_head(FILE *file, const char *name, const char *unit);
 
-/* Writes TEXT (NULL: nothing) as one field in quotes, and a number with as many digits as reading the
- * same bits again takes; "nan" where there is none. */
+/* Writes TEXT (NULL: nothing) as one field in quotes, and a number with as many digits as reading
+ * the same bits again takes; "nan" where there is none. */
 void csv_put_text(FILE *file, const char *text);
 void csv_put_number(FILE *file, double value);
 

@@ -1,7 +1,7 @@
-/* The exponential function, the logarithm, powers and roots as formulas, which a compiler turns into
- * vectors: the same bits in every lane, for every instruction set and on a device. Point physics and
- * kernels use these and never the library's. Errors stay below 2.5 units in the last place; those of
- * a power grow with its logarithm. */
+/* The exponential function, the logarithm, powers and roots as formulas, which a compiler turns
+ * into vectors: the same bits in every lane, for every instruction set and on a device. Point
+ * physics and kernels use these and never the library's. Errors stay below 2.5 units in the last
+ * place; those of a power grow with its logarithm. */
 #ifndef BOLIDE_EXPONENTIAL_H
 #define BOLIDE_EXPONENTIAL_H
 
@@ -18,7 +18,8 @@ BOLIDE_INLINE double exponential(double x)
     x = maximum(minimum(x, 700.0), -700.0);
     double shifted = x * per_ln2 + rounding, k = shifted - rounding;
     double r = (x - k * ln2_high) - k * ln2_low;
-    /* In pairs, then pairs of pairs: a chain of products would be what a contact problem waits for. */
+    /* In pairs, then pairs of pairs: a chain of products would be what a contact problem waits
+     * for. */
     double r2 = r * r, r4 = r2 * r2;
     double t2 = 0.5 + r * (1.0 / 6.0), t4 = 1.0 / 24.0 + r * (1.0 / 120.0);
     double t6 = 1.0 / 720.0 + r * (1.0 / 5040.0), t8 = 1.0 / 40320.0 + r * (1.0 / 362880.0);
@@ -33,8 +34,8 @@ BOLIDE_INLINE double exponential(double x)
     return value * power;
 }
 
-/* x = 2^k m, m between sqrt(1/2) and sqrt(2), and the series ln m = 2 artanh s, s = (m - 1)/(m + 1). X is positive and not
- * subnormal; of zero it is some -709. */
+/* x = 2^k m, m between sqrt(1/2) and sqrt(2), and the series ln m = 2 artanh s, s = (m - 1)/(m +
+ * 1). X is positive and not subnormal; of zero it is some -709. */
 BOLIDE_INLINE double logarithm(double x)
 {
     const double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821492927058770002e-10;
@@ -96,8 +97,8 @@ BOLIDE_INLINE double cube_root(double x)
 }
 
 /* cos(arccos(c)/3) of c in [-1, 1]: the largest root of 4 y^3 - 3 y = c, and twice that the largest
- * root of a cubic with three real ones. With y = 1/2 + z it is 6 z^2 + 4 z^3 = 1 + c, where Newton's
- * method meets no double root: z grows as s = sqrt((1 + c)/6). */
+ * root of a cubic with three real ones. With y = 1/2 + z it is 6 z^2 + 4 z^3 = 1 + c, where
+ * Newton's method meets no double root: z grows as s = sqrt((1 + c)/6). */
 BOLIDE_INLINE double cosine_of_third(double c)
 {
     const double d = 1.0 + c, s = sqrt(d * (1.0 / 6.0));

@@ -1,5 +1,6 @@
 /* Expressions of literals with units and named quantities: `2*U0 + 3 m/s`. muparser evaluates; the
- * dimension is found by evaluating again with scaled base units, so that `2 m + 3 s` is an error. */
+ * dimension is found by evaluating again with scaled base units, so that `2 m + 3 s` is an
+ * error. */
 #ifndef BOLIDE_EXPRESSION_H
 #define BOLIDE_EXPRESSION_H
 
@@ -32,22 +33,24 @@ struct named_quantities {
 struct error *expression_evaluate(const char *text, const struct named_quantities *names,
                                   struct quantity *result);
 
-/* An expression of the position x, y, z of a place or of the time t: `Omega*y`, `300 K + 700 K*(x > 1 mm)`,
- * `10 MPa*exp(-t/1 ms)`. */
+/* An expression of the position x, y, z of a place or of the time t: `Omega*y`, `300 K + 700 K*(x >
+ * 1 mm)`, `10 MPa*exp(-t/1 ms)`. */
 struct varying_expression;
 
 /* What an expression may name, as a sum: the position, three lengths x, y, z; the time t. */
 enum expression_arguments { ARGUMENT_POSITION = 1, ARGUMENT_TIME = 2 };
 
-/* Like expression_evaluate for a TEXT that may name ARGUMENTS, and compare with < > <= >=, which gives 1 or 0. Where it
- * names one *EXPRESSION holds it and RESULT its dimension with the value NAN; else *EXPRESSION is NULL. One of NAMES that
- * is called like an argument is an error where it is used. */
+/* Like expression_evaluate for a TEXT that may name ARGUMENTS, and compare with < > <= >=, which
+ * gives 1 or 0. Where it names one *EXPRESSION holds it and RESULT its dimension with the value
+ * NAN; else *EXPRESSION is NULL. One of NAMES that is called like an argument is an error where it
+ * is used. */
 struct error *varying_expression_compile(const char *text, unsigned arguments,
                                          const struct named_quantities *names,
                                          struct quantity *result,
                                          struct varying_expression **expression);
 
-/* The value in SI units at PLACE (m) and TIME (s), perhaps not finite. Not for two threads at once. */
+/* The value in SI units at PLACE (m) and TIME (s), perhaps not finite. Not for two threads at
+ * once. */
 double varying_expression_at(const struct varying_expression *expression, struct vec3 place,
                              double time);
 

@@ -37,8 +37,8 @@ void expression_give(const struct expression_reading *reading, muParserHandle_t 
 struct error *expression_try(const struct expression_reading *reading, muParserHandle_t parser,
                              double *value);
 
-/* The dimension of a formula without arguments, at the first numbers that serve; of one with them, whose pieces may
- * differ, the same at all of many numbers. */
+/* The dimension of a formula without arguments, at the first numbers that serve; of one with them,
+ * whose pieces may differ, the same at all of many numbers. */
 struct error *expression_dimension(struct expression_reading *reading, muParserHandle_t parser,
                                    struct dimension *dimension);
 

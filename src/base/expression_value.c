@@ -1,5 +1,5 @@
-/* The value of an expression, by muparser, and its dimension, found by evaluating the formula again with
- * scaled base units. */
+/* The value of an expression, by muparser, and its dimension, found by evaluating the formula again
+ * with scaled base units. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,10 +46,10 @@ static double any_number(int index, int trial)
 
 /* The dimension must not hang on the values: 0 mm is a length, U0 - U0 a velocity, and in 1 nm +
  * 200 GPa the first term drowns. So each quantity takes any number of its sign instead of its
- * value, and each occurrence of a name another one, of an argument one of any sign. Pure numbers keep theirs, for they may be
- * exponents. Where that gives zero or leaves the domain of a function another trial follows:
- * first with zeros as they are, then with zeros replaced as well (0*plate), at last with the
- * true values. */
+ * value, and each occurrence of a name another one, of an argument one of any sign. Pure numbers
+ * keep theirs, for they may be exponents. Where that gives zero or leaves the domain of a function
+ * another trial follows: first with zeros as they are, then with zeros replaced as well (0*plate),
+ * at last with the true values. */
 enum { TRIALS = 8, LAST_TRIAL = 2 * TRIALS, ARGUMENT_TRIALS = 64 };
 
 static double trial_value(const struct expression_reading *reading, int index, int trial)
@@ -77,10 +77,10 @@ static double evaluate_scaled(struct expression_reading *reading, muParserHandle
     return mupEval(parser);
 }
 
-/* The dimension that the numbers of TRIAL show, at which the value is PLAIN. With metre, kilogram, second
- * and kelvin scaled in turn the value grows by a power of the scale, the exponent of the dimension. A last
- * evaluation with all of them scaled the other way, each differently, must agree: it finds what a sum of
- * different dimensions or a sine of a length slipped through. */
+/* The dimension that the numbers of TRIAL show, at which the value is PLAIN. With metre, kilogram,
+ * second and kelvin scaled in turn the value grows by a power of the scale, the exponent of the
+ * dimension. A last evaluation with all of them scaled the other way, each differently, must agree:
+ * it finds what a sum of different dimensions or a sine of a length slipped through. */
 static struct error *dimension_shown(struct expression_reading *reading, muParserHandle_t parser,
                                      int trial, double plain, struct dimension *dimension)
 {

@@ -19,8 +19,9 @@ struct error *file_begin(const char *path, FILE **file);
 /* Closes FILE (an error of any earlier write shows here) and publishes PATH. */
 struct error *file_end(const char *path, FILE *file);
 
-/* Opens PATH as fopen does with the MODE "r+", "a", "a+", "w" or "w+", but only a plain file: ERROR_INPUT
- * for a link, whose target may be anybody's, and for a pipe or a device, which may never answer. */
+/* Opens PATH as fopen does with the MODE "r+", "a", "a+", "w" or "w+", but only a plain file:
+ * ERROR_INPUT for a link, whose target may be anybody's, and for a pipe or a device, which may
+ * never answer. */
 struct error *file_open(const char *path, const char *mode, FILE **file);
 /* The same with the FLAGS of open(); DESCRIPTOR is -1 after an error. */
 struct error *file_open_descriptor(const char *path, int flags, int *descriptor);
@@ -31,14 +32,15 @@ bool file_is_plain(const char *path);
 /* Makes FOLDER and its parents where missing. */
 struct error *folder_make(const char *folder);
 
-/* The whole of PATH in fresh memory, with a zero behind its SIZE bytes; CONTENT is NULL when there is no
- * such file, or it is no plain file. */
+/* The whole of PATH in fresh memory, with a zero behind its SIZE bytes; CONTENT is NULL when there
+ * is no such file, or it is no plain file. */
 struct error *file_read(const char *path, char **content, size_t *size);
 
 /* Bytes of the plain file PATH, 0 when there is none. */
 int64_t file_size(const char *path);
 
-/* The names in FOLDER that end with ENDING, in the order of strcmp; none when there is no such folder. */
+/* The names in FOLDER that end with ENDING, in the order of strcmp; none when there is no such
+ * folder. */
 struct error *folder_names(const char *folder, const char *ending, char ***names, int *count);
 void names_free(char **names, int count);
 

@@ -8,8 +8,9 @@
 
 enum { HUGE_PAGE = 2 << 20 };
 
-/* Memory that nothing has touched yet: what is never used costs no page. Large arrays ask for huge pages, since a step
- * walks them in an order that ordinary ones make the processor look up again and again. */
+/* Memory that nothing has touched yet: what is never used costs no page. Large arrays ask for huge
+ * pages, since a step walks them in an order that ordinary ones make the processor look up again
+ * and again. */
 static void *allocate_raw(size_t size)
 {
     size_t alignment = size < 2 * (size_t)HUGE_PAGE ? MEMORY_ALIGNMENT : HUGE_PAGE;

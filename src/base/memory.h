@@ -13,18 +13,19 @@ enum { MEMORY_ALIGNMENT = 64 };
 void *memory_allocate(size_t size);
 
 /* Makes *array hold at least NEEDED elements of ELEMENT bytes, keeping its first KEPT elements.
- * *capacity counts elements and grows by half at least; what is new is not cleared. False when memory is out. */
+ * *capacity counts elements and grows by half at least; what is new is not cleared. False when
+ * memory is out. */
 bool memory_reserve(void **array, int64_t *capacity, int64_t needed, int64_t kept, size_t element);
 
-/* Memory for what is needed for a while, again and again: it grows and stays. Whoever begins with it takes it from who
- * had it before. Free `memory` with free(). */
+/* Memory for what is needed for a while, again and again: it grows and stays. Whoever begins with
+ * it takes it from who had it before. Free `memory` with free(). */
 struct scratch {
     char *memory;
     size_t size, used;
 };
 
-/* Makes room for parts of BYTES together, SCRATCH_PARTS of them at most, which are then taken one after the other,
- * aligned and not cleared. False when memory is out. */
+/* Makes room for parts of BYTES together, SCRATCH_PARTS of them at most, which are then taken one
+ * after the other, aligned and not cleared. False when memory is out. */
 enum { SCRATCH_PARTS = 16 };
 bool scratch_begin(struct scratch *scratch, size_t bytes);
 void *scratch_part(struct scratch *scratch, size_t bytes);

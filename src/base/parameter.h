@@ -1,9 +1,9 @@
-/* Parameter tables. Everything that a user can name in a case declares its parameters once, in a table
- * of these; the reader, its error messages, the filled-in case, `bolide help` and the reference manual
- * are loops over the tables.
+/* Parameter tables. Everything that a user can name in a case declares its parameters once, in a
+ * table of these; the reader, its error messages, the filled-in case, `bolide help` and the
+ * reference manual are loops over the tables.
  *
- * A table describes a plain C struct: each parameter says where in the struct its value goes. What a
- * value may be is its kind:
+ * A table describes a plain C struct: each parameter says where in the struct its value goes. What
+ * a value may be is its kind:
  *
  *   kind       in the case                               in the struct, at `offset`
  *   NUMBER     an expression of dimension `unit`         double, in SI units
@@ -22,12 +22,12 @@
  *   LIST       a list of such ONE_OF                     struct one_of_list
  *   MAP        {any name: a map of `table`}              struct named_map
  *
- * A ONE_OF whose key is NULL stands inline: exactly one key of the surrounding map must be a name of
- * `kind_of_thing` (`{box: {...}, velocity: ...}`). Where a thing's value is a scalar or a list instead of
- * a map, it fills the first parameter of the thing's table (`{mean: pressure}`).
+ * A ONE_OF whose key is NULL stands inline: exactly one key of the surrounding map must be a name
+ * of `kind_of_thing` (`{box: {...}, velocity: ...}`). Where a thing's value is a scalar or a list
+ * instead of a map, it fills the first parameter of the thing's table (`{mean: pressure}`).
  *
- * `standard` is the default as a user would type it, REQUIRED when there is none, OPTIONAL when a value
- * may be missing (NAN, NULL, count 0 or index -1 in the struct). */
+ * `standard` is the default as a user would type it, REQUIRED when there is none, OPTIONAL when a
+ * value may be missing (NAN, NULL, count 0 or index -1 in the struct). */
 #ifndef BOLIDE_PARAMETER_H
 #define BOLIDE_PARAMETER_H
 
@@ -123,8 +123,8 @@ struct name_list {
     char **names;
 };
 
-/* A thing that a case can name: `name` chooses it, `table` (may be NULL) describes its parameters, a
- * struct of `size` bytes holds them, `thing` is what the owner of the kind needs to use it. */
+/* A thing that a case can name: `name` chooses it, `table` (may be NULL) describes its parameters,
+ * a struct of `size` bytes holds them, `thing` is what the owner of the kind needs to use it. */
 struct choice {
     const char *name, *help;
     const struct parameter *table;

@@ -1,5 +1,6 @@
 /* Dimensions and units. The symbols are our own list, so that a slip of the pen is not taken for an
- * exotic unit (UDUNITS-2 by itself takes "kph" for kilo-phot); the tests hold it against UDUNITS-2. */
+ * exotic unit (UDUNITS-2 by itself takes "kph" for kilo-phot); the tests hold it against
+ * UDUNITS-2. */
 #ifndef BOLIDE_UNITS_H
 #define BOLIDE_UNITS_H
 

@@ -1,5 +1,5 @@
-/* Expressions of the position, for fields at the start, and of the time, for what acts from outside: compiled once,
- * evaluated at every particle or step. */
+/* Expressions of the position, for fields at the start, and of the time, for what acts from
+ * outside: compiled once, evaluated at every particle or step. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +20,8 @@ struct varying_expression {
     char *text;
 };
 
-/* A number with its unit, in parentheses where it could run into its neighbours and is not ENCLOSED. */
+/* A number with its unit, in parentheses where it could run into its neighbours and is not
+ * ENCLOSED. */
 static int write_quantity(struct quantity quantity, bool enclosed, char *text, size_t size)
 {
     char number[32], unit[DIMENSION_TEXT];
@@ -39,8 +40,8 @@ static int write_quantity(struct quantity quantity, bool enclosed, char *text, s
     return snprintf(text, size, "%s-(%s %s)%s", open, number, unit, close);
 }
 
-/* The formula with its variables written out, the same text from itself. Only variables have a `v` in
- * their names, a blank before it. */
+/* The formula with its variables written out, the same text from itself. Only variables have a `v`
+ * in their names, a blank before it. */
 static struct error *write_out(const struct expression_reading *reading, char **text)
 {
     enum { QUANTITY_TEXT = 40 + DIMENSION_TEXT };

@@ -118,7 +118,8 @@ static struct error *include_material(struct document *document, struct node *ma
     return error;
 }
 
-/* A material that the library does not give is broken, so that its parts are not told as missing. */
+/* A material that the library does not give is broken, so that its parts are not told as
+ * missing. */
 static struct error *include_library(struct document *document, const struct case_options *options)
 {
     struct node *materials = node_entry(document->root, "materials");

@@ -1,5 +1,5 @@
-/* A case: what a user asks to be computed, as the case file says it, in SI units. The tables of case.c
- * declare every key of it. */
+/* A case: what a user asks to be computed, as the case file says it, in SI units. The tables of
+ * case.c declare every key of it. */
 #ifndef BOLIDE_CASE_H
 #define BOLIDE_CASE_H
 
@@ -42,8 +42,8 @@ struct body_input {
     struct point start; /* filled by case_read, unless it varies: the state at the start */
 };
 
-/* walls: NAME: {mirror: x, at: 0 mm, side: low}: a rigid slip wall normal to an axis; the material is on
- * its high side for `low`, on its low side for `high`. */
+/* walls: NAME: {mirror: x, at: 0 mm, side: low}: a rigid slip wall normal to an axis; the material
+ * is on its high side for `low`, on its low side for `high`. */
 enum wall_side { WALL_LOW, WALL_HIGH };
 struct wall_input {
     int axis; /* 0, 1, 2 */
@@ -51,8 +51,8 @@ struct wall_input {
     double at;
 };
 
-/* contacts: NAME: {between: [cube, plate], shear: slip, tension: none}: the law where two bodies meet.
- * Pairs that no contact names stick in shear and carry tension. */
+/* contacts: NAME: {between: [cube, plate], shear: slip, tension: none}: the law where two bodies
+ * meet. Pairs that no contact names stick in shear and carry tension. */
 enum contact_shear { SHEAR_STICK, SHEAR_SLIP };
 enum contact_tension { TENSION_CARRIED, TENSION_NONE };
 enum contact_touch { TOUCH_NODES, TOUCH_SURFACES };
@@ -66,7 +66,8 @@ struct contact_input {
     int body[2];     /* filled by case_read */
 };
 
-/* outflows: NAME: {across: x, at: 1 m, side: high}: a face behind which particles leave the case. */
+/* outflows: NAME: {across: x, at: 1 m, side: high}: a face behind which particles leave the
+ * case. */
 struct outflow_input {
     int axis, side; /* side: enum wall_side */
     double at;
@@ -94,7 +95,8 @@ struct boundary_input {
     struct field_list velocity;
 };
 
-/* obstacles: NAME: {box: ...}: a rigid body at rest, which blocks the cells whose centres it holds. */
+/* obstacles: NAME: {box: ...}: a rigid body at rest, which blocks the cells whose centres it
+ * holds. */
 struct obstacle_input {
     struct one_of shape; /* "shape", inline */
 };
@@ -119,7 +121,8 @@ struct detonation_input {
     int body; /* filled by case_read; -1: all */
 };
 
-/* probes: NAME: {a probe, of: body, fields: [...], every: ...}: what is recorded while the case runs. */
+/* probes: NAME: {a probe, of: body, fields: [...], every: ...}: what is recorded while the case
+ * runs. */
 struct probe_input {
     struct one_of probe;         /* "probe", inline: `tracer: [1 mm, 0 mm]`, `body: plate` */
     char *of;                    /* a body; NULL: all */
@@ -291,8 +294,8 @@ extern const struct parameter case_table[];
 /* Keys that shape a case before that table reads it: include, let, short, long, sweep. For help. */
 extern const struct parameter case_shaping_table[];
 
-/* Reads and checks PATH. Materials are resolved, start states found, references between names checked;
- * every mistake comes in one ERROR_INPUT. */
+/* Reads and checks PATH. Materials are resolved, start states found, references between names
+ * checked; every mistake comes in one ERROR_INPUT. */
 struct error *case_read(const char *path, const struct case_options *options,
                         const struct catalogue *catalogue, struct simulation_case **result);
 
@@ -307,8 +310,8 @@ void sweep_values_free(struct sweep_value *values, int count);
 /* Writes the case as run: YAML with every default filled in, that case_read takes again. */
 struct error *case_write(const struct simulation_case *input, FILE *file);
 
-/* The state and the velocity of what flows in through BOUNDARY at PLACE and TIME: NULL, or what is wrong,
- * and *key the key that it is about. */
+/* The state and the velocity of what flows in through BOUNDARY at PLACE and TIME: NULL, or what is
+ * wrong, and *key the key that it is about. */
 const char *boundary_state_at(const struct boundary_input *boundary,
                               const struct material *material, struct vec3 place, double time,
                               struct point *point, double velocity[3], const char **key);
@@ -330,7 +333,8 @@ bool replaces(const struct replacements *replacements, int by, int of);
 /* Whether detonation INDEX lights BODY. */
 bool detonation_lights(const struct simulation_case *input, int index, int body);
 
-/* When the first of the detonations that light BODY arrives at PLACE, s; zero where nothing does. */
+/* When the first of the detonations that light BODY arrives at PLACE, s; zero where nothing
+ * does. */
 double detonation_arrival(const struct simulation_case *input, int body, struct vec3 place);
 
 /* The items of a case's maps. */

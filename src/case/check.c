@@ -179,7 +179,8 @@ static void check_positions(struct checking *checking, const char *key,
     }
 }
 
-/* As many components as a stress has in the dimension of the case; a thin plate bears none across. */
+/* As many components as a stress has in the dimension of the case; a thin plate bears none
+ * across. */
 static void check_stress(struct checking *checking, const struct body_input *body)
 {
     static const char *const forms[] = {"[xx, yy, zz]", "[xx, yy, zz, xy]",

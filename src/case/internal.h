@@ -29,16 +29,16 @@ struct error *case_fill_material(struct material_input *material);
  * sweep_runs, where they belong. 0: none of them. */
 struct error *case_take_sweep(struct simulation_case *input, int run);
 
-/* Looks at what `convergence` varies and tells its mistakes. With OPTIONS->convergence its runs are those of
- * the sweep, and the value of the run that is asked for is put where it belongs. */
+/* Looks at what `convergence` varies and tells its mistakes. With OPTIONS->convergence its runs are
+ * those of the sweep, and the value of the run that is asked for is put where it belongs. */
 struct error *case_take_study(struct simulation_case *input, const struct case_options *options);
 
 /* Fills the quantities of the values of a case that has been read. */
 void case_measure_sweep(struct simulation_case *input);
 
-/* Checks what the tables cannot say of a case that has been read, names of materials and bodies, numbers
- * of components, states at the start, and fills what follows from it. All mistakes come joined. Of a case
- * that was read with mistakes it checks the rest. */
+/* Checks what the tables cannot say of a case that has been read, names of materials and bodies,
+ * numbers of components, states at the start, and fills what follows from it. All mistakes come
+ * joined. Of a case that was read with mistakes it checks the rest. */
 struct error *case_check_meaning(struct simulation_case *input);
 
 /* In m/s. */
@@ -51,8 +51,8 @@ struct start_given {
     struct sym3 stress;
 };
 
-/* The functions below return NULL, or a text (static) that tells what is wrong; *key is then the key of a
- * body that it is about, "" for the body as a whole. */
+/* The functions below return NULL, or a text (static) that tells what is wrong; *key is then the
+ * key of a body that it is about, "" for the body as a whole. */
 
 /* The state that follows from what is GIVEN, of density, pressure and energy two at most. */
 const char *start_state(const struct start_given *given, const struct material *material,
@@ -69,7 +69,8 @@ bool body_varies(const struct body_input *body);
 const char *body_state_at(const struct body_input *body, const struct material *material,
                           struct vec3 place, struct point *point, const char **key);
 
-/* State and velocity, as many components as the case has, at PLACE of a BODY that has been checked. */
+/* State and velocity, as many components as the case has, at PLACE of a BODY that has been
+ * checked. */
 const char *body_start_at(const struct body_input *body, const struct material *material,
                           struct vec3 place, struct point *point, double velocity[3],
                           const char **key);

@@ -76,7 +76,8 @@ char *library_file(const char *const *folders, int count, const char *name)
     return NULL;
 }
 
-/* Adds the names of which WORD, if it is no mere letter or two, is a part to TEXT, as `"steel-1006", "steel-304"`. */
+/* Adds the names of which WORD, if it is no mere letter or two, is a part to TEXT, as
+ * `"steel-1006", "steel-304"`. */
 static void add_containing(const struct name_list *names, const char *word, char *text, size_t size)
 {
     for (int i = 0; i < names->count && strlen(word) > 2; i++) {

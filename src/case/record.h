@@ -1,5 +1,5 @@
-/* The record of a case: what its checks measured when `bolide verify --record` last ran it, a CSV file beside
- * the case. Pages are filled from it, and regression bounds start from it. */
+/* The record of a case: what its checks measured when `bolide verify --record` last ran it, a CSV
+ * file beside the case. Pages are filled from it, and regression bounds start from it. */
 #ifndef BOLIDE_RECORD_H
 #define BOLIDE_RECORD_H
 
@@ -12,8 +12,8 @@ struct record_key {
     const char *run;      /* of a sweep; "": the case itself */
 };
 
-/* The file with the record of the case at PATH: results.csv beside a case.yaml, NAME.results.csv beside
- * NAME.yaml. NULL when memory is out; free it. */
+/* The file with the record of the case at PATH: results.csv beside a case.yaml, NAME.results.csv
+ * beside NAME.yaml. NULL when memory is out; free it. */
 char *record_path(const char *path);
 
 /* Reads the record FILE; one that is not there has no rows. ERROR_INPUT when it is no record. */

@@ -1,7 +1,7 @@
-/* The JSON Schema of a case, a loop over the parameter tables. A document may give a part only where
- * something else fills the rest: what `short` lays over a case, a case that includes another, a material
- * that names one of the library. So everything is defined twice, whole and as a part: a part requires
- * nothing. */
+/* The JSON Schema of a case, a loop over the parameter tables. A document may give a part only
+ * where something else fills the rest: what `short` lays over a case, a case that includes another,
+ * a material that names one of the library. So everything is defined twice, whole and as a part: a
+ * part requires nothing. */
 #include "case/schema.h"
 
 #include <string.h>
@@ -192,7 +192,8 @@ static void write_kind_of_thing(struct writer *w, const struct parameter *p)
     end(w, ']');
 }
 
-/* A map with the keys of TABLE. Where one of them is `library`, the file that it names fills the rest. */
+/* A map with the keys of TABLE. Where one of them is `library`, the file that it names fills the
+ * rest. */
 static void write_map_of(struct writer *w, const struct parameter *table)
 {
     bool has_library = false;

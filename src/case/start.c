@@ -1,6 +1,6 @@
-/* The state of a body at the start, at one place of it: two of density, pressure and energy are free, the
- * equation of state gives the third. A temperature stands for the energy, the mean of a stress for the
- * pressure. */
+/* The state of a body at the start, at one place of it: two of density, pressure and energy are
+ * free, the equation of state gives the third. A temperature stands for the energy, the mean of a
+ * stress for the pressure. */
 #include "case/internal.h"
 #include "material/material.h"
 
@@ -21,9 +21,9 @@ static double energy_at(const struct start_given *given, const struct material *
     return isnan(given->energy) ? 0.0 : given->energy;
 }
 
-/* The density nearest to the reference density at which the energy given there gives PRESSURE; NAN when
- * there is none between a hundredth and a hundred times that. Steps outwards as long as pressure grows with
- * density, then bisects to the last bit. */
+/* The density nearest to the reference density at which the energy given there gives PRESSURE; NAN
+ * when there is none between a hundredth and a hundred times that. Steps outwards as long as
+ * pressure grows with density, then bisects to the last bit. */
 static double density_of_pressure(const struct start_given *given, const struct material *material,
                                   double pressure)
 {

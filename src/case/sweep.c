@@ -1,5 +1,5 @@
-/* The sweep of a case and its convergence study: which runs they ask for, and the values that one of them
- * takes. */
+/* The sweep of a case and its convergence study: which runs they ask for, and the values that one
+ * of them takes. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,7 +22,8 @@ static bool is_key_of_case(const char *key)
     return false;
 }
 
-/* The path that KEY is about: a name of `let` before anything else. A mistake is told of TOLD at PLACE. */
+/* The path that KEY is about: a name of `let` before anything else. A mistake is told of TOLD at
+ * PLACE. */
 static struct error *find_target(const struct document *document, const char *key,
                                  struct place place, const char *told, char **path)
 {
@@ -240,8 +241,8 @@ static struct error *check_varied(const struct document *document, const struct 
     return error;
 }
 
-/* FACTOR times the resolution, as a value of the case. Where it is no length, which the reading tells, it
- * stays. */
+/* FACTOR times the resolution, as a value of the case. Where it is no length, which the reading
+ * tells, it stays. */
 static struct error *take_multiple(struct simulation_case *input, double factor)
 {
     static const char key[] = "resolution";

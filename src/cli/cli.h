@@ -67,8 +67,8 @@ bool print_curves(const struct material *material);
 
 /* convergence.c */
 
-/* Makes the convergence studies of the COUNT cases at PATHS, or with OF_ALL of those among them that ask for
- * one; prints their tables, writes their pages, and gives the exit status. */
+/* Makes the convergence studies of the COUNT cases at PATHS, or with OF_ALL of those among them
+ * that ask for one; prints their tables, writes their pages, and gives the exit status. */
 int verify_convergence(const char *const *paths, int count, bool of_all,
                        const struct cli_options *options);
 
@@ -103,8 +103,8 @@ void options_print(const struct command *command);
 /* Prints the messages of ERROR on stderr, one a line, frees it, and gives its exit status. */
 int report_error(struct error *error);
 
-/* Of several ranks the first speaks for all. Only an ERROR that a rank alone has is told by that rank, and ends them
- * all. */
+/* Of several ranks the first speaks for all. Only an ERROR that a rank alone has is told by that
+ * rank, and ends them all. */
 void terminal_silence(const struct ranks *ranks);
 void terminal_alarm(const struct ranks *ranks, const struct error *error);
 
@@ -125,8 +125,8 @@ void terminal_open_closed_streams(void);
 
 /* launch.c */
 
-/* Starts this program, called with the COUNT WORDS, as RANKS ranks by mpirun, waits for them, and gives their exit
- * status. */
+/* Starts this program, called with the COUNT WORDS, as RANKS ranks by mpirun, waits for them, and
+ * gives their exit status. */
 int launch_ranks(int count, char **words, int64_t ranks);
 /* True in a rank that was started so. */
 bool launch_has_made_us(void);
@@ -137,8 +137,9 @@ struct error *launch_check(const struct ranks *ranks, int64_t wanted);
 
 /* signals.c */
 
-/* Catches the signals that stop a run, in a rank that launch_ranks made SIGUSR2 among them, and SIGUSR1, which asks for a checkpoint; the flag that the
- * former set, and how often the latter came. */
+/* Catches the signals that stop a run, in a rank that launch_ranks made SIGUSR2 among them, and
+ * SIGUSR1, which asks for a checkpoint; the flag that the former set, and how often the latter
+ * came. */
 const volatile sig_atomic_t *signals_catch(void);
 const volatile sig_atomic_t *signals_checkpoints(void);
 /* 128 + the signal that came. */
@@ -160,8 +161,8 @@ struct error *results_folder(const struct cli_options *options, const char *path
  * beside the build, where the program is installed, or here. NULL if there is none; free it. */
 char *share_folder(const char *name);
 
-/* The path of the case that GIVEN means, in fresh memory: GIVEN itself, or the case.yaml in the folder
- * GIVEN. ERROR_INPUT for a folder without one. */
+/* The path of the case that GIVEN means, in fresh memory: GIVEN itself, or the case.yaml in the
+ * folder GIVEN. ERROR_INPUT for a folder without one. */
 struct error *case_locate(const char *given, char **path);
 /* Puts the paths of the cases in the place of OPTIONS' names; options_free frees them. */
 struct error *cases_locate(struct cli_options *options);

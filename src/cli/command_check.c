@@ -45,7 +45,8 @@ static void print_range(const char *before, const char *what, const struct range
         printf("%s%s %.5g to %.5g %s", before, what, range->low, range->high, unit);
 }
 
-/* What differs from particle to particle of a body at the start, and its temperature where it has one. */
+/* What differs from particle to particle of a body at the start, and its temperature where it has
+ * one. */
 static void print_start(const char *name, const struct body_summary *start)
 {
     bool warm = !isnan(start->temperature.low);

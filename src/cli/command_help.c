@@ -155,8 +155,8 @@ static bool every_solver_lists(const struct choice_list *solvers, const struct s
     return true;
 }
 
-/* The fields of solver INDEX that all solvers have, or with OWN the others, under HEADING; KNOWN are
- * listed already. */
+/* The fields of solver INDEX that all solvers have, or with OWN the others, under HEADING; KNOWN
+ * are listed already. */
 static void print_solver_fields(const struct choice_list *solvers, int index, bool own,
                                 const char *heading, const struct population *known)
 {

@@ -1,4 +1,5 @@
-/* bolide materials: the library as a table, and a material's file with its sources or its curves. */
+/* bolide materials: the library as a table, and a material's file with its sources or its
+ * curves. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

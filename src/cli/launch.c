@@ -1,6 +1,7 @@
-/* `--ranks N`: mpirun starts this program N times, and this process stands for all of them: what stops it stops them,
- * and its exit status is theirs. To mpirun the ranks end with 0, whatever the verdict: a status of another kind is an
- * accident to it, and the last words would be its own. The verdict comes through a file. */
+/* `--ranks N`: mpirun starts this program N times, and this process stands for all of them: what
+ * stops it stops them, and its exit status is theirs. To mpirun the ranks end with 0, whatever the
+ * verdict: a status of another kind is an accident to it, and the last words would be its own. The
+ * verdict comes through a file. */
 #include <errno.h>
 #include <fcntl.h>
 #include <sched.h>
@@ -71,8 +72,9 @@ static int processors(void)
     return sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set);
 }
 
-/* For Open MPI, which by default refuses to run as root or more ranks than cores, binds two ranks of every job to the
- * same first cores, and keeps a core busy while it waits. What the user sets wins. */
+/* For Open MPI, which by default refuses to run as root or more ranks than cores, binds two ranks
+ * of every job to the same first cores, and keeps a core busy while it waits. What the user sets
+ * wins. */
 static void prepare_environment(int64_t ranks)
 {
     char threads[16];
@@ -103,8 +105,8 @@ static sigset_t signals_to_handle(void)
     return set;
 }
 
-/* Becomes mpirun, in a group of its own: of a terminal's Ctrl-C it must not hear, since it kills its ranks a second
- * after one. It ends with this process. */
+/* Becomes mpirun, in a group of its own: of a terminal's Ctrl-C it must not hear, since it kills
+ * its ranks a second after one. It ends with this process. */
 static void become(char **words, const sigset_t *mask, int failure)
 {
     const int nothing = open("/dev/null", O_RDONLY);
@@ -142,8 +144,9 @@ static struct error *start(char **words, const sigset_t *mask, pid_t *child)
                : NULL;
 }
 
-/* Until CHILD ends; its status as of waitpid. mpirun passes SIGUSR2 on, which asks ranks to stop (signals.c), and kills
- * them after a SIGTERM, which a later request sends. *STOP is the signal that asked first, or zero. */
+/* Until CHILD ends; its status as of waitpid. mpirun passes SIGUSR2 on, which asks ranks to stop
+ * (signals.c), and kills them after a SIGTERM, which a later request sends. *STOP is the signal
+ * that asked first, or zero. */
 static int attend(pid_t child, const sigset_t *handled, int *stop)
 {
     const double patience = 3.0; /* s: some senders signal twice at once */
@@ -168,7 +171,8 @@ static int attend(pid_t child, const sigset_t *handled, int *stop)
     }
 }
 
-/* The exit status: that of the ranks in the file at PATH, unless a signal stopped them or they could not tell. */
+/* The exit status: that of the ranks in the file at PATH, unless a signal stopped them or they
+ * could not tell. */
 static int status_of(const char *path, int ended, int stop)
 {
     char text[16] = "", *end = text;

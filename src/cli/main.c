@@ -107,8 +107,8 @@ static int run_command(int count, char **words, const struct ranks *ranks)
 int main(int count, char **words)
 {
     terminal_open_closed_streams();
-    /* Arrays of a megabyte and more get pages of their own, which go back when they are freed: glibc's
-     * moving threshold would keep several hundred bytes a particle in its heap. */
+    /* Arrays of a megabyte and more get pages of their own, which go back when they are freed:
+     * glibc's moving threshold would keep several hundred bytes a particle in its heap. */
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     const struct ranks ranks = ranks_join();
     terminal_silence(&ranks);

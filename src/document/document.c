@@ -1,5 +1,5 @@
-/* A document: lay the short or long form and the settings over it, find the node of a path, and tell where a
- * mistake stands. */
+/* A document: lay the short or long form and the settings over it, find the node of a path, and
+ * tell where a mistake stands. */
 #include "document/document.h"
 
 #include <stdlib.h>
@@ -61,8 +61,8 @@ struct place node_place(const struct node *node)
     return node->kind == NODE_MAP ? node->key_place : node->place;
 }
 
-/* The child of NODE that the start of PATH names; *length tells how much of PATH it takes. A key may
- * hold dots: the longest that fits is meant. */
+/* The child of NODE that the start of PATH names; *length tells how much of PATH it takes. A key
+ * may hold dots: the longest that fits is meant. */
 static int path_step(const struct node *node, const char *path, size_t *length)
 {
     int found = -1;
@@ -186,7 +186,8 @@ static bool share_a_key(const struct node *a, const struct node *b)
     return false;
 }
 
-/* Two models of a kind share no key: the own one then replaces the library's. WITHIN a model all its keys go together. */
+/* Two models of a kind share no key: the own one then replaces the library's. WITHIN a model all
+ * its keys go together. */
 static struct error *fill_in(struct node *map, struct node *library, bool within)
 {
     while (library->count > 0) {
@@ -264,8 +265,8 @@ static struct error *no_such_key(const struct node *map, const char *path, const
     return error;
 }
 
-/* Makes the entry that the rest of a setting's path starts with: a map if the path goes on, else the
- * value, of which *VALUE is then taken. */
+/* Makes the entry that the rest of a setting's path starts with: a map if the path goes on, else
+ * the value, of which *VALUE is then taken. */
 static struct error *add_entry(struct node *map, const char *path, const char *rest,
                                struct node **value, struct place place)
 {
@@ -369,7 +370,8 @@ static struct error *document_new(struct document **document)
     return *document ? NULL : out_of_memory();
 }
 
-/* Lays the overlay and the settings over *DOCUMENT, which was read with ERROR; on an error frees it. */
+/* Lays the overlay and the settings over *DOCUMENT, which was read with ERROR; on an error frees
+ * it. */
 static struct error *finish(struct error *error, const char *const *settings, int count,
                             const char *overlay, struct document **document)
 {

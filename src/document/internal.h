@@ -41,9 +41,10 @@ void complain_kind(struct reading *reading, const struct node *node, const struc
 void complain_unknown(struct reading *reading, struct place place, const struct path *path,
                       const char *what, const char *word, const char *const *names, int count);
 
-/* The path that UNKNOWN, an entry at the top of a document that TABLE describes, may be meant for: that of
- * an entry or a key of its name further down. In fresh memory; NULL when there is none. */
-/* Writes PATH, of which NULL is the whole document, into the SIZE bytes of TEXT; returns the length. */
+/* The path that UNKNOWN, an entry at the top of a document that TABLE describes, may be meant for:
+ * that of an entry or a key of its name further down. In fresh memory; NULL when there is none. */
+/* Writes PATH, of which NULL is the whole document, into the SIZE bytes of TEXT; returns the
+ * length. */
 size_t path_text(const struct path *path, char *text, size_t size);
 
 /* The path of a key NAME within the choices of TABLE, which is at PREFIX; NULL when there is none.

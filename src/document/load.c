@@ -1,4 +1,5 @@
-/* The files of a document: the one that is opened and those that it includes, joined in one tree. */
+/* The files of a document: the one that is opened and those that it includes, joined in one
+ * tree. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>

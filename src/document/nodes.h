@@ -40,7 +40,8 @@ struct document {
     struct name_index marks; /* of these */
 };
 
-/* Parses TEXT as one YAML document. LOCATED says whether lines of TEXT mean something to the user. */
+/* Parses TEXT as one YAML document. LOCATED says whether lines of TEXT mean something to the
+ * user. */
 struct error *node_parse(const char *text, size_t length, const char *origin, bool located,
                          struct node **root);
 void node_free(struct node *node);
@@ -63,11 +64,12 @@ struct node *node_take(struct node *parent, int index);
 /* True for a scalar that says nothing: empty, `~` or `null`. */
 bool node_is_empty(const struct node *node);
 
-/* TEXT (taken, NULL: memory was out), which then lives as long as the document; NULL when memory is out. */
+/* TEXT (taken, NULL: memory was out), which then lives as long as the document; NULL when memory is
+ * out. */
 const char *document_keep(struct document *document, char *text);
 
-/* Reads the file PATH, and the files that it includes below its own entries, into the document's root.
- * Mistakes of any of them come joined. */
+/* Reads the file PATH, and the files that it includes below its own entries, into the document's
+ * root. Mistakes of any of them come joined. */
 struct error *document_load(struct document *document, const char *path);
 
 /* Puts the entries of OVER, which is emptied, over those of BASE; maps within maps merge. */
@@ -92,9 +94,10 @@ struct error *document_evaluate(const struct document *document, const char *tex
 /* Where to point for a node: at the key of a map, at the value of anything else. */
 struct place node_place(const struct node *node);
 
-/* Puts under the map at PATH, an entry of the document, the entries of LIBRARY that it lacks. Where both
- * have a map they merge in the same way if they share a key; else that of the document stands alone, so
- * that another choice replaces the library's. LIBRARY is emptied, its places live on in DOCUMENT. */
+/* Puts under the map at PATH, an entry of the document, the entries of LIBRARY that it lacks. Where
+ * both have a map they merge in the same way if they share a key; else that of the document stands
+ * alone, so that another choice replaces the library's. LIBRARY is emptied, its places live on in
+ * DOCUMENT. */
 struct error *document_include(struct document *document, struct node *map,
                                struct document *library);
 

@@ -1,5 +1,5 @@
-/* From YAML text to a tree of nodes. libfyaml parses and finds the mistakes of syntax; anchors, aliases
- * and tags are refused, since a case has `let` for what is used twice. */
+/* From YAML text to a tree of nodes. libfyaml parses and finds the mistakes of syntax; anchors,
+ * aliases and tags are refused, since a case has `let` for what is used twice. */
 #include <libfyaml.h>
 #include <stdlib.h>
 #include <string.h>
@@ -152,8 +152,8 @@ static struct error *syntax_error(const struct parse *parse)
     return error;
 }
 
-/* Whether two quotes in a row stand in single quotes, each written twice: libfyaml 0.7.12 takes them for
- * something else, and forgets memory over it. */
+/* Whether two quotes in a row stand in single quotes, each written twice: libfyaml 0.7.12 takes
+ * them for something else, and forgets memory over it. */
 static bool has_misread_quotes(const struct parse *parse, struct fy_event *event)
 {
     static const char two_quotes[] = "''''";
@@ -365,8 +365,8 @@ static struct error *build_document(struct parse *parse, struct node **root)
     return NULL;
 }
 
-/* What libfyaml 0.7.12 does not survive (a directive with malformed UTF-8 keeps it busy for ever) or
- * takes for an end (a zero byte). No case has a use for directives. */
+/* What libfyaml 0.7.12 does not survive (a directive with malformed UTF-8 keeps it busy for ever)
+ * or takes for an end (a zero byte). No case has a use for directives. */
 static struct error *check_bytes(const char *text, size_t length, const char *origin, bool located)
 {
     struct place place = {origin, 1, 1};

@@ -1,6 +1,6 @@
-/* From a tree of nodes to the structs that parameter tables describe: maps, things of the catalogue and
- * `let`. A mistake does not stop the reading: every value that can be judged is judged, and all messages
- * come joined, in the order of the file. */
+/* From a tree of nodes to the structs that parameter tables describe: maps, things of the catalogue
+ * and `let`. A mistake does not stop the reading: every value that can be judged is judged, and all
+ * messages come joined, in the order of the file. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
@@ -299,8 +299,8 @@ static bool suggest_path(struct reading *reading, const struct node *entry,
     return told;
 }
 
-/* The same of an entry of the table at PATH whose key belongs to a choice in the table: an option of one
- * scheme given among those of all. */
+/* The same of an entry of the table at PATH whose key belongs to a choice in the table: an option
+ * of one scheme given among those of all. */
 static bool suggest_choice(struct reading *reading, const struct node *entry,
                            const struct path *path, const struct parameter *table)
 {
@@ -370,8 +370,8 @@ static bool is_identifier(const char *text)
     return true;
 }
 
-/* Evaluates the names in their order. One that is wrong stays as NAN, so that what rests on it is not
- * told as wrong once more. */
+/* Evaluates the names in their order. One that is wrong stays as NAN, so that what rests on it is
+ * not told as wrong once more. */
 static void read_let(struct reading *reading, const struct node *let)
 {
     struct path top = {NULL, let_key, 0};

@@ -47,8 +47,8 @@ static bool may_choose(const struct document *document, const char *path, const 
                                     : chosen->text && !strcmp(chosen->text, name);
 }
 
-/* The path of a key NAME of TABLE, which is at PREFIX, or of the tables and choices within it. Keys of
- * the entries of maps are left out: their paths have a name that the user chooses. */
+/* The path of a key NAME of TABLE, which is at PREFIX, or of the tables and choices within it. Keys
+ * of the entries of maps are left out: their paths have a name that the user chooses. */
 static char *key_path(const struct reading *reading, const struct parameter *table,
                       const char *name, const char *prefix, int depth)
 {

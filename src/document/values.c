@@ -181,7 +181,8 @@ static bool rests_on_mistake(const struct reading *reading, const struct node *n
     return false;
 }
 
-/* " (--set let.speed=2000)" when a name in TEXT comes from a setting, which may be what is wrong. */
+/* " (--set let.speed=2000)" when a name in TEXT comes from a setting, which may be what is
+ * wrong. */
 static const char *setting_text(const struct reading *reading, const char *text, char *buffer)
 {
     buffer[0] = '\0';
@@ -234,7 +235,8 @@ static struct dimension unit_dimension(const char *unit)
     return parsed.dimension;
 }
 
-/* An expression of the dimension that PARAMETER has; a bare zero has every dimension. FIELD is as above. */
+/* An expression of the dimension that PARAMETER has; a bare zero has every dimension. FIELD is as
+ * above. */
 static bool read_dimensioned(struct reading *reading, const struct node *node,
                              const struct path *path, const struct parameter *parameter,
                              double *value, struct varying_expression **field)

@@ -1,5 +1,5 @@
-/* From values to YAML, in the order of the tables. A number is written in SI units with the fewest digits
- * that give the same bits again. */
+/* From values to YAML, in the order of the tables. A number is written in SI units with the fewest
+ * digits that give the same bits again. */
 #include <stdlib.h>
 #include <string.h>
 

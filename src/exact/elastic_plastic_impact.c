@@ -1,7 +1,6 @@
-/* Front tracking; see elastic_plastic_impact.h. All fronts stay in a list, each with its times of
- * birth and end and the states on both sides, so the solution at any time is given by the fronts
- * that exist then. The active fronts, from left to right, separate the regions at the current time.
- * */
+/* Front tracking; see elastic_plastic_impact.h. All fronts stay in a list, with birth, end and the
+ * states on both sides; those that exist at a time give the solution, and divide it from left to
+ * right. */
 #include "exact/elastic_plastic_impact.h"
 
 #include <string.h>
@@ -41,11 +40,10 @@ struct impact {
     double coarse; /* factor on the strains of pieces and of weak waves */
 };
 
-/* The strain of a piece of a rarefaction fan. Waves and slips with a relative change of density
- * below WEAK are dropped: the next Riemann problem beside them includes their change. Waves that
- * reverberate between a surface and an approaching shock become ever faster and weaker; fronts
- * closer than NEAR times the thickness of the bodies are merged. Where there are too many
- * interactions even so, all tolerances are increased. */
+/* The strain of a piece of a fan. Waves and slips with a relative change of density below WEAK are
+ * dropped; the next Riemann problem includes their change. Waves between a surface and an
+ * approaching shock become ever faster and weaker: fronts closer than NEAR thicknesses are merged,
+ * and all tolerances grow where there are still too many interactions. */
 static const double piece_strain = 1.0 / 2048.0, weak = 3e-6, near = 1e-4;
 enum { COARSEST = 512 };
 
@@ -186,8 +184,7 @@ static struct error *replace(struct impact *impact, const struct encounter *meet
     return NULL;
 }
 
-/* The front that separates the two sides of an interaction: the interface or a surface if it takes
- * part, else a slip line. */
+/* The front between the two sides of an interaction: the interface, a surface, or a slip line. */
 static struct front middle_of(const struct impact *impact, const struct encounter *meeting,
                               const struct solid_meeting *found, const struct exact_state star[2])
 {
@@ -266,8 +263,7 @@ static double meeting_time(const struct impact *impact, int index)
     return born + maximum(place_of(b, born) - place_of(a, born), 0.0) / closing;
 }
 
-/* Whether active front INDEX would join MEETING, whose fronts have SPEED, within the merging
- * distance. */
+/* Whether active front INDEX is within the merging distance of MEETING, whose fronts have SPEED. */
 static bool joins(const struct impact *impact, const struct encounter *meeting, int index,
                   const double speed[2])
 {

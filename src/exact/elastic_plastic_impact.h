@@ -1,7 +1,7 @@
-/* Two elastic, perfectly plastic bodies of finite thickness that strike each other in uniaxial strain: their
- * waves meet, and are reflected at free surfaces. The waves are followed one by one: jumps are exact, a fan
- * is cut into pieces of equal strain, and wherever fronts meet a Riemann problem says what leaves. The bodies
- * stick to each other and bear any tension. */
+/* Two elastic, perfectly plastic bodies of finite thickness that strike each other in uniaxial
+ * strain: their waves meet, and are reflected at free surfaces. The waves are followed one by one:
+ * jumps are exact, a fan is cut into pieces of equal strain, and wherever fronts meet a Riemann
+ * problem says what leaves. The bodies stick to each other and bear any tension. */
 #ifndef BOLIDE_EXACT_ELASTIC_PLASTIC_IMPACT_H
 #define BOLIDE_EXACT_ELASTIC_PLASTIC_IMPACT_H
 

@@ -1,6 +1,6 @@
-/* The elastic-plastic Riemann problem; see elastic_plastic_riemann.h. Each side sends out an elastic wave
- * and, if that does not suffice, a plastic one behind it (solid_path.h).
- * Sources: Wang, Chen and Huang (2024) for any equation of state; Parshikov (2013), section 2.1, for
+/* The elastic-plastic Riemann problem; see elastic_plastic_riemann.h. Each side sends out an
+ * elastic wave and, if that does not suffice, a plastic one behind it (solid_path.h). Sources:
+ * Wang, Chen and Huang (2024) for any equation of state; Parshikov (2013), section 2.1, for
  * barotropic solids. The solution is exact for these relations. */
 #include "exact/elastic_plastic_riemann.h"
 
@@ -66,7 +66,8 @@ struct fan_target {
         fall; /* away from the contact, relative to the solid ahead; its fall over strain */
 };
 
-/* The target's speed less that of the characteristic at STRAIN, which falls as the solid expands. */
+/* The target's speed less that of the characteristic at STRAIN, which falls as the solid
+ * expands. */
 static struct root_value fan_excess(const void *context, double strain)
 {
     const struct fan_target *target = context;

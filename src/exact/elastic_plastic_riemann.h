@@ -1,7 +1,8 @@
-/* The Riemann problem of two hypoelastic, perfectly plastic solids of any equation of state in uniaxial
- * strain: two half-spaces meet at a plane and stick, or one of them has a free surface there. The
- * deviator follows the logarithmic strain until yield, which may be reached at the start. A solid with
- * no shear modulus or no yield strength is a fluid with one wave. Heat is not conducted. */
+/* The Riemann problem of two hypoelastic, perfectly plastic solids of any equation of state in
+ * uniaxial strain: two half-spaces meet at a plane and stick, or one of them has a free surface
+ * there. The deviator follows the logarithmic strain until yield, which may be reached at the
+ * start. A solid with no shear modulus or no yield strength is a fluid with one wave. Heat is not
+ * conducted. */
 #ifndef BOLIDE_EXACT_ELASTIC_PLASTIC_RIEMANN_H
 #define BOLIDE_EXACT_ELASTIC_PLASTIC_RIEMANN_H
 

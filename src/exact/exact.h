@@ -1,5 +1,5 @@
-/* Exact solutions that results are measured against. Each is a choice of the catalogue's kind "exact":
- * its parameters come from a table, and its thing is a struct exact_class. */
+/* Exact solutions that results are measured against. Each is a choice of the catalogue's kind
+ * "exact": its parameters come from a table, and its thing is a struct exact_class. */
 #ifndef BOLIDE_EXACT_H
 #define BOLIDE_EXACT_H
 
@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 
-/* The state of a one-dimensional solution at a place and time. SI units. Stress is positive in tension
- * along x; deviator is its S_xx part. */
+/* The state of a one-dimensional solution at a place and time. SI units. Stress is positive in
+ * tension along x; deviator is its S_xx part. */
 struct exact_state {
     double density, velocity, pressure, energy, stress, deviator, temperature;
 };
@@ -28,15 +28,16 @@ enum { EXACT_NUMBERS = 40 };
 struct exact_class {
     size_t size;  /* of the solved problem */
     bool thermal; /* its states are of a body at rest: temperature alone; others have none */
-    /* Solves the problem of PARAMETERS (the choice's struct). ERROR_INPUT when it has no solution of
-     * the kind (vacuum, say). */
+    /* Solves the problem of PARAMETERS (the choice's struct). ERROR_INPUT when it has no solution
+     * of the kind (vacuum, say). */
     struct error *(*solve)(const void *parameters, void *solved);
     /* The state at X and TIME (measured from the start, x in the frame of the case) on SIDE. In a
      * solution with a centre x is the distance from it. */
     struct exact_state (*sample)(const void *solved, enum exact_side side, double x, double time);
     /* The star state beside the contact; NULL: there is no contact. */
     struct exact_state (*star)(const void *solved, enum exact_side side);
-    /* Fills at most EXACT_NUMBERS named numbers; returns how many. TIME > 0 adds the places of fronts. */
+    /* Fills at most EXACT_NUMBERS named numbers; returns how many. TIME > 0 adds the places of
+     * fronts. */
     int (*numbers)(const void *solved, double time, struct exact_number *numbers);
     /* Place of the contact at TIME; NULL: there is none, but a centre. */
     double (*contact)(const void *solved, double time);

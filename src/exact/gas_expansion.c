@@ -7,7 +7,8 @@
  *
  *   T^2 X'' = X^(-n-1),   thus   T^2 X'^2 = (2/n) (1 - X^-n).
  *
- * X = cosh(q)^(2/n) turns the second into t = T sqrt(2/n) times the integral of cosh^(2/n) from 0 to q. */
+ * X = cosh(q)^(2/n) turns the second into t = T sqrt(2/n) times the integral of cosh^(2/n) from 0
+ * to q. */
 #include "exact/gas_expansion.h"
 
 #include "exact/radial.h"

@@ -1,6 +1,7 @@
-/* A slab, cylinder or ball of ideal gas that expands from rest into a vacuum: density falls from the
- * centre to nothing at the edge so that the gas stretches evenly, u = r R'/R, and keeps its entropy.
- * Zel'dovich and Raizer, Physics of shock waves, chapter I, section 29; nu = 1, 2, 3 dimensions. */
+/* A slab, cylinder or ball of ideal gas that expands from rest into a vacuum: density falls from
+ * the centre to nothing at the edge so that the gas stretches evenly, u = r R'/R, and keeps its
+ * entropy. Zel'dovich and Raizer, Physics of shock waves, chapter I, section 29; nu = 1, 2, 3
+ * dimensions. */
 #ifndef BOLIDE_EXACT_GAS_EXPANSION_H
 #define BOLIDE_EXACT_GAS_EXPANSION_H
 

@@ -1,8 +1,8 @@
 /* The Riemann problem of two ideal gases; see gas_riemann.h.
  *
- * Pressure p* and velocity u* behind both waves are equal (gas_wave.h). The difference of velocities is an
- * increasing, concave function of p*, so that Newton's method from the left of the root cannot overshoot.
- * Source: Landau and Lifshitz, Fluid mechanics, sections 85, 89, 99, 100. */
+ * Pressure p* and velocity u* behind both waves are equal (gas_wave.h). The difference of
+ * velocities is an increasing, concave function of p*, so that Newton's method from the left of the
+ * root cannot overshoot. Source: Landau and Lifshitz, Fluid mechanics, sections 85, 89, 99, 100. */
 #include "exact/gas_riemann.h"
 
 #include "exact/root.h"
@@ -52,7 +52,8 @@ static struct exact_state gas_state(const struct exact_gas *gas, double density,
                                 .stress = -pressure};
 }
 
-/* How much the wave that takes GAS to PRESSURE changes its velocity, away from the contact positive. */
+/* How much the wave that takes GAS to PRESSURE changes its velocity, away from the contact
+ * positive. */
 static struct root_value push(const struct exact_gas *gas, double sound, double pressure)
 {
     struct gas_push push = gas_wave_push(gas->density, gas->pressure, sound, gas->gamma, pressure);

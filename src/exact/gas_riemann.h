@@ -1,5 +1,5 @@
-/* The Riemann problem of two ideal gases, each with its own gamma: two uniform gases meet at a plane.
- * Exact for any strength of the waves; a vacuum between the gases is refused. */
+/* The Riemann problem of two ideal gases, each with its own gamma: two uniform gases meet at a
+ * plane. Exact for any strength of the waves; a vacuum between the gases is refused. */
 #ifndef BOLIDE_EXACT_GAS_RIEMANN_H
 #define BOLIDE_EXACT_GAS_RIEMANN_H
 

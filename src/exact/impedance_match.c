@@ -1,9 +1,10 @@
 /* Planar impact by impedance match; see impedance_match.h.
  *
- * With w = u_left - u* and W = u_left - u_right, both sides have the pressure rho (C + S |u* - u|) |u* - u|:
+ * With w = u_left - u* and W = u_left - u_right, both sides have the pressure rho (C + S |u* - u|)
+ * |u* - u|:
  *   rho_l (C_l + S_l w) w = rho_r (C_r + S_r (W - w)) (W - w),
- * a quadratic in w. Behind a shock 1/rho = (1 - w/U_s)/rho_0 and E = w^2/2, (1.65), (1.66).
- * Source: Parshikov (2013), section 1.6. */
+ * a quadratic in w. Behind a shock 1/rho = (1 - w/U_s)/rho_0 and E = w^2/2, (1.65), (1.66). Source:
+ * Parshikov (2013), section 1.6. */
 #include "exact/impedance_match.h"
 
 #include "exact/waves.h"

@@ -1,6 +1,6 @@
-/* Planar impact of two materials whose shocks obey U_s = C + S U_p, (1.63)-(1.66): two flat slabs at
- * zero pressure meet, and a shock runs into each. Strength is left out. A porous body may be given by its
- * own linear relation, and a rigid wall as the mirror image of what strikes it. */
+/* Planar impact of two materials whose shocks obey U_s = C + S U_p, (1.63)-(1.66): two flat slabs
+ * at zero pressure meet, and a shock runs into each. Strength is left out. A porous body may be
+ * given by its own linear relation, and a rigid wall as the mirror image of what strikes it. */
 #ifndef BOLIDE_EXACT_IMPEDANCE_MATCH_H
 #define BOLIDE_EXACT_IMPEDANCE_MATCH_H
 

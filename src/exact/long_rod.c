@@ -2,10 +2,10 @@
  *
  *   rho_p L dv/dt = -F,   dL/dt = -(v - u),   dP/dt = u.
  *
- * While the rod erodes F = Y and u follows from Bernoulli's equation. If Y < R that ends where u = 0,
- * and the rest of the rod is spent on a target that resists. If Y > R it ends where u = v; then the
- * rod is rigid, and F = R + rho_t v^2/2. The variable of integration is v, and L = L_0 exp(-s): in
- * both phases and at their ends the derivatives by v are finite,
+ * While the rod erodes F = Y and u follows from Bernoulli's equation. If Y < R that ends where u =
+ * 0, and the rest of the rod is spent on a target that resists. If Y > R it ends where u = v; then
+ * the rod is rigid, and F = R + rho_t v^2/2. The variable of integration is v, and L = L_0 exp(-s):
+ * in both phases and at their ends the derivatives by v are finite,
  *
  *   ds/dv = -rho_p (v - u)/F,   dP/dv = -rho_p L u/F,   dt/dv = -rho_p L/F.
  *

@@ -34,8 +34,8 @@ double order_fitted(const double *spacing, const double *error, int count)
     return xx > 0.0 ? xy / xx : NAN;
 }
 
-/* The first change over the second of values that differ from their limit by spacing^ORDER. It increases
- * with the order. */
+/* The first change over the second of values that differ from their limit by spacing^ORDER. It
+ * increases with the order. */
 static double ratio_of_changes(const double spacing[3], double order)
 {
     if (order == 0.0)

@@ -1,16 +1,17 @@
-/* What results on finer and finer resolutions tell about their error: the order of accuracy, the value that
- * they tend to (Richardson's extrapolation) and how far off the finest may be (Roache's grid convergence
- * index; P. J. Roache, J. Fluids Eng. 116 (1994) 405; I. B. Celik et al., J. Fluids Eng. 130 (2008) 078001). */
+/* What results on finer and finer resolutions tell about their error: the order of accuracy, the
+ * value that they tend to (Richardson's extrapolation) and how far off the finest may be (Roache's
+ * grid convergence index; P. J. Roache, J. Fluids Eng. 116 (1994) 405; I. B. Celik et al., J.
+ * Fluids Eng. 130 (2008) 078001). */
 #ifndef BOLIDE_EXACT_ORDER_H
 #define BOLIDE_EXACT_ORDER_H
 
-/* The order p for which errors grow as SPACING^p between a coarse run and a finer one; NAN where an error is
- * not positive. */
+/* The order p for which errors grow as SPACING^p between a coarse run and a finer one; NAN where an
+ * error is not positive. */
 double order_between(double coarse_spacing, double coarse_error, double fine_spacing,
                      double fine_error);
 
-/* The same as the line of least squares of log ERROR over log SPACING through all COUNT runs. Those whose
- * error is not positive are left out; NAN where fewer than two remain. */
+/* The same as the line of least squares of log ERROR over log SPACING through all COUNT runs. Those
+ * whose error is not positive are left out; NAN where fewer than two remain. */
 double order_fitted(const double *spacing, const double *error, int count);
 
 /* How three results follow one another. */
@@ -30,7 +31,8 @@ struct extrapolation {
         index; /* the grid convergence index, in the unit of the value: 1.25 |limit - value of the finest| */
 };
 
-/* Extrapolates the VALUES of three runs, the coarsest first; each SPACING is below the one before. */
+/* Extrapolates the VALUES of three runs, the coarsest first; each SPACING is below the one
+ * before. */
 struct extrapolation extrapolate(const double spacing[3], const double value[3]);
 
 /* "monotone" */

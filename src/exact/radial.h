@@ -1,6 +1,7 @@
-/* What the exact solutions with a centre share: the geometry, slab (nu = 1), cylinder (2) or ball (3),
- * and quadrature. Their sample takes the distance from the centre (in a slab x, of either sign), and
- * their velocity is that away from the centre; they have no contact and no star states. */
+/* What the exact solutions with a centre share: the geometry, slab (nu = 1), cylinder (2) or ball
+ * (3), and quadrature. Their sample takes the distance from the centre (in a slab x, of either
+ * sign), and their velocity is that away from the centre; they have no contact and no star
+ * states. */
 #ifndef BOLIDE_EXACT_RADIAL_H
 #define BOLIDE_EXACT_RADIAL_H
 
@@ -17,7 +18,8 @@ static inline double radial_surface(int geometry)
     return geometry == RADIAL_SLAB ? 2.0 : geometry == RADIAL_CYLINDER ? 2.0 * M_PI : 4.0 * M_PI;
 }
 
-/* The integral of CURVE(context, x) from LOW to HIGH: five Gauss points on each of PANELS panels. */
+/* The integral of CURVE(context, x) from LOW to HIGH: five Gauss points on each of PANELS
+ * panels. */
 static inline double radial_integral(double (*curve)(const void *context, double x),
                                      const void *context, double low, double high, int panels)
 {

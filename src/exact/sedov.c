@@ -1,7 +1,7 @@
 /* The strong blast; see sedov.h.
  *
- * With xi = r/r_s, v = (2/(nu+2)) (r/t) V, density rho_0 G and c^2 = (2 r/((nu+2) t))^2 Z the energy
- * within any xi is constant in time, which gives
+ * With xi = r/r_s, v = (2/(nu+2)) (r/t) V, density rho_0 G and c^2 = (2 r/((nu+2) t))^2 Z the
+ * energy within any xi is constant in time, which gives
  *
  *   Z = gamma (gamma - 1) (1 - V) V^2/(2 (gamma V - 1)),
  *
@@ -12,9 +12,10 @@
  *   dln(G)/dV  = [1 + nu V dln(xi)/dV]/(1 - V)
  *
  * V falls from 2/(gamma + 1) at the shock to 1/gamma at the centre as long as gamma < 7 at a point,
- * for any gamma elsewhere. At a point and gamma = 7 V is 1/4 everywhere, G = (4/3) xi and the pressure
- * goes as xi^3 (Primakoff's solution). w = gamma V - 1 is the parameter. The partial fractions of the second
- * line at V = 1 and V = A/B fall together at gamma = 2; they are summed so that nothing cancels. */
+ * for any gamma elsewhere. At a point and gamma = 7 V is 1/4 everywhere, G = (4/3) xi and the
+ * pressure goes as xi^3 (Primakoff's solution). w = gamma V - 1 is the parameter. The partial
+ * fractions of the second line at V = 1 and V = A/B fall together at gamma = 2; they are summed so
+ * that nothing cancels. */
 #include "exact/sedov.h"
 
 #include "exact/radial.h"
@@ -115,8 +116,8 @@ static double slope_at(const struct sedov *s, double depth, double v)
     return ((2.0 / v - g - 2.0) * w - g * (1.0 - v)) / (g * (s->heavy * v - s->nu - 2.0));
 }
 
-/* (rho v^2/2 + p/(gamma - 1)) xi^(nu-1) dxi/ddepth, in units of rho_0 (2 r_s/((nu+2) t))^2: the energy
- * density is G V^3 xi^2 (gamma - 1)/(2 w). */
+/* (rho v^2/2 + p/(gamma - 1)) xi^(nu-1) dxi/ddepth, in units of rho_0 (2 r_s/((nu+2) t))^2: the
+ * energy density is G V^3 xi^2 (gamma - 1)/(2 w). */
 static double energy_share(const void *context, double depth)
 {
     const struct sedov *s = context;

@@ -1,11 +1,13 @@
-/* A plane detonation and the wave behind it; see slab_detonation.h. With V = rho_0/rho and E of the initial volume:
+/* A plane detonation and the wave behind it; see slab_detonation.h. With V = rho_0/rho and E of the
+ * initial volume:
  *
  *   Hugoniot    E = E_0 + p (1 - V)/2,   D^2 = p/[rho_0 (1 - V)], u = D (1 - V)
  *   CJ          D as small as it can be: the flow behind the front is as fast as its sound, rho_0 D = rho c
  *   isentrope   p_s = A e^(-R_1 V) + B e^(-R_2 V) + C V^(-1-w),   c^2 = -(V^2/rho_0) dp_s/dV
  *   fan         x/t = u + c,   u = u_CJ - int c dV/V from V_CJ on,   down to u = 0
  *
- * Source: Cui, dissertation (2014), section 3.4.1; Fickett and Davis, Detonation (1979), chapter 2. */
+ * Source: Cui, dissertation (2014), section 3.4.1; Fickett and Davis, Detonation (1979), chapter
+ * 2. */
 #include "exact/slab_detonation.h"
 
 #include "exact/radial.h"
@@ -70,7 +72,8 @@ static double sound_over_volume(const void *solved, double volume)
     return sqrt(maximum(slope, 0.0) / jwl->density);
 }
 
-/* By how much the front's mass flow squared, rho_0^2 D^2, exceeds (rho c)^2 behind it, over rho_0. */
+/* By how much the front's mass flow squared, rho_0^2 D^2, exceeds (rho c)^2 behind it, over
+ * rho_0. */
 static double flow_excess(const struct eos_jwl *jwl, double volume)
 {
     const double pressure = front_pressure(jwl, volume);

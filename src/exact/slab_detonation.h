@@ -1,5 +1,6 @@
-/* A slab of explosive that is lit at a rigid wall: Chapman and Jouguet's detonation and the Taylor wave behind it, for
- * products after Jones, Wilkins and Lee. Positions are distances from the wall. */
+/* A slab of explosive that is lit at a rigid wall: Chapman and Jouguet's detonation and the Taylor
+ * wave behind it, for products after Jones, Wilkins and Lee. Positions are distances from the
+ * wall. */
 #ifndef BOLIDE_EXACT_SLAB_DETONATION_H
 #define BOLIDE_EXACT_SLAB_DETONATION_H
 

@@ -1,7 +1,8 @@
 /* Solids that meet; see solid_path.h. With x = ln(V/V_start),
  *   elastic  S = S_start + 4/3 G x until |S| = 2Y/3,
  *   plastic  S = -2Y/3 in compression, 2Y/3 in expansion.
- * A plastic shock that would outrun its precursor takes the solid from the start to the end in one jump. */
+ * A plastic shock that would outrun its precursor takes the solid from the start to the end in one
+ * jump. */
 #include "exact/solid_path.h"
 
 #include <string.h>

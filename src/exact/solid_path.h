@@ -1,6 +1,7 @@
-/* A solid that one side of a contact sends waves into: an elastic one, and a plastic one behind it where
- * that does not suffice. Two solids that meet come to one velocity and one normal pressure; a free surface
- * to none. Source: Wang, Chen and Huang (2024), section 1; see solid_wave.h for the waves. */
+/* A solid that one side of a contact sends waves into: an elastic one, and a plastic one behind it
+ * where that does not suffice. Two solids that meet come to one velocity and one normal pressure; a
+ * free surface to none. Source: Wang, Chen and Huang (2024), section 1; see solid_wave.h for the
+ * waves. */
 #ifndef BOLIDE_EXACT_SOLID_PATH_H
 #define BOLIDE_EXACT_SOLID_PATH_H
 
@@ -58,7 +59,8 @@ struct solid_meeting {
     struct solid_response response[2];
 };
 
-/* ERROR_INPUT where both are free, or an equation of state does not come to what the meeting asks for. */
+/* ERROR_INPUT where both are free, or an equation of state does not come to what the meeting asks
+ * for. */
 struct error *solid_meet(const struct solid_path path[2], struct solid_meeting *meeting);
 
 struct exact_state solid_state(const struct solid_place *place, double velocity);

@@ -1,7 +1,8 @@
 /* Jumps and fans in a solid; see solid_wave.h. Behind a jump, dv = V_base - V (Rankine-Hugoniot),
  *   e = e_base + (P_base + P) dv/2,   P = p(1/V, e) - S,
  * and in a fan de/dx = -P V, du/dx = -C with the speed of sound along the curve,
- *   C^2 = (dp/drho)_e + (dp/de)_rho P/rho^2 + shear/rho (6), with P in place of p as S works too. */
+ *   C^2 = (dp/drho)_e + (dp/de)_rho P/rho^2 + shear/rho (6), with P in place of p as S works
+ * too. */
 #include "exact/solid_wave.h"
 
 #include "exact/root.h"
@@ -33,7 +34,8 @@ static bool is_fine(const struct eos_value *value)
     return value->status == 0 && isfinite(value->pressure);
 }
 
-/* Below this strain a chord is the mean of the slopes at its ends: closer than its own difference. */
+/* Below this strain a chord is the mean of the slopes at its ends: closer than its own
+ * difference. */
 static const double short_strain = 1e-5;
 
 static double chord_of(const struct solid_base *base, const struct solid_place *place,
@@ -117,7 +119,8 @@ struct target {
     double normal;
 };
 
-/* The target less the normal pressure at STRAIN: increasing; endless where the material cannot go. */
+/* The target less the normal pressure at STRAIN: increasing; endless where the material cannot
+ * go. */
 static struct root_value excess(const void *context, double strain)
 {
     const struct target *target = context;
@@ -129,7 +132,8 @@ static struct root_value excess(const void *context, double strain)
     return (struct root_value){target->normal - place.normal, place.stiffness * place.volume};
 }
 
-/* The first strain, doubled from a hundredth, that takes the base past the target; LIMIT if none. */
+/* The first strain, doubled from a hundredth, that takes the base past the target; LIMIT if
+ * none. */
 static double past(const struct target *target, double limit)
 {
     enum { FURTHEST = 20 }; /* in strain: a volume of e^20 or e^-20 of the first */

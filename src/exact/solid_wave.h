@@ -1,8 +1,9 @@
-/* One plane wave into a solid of any equation of state in uniaxial strain: a jump in compression, a fan
- * in expansion. While the solid is elastic its deviator follows the logarithmic strain, dS = 4/3 G dx,
- * x = ln(V/V_base); while it flows the deviator stays. P = p - S is the normal pressure. Pressure and
- * strain must belong together one to one and the curves be convex: phase changes split waves in ways
- * that are not looked for. Source: Wang, Chen and Huang (2024), section 1, (8)-(11). */
+/* One plane wave into a solid of any equation of state in uniaxial strain: a jump in compression, a
+ * fan in expansion. While the solid is elastic its deviator follows the logarithmic strain, dS =
+ * 4/3 G dx, x = ln(V/V_base); while it flows the deviator stays. P = p - S is the normal pressure.
+ * Pressure and strain must belong together one to one and the curves be convex: phase changes split
+ * waves in ways that are not looked for. Source: Wang, Chen and Huang (2024), section 1,
+ * (8)-(11). */
 #ifndef BOLIDE_EXACT_SOLID_WAVE_H
 #define BOLIDE_EXACT_SOLID_WAVE_H
 
@@ -30,9 +31,10 @@ struct solid_place {
 struct solid_place solid_jump(const struct solid_base *base, double strain);
 struct solid_place solid_fan(const struct solid_base *base, double strain);
 
-/* The place behind a wave that takes the base to NORMAL: a jump when that is more than there is, else a
- * fan, or a jump again where all of the fan would run at one speed. The strain is within LIMIT (of its
- * sign, at most infinite). False: the equation of state does not come to that pressure. */
+/* The place behind a wave that takes the base to NORMAL: a jump when that is more than there is,
+ * else a fan, or a jump again where all of the fan would run at one speed. The strain is within
+ * LIMIT (of its sign, at most infinite). False: the equation of state does not come to that
+ * pressure. */
 bool solid_wave_to(const struct solid_base *base, double normal, double limit,
                    struct solid_place *place);
 

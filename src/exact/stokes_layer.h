@@ -1,7 +1,8 @@
-/* The layer between two streams of a viscous fluid that slide over each other, Stokes' first problem: at time
- * zero u_x = U sign(y).
+/* The layer between two streams of a viscous fluid that slide over each other, Stokes' first
+ * problem: at time zero u_x = U sign(y).
  *   u = U erf(eta), eta = y/(2 sqrt(nu t)),
- * and a line of fluid that stood across the streams has moved by the integral of u over time, for y > 0
+ * and a line of fluid that stood across the streams has moved by the integral of u over time, for y
+ * > 0
  *   X = U [t erf(eta) + y sqrt(t/(pi nu)) exp(-eta^2) - y^2/(2 nu) erfc(eta)].
  * Source: Lamb, Hydrodynamics; Parshikov (2013), (2.7). */
 #ifndef BOLIDE_EXACT_STOKES_LAYER_H

@@ -1,17 +1,17 @@
-/* The decay of a jump of temperature; see temperature_jump.h. With a = lambda/(rho C_V), e = sqrt(lambda rho C_V)
- * and x from the contact, an infinite rod has
+/* The decay of a jump of temperature; see temperature_jump.h. With a = lambda/(rho C_V), e =
+ * sqrt(lambda rho C_V) and x from the contact, an infinite rod has
  *
  *   T* = (e_1 T_1 + e_2 T_2)/(e_1 + e_2)                                                   (1.51)
  *   T = T* + (T* - T_1) erf(x/(2 sqrt(a_1 t))) left, T* + (T_2 - T*) erf(x/(2 sqrt(a_2 t))) right  (1.50)
  *
- * A rod of insulated ends is the series T = mean + sum c_n X_n(x) exp(-mu_n^2 t), where X_n is
- * A cos(mu (x + l_1)/sqrt(a_1)) left and B cos(mu (l_2 - x)/sqrt(a_2)) right. With theta = mu l/sqrt(a), temperature
- * and flux at the contact are continuous where
+ * A rod of insulated ends is the series T = mean + sum c_n X_n(x) exp(-mu_n^2 t), where X_n is A
+ * cos(mu (x + l_1)/sqrt(a_1)) left and B cos(mu (l_2 - x)/sqrt(a_2)) right. With theta = mu
+ * l/sqrt(a), temperature and flux at the contact are continuous where
  *
  *   A cos(theta_1) = B cos(theta_2),   e_1 A sin(theta_1) + e_2 B sin(theta_2) = 0.
  *
- * The norm is int rho C_V X^2 = (rho_1 C_1 l_1 A^2 + rho_2 C_2 l_2 B^2)/2.
- * Source: Parshikov (2013), section 1.3; Carslaw and Jaeger, Conduction of heat in solids, 2.15 and 3.9. */
+ * The norm is int rho C_V X^2 = (rho_1 C_1 l_1 A^2 + rho_2 C_2 l_2 B^2)/2. Source: Parshikov
+ * (2013), section 1.3; Carslaw and Jaeger, Conduction of heat in solids, 2.15 and 3.9. */
 #include "exact/temperature_jump.h"
 
 #include "base/base.h"
@@ -70,8 +70,8 @@ const struct parameter exact_temperature_jump_table[] = {
     PARAMETER_END,
 };
 
-/* A mode is where theta_1 + psi = n pi with tan(psi) = (e_2/e_1) tan(theta_2), psi continuous: that sum grows
- * with mu, so that each n has its one root and none is missed. */
+/* A mode is where theta_1 + psi = n pi with tan(psi) = (e_2/e_1) tan(theta_2), psi continuous: that
+ * sum grows with mu, so that each n has its one root and none is missed. */
 struct mode {
     const struct heat_body *body;
     double turns; /* n pi */
@@ -89,7 +89,8 @@ static struct root_value phase(const void *context, double mu)
                                left->span + right->span * slope};
 }
 
-/* c_n A and c_n B of the mode MU. Of the two conditions at the contact that gives A : B which is not 0 : 0. */
+/* c_n A and c_n B of the mode MU. Of the two conditions at the contact that gives A : B which is
+ * not 0 : 0. */
 static struct heat_term term_of(const struct heat_problem *problem, double mu)
 {
     const struct heat_body *left = &problem->body[SIDE_LEFT], *right = &problem->body[SIDE_RIGHT];
@@ -109,7 +110,8 @@ static struct error *find_terms(struct heat_problem *problem)
 {
     const struct heat_body *left = &problem->body[SIDE_LEFT], *right = &problem->body[SIDE_RIGHT];
     double shorter = minimum(left->span, right->span), both = left->span + right->span;
-    /* Before an end feels the jump the rod is as good as infinite; after that so many modes live. */
+    /* Before an end feels the jump the rod is as good as infinite; after that so many modes
+     * live. */
     double modes = sqrt(faded) * 2.0 * unfelt / shorter * both / pi;
     if (!(modes < TERMS))
         return error_new(ERROR_INPUT,

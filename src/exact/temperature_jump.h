@@ -1,5 +1,5 @@
-/* Two bodies of different temperature that touch at a plane and exchange heat: an infinite rod, or one of two
- * insulated ends. */
+/* Two bodies of different temperature that touch at a plane and exchange heat: an infinite rod, or
+ * one of two insulated ends. */
 #ifndef BOLIDE_EXACT_TEMPERATURE_JUMP_H
 #define BOLIDE_EXACT_TEMPERATURE_JUMP_H
 

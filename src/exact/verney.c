@@ -1,12 +1,13 @@
 /* Verney's shell; see verney.h. With radii a and b, b^2 - a^2 = B^2 for ever, u = w/r, w = a da/dt,
- * L = ln(b/a), k = 2Y/sqrt(3), the kinetic energy, pi rho w^2 L, is what is left of the plastic work:
+ * L = ln(b/a), k = 2Y/sqrt(3), the kinetic energy, pi rho w^2 L, is what is left of the plastic
+ * work:
  *
  *   rho w^2 L/2 = k int_{a_f}^a a' L(a') da' = k [F(a) - F(a_f)],
  *   F = [b^2 ln b^2 - a^2 ln a^2]/4,   t = int_a^{a_0} a' da'/|w|.
  *
  * a^2 = a_f^2 + q^2 makes the last integrand finite at the stop. The momentum equation with free
- * surfaces leaves sigma_r = rho w^2/2 [(1/a^2 - 1/b^2) ln(r/a)/L + 1/r^2 - 1/a^2]; S_r = k/2, and the
- * work on a particle that came from R is k ln(R/r). */
+ * surfaces leaves sigma_r = rho w^2/2 [(1/a^2 - 1/b^2) ln(r/a)/L + 1/r^2 - 1/a^2]; S_r = k/2, and
+ * the work on a particle that came from R is k ln(R/r). */
 #include "exact/verney.h"
 
 #include "exact/radial.h"

@@ -1,7 +1,7 @@
-/* Verney's shell: a thick cylinder of an incompressible, rigid, perfectly plastic solid in plane strain
- * that runs inward with free surfaces until plastic work has stopped it. Verney (1968); Howell and Ball
- * (2002); the form of Wang, Chen and Huang (2024). Its sample takes the distance from the axis, and its
- * velocity is that away from it; it has no contact and no star states. */
+/* Verney's shell: a thick cylinder of an incompressible, rigid, perfectly plastic solid in plane
+ * strain that runs inward with free surfaces until plastic work has stopped it. Verney (1968);
+ * Howell and Ball (2002); the form of Wang, Chen and Huang (2024). Its sample takes the distance
+ * from the axis, and its velocity is that away from it; it has no contact and no star states. */
 #ifndef BOLIDE_EXACT_VERNEY_H
 #define BOLIDE_EXACT_VERNEY_H
 

@@ -1,6 +1,7 @@
-/* A self-similar solution of two half-spaces: a contact, and up to two waves on either side of it, each
- * a jump or a fan. What all exact solutions of this module share: a solved problem begins with a struct
- * waves, and waves_sample, waves_star and waves_contact serve as members of its exact_class. */
+/* A self-similar solution of two half-spaces: a contact, and up to two waves on either side of it,
+ * each a jump or a fan. What all exact solutions of this module share: a solved problem begins with
+ * a struct waves, and waves_sample, waves_star and waves_contact serve as members of its
+ * exact_class. */
 #ifndef BOLIDE_EXACT_WAVES_H
 #define BOLIDE_EXACT_WAVES_H
 
@@ -25,14 +26,15 @@ struct wave {
 
 enum { WAVES_A_SIDE = 2 };
 
-/* Waves are listed from the outermost (fastest) to the one beside the contact; at least one a side, or
- * none on a side where nothing is. */
+/* Waves are listed from the outermost (fastest) to the one beside the contact; at least one a side,
+ * or none on a side where nothing is. */
 struct waves {
     double at; /* m, place of the contact at time zero */
     struct exact_state start[2];
     int count[2];
     struct wave wave[2][WAVES_A_SIDE];
-    /* The state inside the fan of a side where x - at = speed * time; NULL when there are no fans. */
+    /* The state inside the fan of a side where x - at = speed * time; NULL when there are no
+     * fans. */
     struct exact_state (*in_fan)(const void *solved, enum exact_side side, double speed);
 };
 

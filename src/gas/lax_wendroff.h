@@ -1,6 +1,6 @@
 /* A sweep of the Lax-Wendroff scheme along a row, with adaptive viscosity. Source: Cui,
- * dissertation (2014), section 2.6, (2-51) and (2-53)-(2-58), restored where the printed
- * formulas cannot hold:
+ * dissertation (2014), section 2.6, (2-51) and (2-53)-(2-58), restored where the printed formulas
+ * cannot hold:
  *
  *   viscosity (2-56)-(2-58): theta = | (|a| - |b|)/(|a| + |b|) |, a and b the steps of density to
  *     the next cell and from the last; the face between two cells has the k = eta max(theta) of both
@@ -11,7 +11,8 @@
  * with r = dt/h. As printed the viscosity has theta of the cell at both faces, which does not
  * conserve, and the scheme r^2/2 (f_next - 2 f + f_last) for its second order, which lacks the
  * Jacobian. A cell that a sweep would leave without density or energy has the fluxes of Lax and
- * Friedrichs, f = (f + f_next)/2 - s/2 (U_next - U) with s the fastest |u| + c, at both its faces. */
+ * Friedrichs, f = (f + f_next)/2 - s/2 (U_next - U) with s the fastest |u| + c, at both its
+ * faces. */
 #ifndef BOLIDE_GAS_LAX_WENDROFF_H
 #define BOLIDE_GAS_LAX_WENDROFF_H
 
@@ -38,8 +39,8 @@ BOLIDE_INLINE void row_theta(const struct gas_numbers *u, int first, int last, d
 }
 
 /* Smooths cells -2 .. cells + 1 of a row. SMOOTHED may not be its own numbers. What the viscosity
- * carries through the faces -1 .. cells + 1, per area and time, goes to FLUX; nothing where it is that
- * of cells. */
+ * carries through the faces -1 .. cells + 1, per area and time, goes to FLUX; nothing where it is
+ * that of cells. */
 BOLIDE_INLINE void row_smooth(const struct gas_row *row, const struct lax_wendroff *scheme,
                               double r, struct gas_numbers *smoothed, struct gas_numbers *flux)
 {
@@ -121,8 +122,8 @@ BOLIDE_INLINE bool gas_is_lost(const struct gas_numbers *from, const struct gas_
            (!(gas_heat(to, k) > 0.0) && gas_heat(from, k) > 0.0);
 }
 
-/* Puts Lax and Friedrichs' fluxes through both faces of the cells -1 .. cells that are lost; whether
- * there are any. */
+/* Puts Lax and Friedrichs' fluxes through both faces of the cells -1 .. cells that are lost;
+ * whether there are any. */
 BOLIDE_INLINE bool row_guard(const struct gas_row *row, const struct gas_numbers *smoothed,
                              const struct gas_numbers *flow, const struct gas_numbers *to,
                              struct gas_numbers *through)

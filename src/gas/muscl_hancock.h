@@ -1,17 +1,17 @@
 /* A sweep of second order along a row: linear reconstruction with limited slopes, half a step of
  * the primitive equations (MUSCL-Hancock; van Leer, SIAM J. Sci. Stat. Comput. 5 (1984) 1), and
  * HLLC fluxes (Toro, Spruce and Speares, Shock Waves 4 (1994) 25) with the fastest waves after
- * Einfeldt (SIAM J. Numer. Anal. 25 (1988) 294), for any equation of state. Density, velocity
- * and pressure are reconstructed, so that both sides of a contact have one pressure; the energy
- * of a face follows from the equation of state, which is linear in it.
+ * Einfeldt (SIAM J. Numer. Anal. 25 (1988) 294), for any equation of state. Density, velocity and
+ * pressure are reconstructed, so that both sides of a contact have one pressure; the energy of a
+ * face follows from the equation of state, which is linear in it.
  *
- * HLLC lets strong shocks along the grid break up (Quirk, Int. J. Numer. Methods Fluids 18 (1994) 555):
- * each sweep marks the cells of strong shocks along its axis, and the sweeps across them have HLL fluxes
- * there.
+ * HLLC lets strong shocks along the grid break up (Quirk, Int. J. Numer. Methods Fluids 18 (1994)
+ * 555): each sweep marks the cells of strong shocks along its axis, and the sweeps across them have
+ * HLL fluxes there.
  *
- * A face whose flux would take too much out of either cell in half a cell's width has the first-order
- * flux of the cells themselves (after Hu, Adams and Shu, J. Comput. Phys. 242 (2013) 169): both
- * cells and all ranks decide alike, since nothing but the two cells counts. */
+ * A face whose flux would take too much out of either cell in half a cell's width has the
+ * first-order flux of the cells themselves (after Hu, Adams and Shu, J. Comput. Phys. 242 (2013)
+ * 169): both cells and all ranks decide alike, since nothing but the two cells counts. */
 #ifndef BOLIDE_GAS_MUSCL_HANCOCK_H
 #define BOLIDE_GAS_MUSCL_HANCOCK_H
 
@@ -27,8 +27,9 @@ struct row_states {
     double energy[ROW_ROOM], sound[ROW_ROOM];
 };
 
-/* How far density and specific energy may fall at once: the density to this part of itself, the energy
- * by as much of what an ideal gas of the same sound speed c and G = (dp/de)/rho has, c^2/(G (G + 1)). */
+/* How far density and specific energy may fall at once: the density to this part of itself, the
+ * energy by as much of what an ideal gas of the same sound speed c and G = (dp/de)/rho has, c^2/(G
+ * (G + 1)). */
 static const double GAS_LEAST = 0.2;
 
 /* The rise of pressure over rho c^2 from which a shock is strong: its Mach number is about 1.5. */
@@ -79,8 +80,8 @@ BOLIDE_INLINE double limited(double past, double next)
 }
 
 /* On the low and the high faces of cells -1 .. cells, half a step of R = dt/h on: of face k the
- * state ABOVE it is that of cell k, the state BELOW it that of cell k - 1. PUSH are the pressures in the
- * middle of the step. */
+ * state ABOVE it is that of cell k, the state BELOW it that of cell k - 1. PUSH are the pressures
+ * in the middle of the step. */
 BOLIDE_INLINE void row_faces(const struct gas_row *row, const struct row_states *cell, double r,
                              struct row_states *below, struct row_states *above, double *push)
 {
@@ -241,8 +242,8 @@ BOLIDE_INLINE void row_hllc(const struct gas_row *row, const struct row_states *
     }
 }
 
-/* HLL (Harten, Lax and van Leer, SIAM Review 25 (1983) 35) with the same waves: contacts and shear are
- * smeared. */
+/* HLL (Harten, Lax and van Leer, SIAM Review 25 (1983) 35) with the same waves: contacts and shear
+ * are smeared. */
 BOLIDE_INLINE struct gas_flow gas_hll(struct gas_side low, struct gas_side high)
 {
     const struct gas_waves waves = gas_waves_of(low, high);
@@ -268,14 +269,15 @@ BOLIDE_INLINE struct gas_flow gas_hll(struct gas_side low, struct gas_side high)
     return flow;
 }
 
-/* Whether a strong shock along another axis than that of ROW is in cell K, as sweeps along that left it. */
+/* Whether a strong shock along another axis than that of ROW is in cell K, as sweeps along that
+ * left it. */
 BOLIDE_INLINE bool row_shock_across(const struct gas_row *row, int k)
 {
     return ((int)row->shock[k] & ~(1 << row->axis)) != 0;
 }
 
-/* Puts HLL fluxes through the faces 0 .. cells along a strong shock across which the gas flows at a right
- * angle to the row. */
+/* Puts HLL fluxes through the faces 0 .. cells along a strong shock across which the gas flows at a
+ * right angle to the row. */
 static inline void row_damp(const struct gas_row *row, const struct row_states *below,
                             const struct row_states *above, struct gas_numbers *flux)
 {
@@ -293,8 +295,9 @@ static inline void row_damp(const struct gas_row *row, const struct row_states *
     }
 }
 
-/* Where strong shocks along the row are in its cells: the pressure rises over two cells by more than
- * GAS_STRONG times rho c^2 of the cells, and the gas is compressed; and one cell to each side. */
+/* Where strong shocks along the row are in its cells: the pressure rises over two cells by more
+ * than GAS_STRONG times rho c^2 of the cells, and the gas is compressed; and one cell to each
+ * side. */
 BOLIDE_INLINE void row_find_shocks(struct gas_row *row, const struct row_states *cell)
 {
     const double *pressure = cell->of.of[PRIMITIVE_PRESSURE],

@@ -1,5 +1,6 @@
-/* Particles into blocks and cells; see bins.h. Most still lie in the block they are stored in, and their cell there is
- * all that must be found. The others, strays, are few and go by a hash table of blocks. */
+/* Particles into blocks and cells; see bins.h. Most still lie in the block they are stored in, and
+ * their cell there is all that must be found. The others, strays, are few and go by a hash table of
+ * blocks. */
 #include "grid/bins.h"
 
 #include <stdlib.h>
@@ -13,8 +14,8 @@ struct stray {
     uint8_t cell;
 };
 
-/* A block that may have particles of a group: one of storage, or one that strays have come to. Those of a block stand side
- * by side, one a group. */
+/* A block that may have particles of a group: one of storage, or one that strays have come to.
+ * Those of a block stand side by side, one a group. */
 struct candidate {
     uint64_t key;
     int32_t block; /* of storage, -1: none */

@@ -1,6 +1,7 @@
-/* Which particle lies in which cell of the grid, found anew each step: groups of bodies that share nothing, in a group blocks
- * of cells by key, in a block its cells, in a cell the particles by id. What is added up in this order does not depend on
- * how the particles are stored; storage that is nearly in this order makes it quick. */
+/* Which particle lies in which cell of the grid, found anew each step: groups of bodies that share
+ * nothing, in a group blocks of cells by key, in a block its cells, in a cell the particles by id.
+ * What is added up in this order does not depend on how the particles are stored; storage that is
+ * nearly in this order makes it quick. */
 #ifndef BOLIDE_BINS_H
 #define BOLIDE_BINS_H
 
@@ -10,15 +11,17 @@
 
 enum { BIN_GROUPS = 16 };
 
-/* A block of a group. The particles of cell C are list[first + cell[c]] .. list[first + cell[c + 1] - 1]. */
+/* A block of a group. The particles of cell C are list[first + cell[c]] .. list[first + cell[c + 1]
+ * - 1]. */
 struct bin {
     uint64_t key;
     int32_t first, cell[BLOCK_CELLS + 1];
 };
 
-/* The particles: COUNT of them at POSITION, stored in BLOCKS of cells of edge EDGE, the
- * first of which begins at -SHIFT; an index means the same particle while
- * ORDER stays. Where there are several GROUPS, a body belongs to one of them. Cells below LOW and above HIGH do not exist: what rounding puts there is in the outermost. */
+/* The particles: COUNT of them at POSITION, stored in BLOCKS of cells of edge EDGE, the first of
+ * which begins at -SHIFT; an index means the same particle while ORDER stays. Where there are
+ * several GROUPS, a body belongs to one of them. Cells below LOW and above HIGH do not exist: what
+ * rounding puts there is in the outermost. */
 struct binned {
     int dimension;
     double edge, shift;
@@ -60,7 +63,8 @@ struct bins {
 
 /* ERROR_STATE when a particle lies beyond what blocks can count. */
 struct error *bins_make(struct bins *bins, const struct binned *particles, int threads);
-/* Tells that the particles are now stored in the order of the bins' list: bin after bin, which is BINNED's order ORDER. */
+/* Tells that the particles are now stored in the order of the bins' list: bin after bin, which is
+ * BINNED's order ORDER. */
 void bins_settle(struct bins *bins, uint64_t order, int threads);
 void bins_free(struct bins *bins);
 

@@ -34,7 +34,8 @@ static inline int32_t block_table_find(const struct block_table *table, uint64_t
     return block_table_slot(table, key)->number - 1;
 }
 
-/* The number of the block of KEY, which is the next one when it is not there yet. The table must have room. */
+/* The number of the block of KEY, which is the next one when it is not there yet. The table must
+ * have room. */
 static inline int32_t block_table_add(struct block_table *table, uint64_t key)
 {
     struct block_slot *slot = block_table_slot(table, key);

@@ -234,7 +234,8 @@ size_t cell_blocks_bytes(const struct cell_blocks *cells)
     return bytes;
 }
 
-/* What goes with a block that moves to another rank: the block, then of each STATE field its cells. */
+/* What goes with a block that moves to another rank: the block, then of each STATE field its
+ * cells. */
 static size_t bytes_that_go(const struct cell_blocks *cells)
 {
     size_t bytes = 0;

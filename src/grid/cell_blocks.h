@@ -1,10 +1,10 @@
 /* The cell store: every field of the cells that a rank owns, one array each, block after block.
  *
  * Cells are those of the global grid, whose planes lie at the multiples of its edge, within a box,
- * the domain. A block holds 64, 16 x 16 or 8 x 8 x 8 of them, fewer where the domain ends; in a block
- * x runs fastest. Blocks lie in the order of their keys. A block of cells is made of whole blocks of
- * particles, whose first gives it its key, so that one partition serves both. Vectors have three
- * components in every dimension. */
+ * the domain. A block holds 64, 16 x 16 or 8 x 8 x 8 of them, fewer where the domain ends; in a
+ * block x runs fastest. Blocks lie in the order of their keys. A block of cells is made of whole
+ * blocks of particles, whose first gives it its key, so that one partition serves both. Vectors
+ * have three components in every dimension. */
 #ifndef BOLIDE_CELL_BLOCKS_H
 #define BOLIDE_CELL_BLOCKS_H
 
@@ -66,14 +66,14 @@ BOLIDE_INLINE int32_t cell_stride(const struct cell_block *block, int axis)
     return axis == 0 ? 1 : axis == 1 ? block->count[0] : block->count[0] * block->count[1];
 }
 
-/* A store without blocks, with the core's fields and COUNT more. The caller has set dimension, edge,
- * domain, ranks, partition and threads. */
+/* A store without blocks, with the core's fields and COUNT more. The caller has set dimension,
+ * edge, domain, ranks, partition and threads. */
 struct error *cell_blocks_create(struct cell_blocks *cells, const struct field_declaration *more,
                                  int count);
 void cell_blocks_destroy(struct cell_blocks *cells);
 
-/* Gives this rank its slice of the blocks of the domain, all zero but ids and places. ERROR_STATE: the
- * domain has more cells than can be counted. */
+/* Gives this rank its slice of the blocks of the domain, all zero but ids and places. ERROR_STATE:
+ * the domain has more cells than can be counted. */
 struct error *cell_blocks_fill(struct cell_blocks *cells);
 
 /* The data of field NAME, which must exist; it holds until blocks come or go. */
@@ -85,8 +85,8 @@ uint64_t cell_block_key(int dimension, const int64_t at[3]);
 /* The block with KEY, NULL where this rank does not own it. */
 const struct cell_block *cell_block_find(const struct cell_blocks *cells, uint64_t key);
 
-/* Collective: every block goes to the rank that owns it. With RECUT, or where the ranks' work since the
- * cut differs by too much, blocks are divided anew. */
+/* Collective: every block goes to the rank that owns it. With RECUT, or where the ranks' work since
+ * the cut differs by too much, blocks are divided anew. */
 struct error *cell_blocks_distribute(struct cell_blocks *cells, bool recut);
 
 /* Collective: loads or saves every STATE field, as "cells/NAME", in the order of keys. */

@@ -31,8 +31,8 @@ static struct error *out_of_memory(void)
     return error_new(ERROR_SYSTEM, "out of memory for the cells beyond blocks");
 }
 
-/* A place along the axis outside the domain, taken into it; FILLED where a face does not say how, and
- * INSTEAD is not to be used for it. */
+/* A place along the axis outside the domain, taken into it; FILLED where a face does not say how,
+ * and INSTEAD is not to be used for it. */
 struct place {
     int64_t at;
     bool turned, filled;

@@ -1,7 +1,7 @@
-/* The cells beyond the ends of blocks: where a sweep along an axis finds the neighbours of the cells
- * that a rank owns. They are cells of its other blocks, reached across faces of the domain by what lies
- * outside them, or planes of cells: copies of those of other ranks, and what the caller puts outside
- * a face. */
+/* The cells beyond the ends of blocks: where a sweep along an axis finds the neighbours of the
+ * cells that a rank owns. They are cells of its other blocks, reached across faces of the domain by
+ * what lies outside them, or planes of cells: copies of those of other ranks, and what the caller
+ * puts outside a face. */
 #ifndef BOLIDE_CELL_HALO_H
 #define BOLIDE_CELL_HALO_H
 
@@ -21,8 +21,8 @@ struct cell_source {
     bool turned;
 };
 
-/* A plane that the caller fills: of block `block`, outside its `side` (0 low, 1 high), `depth` cells from
- * its end, 0 the next. What a mirror and a copy would have there. */
+/* A plane that the caller fills: of block `block`, outside its `side` (0 low, 1 high), `depth`
+ * cells from its end, 0 the next. What a mirror and a copy would have there. */
 struct cell_filled {
     int32_t block, side, depth, plane;
     int64_t at; /* its index in the global grid along the axis */
@@ -55,8 +55,8 @@ struct cell_halo {
 struct error *cell_halo_plan(struct cell_halo *halo, const struct cell_blocks *cells);
 void cell_halo_free(struct cell_halo *halo);
 
-/* Sends to other ranks what they want along AXIS of FIELD, arrays of as many numbers as the halo has;
- * planes hold what comes after finish. */
+/* Sends to other ranks what they want along AXIS of FIELD, arrays of as many numbers as the halo
+ * has; planes hold what comes after finish. */
 void cell_halo_start(struct cell_halo *halo, const struct cell_blocks *cells, int axis,
                      const double *const *field);
 void cell_halo_finish(struct cell_halo *halo, int axis);

@@ -1,5 +1,5 @@
-/* The cells of particles within the block that they are stored in: what finding bins spends its time on. Compiled once an
- * instruction set. */
+/* The cells of particles within the block that they are stored in: what finding bins spends its
+ * time on. Compiled once an instruction set. */
 #ifndef BOLIDE_GRID_CELL_KERNEL_H
 #define BOLIDE_GRID_CELL_KERNEL_H
 
@@ -8,7 +8,8 @@
 /* The cell of a particle outside of the block that it is stored in. */
 enum { CELL_ELSEWHERE = 255 };
 
-/* Cells of edge EDGE, number 0 from -SHIFT on; those below LOW and above HIGH do not exist, what would be in them is in the outermost. */
+/* Cells of edge EDGE, number 0 from -SHIFT on; those below LOW and above HIGH do not exist, what
+ * would be in them is in the outermost. */
 struct cell_loop {
     int dimension;
     double edge, shift;
@@ -31,7 +32,8 @@ BOLIDE_INLINE double cell_number(const struct cell_loop *loop, int dimension,
     return away > 0.0 ? (double)CELL_ELSEWHERE : sum;
 }
 
-/* Writes to CELL[i] the cell of each particle i of BEGIN .. END - 1 in the block whose first cell has index CORNER. */
+/* Writes to CELL[i] the cell of each particle i of BEGIN .. END - 1 in the block whose first cell
+ * has index CORNER. */
 void cell_loop_run(const struct cell_loop *loop, const double corner[3], int32_t begin, int32_t end,
                    uint8_t *cell);
 

@@ -104,7 +104,8 @@ static struct error *find_blocks(struct grid *grid, const struct bins *bins)
     return NULL;
 }
 
-/* Which patches cover which blocks. Bins come in the order of keys, so that the touches of a block do. */
+/* Which patches cover which blocks. Bins come in the order of keys, so that the touches of a block
+ * do. */
 static void join(struct grid *grid, const struct bins *bins)
 {
     for (int32_t n = 0; n < grid->blocks; n++)
@@ -172,7 +173,8 @@ void grid_field_free(struct grid_field *field)
     *field = (struct grid_field){.stride = field->stride};
 }
 
-/* Where the row of nodes along the last axis at A, B of an overlap begins, in a box of SIDE nodes along each axis. */
+/* Where the row of nodes along the last axis at A, B of an overlap begins, in a box of SIDE nodes
+ * along each axis. */
 static inline size_t row_at(int dimension, int side, const int from[3], int a, int b)
 {
     size_t row = 0;

@@ -1,26 +1,29 @@
-/* The nodes of the grid that exist: those of blocks that hold particles, and of blocks that these reach into. Empty space
- * costs nothing.
+/* The nodes of the grid that exist: those of blocks that hold particles, and of blocks that these
+ * reach into. Empty space costs nothing.
  *
- * A block of cells has a patch: its own nodes and those that its particles reach beyond. Particles add to the patch of
- * their block in the order of bins; a node's value is the sum over the patches that cover it, in the order of block
- * keys. So no value depends on threads, ranks or storage. A block of nodes holds as many as cells: those at the low
- * corners of the cells with the same key. */
+ * A block of cells has a patch: its own nodes and those that its particles reach beyond. Particles
+ * add to the patch of their block in the order of bins; a node's value is the sum over the patches
+ * that cover it, in the order of block keys. So no value depends on threads, ranks or storage. A
+ * block of nodes holds as many as cells: those at the low corners of the cells with the same
+ * key. */
 #ifndef BOLIDE_GRID_H
 #define BOLIDE_GRID_H
 
 #include "grid/bins.h"
 #include "grid/grid_shape.h"
 
-/* Blocks about a block, itself included: the offset o of -1, 0, 1 on each axis is digit o + 1 of a number to the base 3,
- * the first axis on top. */
+/* Blocks about a block, itself included: the offset o of -1, 0, 1 on each axis is digit o + 1 of a
+ * number to the base 3, the first axis on top. */
 enum { GRID_AROUND = 27 };
 
-/* A patch that covers nodes of a block: that of bin `bin`, which sees the block at offset `code`. */
+/* A patch that covers nodes of a block: that of bin `bin`, which sees the block at offset
+ * `code`. */
 struct grid_touch {
     int32_t bin, code;
 };
 
-/* The part that a patch and a block of nodes share: so many nodes along each axis, the place of the first in either. */
+/* The part that a patch and a block of nodes share: so many nodes along each axis, the place of the
+ * first in either. */
 struct grid_overlap {
     int count[3], from[3], at[3];
 };

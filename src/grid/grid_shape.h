@@ -1,14 +1,18 @@
-/* Shape functions of the grid along one axis; those of a node in several dimensions are their products. R is the distance
- * of a particle from the node and HALF half the size of a particle, both in cells; slopes are by r.
+/* Shape functions of the grid along one axis; those of a node in several dimensions are their
+ * products. R is the distance of a particle from the node and HALF half the size of a particle,
+ * both in cells; slopes are by r.
  *
- * About an axis a uniform pressure p at particles of radius x and area A in the plane pushes a node with the sum of
- * p A (x N' + N), which is to be the integral of p d(x N)/dx: nothing. shape_around is what stands for N there so that it is
- * for particles that fill the cells: gimp and quadratic have the mean over a particle when N is that of its two ends, and
- * cubic when N''/3 of half its size squared is added, which is what the midpoint rule leaves out of (x N)'. It keeps a
- * velocity that grows with the radius. The need for it: Nairn and Guilkey, IJNME 101 (2015) 127, whose gimp averages N' too.
+ * About an axis a uniform pressure p at particles of radius x and area A in the plane pushes a node
+ * with the sum of p A (x N' + N), which is to be the integral of p d(x N)/dx: nothing. shape_around
+ * is what stands for N there so that it is for particles that fill the cells: gimp and quadratic
+ * have the mean over a particle when N is that of its two ends, and cubic when N''/3 of half its
+ * size squared is added, which is what the midpoint rule leaves out of (x N)'. It keeps a velocity
+ * that grows with the radius. The need for it: Nairn and Guilkey, IJNME 101 (2015) 127, whose gimp
+ * averages N' too.
  *
- * Source: Cui, dissertation (2014), (2-7); Bardenhagen and Kober, CMES 5 (2004) 477, for gimp, whose particles keep
- * their size; Steffen, Kirby and Berzins, IJNME 76 (2008) 922, for the B-splines. */
+ * Source: Cui, dissertation (2014), (2-7); Bardenhagen and Kober, CMES 5 (2004) 477, for gimp,
+ * whose particles keep their size; Steffen, Kirby and Berzins, IJNME 76 (2008) 922, for the
+ * B-splines. */
 #ifndef BOLIDE_GRID_SHAPE_H
 #define BOLIDE_GRID_SHAPE_H
 
@@ -16,10 +20,10 @@
 
 enum grid_shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_QUADRATIC, SHAPE_CUBIC };
 
-/* Which nodes a particle of a cell may reach: so many before and after the one with the index of the
- * cell. That is its low corner, or with CENTRED the node in its middle: quadratic functions, whose
- * support is three cells, then reach three nodes and not four. With functions AROUND an axis, which are
- * means over a particle, they reach further. */
+/* Which nodes a particle of a cell may reach: so many before and after the one with the index of
+ * the cell. That is its low corner, or with CENTRED the node in its middle: quadratic functions,
+ * whose support is three cells, then reach three nodes and not four. With functions AROUND an axis,
+ * which are means over a particle, they reach further. */
 struct shape_window {
     bool centred;
     int before, after;

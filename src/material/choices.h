@@ -1,6 +1,6 @@
-/* What a case may name for a material: the equations of state, strength, failure and burn models, each with its
- * parameter table. The index in an array is the enum of the model, so that a choice read from a case
- * becomes plain data by a copy. */
+/* What a case may name for a material: the equations of state, strength, failure and burn models,
+ * each with its parameter table. The index in an array is the enum of the model, so that a choice
+ * read from a case becomes plain data by a copy. */
 #ifndef BOLIDE_CHOICES_H
 #define BOLIDE_CHOICES_H
 

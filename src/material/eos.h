@@ -113,7 +113,8 @@ BOLIDE_INLINE struct eos_value eos_evaluate(const struct eos *eos, double densit
     return value.status & POINT_BEYOND ? eos_beyond(eos, density, energy) : value;
 }
 
-/* The square of the speed of sound in a fluid, (dp/drho)_s, from the PRESSURE and its derivatives. */
+/* The square of the speed of sound in a fluid, (dp/drho)_s, from the PRESSURE and its
+ * derivatives. */
 BOLIDE_INLINE double eos_sound_square(double pressure, double dp_drho, double dp_de, double density)
 {
     return dp_drho + pressure / square(density) * dp_de;

@@ -1,8 +1,7 @@
 /* The wave that takes an ideal gas to another pressure. Through a shock, with A = 2/((g+1) rho) and
- * B = (g-1)/(g+1) p,   |u* - u| = (p* - p) sqrt(A/(p* + B));
- * through a fan        |u* - u| = 2c/(g-1) (1 - r^((g-1)/2g)),  r = p* over p.
- * Both are one increasing, concave function of p*. Source: Landau and Lifshitz, Fluid mechanics, sections 85, 89,
- * 99, 100. */
+ * B = (g-1)/(g+1) p,   |u* - u| = (p* - p) sqrt(A/(p* + B)); through a fan        |u* - u| =
+ * 2c/(g-1) (1 - r^((g-1)/2g)),  r = p* over p. Both are one increasing, concave function of p*.
+ * Source: Landau and Lifshitz, Fluid mechanics, sections 85, 89, 99, 100. */
 #ifndef BOLIDE_GAS_WAVE_H
 #define BOLIDE_GAS_WAVE_H
 
@@ -13,8 +12,8 @@ struct gas_push {
     double value, slope;
 };
 
-/* How much the wave to PRESSURE behind it pushes a gas of density RHO, pressure P and sound speed C away from
- * where the wave came from; negative where it draws. */
+/* How much the wave to PRESSURE behind it pushes a gas of density RHO, pressure P and sound speed C
+ * away from where the wave came from; negative where it draws. */
 BOLIDE_INLINE struct gas_push gas_wave_push(double rho, double p, double c, double gamma,
                                             double pressure)
 {

@@ -26,9 +26,9 @@ struct point {
     double history[POINT_HISTORY];
 };
 
-/* What a step does to a point: its density after the step, the symmetric velocity gradient (with its trace) and half
- * the curl of velocity during it; and the specific internal energy after it, or what follows from work (see material.h):
- * the mean artificial viscous pressure. */
+/* What a step does to a point: its density after the step, the symmetric velocity gradient (with
+ * its trace) and half the curl of velocity during it; and the specific internal energy after it, or
+ * what follows from work (see material.h): the mean artificial viscous pressure. */
 struct motion {
     double dt, density, energy;
     struct sym3 strain_rate;

@@ -100,8 +100,8 @@ BOLIDE_INLINE bool strength_is_plain(const struct strength *strength)
     }
 }
 
-/* Takes the deviator and history of POINT through a step, and its pressure where that returns too. BULK_MODULUS is that of
- * the equation of state, Pa. */
+/* Takes the deviator and history of POINT through a step, and its pressure where that returns too.
+ * BULK_MODULUS is that of the equation of state, Pa. */
 BOLIDE_INLINE void strength_step(const struct strength *strength, const struct motion *motion,
                                  double bulk_modulus, struct point *point)
 {

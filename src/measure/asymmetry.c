@@ -1,5 +1,5 @@
-/* asymmetry: how far a field is from its own mirror image. Each particle is compared with the one that
- * stood at the start where its image did:
+/* asymmetry: how far a field is from its own mirror image. Each particle is compared with the one
+ * that stood at the start where its image did:
  *   largest |f_i - s f_image(i)| / largest |f|, s = 1 for an even field, -1 for an odd one. */
 #include <stdlib.h>
 #include <string.h>
@@ -47,8 +47,8 @@ const struct parameter measure_asymmetry_table[] = {
     PARAMETER_END,
 };
 
-/* A particle where it stood at the start, or the image of one, for which another is wanted. Both go to the rank that sees
- * to that part of space. */
+/* A particle where it stood at the start, or the image of one, for which another is wanted. Both go
+ * to the rank that sees to that part of space. */
 struct place {
     double at[3], field;
     uint64_t id;
@@ -69,7 +69,8 @@ struct received {
     int32_t stands, count;
 };
 
-/* A search for the particle that stood nearest to an image; of those equally near the one of the lowest id. */
+/* A search for the particle that stood nearest to an image; of those equally near the one of the
+ * lowest id. */
 struct search {
     const struct place *place, *image, *nearest;
     double distance2;
@@ -89,7 +90,8 @@ static void look_at(void *context, int64_t index)
     }
 }
 
-/* The rank that sees to the cube of edge CELL number NUMBER: neighbours may go to different ranks. */
+/* The rank that sees to the cube of edge CELL number NUMBER: neighbours may go to different
+ * ranks. */
 static int32_t rank_of(const struct ranks *ranks, const double number[3])
 {
     uint64_t mixed = 0;

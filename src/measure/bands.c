@@ -1,5 +1,5 @@
-/* Bands over the ranks; see bands.h. The places where bands begin are found some at a time, so that no rank sees more
- * than a few places of each. */
+/* Bands over the ranks; see bands.h. The places where bands begin are found some at a time, so that
+ * no rank sees more than a few places of each. */
 #include "measure/bands.h"
 
 #include <stdlib.h>
@@ -34,7 +34,8 @@ static int64_t drop_lost(struct band *own, int64_t count)
     return kept;
 }
 
-/* The next different places of OWN from NEXT on; *known is the last up to which none is left out. */
+/* The next different places of OWN from NEXT on; *known is the last up to which none is left
+ * out. */
 static int offer_places(const struct band *own, int64_t count, int64_t next, double *place,
                         double *known)
 {

@@ -1,6 +1,6 @@
-/* Holes and craters lie about an axis normal to a plate. Of the plate count the fragments that have at
- * least half of the mass of the heaviest, so that a plate that a hole divides counts on both sides
- * and debris does not. */
+/* Holes and craters lie about an axis normal to a plate. Of the plate count the fragments that have
+ * at least half of the mass of the heaviest, so that a plate that a hole divides counts on both
+ * sides and debris does not. */
 #ifndef BOLIDE_BROKEN_AXIS_H
 #define BOLIDE_BROKEN_AXIS_H
 
@@ -14,7 +14,8 @@ struct broken_axis {
     bool round;           /* it is that of axisymmetry: across is the radius */
 };
 
-/* A particle beside mirror walls through the axis counts with its images: itself and up to three. */
+/* A particle beside mirror walls through the axis counts with its images: itself and up to
+ * three. */
 enum { BROKEN_IMAGES = 4 };
 
 /* Image IMAGE of the place AT, relative to AXIS, in ACROSS; false where there is no such image. */

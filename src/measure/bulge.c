@@ -1,5 +1,5 @@
-/* bulge: how far a body has been pushed out of its face: the outermost particle edge of its heaviest
- * fragment from where the face was at the start. */
+/* bulge: how far a body has been pushed out of its face: the outermost particle edge of its
+ * heaviest fragment from where the face was at the start. */
 #include "measure/broken_axis.h"
 
 static const char *const axis_names[] = {"x", "y", "z", NULL};

@@ -58,8 +58,8 @@ struct error *connected_failures(const struct population *population, bool **fai
     return NULL;
 }
 
-/* A search for the particles that are connected with point `index`. Points are the particles of this
- * rank that count, then those of other ranks near them. */
+/* A search for the particles that are connected with point `index`. Points are the particles of
+ * this rank that count, then those of other ranks near them. */
 struct search {
     int32_t own, count, index;
     int32_t *particle;       /* of an own point */

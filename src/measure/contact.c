@@ -21,8 +21,8 @@ static void add_ratio(const struct measurement *measurement, const struct sample
     ratio->count++;
 }
 
-/* Puts the samples nearest the contact, the last ones of the left side and the first ones of the right, to NEAR; their
- * number. */
+/* Puts the samples nearest the contact, the last ones of the left side and the first ones of the
+ * right, to NEAR; their number. */
 static int take_nearest(const struct measurement *measurement, struct samples *samples,
                         struct sample near[2 * NEAREST])
 {

@@ -1,9 +1,9 @@
 /* crater: depth, diameter or volume of what is missing below the original face of a body, about an
- * axis. The plane of the face is divided into columns; the surface in a column is the outermost edge
- * of the particles within 3/4 of their diameter, so that no gap between neighbours is taken for a
- * crater. The crater is the connected set of columns about the axis that are deeper than half a
- * particle. The reach of the particles brings its rim a quarter of a particle too near to the axis:
- * diameter and volume are corrected for it. */
+ * axis. The plane of the face is divided into columns; the surface in a column is the outermost
+ * edge of the particles within 3/4 of their diameter, so that no gap between neighbours is taken
+ * for a crater. The crater is the connected set of columns about the axis that are deeper than half
+ * a particle. The reach of the particles brings its rim a quarter of a particle too near to the
+ * axis: diameter and volume are corrected for it. */
 #include "measure/broken_axis.h"
 
 #include <stdlib.h>
@@ -61,7 +61,8 @@ static struct error *unit(const struct measurement *measurement, const char **un
 #define COLUMN_EXCESS (COLUMN_REACH - 0.5)
 enum { COLUMNS_MOST = 1 << 22 };
 
-/* The columns, count[0] by count[1]; surface: above (+) or below the face, -INFINITY: no material. */
+/* The columns, count[0] by count[1]; surface: above (+) or below the face, -INFINITY: no
+ * material. */
 struct columns {
     struct broken_axis axis;
     double width, low[2], high[2];

@@ -2,7 +2,8 @@
  *   l1 = sum V_i |f_i - f_exact(x_i)| / (V f),
  *   rms = sqrt(sum V_i (f_i - f_exact(x_i))^2 / V) / f,
  * with V_i = m_i/rho_i and V their sum, the length of the sample in 1-D. The exact state is that of
- * the member's own side of the contact (measure_side). Without `scale`, f is the range of the exact values. */
+ * the member's own side of the contact (measure_side). Without `scale`, f is the range of the exact
+ * values. */
 #include "measure/measure.h"
 
 struct distance {

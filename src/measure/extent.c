@@ -1,5 +1,5 @@
-/* extent: the width of a body, or of a slice of it, along an axis, from the first particle to the last, or the largest
- * distance of a particle from the centre of mass. */
+/* extent: the width of a body, or of a slice of it, along an axis, from the first particle to the
+ * last, or the largest distance of a particle from the centre of mass. */
 #include <stdlib.h>
 
 #include "base/memory.h"

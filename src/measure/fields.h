@@ -1,4 +1,5 @@
-/* Which fields are recorded: single components of what the solver shows, chosen by the names of a case. */
+/* Which fields are recorded: single components of what the solver shows, chosen by the names of a
+ * case. */
 #ifndef BOLIDE_FIELDS_H
 #define BOLIDE_FIELDS_H
 
@@ -18,8 +19,9 @@ struct chosen_fields {
     struct chosen_field field[FIELDS_MAX];
 };
 
-/* Adds the fields that NAMES say, none twice, a vector or tensor standing for all of its components that mean something in
- * DIMENSION dimensions; without names all. ERROR_INPUT, not located, where there is no such field. */
+/* Adds the fields that NAMES say, none twice, a vector or tensor standing for all of its components
+ * that mean something in DIMENSION dimensions; without names all. ERROR_INPUT, not located, where
+ * there is no such field. */
 struct error *fields_choose(const struct population *population, const struct name_list *names,
                             int dimension, struct chosen_fields *fields);
 

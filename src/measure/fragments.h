@@ -1,5 +1,5 @@
-/* The fragments of broken bodies: the connected sets of particles that have not failed (connected.h),
- * heaviest first. Failed particles belong to none: together they are the dust. */
+/* The fragments of broken bodies: the connected sets of particles that have not failed
+ * (connected.h), heaviest first. Failed particles belong to none: together they are the dust. */
 #ifndef BOLIDE_FRAGMENTS_H
 #define BOLIDE_FRAGMENTS_H
 
@@ -28,8 +28,8 @@ struct fragments {
 enum { FRAGMENT_NONE = -1 };
 
 /* Collective: the fragments of BODY (-1: all), whose particles connect over LINK times the sum of
- * their diameters. They do not depend on the order of storage, threads or ranks. Free FRAGMENTS also
- * after an error. */
+ * their diameters. They do not depend on the order of storage, threads or ranks. Free FRAGMENTS
+ * also after an error. */
 struct error *fragments_find(const struct simulation *simulation, int body, double link,
                              struct fragments *fragments);
 void fragments_free(struct fragments *fragments);
@@ -37,8 +37,8 @@ void fragments_free(struct fragments *fragments);
 /* The name of the column with the fragment of each particle, from 1, heaviest first; 0: of none. */
 extern const char fragments_column[];
 
-/* POPULATION with that column too; valid as long as FRAGMENTS (NULL: the column must not be read) and
- * COLUMNS, which gets all of its columns. */
+/* POPULATION with that column too; valid as long as FRAGMENTS (NULL: the column must not be read)
+ * and COLUMNS, which gets all of its columns. */
 struct population fragments_show(const struct population *population,
                                  const struct fragments *fragments,
                                  struct column columns[COLUMNS_MAX]);

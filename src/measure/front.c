@@ -1,8 +1,8 @@
 /* front: the place where a field first crosses a value, seen from one end. The field is linear
- * between particles sorted along the axis, or, in a plane or in space, between the means of
- * slabs. The value is given, or half the jump, by which the speed of a shock in porous matter is
- * measured: U_s0 = (x_2 - x_1)/(t_2 - t_1) (3.4), and in the frame of the matter ahead, which moves with
- * U_0, U_s = U_0 - U_s0 (3.5). Source: Parshikov (2013), chapter 3. */
+ * between particles sorted along the axis, or, in a plane or in space, between the means of slabs.
+ * The value is given, or half the jump, by which the speed of a shock in porous matter is measured:
+ * U_s0 = (x_2 - x_1)/(t_2 - t_1) (3.4), and in the frame of the matter ahead, which moves with U_0,
+ * U_s = U_0 - U_s0 (3.5). Source: Parshikov (2013), chapter 3. */
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -70,7 +70,8 @@ static struct error *unit(const struct measurement *measurement, const char **un
     return measure_located(measurement, front_check(measurement->check->measure.value, field_unit));
 }
 
-/* Replaces the samples of all ranks by one a slab on rank 0, at the mean place with the mean value. */
+/* Replaces the samples of all ranks by one a slab on rank 0, at the mean place with the mean
+ * value. */
 static struct error *average_slabs(const struct ranks *ranks, struct samples *samples,
                                    double thickness)
 {
@@ -97,7 +98,8 @@ static struct error *average_slabs(const struct ranks *ranks, struct samples *sa
                                lost ? error_new(ERROR_SYSTEM, "out of memory for a front") : NULL);
 }
 
-/* A front that is sought: samples stand in order as they are seen from the end where the search begins. */
+/* A front that is sought: samples stand in order as they are seen from the end where the search
+ * begins. */
 struct search {
     const struct ranks *ranks;
     const struct samples *own;
@@ -110,8 +112,8 @@ static bool is_before(const struct search *search, const struct sample *a, const
     return search->from_high ? order > 0 : order < 0;
 }
 
-/* Collective: of the samples that the ranks choose (NULL: none) the one that is seen first, or last. *found is false where
- * there is none. */
+/* Collective: of the samples that the ranks choose (NULL: none) the one that is seen first, or
+ * last. *found is false where there is none. */
 static struct error *first_of_all(const struct search *search, const struct sample *chosen,
                                   bool last, struct sample *first, bool *found)
 {
@@ -128,8 +130,8 @@ static struct error *first_of_all(const struct search *search, const struct samp
     return NULL;
 }
 
-/* Which samples are looked for: all, those at the level, those on the other side of it than the first, and those before
- * one that is known. */
+/* Which samples are looked for: all, those at the level, those on the other side of it than the
+ * first, and those before one that is known. */
 enum wanted { ANY, AT_LEVEL, BEYOND, BEFORE };
 
 static bool is_wanted(const struct search *search, enum wanted wanted, const struct sample *sample,
@@ -186,8 +188,8 @@ static struct error *crossing(const struct search *search, const struct sample *
     return NULL;
 }
 
-/* Collective: the mean distance from AHEAD of the values that lie half of JUMP or more beyond it; of all, where JUMP is
- * zero. */
+/* Collective: the mean distance from AHEAD of the values that lie half of JUMP or more beyond it;
+ * of all, where JUMP is zero. */
 static double mean_beyond(const struct search *search, double ahead, double jump)
 {
     struct exact_sum sum = {0};
@@ -203,9 +205,9 @@ static double mean_beyond(const struct search *search, double ahead, double jump
     return exact_sum_value(&sum) / (double)ranks_sum(search->ranks, count);
 }
 
-/* Half the jump: halfway between the field AHEAD, that of the first sample seen, and the mean of all that is beyond
- * this level. The level rises from half the mean of all to the first that is so: a few high peaks do not hold it up, nor
- * does what is at rest behind the wave draw it down. */
+/* Half the jump: halfway between the field AHEAD, that of the first sample seen, and the mean of
+ * all that is beyond this level. The level rises from half the mean of all to the first that is so:
+ * a few high peaks do not hold it up, nor does what is at rest behind the wave draw it down. */
 static double half_jump(const struct search *search, double ahead)
 {
     double jump = mean_beyond(search, ahead, 0.0);

@@ -28,10 +28,11 @@ struct measure_class {
     bool needs_exact;
     bool needs_contact; /* an exact solution that has one */
     bool of_field;      /* the parameters start with a struct measure_field */
-    /* The SI unit of the value, "" for a ratio, NULL where it hangs on something that is wrong itself;
-     * an ERROR_INPUT when the measure makes no sense here. */
+    /* The SI unit of the value, "" for a ratio, NULL where it hangs on something that is wrong
+     * itself; an ERROR_INPUT when the measure makes no sense here. */
     struct error *(*unit)(const struct measurement *measurement, const char **unit);
-    /* Collective: the value; NAN when there is nothing to measure (no particle in the window, no front). */
+    /* Collective: the value; NAN when there is nothing to measure (no particle in the window, no
+     * front). */
     struct error *(*measure)(const struct measurement *measurement, double *value);
     bool of_bodies; /* of whole bodies: `between` has no meaning */
     /* What the measure wants to keep from time zero; may be NULL. */
@@ -205,18 +206,20 @@ bool measure_takes(const struct measurement *measurement, int body, int32_t i);
 /* Collective: the mean of the places AT of the particles of BODY (-1: all), by mass. */
 struct vec3 measure_center(const struct measurement *measurement, const double (*at)[3], int body);
 
-/* Collective: the owned particles that the check speaks of (`of`, `between`) with the values of its field. */
+/* Collective: the owned particles that the check speaks of (`of`, `between`) with the values of its
+ * field. */
 struct error *samples_take(const struct measurement *measurement, struct samples *samples);
 void samples_free(struct samples *samples);
-/* Sorts by position, low first, and by value at the same place; below zero where A comes before B. */
+/* Sorts by position, low first, and by value at the same place; below zero where A comes before
+ * B. */
 void samples_sort(struct samples *samples);
 int sample_order(const struct sample *a, const struct sample *b);
 
 /* Whether FRONT makes sense for a field of UNIT: an ERROR_INPUT, not located, where it does not. */
 struct error *front_check(const struct measure_front *front, const char *unit);
 
-/* Collective: where the samples OWN of all ranks at TIME, which it may replace by averages, first cross the value of FRONT,
- * told in its frame; NAN where they do not. *level is that value. */
+/* Collective: where the samples OWN of all ranks at TIME, which it may replace by averages, first
+ * cross the value of FRONT, told in its frame; NAN where they do not. *level is that value. */
 struct error *front_place(const struct ranks *ranks, struct samples *own,
                           const struct measure_front *front, double time, double *place,
                           double *level);

@@ -5,8 +5,8 @@
 
 #include "base/memory.h"
 
-/* A cell's number has 20 bits an axis, x lowest, so that a row of cells is one range of numbers. Cells are
- * counted from one: the neighbours of the first and the last have numbers too. */
+/* A cell's number has 20 bits an axis, x lowest, so that a row of cells is one range of numbers.
+ * Cells are counted from one: the neighbours of the first and the last have numbers too. */
 enum { AXIS_BITS = 20, CELLS_MOST = (1 << AXIS_BITS) - 3 };
 
 static uint64_t cell_number(const int64_t cell[3])

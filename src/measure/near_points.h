@@ -20,7 +20,8 @@ struct error *near_points_make(const double (*at)[3], int64_t count, double reac
                                struct near_points *near);
 void near_points_free(struct near_points *near);
 
-/* Calls FOUND with the index of every point that is within the reach of PLACE, and of others about it. */
+/* Calls FOUND with the index of every point that is within the reach of PLACE, and of others about
+ * it. */
 void near_points_about(const struct near_points *near, const double place[3],
                        void (*found)(void *context, int64_t index), void *context);
 

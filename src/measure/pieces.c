@@ -1,5 +1,6 @@
-/* pieces: into how many pieces bodies are broken. Two particles of one body hang together when they are
- * nearer than link (D_i + D_j). Particles of different bodies do not, however close. A piece may lie on many ranks. */
+/* pieces: into how many pieces bodies are broken. Two particles of one body hang together when they
+ * are nearer than link (D_i + D_j). Particles of different bodies do not, however close. A piece
+ * may lie on many ranks. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,8 +29,8 @@ static struct error *unit(const struct measurement *measurement, const char **un
     return NULL;
 }
 
-/* A search for the particles that hang together with point `index`. Points are the particles of this rank, then those of
- * others that are near them. */
+/* A search for the particles that hang together with point `index`. Points are the particles of
+ * this rank, then those of others that are near them. */
 struct search {
     int32_t own, count, index;
     double (*at)[3], *reach; /* reach: link D */
@@ -118,8 +119,8 @@ static struct error *join(struct search *search)
     return NULL;
 }
 
-/* Tells the ranks that see the same points what these are part of, until nobody learns anything new. Lowest ids wander
- * along a piece from rank to rank. TOLD has room for a number a point. */
+/* Tells the ranks that see the same points what these are part of, until nobody learns anything
+ * new. Lowest ids wander along a piece from rank to rank. TOLD has room for a number a point. */
 static void settle(struct search *search, const struct ranks *ranks, struct exchange *exchange,
                    uint64_t *told)
 {

@@ -1,6 +1,6 @@
-/* body: how a body moves as a whole. Its centre of mass c, the velocity of that, U; about the centre the
- * angular momentum L = sum m (x - c) x (u - U), the angular velocity w that gives it, J w = L with J the
- * moment of inertia, and the kinetic energy sum m (u - U)^2/2. Sums are exact. */
+/* body: how a body moves as a whole. Its centre of mass c, the velocity of that, U; about the
+ * centre the angular momentum L = sum m (x - c) x (u - U), the angular velocity w that gives it, J
+ * w = L with J the moment of inertia, and the kinetic energy sum m (u - U)^2/2. Sums are exact. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-/* gauge: stands still. A field at its place is the mean over the particles within its radius, by volume,
- * sum V f/sum V with V = m/rho; sums are exact. */
+/* gauge: stands still. A field at its place is the mean over the particles within its radius, by
+ * volume, sum V f/sum V with V = m/rho; sums are exact. */
 #include <stdlib.h>
 
 #include "base/memory.h"

@@ -24,7 +24,8 @@ static struct error *prepare(struct probe *probe, const struct simulation *simul
     return probe_add_fields(probe, simulation, population);
 }
 
-/* The whole of ID from two halves that are numbers without rounding, each the smallest of all ranks. */
+/* The whole of ID from two halves that are numbers without rounding, each the smallest of all
+ * ranks. */
 static uint64_t smallest_id(const struct ranks *ranks, uint64_t id)
 {
     double high = ranks_minimum(ranks, (double)(id >> 32));

@@ -1,6 +1,6 @@
-/* Probes: what is recorded while a case runs, one table a probe: in memory where a check reads it, and as
- * probes/NAME.csv. A probe is a choice of the catalogue's kind "probe"; its thing is a struct probe_class.
- * To add one: its file probe_<name>.c, its class below, its line in probes.c.
+/* Probes: what is recorded while a case runs, one table a probe: in memory where a check reads it,
+ * and as probes/NAME.csv. A probe is a choice of the catalogue's kind "probe"; its thing is a
+ * struct probe_class. To add one: its file probe_<name>.c, its class below, its line in probes.c.
  * Source of what is recorded: Parshikov (2013), chapter 3: tracers, fronts at half amplitude. */
 #ifndef BOLIDE_PROBES_H
 #define BOLIDE_PROBES_H
@@ -46,7 +46,8 @@ struct probe_class {
     /* Adds the columns behind the time. ERROR_INPUT, located, for what makes no sense. */
     struct error *(*prepare)(struct probe *probe, const struct simulation *simulation,
                              const struct population *population);
-    /* Fills ROW, a number for each column behind the time; NAN where there is nothing. Collective. */
+    /* Fills ROW, a number for each column behind the time; NAN where there is nothing.
+     * Collective. */
     struct error *(*sample)(struct probe *probe, const struct simulation *simulation,
                             const struct population *population, double *row);
 };
@@ -76,15 +77,15 @@ struct probes {
     struct probe *item;
 };
 
-/* Makes the probes of INPUT; probes_prepare then finds what they look at, with all mistakes joined in one
- * ERROR_INPUT. */
+/* Makes the probes of INPUT; probes_prepare then finds what they look at, with all mistakes joined
+ * in one ERROR_INPUT. */
 struct error *probes_create(const struct simulation_case *input, struct probes *probes);
 struct error *probes_prepare(struct probes *probes, const struct simulation *simulation,
                              const struct population *population);
 void probes_free(struct probes *probes);
 
-/* Opens FOLDER/probes/NAME.csv of each where this rank WRITES; with RESUME behind the rows that were taken, which are
- * read back where a check wants them. */
+/* Opens FOLDER/probes/NAME.csv of each where this rank WRITES; with RESUME behind the rows that
+ * were taken, which are read back where a check wants them. */
 struct error *probes_open(struct probes *probes, const char *folder, bool resume, bool writes);
 
 /* Takes the rows that are due at this step; those of the last step with LAST. Collective. */
@@ -115,8 +116,8 @@ static inline double distance_square(const struct vector_value *place, const dou
     return sum;
 }
 
-/* For the kinds: whether PLACE, which KEY gives, has a number a dimension; columns for the fields that the
- * case names, which are chosen here, behind those that are chosen already. */
+/* For the kinds: whether PLACE, which KEY gives, has a number a dimension; columns for the fields
+ * that the case names, which are chosen here, behind those that are chosen already. */
 struct error *probe_check_place(const struct probe *probe, const struct simulation *simulation,
                                 const char *key, const struct vector_value *place);
 struct error *probe_add_fields(struct probe *probe, const struct simulation *simulation,

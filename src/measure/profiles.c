@@ -1,5 +1,5 @@
-/* Binned profiles; see profiles.h. Every particle counts once; sums are exact, so that a profile is the
- * same for any order of the particles. */
+/* Binned profiles; see profiles.h. Every particle counts once; sums are exact, so that a profile is
+ * the same for any order of the particles. */
 #include "measure/profiles.h"
 
 #include <stdio.h>
@@ -140,7 +140,8 @@ static bool is_seen(const struct profile *profile, const struct population *part
             (at >= input->between.at[0] && at <= input->between.at[1]));
 }
 
-/* The bins: over `between`, or over the particles; of `width`, then its multiples, or `bins` of them. */
+/* The bins: over `between`, or over the particles; of `width`, then its multiples, or `bins` of
+ * them. */
 static void lay_bins(const struct profile *profile, const struct simulation *simulation,
                      const struct population *particles, struct sorting *sorting)
 {

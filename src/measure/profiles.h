@@ -1,6 +1,7 @@
-/* Profiles: how fields are distributed along an axis, as means over bins with their scatter, at every
- * snapshot. The spread in one bin is the non-uniformity of the flow across the axis (Parshikov 2013,
- * chapter 3, projects every particle; a bin keeps the mean, the deviation and the extremes). */
+/* Profiles: how fields are distributed along an axis, as means over bins with their scatter, at
+ * every snapshot. The spread in one bin is the non-uniformity of the flow across the axis
+ * (Parshikov 2013, chapter 3, projects every particle; a bin keeps the mean, the deviation and the
+ * extremes). */
 #ifndef BOLIDE_PROFILES_H
 #define BOLIDE_PROFILES_H
 

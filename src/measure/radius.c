@@ -1,6 +1,6 @@
-/* radius: how far from a point a circle or sphere of matter now lies that lay at a given radius a_0 at the
- * start, a surface for example, beside which no particle stands. Each particle that stood within a layer
- * of it tells a place for it, as if the matter between the two had kept its volume:
+/* radius: how far from a point a circle or sphere of matter now lies that lay at a given radius a_0
+ * at the start, a surface for example, beside which no particle stands. Each particle that stood
+ * within a layer of it tells a place for it, as if the matter between the two had kept its volume:
  *   a_i^d = a_0^d + r_i^d - R_i^d,   d = 2 in the plane, 3 in space and in axisymmetry,
  * R_i at the start, r_i now. */
 #include <stdlib.h>

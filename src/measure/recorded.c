@@ -1,6 +1,7 @@
-/* recorded: a number from what a probe has recorded. Between rows a column is linear, so that a window of
- * time begins and ends where it says. `slope` is the line of least squares, `speed` that without its sign;
- * `maxima` and `period` count the peaks from which the curve falls by more than `noise` on either side. */
+/* recorded: a number from what a probe has recorded. Between rows a column is linear, so that a
+ * window of time begins and ends where it says. `slope` is the line of least squares, `speed` that
+ * without its sign; `maxima` and `period` count the peaks from which the curve falls by more than
+ * `noise` on either side. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -167,7 +168,8 @@ static void curve_add(struct curve *curve, double time, double value)
     curve->value[curve->count++] = value;
 }
 
-/* The next row of PROBE from ROW on with a number in COLUMN; the count of rows where there is none. */
+/* The next row of PROBE from ROW on with a number in COLUMN; the count of rows where there is
+ * none. */
 static int64_t next_number(const struct probe *probe, int column, int64_t row)
 {
     while (row < probe->rows && isnan(probe->value[row * probe->columns + column]))
@@ -175,7 +177,8 @@ static int64_t next_number(const struct probe *probe, int column, int64_t row)
     return row;
 }
 
-/* The rows of the window that have numbers, and where the window cuts between two, what is there. */
+/* The rows of the window that have numbers, and where the window cuts between two, what is
+ * there. */
 static void curve_fill(struct curve *curve, const struct probe *probe, int column,
                        const struct measure_recorded *recorded)
 {

@@ -1,7 +1,7 @@
-/* shear_layer: the viscosity with which two streams mix that slid over each other at the start, u_x = U
- * above a plane y and -U below: what the method itself has where the fluid has none. A row is the particles
- * that stood at one height, between two places on x; a least-squares fit of the mean displacements of all
- * rows to Stokes' layer gives the viscosity, and how well it fits. */
+/* shear_layer: the viscosity with which two streams mix that slid over each other at the start, u_x
+ * = U above a plane y and -U below: what the method itself has where the fluid has none. A row is
+ * the particles that stood at one height, between two places on x; a least-squares fit of the mean
+ * displacements of all rows to Stokes' layer gives the viscosity, and how well it fits. */
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -106,8 +106,8 @@ static double misfit(const struct rows *rows, double viscosity)
     return sum;
 }
 
-/* The best viscosity: the best of a coarse scale about the one whose layer is as thick as the rows are high,
- * then golden section on its logarithm. */
+/* The best viscosity: the best of a coarse scale about the one whose layer is as thick as the rows
+ * are high, then golden section on its logarithm. */
 static double fit(const struct rows *rows)
 {
     static const double golden = 0.61803398874989484820, step = 0.5;

@@ -1,5 +1,6 @@
-/* turn: the angle by which a body has turned since the start about its centre of mass: of the rotation
- * about an axis that brings the places at the start nearest to those now, by least squares over mass,
+/* turn: the angle by which a body has turned since the start about its centre of mass: of the
+ * rotation about an axis that brings the places at the start nearest to those now, by least squares
+ * over mass,
  *   tan(angle) = sum m (X x x) / sum m (X . x),
  * X and x across the axis. It lies within half a turn of zero. */
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* width: how many particles stand in a front, between 10 and 90 % of its jump. Source of the measure: the
- * comparison of schemes by their widths in Wang, Chen and Huang (2024). */
+/* width: how many particles stand in a front, between 10 and 90 % of its jump. Source of the
+ * measure: the comparison of schemes by their widths in Wang, Chen and Huang (2024). */
 #include "measure/measure.h"
 
 const struct parameter measure_width_table[] = {

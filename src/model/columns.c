@@ -1,5 +1,5 @@
-/* Columns: the fields of a store as they are there, and a few quantities computed from them when they
- * are read; see columns.h. */
+/* Columns: the fields of a store as they are there, and a few quantities computed from them when
+ * they are read; see columns.h. */
 #include "model/columns.h"
 
 #include <stdio.h>

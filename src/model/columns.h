@@ -6,8 +6,8 @@
 
 /* Fills COLUMNS, COLUMNS_MAX at most, with those that POPULATION has, and returns how many: every
  * double field of the store that is declared with a unit, and from them speed, stress (6) and
- * equivalent_stress, temperature where all materials have a heat capacity; of particles that were made
- * from a case also diameter and displacement. */
+ * equivalent_stress, temperature where all materials have a heat capacity; of particles that were
+ * made from a case also diameter and displacement. */
 int columns_make(const struct population *population, struct column *columns);
 
 /* Finds "pressure", or one component of a column: "velocity.x", "stress.xx". *component is -1 for a
@@ -15,8 +15,8 @@ int columns_make(const struct population *population, struct column *columns);
 const struct column *column_find(const struct population *population, const char *name,
                                  int *component);
 
-/* The same for a NAME that must be one number a member: ERROR_INPUT, not located, when there is none
- * or it has several components. MORE are COUNT other words that would have been right, for
+/* The same for a NAME that must be one number a member: ERROR_INPUT, not located, when there is
+ * none or it has several components. MORE are COUNT other words that would have been right, for
  * suggestions. */
 struct error *column_choose(const struct population *population, const char *name,
                             const char *const *more, int count, const struct column **column,
@@ -25,8 +25,8 @@ struct error *column_choose(const struct population *population, const char *nam
 /* What COMPONENT of a column of COMPONENTS is called: "x", "xy"; "" for that of a scalar. */
 const char *column_component_name(int components, int component);
 
-/* Whether a component means something in DIMENSION dimensions: of a vector those along the axes that
- * the case has, of a tensor those on the diagonal too, since stress acts along all three. */
+/* Whether a component means something in DIMENSION dimensions: of a vector those along the axes
+ * that the case has, of a tensor those on the diagonal too, since stress acts along all three. */
 bool column_component_shown(int components, int component, int dimension);
 
 /* Copies COLUMN of the members begin .. end - 1 of POPULATION to OUT. */

@@ -14,7 +14,8 @@ struct face_place {
 /* The low or high face across AXIS: of `domain`, else of a wall, else of the bodies. */
 struct face_place domain_face(const struct simulation_case *input, int axis, int side);
 
-/* Makes axes of MIRRORS periodic or closes them where boundaries say so, which the solver judges. */
+/* Makes axes of MIRRORS periodic or closes them where boundaries say so, which the solver
+ * judges. */
 void domain_set_faces(const struct simulation_case *input, struct mirrors *mirrors);
 
 #endif

@@ -1,6 +1,6 @@
-/* From bodies to particles. A lattice is walked twice (walk.h): once to count what stays and to find
- * mistakes, as here, once more to make it (particles/fill.c).
- * Particle mass and diameter: Parshikov (2013), (1.69). */
+/* From bodies to particles. A lattice is walked twice (walk.h): once to count what stays and to
+ * find mistakes, as here, once more to make it (particles/fill.c). Particle mass and diameter:
+ * Parshikov (2013), (1.69). */
 #include "model/generate.h"
 
 #include <stdio.h>
@@ -23,8 +23,8 @@ static const char *place_text(const struct simulation_case *input, struct vec3 p
     return buffer;
 }
 
-/* The wall that PLACE lies behind, -1 for none, and from the number of walls on the outflow that it lies
- * beyond. A particle on a wall would meet its own image. */
+/* The wall that PLACE lies behind, -1 for none, and from the number of walls on the outflow that it
+ * lies beyond. A particle on a wall would meet its own image. */
 static int wall_before(const struct simulation_case *input, struct vec3 place)
 {
     const double at[3] = {place.x, place.y, place.z};

@@ -21,8 +21,8 @@ struct body_summary {
                              fastest sound */
 };
 
-/* The bounds of BODY's shape; about an axis those of its part at x > 0, if it has one, between the mirrors
- * on y that cut it. */
+/* The bounds of BODY's shape; about an axis those of its part at x > 0, if it has one, between the
+ * mirrors on y that cut it. */
 struct bounds body_bounds(const struct simulation_case *input, int body);
 
 struct lattice body_lattice(const struct simulation_case *input, int body);
@@ -31,13 +31,14 @@ struct lattice body_lattice(const struct simulation_case *input, int body);
 double largest_diameter(const struct simulation_case *input);
 
 /* Collective: counts the PARTICLES that this rank will make. ERROR_INPUT (located) when two bodies
- * overlap and neither replaces the other, when a body has no particle, or when a particle lies behind a
- * wall. */
+ * overlap and neither replaces the other, when a body has no particle, or when a particle lies
+ * behind a wall. */
 struct error *generate_count(const struct simulation_case *input, const struct ranks *ranks,
                              int64_t *particles);
 
-/* What is no mistake but may be none of the user's wishes: a body so thin that others get through it, or that
- * one particle stands for its thickness; a start below 0 K. NULL, or messages to show, each located as an error would be. */
+/* What is no mistake but may be none of the user's wishes: a body so thin that others get through
+ * it, or that one particle stands for its thickness; a start below 0 K. NULL, or messages to show,
+ * each located as an error would be. */
 struct error *generate_warnings(const struct simulation_case *input);
 
 /* About how many simple shapes a rank has to ask to count the particles of INPUT, where a site

@@ -5,7 +5,8 @@
 /* Particles across a plate below which others get through it, and with which it hardly bends. */
 enum { THIN = 3 };
 
-/* Whether mirrors or periodic faces keep bodies from both sides of AXIS: they stand for infinite ones. */
+/* Whether mirrors or periodic faces keep bodies from both sides of AXIS: they stand for infinite
+ * ones. */
 static bool is_between_mirrors(const struct simulation_case *input, int axis)
 {
     bool at[2] = {false, false};

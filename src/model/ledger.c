@@ -1,5 +1,5 @@
-/* The ledger and the totals that it is compared with: exact sums, so that a balance does not depend on
- * the order of particles, threads or ranks. */
+/* The ledger and the totals that it is compared with: exact sums, so that a balance does not depend
+ * on the order of particles, threads or ranks. */
 #include "model/ledger.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
-/* The ledger books what enters or leaves the particles, by cause, as exact sums: a conserved quantity is
- * the total of the particles less the ledger. */
+/* The ledger books what enters or leaves the particles, by cause, as exact sums: a conserved
+ * quantity is the total of the particles less the ledger. */
 #ifndef BOLIDE_LEDGER_H
 #define BOLIDE_LEDGER_H
 
@@ -9,8 +9,8 @@
 #include "model/population.h"
 #include "parallel/ranks.h"
 
-/* Walls that push; the axis of symmetry, whose hoop stress does; what holds bodies (`driven`, `stop`); gravity; what
- * pushes on surfaces; faces that particles leave through. */
+/* Walls that push; the axis of symmetry, whose hoop stress does; what holds bodies (`driven`,
+ * `stop`); gravity; what pushes on surfaces; faces that particles leave through. */
 enum ledger_cause {
     LEDGER_WALLS,
     LEDGER_AXIS,
@@ -66,9 +66,9 @@ struct totals ledger_totals(const struct ledger *ledger, const struct ranks *ran
 /* Collective: mass, momentum, angular momentum, energy of the members of BODY, of all for -1. */
 struct totals population_totals(struct population population, const struct ranks *ranks, int body);
 
-/* The energy that is neither in NOW nor BOOKED, against the largest energy of NOW and START (the total
- * alone may be next to nothing, a sum of opposites), and at least what the pressures at the start can
- * set free: a case that starts at rest has next to no energy in its first steps. */
+/* The energy that is neither in NOW nor BOOKED, against the largest energy of NOW and START (the
+ * total alone may be next to nothing, a sum of opposites), and at least what the pressures at the
+ * start can set free: a case that starts at rest has next to no energy in its first steps. */
 double energy_drift(const struct totals *now, const struct totals *booked,
                     const struct totals *start);
 

@@ -46,8 +46,8 @@ struct simulation {
     double phase_end; /* clock_seconds() when the last phase ended; 0: none has begun */
 };
 
-/* Prepares a run of INPUT, its problem, without members. The solver's create adds their store, since
- * it knows the fields; its fill puts the bodies into it. */
+/* Prepares a run of INPUT, its problem, without members. The solver's create adds their store,
+ * since it knows the fields; its fill puts the bodies into it. */
 struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
                                 int threads, struct simulation *simulation);
 void simulation_destroy(struct simulation *simulation);
@@ -58,13 +58,14 @@ void simulation_add_population(struct simulation *simulation, const char *name,
                                const struct population_class *type, void *store);
 void simulation_remove_population(struct simulation *simulation, const void *store);
 
-/* The population at INDEX; and the one that checks, probes and pictures look at where they name none:
- * the first. */
+/* The population at INDEX; and the one that checks, probes and pictures look at where they name
+ * none: the first. */
 struct population simulation_population_at(const struct simulation *simulation, int index);
 struct population simulation_population(const struct simulation *simulation);
 
 /* Of all populations: whether members are to be taken in or out; takes them in and out; brings each
- * to the rank that owns its block; a number for all their bits. Collective, but for the first two. */
+ * to the rank that owns its block; a number for all their bits. Collective, but for the first
+ * two. */
 bool simulation_changed(const struct simulation *simulation);
 struct error *simulation_commit(struct simulation *simulation);
 struct error *simulation_distribute(struct simulation *simulation);
@@ -75,8 +76,8 @@ int64_t simulation_members(const struct simulation *simulation);
 /* Starts the clock of the phases: the time up to now counts for none. */
 void simulation_start_phase(struct simulation *simulation);
 
-/* Ends a phase: the time since the last one ended, or since simulation_start_phase, is added to phase
- * NAME of KIND. */
+/* Ends a phase: the time since the last one ended, or since simulation_start_phase, is added to
+ * phase NAME of KIND. */
 void simulation_end_phase(struct simulation *simulation, enum phase_kind kind, const char *name);
 
 /* The same for the time that this rank has waited for others; nothing where it has none. */
@@ -85,7 +86,8 @@ void simulation_end_waiting(struct simulation *simulation);
 /* The error that names member INDEX, whose new state is impossible. */
 struct error *simulation_impossible(const struct simulation *simulation, int32_t index);
 
-/* The value at TIME of a FIELD of the time, KEY of NAME in the case; ERROR_STATE where it is not finite. */
+/* The value at TIME of a FIELD of the time, KEY of NAME in the case; ERROR_STATE where it is not
+ * finite. */
 struct error *simulation_value_at(const struct simulation *simulation, double time,
                                   const struct field_value *field, const char *name,
                                   const char *key, double *value);
@@ -93,8 +95,8 @@ struct error *simulation_value_at(const struct simulation *simulation, double ti
 /* Time, step, ledger and members. */
 struct error *simulation_visit(struct simulation *simulation, struct visitor *visitor);
 
-/* True when TIME has reached the next multiple of INTERVAL, of which DUE have been, and counts it. An
- * INTERVAL that is not a number never comes. */
+/* True when TIME has reached the next multiple of INTERVAL, of which DUE have been, and counts it.
+ * An INTERVAL that is not a number never comes. */
 bool interval_is_due(double time, double interval, int64_t *due);
 
 #endif

@@ -1,5 +1,5 @@
-/* A solver is a choice of the catalogue's kind "solver"; its thing is a struct solver_class of functions.
- * The run loop knows no method: it prepares, chooses the step, advances. */
+/* A solver is a choice of the catalogue's kind "solver"; its thing is a struct solver_class of
+ * functions. The run loop knows no method: it prepares, chooses the step, advances. */
 #ifndef BOLIDE_SOLVER_H
 #define BOLIDE_SOLVER_H
 
@@ -34,30 +34,32 @@ struct solver_class {
     const char *members; /* what it computes with: "cells"; NULL: particles */
     size_t size;         /* bytes of the solver's own state, zeroed before create */
     /* Makes the solver's stores, with fields by the case's parameters PARAMETERS, and shows them as
-     * populations (simulation_add_population). Members come after, from `fill` or from a checkpoint; `start` is called once they
-     * are there. */
+     * populations (simulation_add_population). Members come after, from `fill` or from a
+     * checkpoint; `start` is called once they are there. */
     struct error *(*create)(void *solver, struct simulation *simulation, const void *parameters);
     /* Collective: what the bodies of the case put into the population. */
     struct error *(*fill)(void *solver, struct simulation *simulation);
     struct error *(*start)(void *solver, struct simulation *simulation);
-    /* Collective: everything that level n determines: lists, ghosts, rates; returns the largest step. */
+    /* Collective: everything that level n determines: lists, ghosts, rates; returns the largest
+     * step. */
     struct error *(*prepare)(void *solver, struct simulation *simulation, struct limit *limit);
-    /* Collective: all stages; ends at level n + 1 with every derived field up to date. Leaves time and step
-     * alone. An error may be this rank's alone: the run loop makes the ranks agree. */
+    /* Collective: all stages; ends at level n + 1 with every derived field up to date. Leaves time
+     * and step alone. An error may be this rank's alone: the run loop makes the ranks agree. */
     struct error *(*advance)(void *solver, struct simulation *simulation, double dt);
     /* Arrays beyond the simulation's that a resumed run needs. */
     struct error *(*state)(void *solver, struct visitor *visitor);
     void (*destroy)(void *solver);
     /* Bytes a particle, for `bolide check`, at DIMENSION. */
     double (*bytes)(const void *parameters, int dimension);
-    /* The step that a particle of DIAMETER allows in state POINT at the start, for `bolide check`. */
+    /* The step that a particle of DIAMETER allows in state POINT at the start, for `bolide
+     * check`. */
     double (*step)(const void *parameters, int dimension, const struct material *material,
                    const struct point *point, double diameter);
     /* The jump of velocity over the speed of sound up to which its contact problem holds; NULL
      * where that has no bound. */
     double (*largest_jump)(const void *parameters);
-    /* Why the total energy may drift, and what helps, as sentences; NULL, or NULL from it, where it is
-     * conserved. */
+    /* Why the total energy may drift, and what helps, as sentences; NULL, or NULL from it, where it
+     * is conserved. */
     const char *(*energy_lost)(const void *parameters);
     /* Every field that it may add to the store: tables of rows, NULL after the last table. */
     const struct field_row *const *fields;

@@ -1,4 +1,5 @@
-/* Where particles stood at the start. Nobody keeps it: the id names the body and the site of its lattice. */
+/* Where particles stood at the start. Nobody keeps it: the id names the body and the site of its
+ * lattice. */
 #ifndef BOLIDE_START_PLACE_H
 #define BOLIDE_START_PLACE_H
 

@@ -1,6 +1,6 @@
-/* Contact between bodies: each contact group has nodes of its own, and where two groups have the same node, they push each
- * other there so that they do not come closer. Groups in full contact get one velocity. Source: Cui, dissertation (2014),
- * section 2.2.5. */
+/* Contact between bodies: each contact group has nodes of its own, and where two groups have the
+ * same node, they push each other there so that they do not come closer. Groups in full contact get
+ * one velocity. Source: Cui, dissertation (2014), section 2.2.5. */
 #include "mpm/contact.h"
 
 #include <string.h>

@@ -1,11 +1,12 @@
-/* The contact of two bodies at a node. Source: Cui, dissertation (2014), (2-22)-(2-32); Ma, Zhang and Huang, CMES 55 (2010)
- * 61. */
+/* The contact of two bodies at a node. Source: Cui, dissertation (2014), (2-22)-(2-32); Ma, Zhang
+ * and Huang, CMES 55 (2010) 61. */
 #ifndef BOLIDE_MPM_CONTACT_H
 #define BOLIDE_MPM_CONTACT_H
 
 #include "base/vector.h"
 
-/* A body's part of a node: mass, and the momentum that it would have at the end of the step without contact. */
+/* A body's part of a node: mass, and the momentum that it would have at the end of the step without
+ * contact. */
 struct contact_side {
     double mass;
     struct vec3 momentum;
@@ -19,7 +20,8 @@ struct contact_rule {
 
 enum contact_state { CONTACT_NONE, CONTACT_SLIPS, CONTACT_STICKS };
 
-/* The impulse that body A gets in the step, and B its opposite where it is free. NORMAL points out of A, of length one. */
+/* The impulse that body A gets in the step, and B its opposite where it is free. NORMAL points out
+ * of A, of length one. */
 struct contact_push {
     struct vec3 impulse;
     enum contact_state state;
@@ -62,16 +64,16 @@ BOLIDE_INLINE struct contact_push contact_push_held(struct contact_side a, struc
     return contact_limit(vec3_sub(vec3_scale(a.mass, velocity), a.momentum), normal, rule);
 }
 
-/* A surface that waves run out of: its normal, of length one, and impedance times area along and across
- * it. */
+/* A surface that waves run out of: its normal, of length one, and impedance times area along and
+ * across it. */
 struct contact_outlet {
     struct vec3 normal;
     double along, across;
 };
 
-/* What body A gets in DT from one of VELOCITY u that keeps all of its state, as from material that no
- * wave has reached: the FORCE of its stresses and Z A (u - v') of the surface between, v' the velocity
- * at the end (Lysmer and Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859). */
+/* What body A gets in DT from one of VELOCITY u that keeps all of its state, as from material that
+ * no wave has reached: the FORCE of its stresses and Z A (u - v') of the surface between, v' the
+ * velocity at the end (Lysmer and Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859). */
 BOLIDE_INLINE struct vec3 contact_run_out(struct contact_side a, struct vec3 force,
                                           struct vec3 velocity, struct contact_outlet outlet,
                                           double dt)

@@ -1,9 +1,10 @@
 /* Shear-mode damping of fluids: nothing else resists the shear that a grid makes by itself.
  *
- * The velocity at the corners of a cell has modes; S_ik = sum_I L_kI v_iI for k != i are those of shear, L_k the corner's
- * sign along axis k. A corner gets the force -a S_ik L_kI, a = (sum m/h) Q c/4 in three dimensions (2-46)-(2-48). In a
- * plane a cell has half as many corners a layer, which makes it 4 a. What the force takes heats the particles.
- * Source: Cui, dissertation (2014), section 2.4. */
+ * The velocity at the corners of a cell has modes; S_ik = sum_I L_kI v_iI for k != i are those of
+ * shear, L_k the corner's sign along axis k. A corner gets the force -a S_ik L_kI, a = (sum m/h) Q
+ * c/4 in three dimensions (2-46)-(2-48). In a plane a cell has half as many corners a layer, which
+ * makes it 4 a. What the force takes heats the particles. Source: Cui, dissertation (2014), section
+ * 2.4. */
 #include <string.h>
 
 #include "material/material.h"
@@ -18,7 +19,8 @@ struct corners {
     double side[3][CORNERS_MAX];
 };
 
-/* Of the cell between nodes that begins LOW nodes before the one with the index of CELL of the patch. */
+/* Of the cell between nodes that begins LOW nodes before the one with the index of CELL of the
+ * patch. */
 static struct corners corners_of(const struct grid *grid, int cell, const int low[3])
 {
     struct corners corners = {.count = 1 << grid->dimension};
@@ -38,7 +40,8 @@ static struct corners corners_of(const struct grid *grid, int cell, const int lo
 }
 
 /* The parts of a cell of a bin that lie in different cells between nodes: one, or where cells are
- * centred on nodes 2^dimension, bit k of the number set on the low side of the node along axis k. */
+ * centred on nodes 2^dimension, bit k of the number set on the low side of the node along axis
+ * k. */
 struct parts {
     int count;
     double strength[CORNERS_MAX]; /* mass times Q c/h, 0 of a part that holds a solid */

@@ -1,9 +1,9 @@
 /* How much of the space about each face particles fill, and the factor that follows for what pushes
  * through it; see transfer_faces.h.
  *
- * Where particles fill next to all of it, the factor is 1 over that: through the face goes a mean of
- * their stresses. Next to a free surface they fill a part, and push with that part of the stress: the
- * factor is 1. Between the two limits it goes from one to the other. */
+ * Where particles fill next to all of it, the factor is 1 over that: through the face goes a mean
+ * of their stresses. Next to a free surface they fill a part, and push with that part of the
+ * stress: the factor is 1. Between the two limits it goes from one to the other. */
 #include <string.h>
 
 #include "mpm/mpm_internal.h"
@@ -16,8 +16,9 @@ static double factor_of(double filled)
     return 1.0 / (1.0 + (filled - 1.0) * minimum(1.0, maximum(0.0, part)));
 }
 
-/* The integral of |x| N over x, in cells, of the shape function of a node so many half cells TWICE from
- * the axis, or of the function of a face there: its distance but where it reaches over the axis. */
+/* The integral of |x| N over x, in cells, of the shape function of a node so many half cells TWICE
+ * from the axis, or of the function of a face there: its distance but where it reaches over the
+ * axis. */
 static double ring_of(enum grid_shape shape, int64_t twice)
 {
     const bool cubic = shape == SHAPE_CUBIC;
@@ -39,8 +40,9 @@ static double ring_hoop(enum grid_shape shape, int64_t at)
     return at != 1 && at != -1 ? 1.0 : shape == SHAPE_CUBIC ? 11.0 / 12.0 : 23.0 / 24.0;
 }
 
-/* About the axis: the same for volumes, which grow with the radius, so that a uniform pressure pushes
- * through all faces by what their areas are, and around the axis by as much as these differ. */
+/* About the axis: the same for volumes, which grow with the radius, so that a uniform pressure
+ * pushes through all faces by what their areas are, and around the axis by as much as these
+ * differ. */
 static void find_ring_factors(const struct mpm *mpm, int64_t at, double *fill)
 {
     const enum grid_shape shape = (enum grid_shape)mpm->parameters.shape;
@@ -62,8 +64,8 @@ static void find_ring_factors(const struct mpm *mpm, int64_t at, double *fill)
     fill[FILL_RING] = factor_of(fill[FILL_RING] / hoop) / hoop;
 }
 
-/* Adds what a face behind the wall SIDE across AXIS has to the one whose image it is. A face on the wall
- * has images of the same particles behind it. */
+/* Adds what a face behind the wall SIDE across AXIS has to the one whose image it is. A face on the
+ * wall has images of the same particles behind it. */
 static void fold_face(const struct mpm *mpm, struct layer *layer, int axis, int side,
                       const int64_t at[3], int across, double *fill)
 {

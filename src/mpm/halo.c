@@ -1,6 +1,6 @@
-/* Blocks of other ranks: each rank finds the sums at all nodes that its particles reach, from its own patches and from those
- * of other ranks that cover the same nodes. These come as they are, and are added in the order of block keys with the
- * others, so that all ranks find the same bits. */
+/* Blocks of other ranks: each rank finds the sums at all nodes that its particles reach, from its
+ * own patches and from those of other ranks that cover the same nodes. These come as they are, and
+ * are added in the order of block keys with the others, so that all ranks find the same bits. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,7 +64,8 @@ static bool index_own(const struct mpm *mpm, struct meeting *m)
     return true;
 }
 
-/* Takes down that a bin of another rank and the own ones about it need each other; RANGE is how far apart in blocks. */
+/* Takes down that a bin of another rank and the own ones about it need each other; RANGE is how far
+ * apart in blocks. */
 static bool meet_bin(const struct mpm *mpm, struct meeting *m, const struct far_bin *far,
                      int64_t range)
 {
@@ -197,7 +198,8 @@ static struct error *plan_halo(struct mpm *mpm, const struct simulation *simulat
     return error;
 }
 
-/* Takes the own bins of this step into the halo as planned; false when they are not those that it was planned for. */
+/* Takes the own bins of this step into the halo as planned; false when they are not those that it
+ * was planned for. */
 static bool renew_own(struct mpm *mpm)
 {
     struct halo *halo = &mpm->halo;

@@ -1,20 +1,21 @@
 /* Mixing in shocks: what particles carry there and nodes do not have becomes heat.
  *
- * FLIP adds the accelerations of the nodes to the velocities of the particles, which keep the
- * rest. In a shock two cells wide that is a good fraction of the jump; it remains as noise,
- * compresses some particles far beyond the others, and does not decay next to a wall. So where
- * the artificial viscosity is large, particles move a fraction of the way to the velocity V =
- * sum N m u/sum N m of their nodes, and the kinetic energy that this takes heats them:
+ * FLIP adds the accelerations of the nodes to the velocities of the particles, which keep the rest.
+ * In a shock two cells wide that is a good fraction of the jump; it remains as noise, compresses
+ * some particles far beyond the others, and does not decay next to a wall. So where the artificial
+ * viscosity is large, particles move a fraction of the way to the velocity V = sum N m u/sum N m of
+ * their nodes, and the kinetic energy that this takes heats them:
  *
  *   w = sum N a (V - u);   u' = u + w;   e' = e + sum N a (V - u)^2 - w^2/2
  *
  * Momentum is conserved; so is energy, because sum m u.w = -sum m N a (V - u)^2, and no particle
  * cools. It is part of the step of velocities (transfer_body.h), whose forces work with V and not
- * with u', so that e loses w.dv as well, dv what the forces add. Energies of the particles of one material are mixed too, e' = e + sum N b (E - e), E =
- * sum N m e/sum N m: nothing else smooths a mode that nodes do not see, one particle hot and the
- * next cold, or the heat that an impact leaves at a wall. At a node of several materials b = 0.
- * b is dt times the mean rate of the node's particles (mixing_rate of transfer_body.h), at most
- * 1, and a = 2b/3. Walls act as on all nodal sums. */
+ * with u', so that e loses w.dv as well, dv what the forces add. Energies of the particles of one
+ * material are mixed too, e' = e + sum N b (E - e), E = sum N m e/sum N m: nothing else smooths a
+ * mode that nodes do not see, one particle hot and the next cold, or the heat that an impact leaves
+ * at a wall. At a node of several materials b = 0. b is dt times the mean rate of the node's
+ * particles (mixing_rate of transfer_body.h), at most 1, and a = 2b/3. Walls act as on all nodal
+ * sums. */
 #include "base/memory.h"
 #include "mpm/mpm_internal.h"
 

@@ -1,5 +1,6 @@
-/* The material point method: particles carry the material, a grid that is forgotten after each step carries the forces.
- * Source: Cui, dissertation (2014), chapter 2, and the public practice of the codes of the same group. */
+/* The material point method: particles carry the material, a grid that is forgotten after each step
+ * carries the forces. Source: Cui, dissertation (2014), chapter 2, and the public practice of the
+ * codes of the same group. */
 #ifndef BOLIDE_MPM_H
 #define BOLIDE_MPM_H
 

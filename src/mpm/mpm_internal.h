@@ -22,8 +22,8 @@ struct wall_node {
 /* Distances of a surface from a node that are told apart, and the largest in cells. */
 enum { SURFACES = 256, SURFACE_REACH = 2 };
 
-/* The nodes of bodies that share their velocities: of all bodies where the case names no contacts and holds none, else of
- * each contact group and each way to be held. */
+/* The nodes of bodies that share their velocities: of all bodies where the case names no contacts
+ * and holds none, else of each contact group and each way to be held. */
 struct layer {
     int group;                      /* contact group */
     bool held, frozen;              /* its bodies keep their velocities, or all of their state */
@@ -87,10 +87,10 @@ BOLIDE_INLINE bool mpm_is_affine(const struct mpm *mpm)
     return mpm->parameters.transfer != MPM_FLIP;
 }
 
-/* Whether the energy of particles follows from what forces do at nodes, to rounding: where nodes have
- * lumped masses and particles keep their velocities. Not with linear shape functions: the kinetic
- * energy that they give to a node of next to no mass has no bound, nor has what one of its particles
- * gains and another loses. */
+/* Whether the energy of particles follows from what forces do at nodes, to rounding: where nodes
+ * have lumped masses and particles keep their velocities. Not with linear shape functions: the
+ * kinetic energy that they give to a node of next to no mass has no bound, nor has what one of its
+ * particles gains and another loses. */
 BOLIDE_INLINE bool mpm_conserves(const struct mpm_parameters *parameters)
 {
     return parameters->transfer == MPM_FLIP && parameters->order == 1 &&
@@ -132,8 +132,8 @@ BOLIDE_INLINE bool mpm_is_far(const struct mpm *mpm, const struct layer *layer, 
     return mpm->halo.far && mpm->halo.far[layer->bins.bin - mpm->halo.bin + bin];
 }
 
-/* Collective: finds the bins of other ranks that own ones meet, and gives the layers all of them; quick while the keys of
- * all ranks' bins stay. ERROR is the rank's own so far. */
+/* Collective: finds the bins of other ranks that own ones meet, and gives the layers all of them;
+ * quick while the keys of all ranks' bins stay. ERROR is the rank's own so far. */
 struct error *mpm_find_halo(struct mpm *mpm, const struct simulation *simulation,
                             struct error *error);
 /* Room to exchange patches. Collective: brings the patches of a field. */
@@ -145,7 +145,8 @@ void mpm_free_halo(struct mpm *mpm);
 struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
                                   const struct simulation *simulation);
 
-/* What the method cannot do, with parameters as they are given and cells of EDGE; located in the case. */
+/* What the method cannot do, with parameters as they are given and cells of EDGE; located in the
+ * case. */
 struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
                          const struct simulation *simulation);
 
@@ -154,7 +155,8 @@ struct error *mpm_warnings(const void *parameters, const struct simulation_case 
 /* Which bodies share a layer; those that stop change it then. */
 struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulation);
 void mpm_stop_bodies(struct mpm *mpm, struct simulation *simulation);
-/* Fresh particles that carry a gradient of velocity get that of their body's velocity over their size. */
+/* Fresh particles that carry a gradient of velocity get that of their body's velocity over their
+ * size. */
 void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulation);
 /* Neither rounding nor what holds a body takes a particle at X through a wall. */
 void mpm_keep_before_walls(const struct simulation *simulation, double x[3]);
@@ -167,11 +169,12 @@ void mpm_book_ambient(const struct mpm *mpm, struct simulation *simulation);
 /* What the particles of each body and material are to the grid. */
 struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulation);
 
-/* Books what gravity does in a step of DT: its impulse and half of its work at the BEGIN of the step, the rest of its work
- * once velocities are those of the end. */
+/* Books what gravity does in a step of DT: its impulse and half of its work at the BEGIN of the
+ * step, the rest of its work once velocities are those of the end. */
 void mpm_book_gravity(const struct mpm *mpm, struct simulation *simulation, double dt, bool begin);
 
-/* Books what the hoop stress pushes in a step of DT by the forces that nodes have from particles alone. */
+/* Books what the hoop stress pushes in a step of DT by the forces that nodes have from particles
+ * alone. */
 void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double dt);
 
 struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *simulation,
@@ -213,47 +216,53 @@ void mpm_mix_shocks(struct mpm *mpm, struct simulation *simulation, double dt);
 /* The step of the nodes (2-13), and what walls push in it. */
 void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
                        double dt);
-/* Velocities of the second field: of momenta summed from its patches, or with PLAIN of those in the main field. */
+/* Velocities of the second field: of momenta summed from its patches, or with PLAIN of those in the
+ * main field. */
 void mpm_find_velocities(const struct mpm *mpm, const struct simulation *simulation,
                          struct layer *layer, bool plain);
 
-/* Velocities of higher order, see order.c: their fields; and collective, in a step of DT: velocities of the second field of
- * all layers, or with ACCELERATIONS those and accelerations of the main one, to the order of the case. */
+/* Velocities of higher order, see order.c: their fields; and collective, in a step of DT:
+ * velocities of the second field of all layers, or with ACCELERATIONS those and accelerations of
+ * the main one, to the order of the case. */
 struct error *mpm_reserve_order(struct mpm *mpm);
 void mpm_free_order(struct layer *layer);
 void mpm_raise_order(struct mpm *mpm, struct simulation *simulation, double dt, bool accelerations);
 
-/* Adds to the forces at nodes those that stand in the second field, summed over patches; walls know of them. */
+/* Adds to the forces at nodes those that stand in the second field, summed over patches; walls know
+ * of them. */
 void mpm_add_forces(const struct mpm *mpm, const struct simulation *simulation,
                     struct layer *layer);
 
-/* Nodes behind walls get the forces, mirrored, and the heat of contact of those that they are images of:
- * the layer that pushes there may not reach as far. */
+/* Nodes behind walls get the forces, mirrored, and the heat of contact of those that they are
+ * images of: the layer that pushes there may not reach as far. */
 void mpm_mirror_contact(const struct mpm *mpm, const struct layer *layer);
 
-/* Particles get the heat that the nodes of LAYER have in the second field: those of bins that cover a
- * block for which OF is set, or of all for NULL. */
+/* Particles get the heat that the nodes of LAYER have in the second field: those of bins that cover
+ * a block for which OF is set, or of all for NULL. */
 void mpm_warm(const struct mpm *mpm, const struct simulation *simulation, struct layer *layer,
               const bool *of);
 
-/* Collective: loads, as they are in its middle, and faces of outflow push in a step of DT. ERROR_STATE: a load is not finite. */
+/* Collective: loads, as they are in its middle, and faces of outflow push in a step of DT.
+ * ERROR_STATE: a load is not finite. */
 struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt);
 /* Marks particles that have left through a face, and books what they had. */
 void mpm_lose_particles(const struct mpm *mpm, struct simulation *simulation);
 
-/* Mean modes of shear in cells of fluid lose force (2-46)-(2-48), and what that takes in DT heats the particles. */
+/* Mean modes of shear in cells of fluid lose force (2-46)-(2-48), and what that takes in DT heats
+ * the particles. */
 void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt);
 
-/* Contact between layers, see contact.c: which blocks of nodes they share; forces at nodes that both have, in a step of
- * DT. */
+/* Contact between layers, see contact.c: which blocks of nodes they share; forces at nodes that
+ * both have, in a step of DT. */
 void mpm_note_surfaces(struct mpm *mpm);
 struct error *mpm_find_meetings(struct mpm *mpm);
 void mpm_meet(struct mpm *mpm, struct simulation *simulation, double dt);
 /* The same for the velocities of the second field where layers touched, in the step or always. */
 void mpm_join_velocities(struct mpm *mpm, const struct simulation *simulation);
 
-/* Rates RATE of the particles of bin BIN of LAYER bring their states to the next level in a step of DT. Returns the index
- * of the one with the smallest id whose new state is impossible, -1 for none. */
+/* Rates RATE of the particles of bin BIN of LAYER bring their states to the next level in a step of
+ * DT. Returns the index of the one with the smallest id whose new state is impossible, -1 for
+ * none. */
 int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
                           const struct layer *layer, int32_t bin, double dt, const double *rate);
 

@@ -176,8 +176,8 @@ struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
                 : 0.0;
     if (!mpm_conserves(&settled) || settled.shape == SHAPE_GIMP)
         settled.quadrature = MPM_PARTICLES;
-    /* what a node of next to no mass gets by functions around the axis, which reach further than those
-     * that its mass is from, has no bound */
+    /* what a node of next to no mass gets by functions around the axis, which reach further than
+     * those that its mass is from, has no bound */
     if (simulation->problem->geometry == GEOMETRY_AXISYMMETRIC &&
         settled.quadrature == MPM_PARTICLES)
         settled.energy = MPM_ENERGY_WORK;

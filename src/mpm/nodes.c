@@ -1,8 +1,8 @@
 /* What happens at nodes: sums of patches, the step of momentum, and walls.
  *
- * A wall lies on a plane of nodes, where the normal velocity is zero. Shape functions that reach beyond it do as if the
- * particles had images behind it: what a node behind the wall gets is added, mirrored, to the node that it is the image
- * of, and both then have the same velocity, mirrored. */
+ * A wall lies on a plane of nodes, where the normal velocity is zero. Shape functions that reach
+ * beyond it do as if the particles had images behind it: what a node behind the wall gets is added,
+ * mirrored, to the node that it is the image of, and both then have the same velocity, mirrored. */
 #include <stdio.h>
 #include <string.h>
 
@@ -55,7 +55,8 @@ struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulati
     return error;
 }
 
-/* Index of the node that AT is the image of behind the wall SIDE across AXIS; the node's own on the wall. */
+/* Index of the node that AT is the image of behind the wall SIDE across AXIS; the node's own on the
+ * wall. */
 static int64_t mirrored(const struct mpm *mpm, int axis, int side, int64_t at)
 {
     return 2 * mpm->plane[axis][side] - at;
@@ -106,8 +107,8 @@ void mpm_node_index(int dimension, const int64_t corner[3], int k, int64_t at[3]
         at[axis] = corner[axis] + place[axis];
 }
 
-/* Lists the nodes of a block that walls change. In CORNERS a node behind both walls may have no mass
- * but that of its images. */
+/* Lists the nodes of a block that walls change. In CORNERS a node behind both walls may have no
+ * mass but that of its images. */
 static struct error *collect_block(const struct mpm *mpm, struct layer *layer, bool corners,
                                    int32_t block, const int64_t corner[3])
 {
@@ -320,8 +321,8 @@ void mpm_book_wall(const struct mpm *mpm, struct simulation *simulation,
                 0.0);
 }
 
-/* Weights work with the velocities of nodes, those of the particles but at walls: what they do there
- * beyond what mpm_book_gravity has. */
+/* Weights work with the velocities of nodes, those of the particles but at walls: what they do
+ * there beyond what mpm_book_gravity has. */
 static void book_weight(struct simulation *simulation, const struct wall_node *wall, double dt)
 {
     const double *sum = wall->sum, *node = wall->node;
@@ -335,7 +336,8 @@ static void book_weight(struct simulation *simulation, const struct wall_node *w
                 vec3_make(0.0, 0.0, 0.0), work);
 }
 
-/* A wall changes the momentum of particles by what they get from a node in excess of what they have put into it. */
+/* A wall changes the momentum of particles by what they get from a node in excess of what they have
+ * put into it. */
 static void book_walls(const struct mpm *mpm, struct simulation *simulation,
                        const struct layer *layer, double dt)
 {

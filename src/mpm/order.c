@@ -1,11 +1,13 @@
-/* Nodal velocities by the inverse of the full mass matrix, m_IJ = sum m N_I N_J, instead of the lumped one, whose velocities
- * v are those of the particles smoothed once more: waves of a few cells run late behind a shock and ring there. With S
- * from nodes to particles, v_p = sum N v_I, and S+ back, sum N m v_p / m_I, the inverse to order k is
+/* Nodal velocities by the inverse of the full mass matrix, m_IJ = sum m N_I N_J, instead of the
+ * lumped one, whose velocities v are those of the particles smoothed once more: waves of a few
+ * cells run late behind a shock and ring there. With S from nodes to particles, v_p = sum N v_I,
+ * and S+ back, sum N m v_p / m_I, the inverse to order k is
  *
  *   v(k) = v + (1 - S+ S) v + ... + (1 - S+ S)^(k-1) v
  *
- * and the same holds for accelerations. 1 - S+ S has eigenvalues between 0 and 1, and it takes nothing from momentum.
- * Source: Nairn and Hammerquist, CMAME 377 (2021) 113667, FMPM(k); Hammerquist and Nairn, CMAME 318 (2017) 724, XPIC(m). */
+ * and the same holds for accelerations. 1 - S+ S has eigenvalues between 0 and 1, and it takes
+ * nothing from momentum. Source: Nairn and Hammerquist, CMAME 377 (2021) 113667, FMPM(k);
+ * Hammerquist and Nairn, CMAME 318 (2017) 724, XPIC(m). */
 #include <string.h>
 
 #include "base/clock.h"
@@ -28,7 +30,8 @@ void mpm_free_order(struct layer *layer)
     grid_field_free(&layer->mapped);
 }
 
-/* Where the velocity of node K of a block stands that is raised: with ACCELERATIONS in the main field, else in the second. */
+/* Where the velocity of node K of a block stands that is raised: with ACCELERATIONS in the main
+ * field, else in the second. */
 static double *velocity_of(struct layer *layer, int32_t block, int k, bool accelerations)
 {
     return accelerations ? grid_node(&layer->main, block, k) + NODE_VELOCITY
@@ -49,7 +52,8 @@ static void map_left(struct mpm *mpm, const struct simulation *simulation, struc
         }
 }
 
-/* What walls push by what they change of the sums SUM, which then are theirs (see book_walls of nodes.c). */
+/* What walls push by what they change of the sums SUM, which then are theirs (see book_walls of
+ * nodes.c). */
 static void book_walls(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
                        double dt)
 {

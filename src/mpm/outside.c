@@ -18,8 +18,8 @@ struct given {
     int filled[3];
 };
 
-/* A particle at X of half the size HALF, in cells, in a cell whose first node is at PLACE of the patch
- * and has index FIRST. */
+/* A particle at X of half the size HALF, in cells, in a cell whose first node is at PLACE of the
+ * patch and has index FIRST. */
 struct reached {
     int place[3];
     int64_t first[3];

@@ -1,5 +1,5 @@
-/* The step of particles of one material, in batches: what it takes and gives. Compiled once an instruction set
- * (point_kernel.c). */
+/* The step of particles of one material, in batches: what it takes and gives. Compiled once an
+ * instruction set (point_kernel.c). */
 #ifndef BOLIDE_MPM_POINT_KERNEL_H
 #define BOLIDE_MPM_POINT_KERNEL_H
 
@@ -11,8 +11,8 @@ struct material;
  * rate_stride + k], as transfer.h has them.
  *
  * With AT_STATE `energy` is that of the end of the step, half a step behind the state, when the
- * velocities are of that time: stresses work between the one middle of a step and the next. What the
- * state has is then `at_state`, and `energy` is not changed. */
+ * velocities are of that time: stresses work between the one middle of a step and the next. What
+ * the state has is then `at_state`, and `energy` is not changed. */
 struct point_loop {
     double *density, *energy, *at_state, *pressure, (*deviator)[6];
     double *history[POINT_HISTORY];    /* by slot, NULL where the store has none */
@@ -41,10 +41,10 @@ BOLIDE_INLINE struct sym3 jaumann_turn(struct sym3 s, struct vec3 angle)
     return r;
 }
 
-/* What is filtered of W, what nodes do not resolve of the divergence: all of it from h |w| = 0.001 c
- * on, as behind shocks, and in proportion to itself below, so that what is elastic rings on. In fluids
- * nothing: there is no deviator that the overshoots of a shock spoil, and at the edge of a gas that
- * expands into nothing few particles share a node. */
+/* What is filtered of W, what nodes do not resolve of the divergence: all of it from h |w| = 0.001
+ * c on, as behind shocks, and in proportion to itself below, so that what is elastic rings on. In
+ * fluids nothing: there is no deviator that the overshoots of a shock spoil, and at the edge of a
+ * gas that expands into nothing few particles share a node. */
 BOLIDE_INLINE double point_unresolved(const struct point_loop *loop, bool solid, double w,
                                       double sound)
 {
@@ -52,15 +52,16 @@ BOLIDE_INLINE double point_unresolved(const struct point_loop *loop, bool solid,
     return solid ? w * minimum(1.0, loop->edge * fabs(w) / (full * sound)) : 0.0;
 }
 
-/* What the viscosity of a particle follows from: whether it has strength; its new density; the sound
- * speed before; the divergence that changes its volume, and what is filtered of it. */
+/* What the viscosity of a particle follows from: whether it has strength; its new density; the
+ * sound speed before; the divergence that changes its volume, and what is filtered of it. */
 struct point_flow {
     bool solid;
     double density, sound, divergence, filtered;
 };
 
 /* q = rho h (b2 h d^2 - b1 c d) in compression, d < 0, and -rho h b3 c w of what is filtered, w. In
- * solids b1 grows with h |d|/c up to 0.001, so that a shock is without overshoot and sound goes on. */
+ * solids b1 grows with h |d|/c up to 0.001, so that a shock is without overshoot and sound goes
+ * on. */
 BOLIDE_INLINE double point_viscosity(const struct point_loop *loop, const struct point_flow *flow)
 {
     const double d = minimum(flow->divergence, 0.0), h = loop->edge, c = flow->sound;
@@ -82,17 +83,17 @@ BOLIDE_INLINE double point_shock(double viscosity, double density, double sound,
     return square(part) * minimum(1.0, maximum(0.0, strength / soft - 1.0));
 }
 
-/* The same of a solid that has given more ENERGY than it had, as a particle may that shares nodes with
- * much heavier ones: so that these give some back. From -0.01 c^2 on, all of it at twice that. What
- * burns has less energy than at the start, and fluids may count theirs from elsewhere. */
+/* The same of a solid that has given more ENERGY than it had, as a particle may that shares nodes
+ * with much heavier ones: so that these give some back. From -0.01 c^2 on, all of it at twice that.
+ * What burns has less energy than at the start, and fluids may count theirs from elsewhere. */
 BOLIDE_INLINE double point_overdrawn(bool solid, double energy, double sound)
 {
     const double soft = 1e-2;
     return solid ? minimum(1.0, maximum(0.0, -energy / (soft * square(sound)) - 1.0)) : 0.0;
 }
 
-/* Brings particles BEGIN .. END - 1 of the bin at LIST, of MATERIAL, which batches must take, to the next level. False when
- * the new state of one is impossible. */
+/* Brings particles BEGIN .. END - 1 of the bin at LIST, of MATERIAL, which batches must take, to
+ * the next level. False when the new state of one is impossible. */
 bool point_loop_run(const struct point_loop *loop, const struct material *material,
                     const int32_t *list, int32_t begin, int32_t end);
 

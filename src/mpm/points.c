@@ -1,5 +1,6 @@
-/* What happens to a particle on its own: its state from the strain of the step. Source: Cui, dissertation (2014), (2-18)
- * to (2-21); the energy of a step as the public codes of the same group have it. */
+/* What happens to a particle on its own: its state from the strain of the step. Source: Cui,
+ * dissertation (2014), (2-18) to (2-21); the energy of a step as the public codes of the same group
+ * have it. */
 #include <string.h>
 
 #include "material/any.h"
@@ -73,9 +74,9 @@ static bool is_possible(const struct particles *p, const struct point_loop *loop
            isfinite(x[0] + x[1] + x[2]) && isfinite(u[0] + u[1] + u[2]);
 }
 
-/* A gas that expands into vacuum converts all of its internal energy to kinetic energy, and a little
- * more: the work of the stresses uses the energy of half a step earlier. Such a particle gets a small
- * positive energy in its state, and the deficit stays in its conserved energy. */
+/* A gas that expands into vacuum converts all of its internal energy to kinetic energy, and a
+ * little more: the work of the stresses uses the energy of half a step earlier. Such a particle
+ * gets a small positive energy in its state, and the deficit stays in its conserved energy. */
 static void restore_overdrawn(const struct mpm *mpm, const struct simulation *simulation,
                               const struct point_loop *loop, int32_t i)
 {
@@ -93,7 +94,8 @@ static void restore_overdrawn(const struct mpm *mpm, const struct simulation *si
     loop->sound[i] = r.sound_long;
 }
 
-/* Particles BEGIN .. END - 1 of the bin at LIST, which are of one material; false when one has become impossible. */
+/* Particles BEGIN .. END - 1 of the bin at LIST, which are of one material; false when one has
+ * become impossible. */
 static bool update_run(const struct mpm *mpm, const struct simulation *simulation,
                        const struct point_loop *loop, const int32_t *list, int32_t begin,
                        int32_t end)

@@ -1,13 +1,15 @@
-/* Sums from particles to nodes and back: the loops of the material point method. A block of cells at a time; particles in
- * the order of bins. Compiled once an instruction set (transfer_kernel.h). */
+/* Sums from particles to nodes and back: the loops of the material point method. A block of cells
+ * at a time; particles in the order of bins. Compiled once an instruction set
+ * (transfer_kernel.h). */
 #ifndef BOLIDE_MPM_TRANSFER_H
 #define BOLIDE_MPM_TRANSFER_H
 
 #include "grid/grid.h"
 #include "grid/grid_shape.h"
 
-/* What a node has. The sums over particles are its mass, momentum and force; from the step on velocity (momentum at the
- * end of the step over mass) and acceleration stand in the place of the last two. */
+/* What a node has. The sums over particles are its mass, momentum and force; from the step on
+ * velocity (momentum at the end of the step over mass) and acceleration stand in the place of the
+ * last two. */
 enum { NODE_MASS = 0, NODE_MOMENTUM = 1, NODE_VELOCITY = 1, NODE_FORCE = 4, NODE_ACCELERATION = 4 };
 enum {
     NODE_MIXING = 7
@@ -27,8 +29,9 @@ enum { HEAT_ENERGY = 0, HEAT_NUMBER = 1, HEAT_SQUARE = 2, HEAT_NUMBERS = 3 };
  * in a field of its own too, by axis, and becomes there what the first is multiplied by. */
 enum { FACE_FILL = 3, FACE_STRIDE = 4 };
 enum { FILL_STRIDE = 4 };
-/* About an axis there are two axes of faces. Behind what pushes through them stand numbers of the node:
- * what particles fill of it, and what pushes it away from the axis; the first is in the field too. */
+/* About an axis there are two axes of faces. Behind what pushes through them stand numbers of the
+ * node: what particles fill of it, and what pushes it away from the axis; the first is in the field
+ * too. */
 enum { FACE_RING = 2, FACE_HOOP = FACE_STRIDE + 2, FILL_RING = 2 };
 
 /* The fraction a for velocities where that for energies is b = PART: two thirds of the rate. */
@@ -75,11 +78,12 @@ struct transfer {
  * not with the force, but the patches of STRESS and FILL. */
 void transfer_scatter(const struct transfer *transfer, int32_t bin);
 
-/* By faces: what the stresses in the patch of BIN push, with the factors of its faces in FILL, goes to
- * its nodes. */
+/* By faces: what the stresses in the patch of BIN push, with the factors of its faces in FILL, goes
+ * to its nodes. */
 void transfer_push(const struct transfer *transfer, int32_t bin);
 
-/* Fills the patch of BIN in NORMAL with the gradient of mass, sum m grad N (2-23), which points out of the bodies. */
+/* Fills the patch of BIN in NORMAL with the gradient of mass, sum m grad N (2-23), which points out
+ * of the bodies. */
 void transfer_slopes(const struct transfer *transfer, int32_t bin);
 
 /* A step of DT in which the particles MOVE, or do not. */
@@ -95,8 +99,9 @@ struct transfer_step {
 void transfer_velocity(const struct transfer *transfer, int32_t bin, struct transfer_step step,
                        bool scatter);
 
-/* Particles of BIN get the velocities, and with ACCELERATIONS those too, that the nodes of the patch FROM have, and give them
- * back to the patch TO with their masses; both are laid out as that of the main field. */
+/* Particles of BIN get the velocities, and with ACCELERATIONS those too, that the nodes of the
+ * patch FROM have, and give them back to the patch TO with their masses; both are laid out as that
+ * of the main field. */
 void transfer_again(const struct transfer *transfer, int32_t bin, const double *from,
                     bool accelerations, double *to);
 
@@ -109,8 +114,8 @@ void transfer_mix(const struct transfer *transfer, int32_t bin, double dt);
 /* Particles of BIN take the heat that nodes have in the patch of BACK. */
 void transfer_warm(const struct transfer *transfer, int32_t bin);
 
-/* Where the rates of a bin's particles go: number c of the k-th at to[c * stride + k]; each row has room for seven more, which
- * are written too. */
+/* Where the rates of a bin's particles go: number c of the k-th at to[c * stride + k]; each row has
+ * room for seven more, which are written too. */
 struct rates {
     double *to;
     size_t stride;
@@ -122,8 +127,8 @@ struct nodal {
     int stride;
 };
 
-/* Rates of strain and spin of the particles of BIN (2-18), (2-19) from nodal velocities; with STEP.move
- * the particles move as the patch of the main field has it. */
+/* Rates of strain and spin of the particles of BIN (2-18), (2-19) from nodal velocities; with
+ * STEP.move the particles move as the patch of the main field has it. */
 void transfer_gradient(const struct transfer *transfer, int32_t bin, struct transfer_step step,
                        struct nodal velocity, struct rates rates);
 

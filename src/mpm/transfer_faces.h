@@ -1,14 +1,14 @@
-/* Stresses that push through the faces between nodes, in lanes. For the file that is compiled once an
- * instruction set (transfer_kernel.h).
+/* Stresses that push through the faces between nodes, in lanes. For the file that is compiled once
+ * an instruction set (transfer_kernel.h).
  *
  * The slope of a shape function is a difference of functions M of the two faces of its node: along
  * an axis N_I' = (M_(I-1/2) - M_(I+1/2))/h, M the B-spline of the next lower degree. So the sum of
- * V sigma grad N of (2-10) is a difference of sums over faces, V sigma M N N/h. Where particles fill
- * the space about a face the sum of V M N N is h^3, but only in the mean: with particles that move
- * through the grid it goes up and down, and a uniform stress pushes nodes. So each face has its own
- * factor, 1 over that sum (fill.c), and what pushes through it is a mean of stresses. What pushes a
- * node on pushes the next one back, and works with the difference of their velocities: momentum and
- * energy are conserved. */
+ * V sigma grad N of (2-10) is a difference of sums over faces, V sigma M N N/h. Where particles
+ * fill the space about a face the sum of V M N N is h^3, but only in the mean: with particles that
+ * move through the grid it goes up and down, and a uniform stress pushes nodes. So each face has
+ * its own factor, 1 over that sum (fill.c), and what pushes through it is a mean of stresses. What
+ * pushes a node on pushes the next one back, and works with the difference of their velocities:
+ * momentum and energy are conserved. */
 #ifndef BOLIDE_MPM_TRANSFER_FACES_H
 #define BOLIDE_MPM_TRANSFER_FACES_H
 
@@ -57,7 +57,8 @@ BOLIDE_INLINE void find_face_weights(struct kind kind, const struct chunk *chunk
     }
 }
 
-/* What the particles of a cell have for faces across each axis, or for nodes: what pushes, and fills. */
+/* What the particles of a cell have for faces across each axis, or for nodes: what pushes, and
+ * fills. */
 struct face_sums {
     vector4 of[3][NODES_MAX], ring[NODES_MAX];
 };
@@ -181,7 +182,8 @@ BOLIDE_INLINE int patch_step(const struct transfer *t, struct kind kind, int axi
 }
 
 /* The factors of what pushes along each axis through a face across AXIS of a node with FILL. Shear
- * goes as particles have it: pairs of equal shear turn nothing, and with other factors they would. */
+ * goes as particles have it: pairs of equal shear turn nothing, and with other factors they
+ * would. */
 BOLIDE_INLINE vector4 face_factors(struct kind kind, const double *fill, int axis)
 {
     const vector4 factors = {axis == 0 ? fill[0] : 1.0,
@@ -215,8 +217,8 @@ BOLIDE_INLINE void bin_push(const struct transfer *t, struct kind kind, int32_t 
             stress[n * 2 * FACE_STRIDE + FACE_HOOP] * fill[n * FILL_STRIDE + FILL_RING];
 }
 
-/* Turns the patch of stresses of a bin into that of what they work with in a step of DT: differences
- * over the faces of the ways of nodes, over the edge, with the factors. */
+/* Turns the patch of stresses of a bin into that of what they work with in a step of DT:
+ * differences over the faces of the ways of nodes, over the edge, with the factors. */
 BOLIDE_INLINE void bin_stretch(const struct transfer *t, struct kind kind, int32_t bin, double dt)
 {
     const double *patch = grid_patch(t->grid, t->main, bin),
@@ -244,8 +246,8 @@ BOLIDE_INLINE void bin_stretch(const struct transfer *t, struct kind kind, int32
     }
 }
 
-/* What the lanes of a chunk take of the first numbers of the faces ACROSS an axis, as many as there are
- * axes. BASE is the first node of the window in the patch. */
+/* What the lanes of a chunk take of the first numbers of the faces ACROSS an axis, as many as there
+ * are axes. BASE is the first node of the window in the patch. */
 BOLIDE_INLINE void gather_faces(const struct transfer *t, struct kind kind,
                                 const struct chunk *chunk, const double *stretch, size_t base,
                                 int across, double (*sum)[LANES])

@@ -1,5 +1,5 @@
-/* The loops of mixing in shocks (mixing.c), and of heat, over the particles of a block. For the file that is
- * compiled once an instruction set (transfer_kernel.h). */
+/* The loops of mixing in shocks (mixing.c), and of heat, over the particles of a block. For the
+ * file that is compiled once an instruction set (transfer_kernel.h). */
 #ifndef BOLIDE_MPM_TRANSFER_MIXING_H
 #define BOLIDE_MPM_TRANSFER_MIXING_H
 

@@ -296,8 +296,8 @@ BOLIDE_INLINE void gather(const struct transfer *t, struct kind kind, const doub
     }
 }
 
-/* Adds the RECORD of each lane to the sums of COUNT nodes or faces, with their WEIGHT; records of lanes
- * behind the last particle are zero. */
+/* Adds the RECORD of each lane to the sums of COUNT nodes or faces, with their WEIGHT; records of
+ * lanes behind the last particle are zero. */
 BOLIDE_INLINE void add_records8(struct kind kind, int count, const double (*weight)[LANES],
                                 const vector8 *record, vector8 *sum)
 {

@@ -1,6 +1,6 @@
-/* What the step of velocities does to the energies of particles, in lanes: the work of their stresses,
- * what their nodes take from the motion, and mixing in shocks. For the file that is compiled once an
- * instruction set (transfer_kernel.h). */
+/* What the step of velocities does to the energies of particles, in lanes: the work of their
+ * stresses, what their nodes take from the motion, and mixing in shocks. For the file that is
+ * compiled once an instruction set (transfer_kernel.h). */
 #ifndef BOLIDE_MPM_TRANSFER_WORK_H
 #define BOLIDE_MPM_TRANSFER_WORK_H
 
@@ -51,7 +51,8 @@ BOLIDE_INLINE void gather_mixed(const struct transfer *t, struct kind kind,
                 given->velocity[k][lane] * (0.5 * given->velocity[k][lane] + dt * push[k][lane]);
 }
 
-/* The radial component of the numbers of nodes, as the hoop strain of the lanes of a chunk sees it. */
+/* The radial component of the numbers of nodes, as the hoop strain of the lanes of a chunk sees
+ * it. */
 BOLIDE_INLINE void gather_around(const struct transfer *t, struct kind kind,
                                  const struct chunk *chunk, struct window velocity, double *sum)
 {
@@ -65,8 +66,8 @@ BOLIDE_INLINE void gather_around(const struct transfer *t, struct kind kind,
         }
 }
 
-/* What the pressure that fluids do not push with gives in a step of DT to particle LANE, per mass: as
- * much as its pressure does beyond what pushes. */
+/* What the pressure that fluids do not push with gives in a step of DT to particle LANE, per mass:
+ * as much as its pressure does beyond what pushes. */
 BOLIDE_INLINE double work_of_gauge(const struct transfer *t, struct kind kind,
                                    const struct chunk *chunk, int lane, struct window nodes,
                                    double dt)
@@ -179,8 +180,8 @@ BOLIDE_INLINE void work_at_faces(const struct transfer *t, struct kind kind,
 }
 
 /* What the lanes of a chunk get in a step of DT per mass: the work of their stresses with the mean
- * velocity of the nodes, W = V + dt A/2, and what the nodes take from the motion: with dv = sum N dt A
- * of the particle,
+ * velocity of the nodes, W = V + dt A/2, and what the nodes take from the motion: with dv = sum N
+ * dt A of the particle,
  *
  *   (1/rho) sigma : sum W grad N dt + (sum N (dt A)^2 - dv^2)/2
  *

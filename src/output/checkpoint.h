@@ -15,8 +15,8 @@ struct checkpoint {
     const char *case_text;
 };
 
-/* Collective. Rank 0 writes beside and renames, so that PATH is whole at every moment; every rank reads its share of the
- * particles, on as many ranks as there are. */
+/* Collective. Rank 0 writes beside and renames, so that PATH is whole at every moment; every rank
+ * reads its share of the particles, on as many ranks as there are. */
 struct error *checkpoint_write(const char *path, const struct checkpoint *checkpoint);
 struct error *checkpoint_read(const char *path, const struct checkpoint *checkpoint);
 

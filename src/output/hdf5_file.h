@@ -23,8 +23,9 @@ struct error *hdf5_error(enum error_kind kind, const char *format, ...) BOLIDE_P
  * checksums), in the format that every version reads otherwise. */
 struct error *hdf5_create(const char *path, bool checksums, hid_t *file);
 
-/* A creation list for groups (H5P_GROUP_CREATE), datasets (H5P_DATASET_CREATE) or a file (H5P_FILE_CREATE) whose objects carry no
- * time, so that the same run gives the same file. Close it with H5Pclose. */
+/* A creation list for groups (H5P_GROUP_CREATE), datasets (H5P_DATASET_CREATE) or a file
+ * (H5P_FILE_CREATE) whose objects carry no time, so that the same run gives the same file. Close it
+ * with H5Pclose. */
 hid_t hdf5_creation_list(hid_t kind);
 
 /* Opens the dataset NAME of FILE, a path of groups between slashes. ERROR_INPUT names a link to

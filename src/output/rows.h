@@ -4,8 +4,8 @@
 
 #include "parallel/ranks.h"
 
-/* COUNT rows of BYTES each on this rank; FILL puts those from BEGIN to END - 1 into OUT. While it works a row may need
- * SPACE bytes. */
+/* COUNT rows of BYTES each on this rank; FILL puts those from BEGIN to END - 1 into OUT. While it
+ * works a row may need SPACE bytes. */
 struct rows {
     int64_t count;
     size_t bytes, space;
@@ -16,8 +16,9 @@ struct rows {
 /* Where they go: COUNT rows that are those from AT on of all. */
 typedef struct error *rows_put(void *sink, int64_t at, int64_t count, const void *rows);
 
-/* Collective: calls PUT on rank 0 with the rows of rank 0, 1, ..., some at a time, so that memory does not grow with
- * them. The first error of PUT, or an earlier ERROR (taken), ends the calls, but not the passing; rank 0 alone has it. */
+/* Collective: calls PUT on rank 0 with the rows of rank 0, 1, ..., some at a time, so that memory
+ * does not grow with them. The first error of PUT, or an earlier ERROR (taken), ends the calls, but
+ * not the passing; rank 0 alone has it. */
 struct error *rows_pass(const struct ranks *ranks, const struct rows *rows, rows_put *put,
                         void *sink, struct error *error);
 

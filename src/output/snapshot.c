@@ -14,8 +14,8 @@
 
 enum { VTK_VERTEX = 1, VTK_LINE = 3, VTK_PIXEL = 8, VTK_VOXEL = 11 };
 
-/* A snapshot in the making: rank 0 writes, the others hand their rows over. The first error stays, and lets nobody
- * wait. */
+/* A snapshot in the making: rank 0 writes, the others hand their rows over. The first error stays,
+ * and lets nobody wait. */
 struct writing {
     const struct simulation *simulation;
     const struct population *population;
@@ -24,7 +24,8 @@ struct writing {
     struct error *error;
 };
 
-/* A dataset to write: rows of numbers of TYPE, found by FILL, which puts the rows begin .. end - 1 into OUT. */
+/* A dataset to write: rows of numbers of TYPE, found by FILL, which puts the rows begin .. end - 1
+ * into OUT. */
 struct dataset {
     const char *name;
     hid_t type;
@@ -207,8 +208,8 @@ static void write_column(struct writing *w, const struct column *column, int64_t
                                        true, fill_source, &source, column->unit});
 }
 
-/* Writes the NAMES that the numbers of a field stand for, as ASCII texts of any length: VTK 9.1 reads no
- * others. */
+/* Writes the NAMES that the numbers of a field stand for, as ASCII texts of any length: VTK 9.1
+ * reads no others. */
 static void write_names(struct writing *w, const char *dataset, const struct named_map *names)
 {
     if (!w->here || w->error || names->count == 0)

@@ -6,9 +6,9 @@
 #include "model/columns.h"
 #include "model/simulation.h"
 
-/* Collective: rank 0 writes all columns of POPULATION to PATH, by slices, so that memory does not grow with the
- * particles. Fields have their unit as the attribute `unit`. What the numbers in the fields `body`
- * and `material` stand for is in FieldData, under `bodies` and `materials`. */
+/* Collective: rank 0 writes all columns of POPULATION to PATH, by slices, so that memory does not
+ * grow with the particles. Fields have their unit as the attribute `unit`. What the numbers in the
+ * fields `body` and `material` stand for is in FieldData, under `bodies` and `materials`. */
 struct error *snapshot_write(const char *path, const struct simulation *simulation,
                              const struct population *population);
 

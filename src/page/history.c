@@ -1,5 +1,6 @@
-/* The histories of report.html: plots of history.csv, what of it is conserved, and the probes. Columns
- * are found by their names, "NAME [unit]"; "CAUSE.energy" is what the ledger booked under a cause. */
+/* The histories of report.html: plots of history.csv, what of it is conserved, and the probes.
+ * Columns are found by their names, "NAME [unit]"; "CAUSE.energy" is what the ledger booked under a
+ * cause. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -17,14 +17,15 @@ struct page {
 
 /* page.c */
 
-/* What a page begins and ends with. Its policy forbids the page whatever it does not hold itself. */
+/* What a page begins and ends with. Its policy forbids the page whatever it does not hold
+ * itself. */
 void page_head(const struct page *page, const char *title);
 void page_foot(const struct page *page);
 
 /* text.c */
 
-/* TEXT with everything escaped that HTML could take for its own, in an attribute too. What is not UTF-8
- * and what no document may hold become replacement characters. */
+/* TEXT with everything escaped that HTML could take for its own, in an attribute too. What is not
+ * UTF-8 and what no document may hold become replacement characters. */
 void page_text(FILE *file, const char *text);
 
 enum { QUANTITY_TEXT = 160 };
@@ -63,8 +64,8 @@ struct error *page_profiles(const struct page *page);
 /* pictures.c */
 struct error *page_pictures(const struct page *page);
 
-/* The end of an <img> whose alt text the caller has begun: its size, so that nothing jumps when it appears,
- * and the SIZE bytes of a PNG. */
+/* The end of an <img> whose alt text the caller has begun: its size, so that nothing jumps when it
+ * appears, and the SIZE bytes of a PNG. */
 void page_png(FILE *file, const char *bytes, size_t size);
 
 /* study_page.c */

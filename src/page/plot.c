@@ -1,5 +1,5 @@
-/* Line plots of report.html as inline SVG. Their colours come from the page's style, so that they suit
- * light, dark and paper; letters keep their size from a telephone to a desk. */
+/* Line plots of report.html as inline SVG. Their colours come from the page's style, so that they
+ * suit light, dark and paper; letters keep their size from a telephone to a desk. */
 #include <string.h>
 
 #include "page/internal.h"

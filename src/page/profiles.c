@@ -1,5 +1,6 @@
-/* The profiles of report.html: the last table of each, every field a line for its mean within a band of one
- * standard deviation to either side; one line a material or body where the table is split by these. */
+/* The profiles of report.html: the last table of each, every field a line for its mean within a
+ * band of one standard deviation to either side; one line a material or body where the table is
+ * split by these. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,8 +8,8 @@
 #include "base/memory.h"
 #include "page/internal.h"
 
-/* The rows FIRST .. FIRST + COUNT - 1 of a table belong to the same material or body; all do where the
- * first column is no name. */
+/* The rows FIRST .. FIRST + COUNT - 1 of a table belong to the same material or body; all do where
+ * the first column is no name. */
 struct part {
     const char *name;
     int64_t first, count;

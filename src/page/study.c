@@ -112,8 +112,8 @@ double study_scale(const struct study *study, const struct study_quantity *quant
     return scale;
 }
 
-/* The relative errors of each quantity as a line; returns the smallest. X has a place a run, Y one a run and
- * quantity. */
+/* The relative errors of each quantity as a line; returns the smallest. X has a place a run, Y one
+ * a run and quantity. */
 static double fill_errors(const struct study *study, double *x, double *y, struct series *series)
 {
     double lowest = INFINITY;
@@ -133,7 +133,8 @@ static double fill_errors(const struct study *study, double *x, double *y, struc
     return lowest;
 }
 
-/* Slopes of first and second order from half of LOWEST at the finest run on. X and Y have four places. */
+/* Slopes of first and second order from half of LOWEST at the finest run on. X and Y have four
+ * places. */
 static void fill_slopes(const struct study *study, double lowest, double *x, double *y,
                         struct series *series)
 {

@@ -1,4 +1,5 @@
-/* A convergence study on paper: the errors of a case on several resolutions, as tables, a plot and a page. */
+/* A convergence study on paper: the errors of a case on several resolutions, as tables, a plot and
+ * a page. */
 #ifndef BOLIDE_STUDY_H
 #define BOLIDE_STUDY_H
 
@@ -46,12 +47,12 @@ struct study {
 };
 
 /* Writes into FOLDER convergence.csv, a row a run; convergence-orders.csv, a row a quantity;
- * convergence.png, relative errors over the resolution; and convergence.html, a page that needs no other
- * file, whose links lead to the reports of the runs in FOLDER/convergence. SI units. */
+ * convergence.png, relative errors over the resolution; and convergence.html, a page that needs no
+ * other file, whose links lead to the reports of the runs in FOLDER/convergence. SI units. */
 struct error *study_write(const char *folder, const struct study *study);
 
-/* The errors of QUANTITY are divided by this in the plot: what it should be, or where that is zero or not
- * known the error of the first run; 1 for a norm. */
+/* The errors of QUANTITY are divided by this in the plot: what it should be, or where that is zero
+ * or not known the error of the first run; 1 for a norm. */
 double study_scale(const struct study *study, const struct study_quantity *quantity);
 
 void study_free(struct study *study);

@@ -6,8 +6,8 @@
 
 static const char replacement[] = "\xEF\xBF\xBD";
 
-/* Bytes of the UTF-8 character at TEXT, 0 where there is none (RFC 3629: no overlong form, no surrogate,
- * nothing beyond U+10FFFF). */
+/* Bytes of the UTF-8 character at TEXT, 0 where there is none (RFC 3629: no overlong form, no
+ * surrogate, nothing beyond U+10FFFF). */
 static int character_length(const unsigned char *text)
 {
     int length = text[0] < 0x80                       ? 1

@@ -1,5 +1,5 @@
-/* Cells and blocks of the global grid. A block's key interleaves the bits of its coordinates, so that
- * blocks near in storage are near in space. */
+/* Cells and blocks of the global grid. A block's key interleaves the bits of its coordinates, so
+ * that blocks near in storage are near in space. */
 #ifndef BOLIDE_BLOCK_H
 #define BOLIDE_BLOCK_H
 
@@ -19,7 +19,8 @@ BOLIDE_INLINE int block_cells(int dimension)
     return dimension == 1 ? 64 : dimension == 2 ? 8 : 4;
 }
 
-/* Index of the cell of edge CELL that holds X, kept within +-LIMIT so that what flies off stays countable. */
+/* Index of the cell of edge CELL that holds X, kept within +-LIMIT so that what flies off stays
+ * countable. */
 BOLIDE_INLINE int64_t cell_index(double x, double cell, int64_t limit)
 {
     double index = floor(x / cell);

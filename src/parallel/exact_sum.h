@@ -1,5 +1,6 @@
-/* Sums of doubles without rounding: a number is split into 32-bit digits of one wide integer, integers
- * are added, the result is rounded once. So a sum is the same for any order, threads and ranks. */
+/* Sums of doubles without rounding: a number is split into 32-bit digits of one wide integer,
+ * integers are added, the result is rounded once. So a sum is the same for any order, threads and
+ * ranks. */
 #ifndef BOLIDE_EXACT_SUM_H
 #define BOLIDE_EXACT_SUM_H
 
@@ -7,8 +8,8 @@
 
 enum { EXACT_SUM_DIGITS = 68 };
 
-/* digit[k] counts 2^(32 k - 1088); `pending` additions happened since carries were taken. A zeroed struct
- * is the sum of nothing. */
+/* digit[k] counts 2^(32 k - 1088); `pending` additions happened since carries were taken. A zeroed
+ * struct is the sum of nothing. */
 struct exact_sum {
     int64_t digit[EXACT_SUM_DIGITS];
     int64_t pending;

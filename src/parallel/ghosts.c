@@ -41,7 +41,8 @@ static int32_t number_of(const struct images *images)
     return images->count[0] * images->count[1] * images->count[2] - 1;
 }
 
-/* Plans those of the particle whose record is SOURCE, as ghosts from G on. Returns the next ghost. */
+/* Plans those of the particle whose record is SOURCE, as ghosts from G on. Returns the next
+ * ghost. */
 static int32_t plan_images(const struct images *images, int32_t source, struct ghosts *ghosts,
                            int32_t g)
 {
@@ -78,8 +79,8 @@ struct places {
     int32_t source, count;
 };
 
-/* Plans the images of places: each thread counts those of a part of the places, and writes them after
- * those of the parts before. */
+/* Plans the images of places: each thread counts those of a part of the places, and writes them
+ * after those of the parts before. */
 static bool plan_part(struct near_walls walls, struct places places, int threads,
                       struct ghosts *ghosts)
 {

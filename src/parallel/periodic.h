@@ -2,8 +2,8 @@
  *
  * A particle that leaves through one face comes in through the other: its place is taken modulo the
  * period. So that nothing depends on when that happens, and on which side of the seam a pair lies,
- * places, faces and period are multiples of one small power of two, the grain, which is some 1e-15 of
- * the domain: shifts by the period and differences of places are then exact. */
+ * places, faces and period are multiples of one small power of two, the grain, which is some 1e-15
+ * of the domain: shifts by the period and differences of places are then exact. */
 #ifndef BOLIDE_PERIODIC_H
 #define BOLIDE_PERIODIC_H
 

@@ -1,6 +1,6 @@
-/* The ranks that compute one case together. Every collective function of the library takes a struct ranks; a
- * process alone needs no transport, and one that has joined others speaks to them by MPI (ranks_mpi.c; a build
- * without MPI has ranks_alone.c in its place). */
+/* The ranks that compute one case together. Every collective function of the library takes a struct
+ * ranks; a process alone needs no transport, and one that has joined others speaks to them by MPI
+ * (ranks_mpi.c; a build without MPI has ranks_alone.c in its place). */
 #ifndef BOLIDE_RANKS_H
 #define BOLIDE_RANKS_H
 
@@ -15,8 +15,8 @@ struct ranks {
 /* This process alone. */
 struct ranks ranks_alone(void);
 
-/* All processes that were started together by mpirun or its like; this process alone where it was started by
- * itself. Call once, before any other call; ranks_leave before the end. */
+/* All processes that were started together by mpirun or its like; this process alone where it was
+ * started by itself. Call once, before any other call; ranks_leave before the end. */
 struct ranks ranks_join(void);
 void ranks_leave(const struct ranks *ranks);
 
@@ -35,16 +35,16 @@ double ranks_maximum(const struct ranks *ranks, double value);
 int64_t ranks_sum(const struct ranks *ranks, int64_t value);
 void ranks_sum_exact(const struct ranks *ranks, struct exact_sum *sums, int count);
 
-/* A value that a member has (a particle, a cell), the member's id, and what the value is: an index of
- * the caller's. */
+/* A value that a member has (a particle, a cell), the member's id, and what the value is: an index
+ * of the caller's. */
 struct ranked {
     double value;
     uint64_t id;
     int64_t what;
 };
 
-/* Whether A comes before B: by the smaller value, of equal values by the smaller id. Not a number comes
- * before all numbers, so that it is not lost. */
+/* Whether A comes before B: by the smaller value, of equal values by the smaller id. Not a number
+ * comes before all numbers, so that it is not lost. */
 BOLIDE_INLINE bool ranked_before(const struct ranked *a, const struct ranked *b)
 {
     if (isnan(a->value) || isnan(b->value))
@@ -67,8 +67,9 @@ int64_t ranks_before(const struct ranks *ranks, int64_t value);
 /* Collective: BYTES at DATA become those of rank FROM. */
 void ranks_broadcast(const struct ranks *ranks, int from, void *data, int64_t bytes);
 
-/* Collective: the COUNT items of BYTES each at OWN of every rank, one rank's behind the other's, in fresh memory
- * at *ALL (free it), *TOTAL of them. With TO a rank alone gets them, the others none; with TO = -1 all do. */
+/* Collective: the COUNT items of BYTES each at OWN of every rank, one rank's behind the other's, in
+ * fresh memory at *ALL (free it), *TOTAL of them. With TO a rank alone gets them, the others none;
+ * with TO = -1 all do. */
 struct error *ranks_gather(const struct ranks *ranks, int to, const void *own, int64_t count,
                            size_t bytes, void **all, int64_t *total);
 

@@ -1,5 +1,5 @@
-/* The transport of ranks by MPI, over all processes that the launcher has started; see ranks.h. Messages count
- * items of a type of their own, so that none is too long for MPI's counts. */
+/* The transport of ranks by MPI, over all processes that the launcher has started; see ranks.h.
+ * Messages count items of a type of their own, so that none is too long for MPI's counts. */
 #include <mpi.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,8 +8,8 @@
 #include "base/memory.h"
 #include "parallel/ranks.h"
 
-/* What the launchers of Open MPI, MPICH and Slurm leave in the environment of the processes that they start. A
- * process without pays nothing for MPI. */
+/* What the launchers of Open MPI, MPICH and Slurm leave in the environment of the processes that
+ * they start. A process without pays nothing for MPI. */
 static bool was_launched(void)
 {
     static const char *const marks[] = {"OMPI_COMM_WORLD_SIZE", "PMI_RANK", "PMIX_RANK"};
@@ -102,7 +102,8 @@ int64_t ranks_before(const struct ranks *ranks, int64_t value)
     return ranks->rank == 0 ? 0 : sum;
 }
 
-/* A sum as a row of whole numbers that may be added: its digits without carries, and whether it is not finite. */
+/* A sum as a row of whole numbers that may be added: its digits without carries, and whether it is
+ * not finite. */
 enum { SUM_NUMBERS = EXACT_SUM_DIGITS + 1, SUMS_AT_ONCE = 32 };
 
 void ranks_sum_exact(const struct ranks *ranks, struct exact_sum *sums, int count)
@@ -137,8 +138,8 @@ void ranks_broadcast(const struct ranks *ranks, int from, void *data, int64_t by
         MPI_Bcast(at, bytes < PIECE ? (int)bytes : PIECE, MPI_BYTE, from, MPI_COMM_WORLD);
 }
 
-/* A gather of items of BYTES each, of TYPE, to rank TO or with -1 to all; room for how many come from
- * each rank, and where to. */
+/* A gather of items of BYTES each, of TYPE, to rank TO or with -1 to all; room for how many come
+ * from each rank, and where to. */
 struct gathering {
     int to;
     MPI_Datatype type;
@@ -277,8 +278,8 @@ static struct error *share_error(const struct ranks *ranks, int first, struct er
     return error_known_to_all(error);
 }
 
-/* The largest VALUE, which others may only have once they have written files: after a millisecond, who waits leaves its
- * core to them, which they need where ranks are more than cores. */
+/* The largest VALUE, which others may only have once they have written files: after a millisecond,
+ * who waits leaves its core to them, which they need where ranks are more than cores. */
 static double maximum_in_time(double value)
 {
     const double at_once = 1e-3; /* s */

@@ -1,5 +1,5 @@
-/* What is noted of the particles when rows are built or near rows are found, to judge by how long they
- * hold; see block_motion.h. */
+/* What is noted of the particles when rows are built or near rows are found, to judge by how long
+ * they hold; see block_motion.h. */
 #include <stdlib.h>
 #include <string.h>
 

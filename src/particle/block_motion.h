@@ -1,6 +1,6 @@
-/* How blocks of particles have moved since neighbour rows were built: what is noted then, and what other
- * ranks note of blocks that touch. By this neighbours_hold.c judges whether rows hold. Private to this
- * module. */
+/* How blocks of particles have moved since neighbour rows were built: what is noted then, and what
+ * other ranks note of blocks that touch. By this neighbours_hold.c judges whether rows hold.
+ * Private to this module. */
 #ifndef BOLIDE_BLOCK_MOTION_H
 #define BOLIDE_BLOCK_MOTION_H
 
@@ -43,8 +43,9 @@ struct block_motion {
     struct mirrors mirrors; /* of the build */
     bool periodic;          /* along an axis of them */
     uint8_t *group_of;      /* group of each particle within its block */
-    /* What the motion up to the finding of near rows has taken of the room that those have who are no neighbours: the
-     * approach of blocks that touch, of others, and the negative of the distance left from a wall. */
+    /* What the motion up to the finding of near rows has taken of the room that those have who are
+     * no neighbours: the approach of blocks that touch, of others, and the negative of the distance
+     * left from a wall. */
     double taken_approach, taken_apart, taken_wall;
     double
         taken_seam; /* and the distance left between particles that do not see each other across periodic faces */
@@ -62,16 +63,16 @@ BOLIDE_INLINE double block_edge(const struct particles *p)
 
 struct error *motion_out_of_memory(void);
 
-/* The key of the block at offset K, 0 .. TOUCHING_MAX - 1, of the one at OWN; false for an offset that the dimension
- * does not have. And the order of a key and a thing that begins with one. */
+/* The key of the block at offset K, 0 .. TOUCHING_MAX - 1, of the one at OWN; false for an offset
+ * that the dimension does not have. And the order of a key and a thing that begins with one. */
 bool motion_key_beside(int dimension, const int64_t own[3], int k, uint64_t *key);
 int motion_compare_key(const void *key, const void *far);
 
 /* The index of the block of KEY, those of other ranks behind ours; -1: there is none. */
 int32_t motion_block_of(const struct block_motion *motion, const struct particles *p, uint64_t key);
 
-/* The blocks from LOW to HIGH may touch image IMAGE, SHIFT away, of the block at OWN. False where the block lies far from
- * the periodic faces that the image is of, and where it is of walls. */
+/* The blocks from LOW to HIGH may touch image IMAGE, SHIFT away, of the block at OWN. False where
+ * the block lies far from the periodic faces that the image is of, and where it is of walls. */
 bool motion_blocks_across(const struct particles *p, struct near_walls walls, const int64_t own[3],
                           image_code image, int64_t low[3], int64_t high[3], double shift[3]);
 
@@ -79,14 +80,14 @@ bool motion_blocks_across(const struct particles *p, struct near_walls walls, co
 struct error *motion_list_seams(struct block_motion *motion, const struct particles *p,
                                 struct near_walls walls);
 
-/* Collective: plans the exchange of blocks that touch those of other ranks, and learns the keys of those that come; and
- * brings how these have moved behind ours. */
+/* Collective: plans the exchange of blocks that touch those of other ranks, and learns the keys of
+ * those that come; and brings how these have moved behind ours. */
 struct error *motion_meet(struct block_motion *motion, const struct particles *p,
                           struct near_walls walls, const struct halo *halo);
 void motion_meet_again(struct block_motion *motion, const struct particles *p);
 
-/* Collective: takes down places and reaches at the time of building; images were planned near WALLS, the
- * blocks of all ranks are those of HALO. */
+/* Collective: takes down places and reaches at the time of building; images were planned near
+ * WALLS, the blocks of all ranks are those of HALO. */
 struct error *motion_start(struct neighbours *neighbours, const struct particles *particles,
                            struct reach reach, struct near_walls walls, const struct halo *halo,
                            int threads);

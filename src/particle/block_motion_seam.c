@@ -1,5 +1,6 @@
-/* What touches across periodic faces. Blocks lie on a grid that does not repeat with the period: the
- * image of one touches up to four others along the axis, and so do groups; see block_motion.h. */
+/* What touches across periodic faces. Blocks lie on a grid that does not repeat with the period:
+ * the image of one touches up to four others along the axis, and so do groups; see
+ * block_motion.h. */
 #include <stdlib.h>
 
 #include "base/memory.h"

@@ -1,4 +1,6 @@
-/* Levels of cells; see cells.h. A level's edge is at least the sum of the reaches of two of its points, so that points of one level are found in adjacent cells; between levels the range is the mean of the two edges. */
+/* Levels of cells; see cells.h. A level's edge is at least the sum of the reaches of two of its
+ * points, so that points of one level are found in adjacent cells; between levels the range is the
+ * mean of the two edges. */
 #include "particle/cells.h"
 
 #include "parallel/block.h"
@@ -53,7 +55,8 @@ static int32_t find_cell(const struct cells *cells, uint64_t key)
     }
 }
 
-/* Where a cell ends up among those of like slot depends on who comes first, what is found there does not. */
+/* Where a cell ends up among those of like slot depends on who comes first, what is found there
+ * does not. */
 static void index_cells(struct cells *cells, int threads)
 {
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -94,7 +97,8 @@ static uint64_t key_of_point(const struct cells *cells, const struct cell_point 
     return key_of(cells, level, at);
 }
 
-/* Of the sort. The cells come to stand in its spare room, the slots in that of the entries, once these have been used. */
+/* Of the sort. The cells come to stand in its spare room, the slots in that of the entries, once
+ * these have been used. */
 enum { SLOTS_LEAST = 64 };
 static size_t room_for(int32_t count)
 {
@@ -143,7 +147,8 @@ int cell_level(const struct cells *cells, int32_t cell)
     return level_of_key(cells, cells->cell[cell].key);
 }
 
-/* The range of cells of level OTHER that lie within range of a cell AT of LEVEL. Returns their number. */
+/* The range of cells of level OTHER that lie within range of a cell AT of LEVEL. Returns their
+ * number. */
 static double range_of(const struct cells *cells, int level, const int64_t at[3], int other,
                        int64_t low[3], int64_t high[3])
 {
@@ -161,7 +166,8 @@ static double range_of(const struct cells *cells, int level, const int64_t at[3]
             low[axis] = cell_index((double)at[axis] * own - range, edge, limit);
             high[axis] = cell_index((double)(at[axis] + 1) * own + range, edge, limit);
         }
-        /* What lies beyond the countable cells sits in the outermost ones, which have no outer end. */
+        /* What lies beyond the countable cells sits in the outermost ones, which have no outer
+         * end. */
         low[axis] = low[axis] < -limit || at[axis] == -limit ? -limit : low[axis];
         high[axis] = high[axis] >= limit || at[axis] == limit - 1 ? limit - 1 : high[axis];
         number *= (double)(high[axis] - low[axis] + 1);

@@ -1,5 +1,5 @@
-/* Cells for a neighbour search among points of very different reach: levels of cells whose edges are powers of
- * two apart, only occupied cells kept, found by hashing. */
+/* Cells for a neighbour search among points of very different reach: levels of cells whose edges
+ * are powers of two apart, only occupied cells kept, found by hashing. */
 #ifndef BOLIDE_CELLS_H
 #define BOLIDE_CELLS_H
 
@@ -39,7 +39,8 @@ struct cell_points {
 };
 
 /* Makes the cells of POINTS with THREADS threads. EDGE is the cell edge of level zero. Points are
- * neighbours when nearer than the sum of their reaches. The cells stand in parts of SCRATCH, of cells_bytes() together. */
+ * neighbours when nearer than the sum of their reaches. The cells stand in parts of SCRATCH, of
+ * cells_bytes() together. */
 void cells_make(struct cells *cells, int dimension, double edge, struct cell_points points,
                 struct scratch *scratch, int threads);
 size_t cells_bytes(int32_t count);

@@ -59,8 +59,8 @@ static void unpack(struct particles *p, int32_t i, const char *in)
     }
 }
 
-/* The particles that leave, and where they go. `sent` are gone, and what comes has taken the places of `filled` of
- * them. */
+/* The particles that leave, and where they go. `sent` are gone, and what comes has taken the places
+ * of `filled` of them. */
 struct leaving {
     int64_t capacity;
     int32_t count, sent, filled;

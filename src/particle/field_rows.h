@@ -1,6 +1,7 @@
-/* The fields that a solver adds to the store, one row each: what the field is, when the store has it,
- * how many components it has, and where its pointer goes. Declaring, binding and help are loops over
- * these rows, and bytes are counted from what they declare; nothing else says when a field exists. */
+/* The fields that a solver adds to the store, one row each: what the field is, when the store has
+ * it, how many components it has, and where its pointer goes. Declaring, binding and help are loops
+ * over these rows, and bytes are counted from what they declare; nothing else says when a field
+ * exists. */
 #ifndef BOLIDE_FIELD_ROWS_H
 #define BOLIDE_FIELD_ROWS_H
 
@@ -23,8 +24,8 @@ struct field_row {
         .when = 0      \
     }
 
-/* What the rows depend on in a run: bits of conditions, and numbers of components by index; those of
- * index 0 are not used. SIZE may be NULL where no row asks for one. */
+/* What the rows depend on in a run: bits of conditions, and numbers of components by index; those
+ * of index 0 are not used. SIZE may be NULL where no row asks for one. */
 struct field_needs {
     unsigned conditions;
     const int *size;
@@ -34,8 +35,8 @@ struct field_needs {
 int field_rows_declare(const struct field_row *rows, const struct field_needs *needs,
                        struct field_declaration *fields);
 
-/* Points the members of POINTERS at the fields of PARTICLES; those of fields that do not exist become
- * NULL. The pointers hold until the next append or commit. */
+/* Points the members of POINTERS at the fields of PARTICLES; those of fields that do not exist
+ * become NULL. The pointers hold until the next append or commit. */
 void field_rows_bind(const struct field_row *rows, const struct field_needs *needs,
                      const struct particles *particles, void *pointers);
 

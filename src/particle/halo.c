@@ -37,8 +37,8 @@ static void include(struct region *region, const double low[3], const double hig
     region->reach = maximum(region->reach, reach);
 }
 
-/* The gap along AXIS between a region and what lies between LOW and HIGH, at the nearest of the places
- * where it repeats. */
+/* The gap along AXIS between a region and what lies between LOW and HIGH, at the nearest of the
+ * places where it repeats. */
 static double gap_along(const struct region *region, const struct mirrors *mirrors, int axis,
                         double low, double high)
 {

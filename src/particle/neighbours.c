@@ -1,5 +1,5 @@
-/* Building neighbour rows; see neighbours.h. A row is ordered by keys, part (2 bits) | rank of (id, image) (30), and
- * keeps entries, part | record. */
+/* Building neighbour rows; see neighbours.h. A row is ordered by keys, part (2 bits) | rank of (id,
+ * image) (30), and keeps entries, part | record. */
 #include "particle/neighbours.h"
 
 #include <omp.h>
@@ -13,8 +13,8 @@
 #include "particle/halo.h"
 #include "particle/row_kernel.h"
 
-/* Images are planned this far from a wall, in supports of the largest reach, so that the plan outlives
- * the rows of most runs. */
+/* Images are planned this far from a wall, in supports of the largest reach, so that the plan
+ * outlives the rows of most runs. */
 static const double plan_margin = 1.5;
 
 /* What a build needs for a while. */
@@ -201,7 +201,8 @@ static void mark_laws(const struct contact_groups *groups, struct workspace *w, 
     }
 }
 
-/* realloc moves the pages of a large array instead of copying them: rows are the largest array of a run. */
+/* realloc moves the pages of a large array instead of copying them: rows are the largest array of a
+ * run. */
 static bool segment_reserve(struct segment *segment, int64_t needed)
 {
     if (needed <= segment->capacity)

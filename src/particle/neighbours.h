@@ -1,13 +1,14 @@
-/* Neighbour rows: for each particle the particles and images that may come within its support before
- * the rows are built again.
+/* Neighbour rows: for each particle the particles and images that may come within its support
+ * before the rows are built again.
  *
- * The support of a pair is the sum of the two particles' reaches, reach = smoothing * diameter. A row
- * holds every neighbour nearer than that sum times (1 + skin), sorted by (part, id, image), so that what a
- * pair loop adds up, and in which order, does not depend on storage, on the age of the rows or on the skin,
- * once the loop has dropped those out of support.
+ * The support of a pair is the sum of the two particles' reaches, reach = smoothing * diameter. A
+ * row holds every neighbour nearer than that sum times (1 + skin), sorted by (part, id, image), so
+ * that what a pair loop adds up, and in which order, does not depend on storage, on the age of the
+ * rows or on the skin, once the loop has dropped those out of support.
  *
- * Most of a row is skin. So near rows are kept beside the rows, of the entries nearer than (1 + near skin) times the
- * support, in the same order: found from the rows, which is cheap, whenever they no longer hold, and walked instead. */
+ * Most of a row is skin. So near rows are kept beside the rows, of the entries nearer than (1 +
+ * near skin) times the support, in the same order: found from the rows, which is cheap, whenever
+ * they no longer hold, and walked instead. */
 #ifndef BOLIDE_NEIGHBOURS_H
 #define BOLIDE_NEIGHBOURS_H
 
@@ -15,8 +16,8 @@
 #include "particle/contact_law.h"
 #include "particle/particles.h"
 
-/* The two top bits of a row's entry say which part of the row it belongs to, the others which record: an
- * owned particle below count, a ghost above. */
+/* The two top bits of a row's entry say which part of the row it belongs to, the others which
+ * record: an owned particle below count, a ghost above. */
 enum { ENTRY_PART_SHIFT = 30 };
 #define ENTRY_INDEX 0x3fffffffu
 enum entry_part {
@@ -73,7 +74,8 @@ struct neighbours {
     double (*origin)[3], *origin_reach;
     struct block_motion *motion;
 
-    /* The same for the near rows; and these, those of a block one behind the other in the room of its rows. */
+    /* The same for the near rows; and these, those of a block one behind the other in the room of
+     * its rows. */
     int64_t near_reference_capacity, near_row_capacity, near_capacity, near_block_capacity;
     double (*near_origin)[3], *near_reach;
     struct near_row *near_row;
@@ -87,15 +89,15 @@ struct reach {
     double smoothing; /* reach = smoothing * diameter */
 };
 
-/* Collective: builds all rows and the plan of ghosts, with THREADS threads, in the scratch of the store, which must be
- * distributed. */
+/* Collective: builds all rows and the plan of ghosts, with THREADS threads, in the scratch of the
+ * store, which must be distributed. */
 struct error *neighbours_build(struct neighbours *neighbours, struct particles *particles,
                                struct reach reach, const struct mirrors *mirrors,
                                const struct contact_groups *groups, int threads);
 
-/* Collective: true while every pair within support is certain to be in the rows: judged block by block from the motion
- * of neighbouring blocks against each other, so that common motion costs nothing. Where it is the near rows that no
- * longer hold, asks for new ones (`prune`). */
+/* Collective: true while every pair within support is certain to be in the rows: judged block by
+ * block from the motion of neighbouring blocks against each other, so that common motion costs
+ * nothing. Where it is the near rows that no longer hold, asks for new ones (`prune`). */
 bool neighbours_hold(struct neighbours *neighbours, const struct particles *particles,
                      struct reach reach, int threads);
 

@@ -1,12 +1,14 @@
-/* Do the rows still hold every pair within support? A pair was listed when its distance at building was below
- * (1 + skin) times its support; it may have come into support since only if the two have approached each other, or
- * their supports have grown, by more than the difference. Motion is judged by groups, the cubes of two cells that a
- * block falls into: a group's mean displacement, the spread about it, the growth of reach. Groups that touch are
- * compared pair by pair, also with each other's images behind walls and periodic faces; groups that do not touch have an edge of a group
- * between them to eat up first, which is judged by their blocks, and blocks that do not touch have an edge of a block.
+/* Do the rows still hold every pair within support? A pair was listed when its distance at building
+ * was below (1 + skin) times its support; it may have come into support since only if the two have
+ * approached each other, or their supports have grown, by more than the difference. Motion is
+ * judged by groups, the cubes of two cells that a block falls into: a group's mean displacement,
+ * the spread about it, the growth of reach. Groups that touch are compared pair by pair, also with
+ * each other's images behind walls and periodic faces; groups that do not touch have an edge of a
+ * group between them to eat up first, which is judged by their blocks, and blocks that do not touch
+ * have an edge of a block.
  *
- * Near rows are judged alike by the motion since they were found. For them the rows must have held all pairs within (1 +
- * near skin) times the support at that moment. */
+ * Near rows are judged alike by the motion since they were found. For them the rows must have held
+ * all pairs within (1 + near skin) times the support at that moment. */
 #include "parallel/periodic.h"
 #include "particle/block_motion.h"
 
@@ -33,8 +35,8 @@ static void take_box(struct moved *m, const struct box *box)
     m->spread = sqrt(spread);
 }
 
-/* What is judged: whether the rows hold all pairs within MARGIN times their support, or whether near rows hold those
- * within support. */
+/* What is judged: whether the rows hold all pairs within MARGIN times their support, or whether
+ * near rows hold those within support. */
 struct question {
     bool near;
     double margin,
@@ -54,8 +56,8 @@ static struct question of_near_rows(const struct neighbours *n)
                              n->near_reach};
 }
 
-/* Brings the motion of the groups of a block up to date, and their boxes. PERIODIC: along an axis; a
- * constant where this is inlined. */
+/* Brings the motion of the groups of a block up to date, and their boxes. PERIODIC: along an axis;
+ * a constant where this is inlined. */
 BOLIDE_INLINE void follow_groups(struct neighbours *n, const struct particles *p,
                                  struct reach reach, const struct question *question, bool periodic,
                                  int32_t b, struct box *box)
@@ -109,7 +111,8 @@ static void follow_block(struct neighbours *n, const struct particles *p, struct
     take_box(block, &whole);
 }
 
-/* Approach of A to B, whose motion is reflected on the axes of bit mask MIRRORED, and growth of both. */
+/* Approach of A to B, whose motion is reflected on the axes of bit mask MIRRORED, and growth of
+ * both. */
 static double approach(const struct moved *a, const struct moved *b, unsigned mirrored)
 {
     double sum = 0.0;
@@ -193,8 +196,8 @@ enum {
 
 static void raise_to(double *most, double value) { *most = maximum(*most, value); }
 
-/* Block B against the blocks that touch it, itself included. Where groups are judged, what blocks may approach by is
- * the room that groups which do not touch have between them. */
+/* Block B against the blocks that touch it, itself included. Where groups are judged, what blocks
+ * may approach by is the room that groups which do not touch have between them. */
 static void judge_touching(const struct neighbours *n, const struct question *question,
                            int dimension, int32_t b, double *most)
 {

@@ -127,7 +127,8 @@ struct error *particles_commit(struct particles *particles)
     return particles_sort(particles);
 }
 
-/* The number of all ranks' particles, and with it room for this rank's share of those that are loaded. */
+/* The number of all ranks' particles, and with it room for this rank's share of those that are
+ * loaded. */
 static struct error *visit_count(struct particles *particles, struct visitor *visitor)
 {
     const struct ranks *ranks = particles->ranks;

@@ -1,9 +1,10 @@
-/* The particle store: every field of the particles that a rank owns, one array each, sorted by block.
+/* The particle store: every field of the particles that a rank owns, one array each, sorted by
+ * block.
  *
  * Fields are declared in tables: the core's here, a solver's by the solver. Allocation, sorting,
- * checkpoints and snapshots are loops over them. Positions and vectors have three components in every
- * dimension, symmetric tensors six (xx, yy, zz, xy, yz, zx). Only owned particles are here; images
- * behind mirror walls exist as the solver's records alone (neighbours.h). */
+ * checkpoints and snapshots are loops over them. Positions and vectors have three components in
+ * every dimension, symmetric tensors six (xx, yy, zz, xy, yz, zx). Only owned particles are here;
+ * images behind mirror walls exist as the solver's records alone (neighbours.h). */
 #ifndef BOLIDE_PARTICLES_H
 #define BOLIDE_PARTICLES_H
 
@@ -61,17 +62,18 @@ BOLIDE_INLINE void particle_keep_history(const struct particles *particles, int3
             particles->history[slot][i] = history[slot];
 }
 
-/* An empty store of a run in DIMENSION dimensions, with the core's fields and COUNT more. CELL is the
- * edge of a grid cell in metres. */
+/* An empty store of a run in DIMENSION dimensions, with the core's fields and COUNT more. CELL is
+ * the edge of a grid cell in metres. */
 struct error *particles_create(int dimension, double cell, const struct field_declaration *more,
                                int count, struct particles *particles);
 void particles_destroy(struct particles *particles);
 
-/* The data of field NAME; the field must exist. The pointer holds until the next append or commit. */
+/* The data of field NAME; the field must exist. The pointer holds until the next append or
+ * commit. */
 void *particles_field(const struct particles *particles, const char *name);
 
-/* Makes room for COUNT new particles behind the old; *first is the index of the first. They are zeroed, and
- * count as particles from the next commit on. */
+/* Makes room for COUNT new particles behind the old; *first is the index of the first. They are
+ * zeroed, and count as particles from the next commit on. */
 struct error *particles_append(struct particles *particles, int32_t count, int32_t *first);
 
 /* Marks a particle for deletion at the next commit. */
@@ -80,8 +82,8 @@ void particles_delete(struct particles *particles, int32_t index);
 /* Takes appended particles in and deleted ones out, then sorts. */
 struct error *particles_commit(struct particles *particles);
 
-/* Sorts all fields by (block, material, cell, id) and finds the blocks anew. A block is a cube of 64 cells
- * (64, 8 x 8, 4 x 4 x 4) of the global grid, whose origin is the origin of space. */
+/* Sorts all fields by (block, material, cell, id) and finds the blocks anew. A block is a cube of
+ * 64 cells (64, 8 x 8, 4 x 4 x 4) of the global grid, whose origin is the origin of space. */
 struct error *particles_sort(struct particles *particles);
 
 /* What that needs for a while, bytes a particle of the scratch. */
@@ -91,8 +93,9 @@ size_t particles_sort_bytes(void);
 struct error *particles_arrange(struct particles *particles, const int32_t *list,
                                 const struct block *block, int32_t blocks);
 
-/* Collective: moves every particle to the rank that owns its block, then sorts. Where the ranks' work
- * since the cut differs by too much, and with RECUT in any case, the blocks are divided anew. */
+/* Collective: moves every particle to the rank that owns its block, then sorts. Where the ranks'
+ * work since the cut differs by too much, and with RECUT in any case, the blocks are divided
+ * anew. */
 struct error *particles_distribute(struct particles *particles, bool recut);
 
 /* The key of the block that X lies in. */

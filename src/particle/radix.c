@@ -1,5 +1,6 @@
-/* Least significant digit first, eleven bits a digit; see radix.h. Each thread counts and moves a part of the entries of
- * its own: of one digit, those of the first part come first, so that their order is kept. */
+/* Least significant digit first, eleven bits a digit; see radix.h. Each thread counts and moves a
+ * part of the entries of its own: of one digit, those of the first part come first, so that their
+ * order is kept. */
 #include "particle/radix.h"
 
 #include <omp.h>

@@ -9,9 +9,9 @@ struct keyed {
     int32_t index;
 };
 
-/* Sorts COUNT entries by key with THREADS threads; entries of one key keep their order, so that the result does not
- * depend on the number of threads. SCRATCH has room for COUNT more. Passes over digits that are alike in all keys are
- * skipped. */
+/* Sorts COUNT entries by key with THREADS threads; entries of one key keep their order, so that the
+ * result does not depend on the number of threads. SCRATCH has room for COUNT more. Passes over
+ * digits that are alike in all keys are skipped. */
 void radix_sort(struct keyed *entry, struct keyed *scratch, int64_t count, int threads);
 
 /* Entries first .. first + count - 1, which have one key. */
@@ -20,7 +20,8 @@ struct key_run {
     int32_t first, count;
 };
 
-/* Writes the runs of equal keys of COUNT entries, in their order, and returns how many. RUN has room for COUNT. */
+/* Writes the runs of equal keys of COUNT entries, in their order, and returns how many. RUN has
+ * room for COUNT. */
 int32_t radix_runs(const struct keyed *entry, int32_t count, int threads, struct key_run *run);
 
 #endif

@@ -1,4 +1,5 @@
-/* The search for the neighbours of one point; see row_kernel.h. It compiles as CUDA device code too. */
+/* The search for the neighbours of one point; see row_kernel.h. It compiles as CUDA device code
+ * too. */
 #ifndef BOLIDE_PARTICLE_ROW_BODY_H
 #define BOLIDE_PARTICLE_ROW_BODY_H
 
@@ -23,8 +24,8 @@ BOLIDE_INLINE int32_t row_keep(const struct candidates *c, const struct row_poin
     return kept;
 }
 
-/* Writes the entries to ROW in the order of their keys. Each one's place is the number of keys below
- * its own: for rows of some dozens that is faster than any exchange. KEY has room for
+/* Writes the entries to ROW in the order of their keys. Each one's place is the number of keys
+ * below its own: for rows of some dozens that is faster than any exchange. KEY has room for
  * CANDIDATES_STEP more. */
 BOLIDE_INLINE void row_order(uint32_t *key, const uint32_t *entry, int32_t count, uint32_t *row)
 {

@@ -1,5 +1,5 @@
-/* The order of storage: blocks by key, in them materials, cells and ids. No result depends on it; locality
- * and batches of one material do. */
+/* The order of storage: blocks by key, in them materials, cells and ids. No result depends on it;
+ * locality and batches of one material do. */
 #include <omp.h>
 #include <string.h>
 
@@ -42,8 +42,8 @@ uint64_t particles_block_key(const struct particles *particles, const double x[3
     return locate(particles, x, &cell);
 }
 
-/* Finds the keys of the blocks. Neighbours in storage were in one block when they were sorted last, so that there are few
- * runs of equal keys to sort. */
+/* Finds the keys of the blocks. Neighbours in storage were in one block when they were sorted last,
+ * so that there are few runs of equal keys to sort. */
 static struct error *find_blocks(struct particles *p, struct sorting *s)
 {
 #pragma omp parallel for schedule(static) num_threads(*p->threads)
@@ -122,8 +122,8 @@ static void order_by_id(struct keyed *entry, int64_t count, const uint64_t *id)
     }
 }
 
-/* Finds where each block's entries begin, and brings them into their order; returns whether any particle has a new
- * place. */
+/* Finds where each block's entries begin, and brings them into their order; returns whether any
+ * particle has a new place. */
 static bool fill_blocks(struct particles *p, struct keyed *entry)
 {
     bool moved = false;
@@ -142,8 +142,8 @@ static bool fill_blocks(struct particles *p, struct keyed *entry)
     return moved;
 }
 
-/* Gathers BYTES of each of COUNT particles, which become those at TO, in the order of their entries; and
- * puts those of particles BEGIN .. END - 1 back. */
+/* Gathers BYTES of each of COUNT particles, which become those at TO, in the order of their
+ * entries; and puts those of particles BEGIN .. END - 1 back. */
 BOLIDE_INLINE void gather(char *to, const char *from, size_t stride, size_t bytes,
                           const struct keyed *entry, int32_t count)
 {

@@ -194,7 +194,8 @@ double axis_place(const struct axis *axis, double value)
     return axis->start + part * (axis->end - axis->start);
 }
 
-/* Whether the tick texts keep a distance: side by side on a horizontal axis, one above the other else. */
+/* Whether the tick texts keep a distance: side by side on a horizontal axis, one above the other
+ * else. */
 static bool ticks_fit(const struct axis *axis, const struct canvas *canvas, bool horizontal)
 {
     double last = -INFINITY;

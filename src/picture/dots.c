@@ -1,5 +1,5 @@
-/* Painting dots on all ranks; see dots.h. A rank gets the dots that touch its rows; rows are dealt so that all
- * ranks have about as many dots. */
+/* Painting dots on all ranks; see dots.h. A rank gets the dots that touch its rows; rows are dealt
+ * so that all ranks have about as many dots. */
 #include "picture/dots.h"
 
 #include <stdlib.h>
@@ -9,8 +9,9 @@
 #include "parallel/exchange.h"
 #include "particle/radix.h"
 
-/* Diameters of squares and discs over those of the particles. Small particles of one body should read as a solid: squares
- * behind them fill the gaps, which a lattice of discs has at its corners, and wherever it is compressed along one axis. */
+/* Diameters of squares and discs over those of the particles. Small particles of one body should
+ * read as a solid: squares behind them fill the gaps, which a lattice of discs has at its corners,
+ * and wherever it is compressed along one axis. */
 static const double square_factor = 1.3, disc_factor = 1.05;
 
 /* Cells touch; their places are rounded to floats. */
@@ -35,7 +36,8 @@ static struct rows rows_of(const struct viewport *viewport, const struct dot *do
                          1 + (int)minimum(maximum(floor(y + reach), viewport->top), last)};
 }
 
-/* Deals the rows of EASEL: rank r gets those from cut[r] to cut[r + 1] - 1. COUNT has room for a number a row. */
+/* Deals the rows of EASEL: rank r gets those from cut[r] to cut[r + 1] - 1. COUNT has room for a
+ * number a row. */
 static void deal_rows(const struct ranks *ranks, const struct dots *dots,
                       const struct viewport *viewport, int64_t *count, int *cut)
 {

@@ -1,4 +1,5 @@
-/* Particles as dots of a picture, painted by all ranks: each paints some rows of pixels. Private to the pictures. */
+/* Particles as dots of a picture, painted by all ranks: each paints some rows of pixels. Private to
+ * the pictures. */
 #ifndef BOLIDE_PICTURE_DOTS_H
 #define BOLIDE_PICTURE_DOTS_H
 
@@ -38,8 +39,9 @@ struct dots {
 /* The dots of this rank's particles. Free dots->dot also after an error. */
 struct error *dots_take(const struct shown *shown, const struct plane *plane, struct dots *dots);
 
-/* What is painted upon: columns left .. right - 1 and rows top .. bottom - 1 of pixels, the middle of the extents at (x, y)
- * and SCALE pixels a metre. Small particles are painted as squares, too. */
+/* What is painted upon: columns left .. right - 1 and rows top .. bottom - 1 of pixels, the middle
+ * of the extents at (x, y) and SCALE pixels a metre. Small particles are painted as squares,
+ * too. */
 struct viewport {
     int left, right, top, bottom;
     double x, y, scale;
@@ -48,9 +50,9 @@ struct viewport {
     const struct colour_scale *colours; /* NULL: values are categories */
 };
 
-/* Collective: paints the dots of all ranks over each other, what lies deeper first, of equal depth the lower id, so that
- * the picture is the same however they are stored. Rank 0 gets the rows, right pixels each, in fresh memory at *image;
- * the others NULL. DOTS lose their order. */
+/* Collective: paints the dots of all ranks over each other, what lies deeper first, of equal depth
+ * the lower id, so that the picture is the same however they are stored. Rank 0 gets the rows,
+ * right pixels each, in fresh memory at *image; the others NULL. DOTS lose their order. */
 struct error *dots_paint(const struct ranks *ranks, struct dots *dots,
                          const struct viewport *viewport, uint32_t **image);
 

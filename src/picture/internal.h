@@ -1,5 +1,5 @@
-/* What the pictures share: a canvas, text, axes and legends, drawn by Cairo. Lengths are points; a point
- * is PIXELS_PER_POINT pixels, y runs downwards. */
+/* What the pictures share: a canvas, text, axes and legends, drawn by Cairo. Lengths are points; a
+ * point is PIXELS_PER_POINT pixels, y runs downwards. */
 #ifndef BOLIDE_PICTURE_INTERNAL_H
 #define BOLIDE_PICTURE_INTERNAL_H
 
@@ -27,8 +27,8 @@ struct error *canvas_publish(const struct canvas *canvas, const char *path);
 
 enum text_style { TEXT_TITLE, TEXT_NOTE, TEXT_LABEL, TEXT_TICK };
 
-/* Where a text goes: its base line at y; ALONG says which part of it is at x: 0 its start, 0.5 its middle, 1
- * its end. What is wider than ROOM is made smaller, then cut. */
+/* Where a text goes: its base line at y; ALONG says which part of it is at x: 0 its start, 0.5 its
+ * middle, 1 its end. What is wider than ROOM is made smaller, then cut. */
 struct text_place {
     double x, y, along, room;
 };
@@ -38,7 +38,8 @@ double canvas_text_width(const struct canvas *canvas, enum text_style style, con
 
 void canvas_colour(const struct canvas *canvas, struct colour colour);
 
-/* Title and note at the top, from LEFT on; NULL leaves one out. Returns the height that they take. */
+/* Title and note at the top, from LEFT on; NULL leaves one out. Returns the height that they
+ * take. */
 double canvas_header(const struct canvas *canvas, double left, const char *title, const char *note);
 
 /* One axis: RANGE (SI units) lies between the points START and END. */
@@ -51,7 +52,8 @@ struct axis {
     struct ticks ticks;
 };
 
-/* Names AXIS "NAME (multiple of UNIT)", the multiple fit for MAGNITUDE; a logarithmic axis keeps UNIT. */
+/* Names AXIS "NAME (multiple of UNIT)", the multiple fit for MAGNITUDE; a logarithmic axis keeps
+ * UNIT. */
 void axis_name(struct axis *axis, const char *name, const char *unit, double magnitude);
 
 /* Finds as many ticks as fit between start and end without touching. */
@@ -67,8 +69,8 @@ void axes_frame(const struct canvas *canvas, const struct axis *x, const struct 
 /* Ticks of a horizontal axis below y, with its label. */
 void axis_draw_below(const struct canvas *canvas, const struct axis *axis, double y);
 
-/* The pixels of an image that may be painted: columns left .. right - 1, rows top .. bottom - 1; the data begin with
- * FIRST_ROW. */
+/* The pixels of an image that may be painted: columns left .. right - 1, rows top .. bottom - 1;
+ * the data begin with FIRST_ROW. */
 struct pixels {
     uint32_t *data;
     int64_t stride; /* in pixels */
@@ -76,8 +78,8 @@ struct pixels {
     int left, right, top, bottom;
 };
 
-/* Paint a square (edges rounded to pixels, one at least), or a disc with a smooth rim (a square, where it
- * would be no more than a few pixels), about (x, y) in pixels. */
+/* Paint a square (edges rounded to pixels, one at least), or a disc with a smooth rim (a square,
+ * where it would be no more than a few pixels), about (x, y) in pixels. */
 typedef void paint_function(const struct pixels *pixels, double x, double y, double diameter,
                             struct colour colour);
 paint_function paint_square, paint_disc;

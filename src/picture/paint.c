@@ -1,5 +1,5 @@
-/* Painting particles straight into the pixels of an image: a vector drawing of a million particles takes
- * minutes. */
+/* Painting particles straight into the pixels of an image: a vector drawing of a million particles
+ * takes minutes. */
 #include "picture/internal.h"
 
 static uint32_t pack(struct colour colour)

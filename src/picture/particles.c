@@ -1,5 +1,5 @@
-/* Pictures of particles coloured by a field: what is in the picture, how it fills the page, and what stands
- * around the particles. */
+/* Pictures of particles coloured by a field: what is in the picture, how it fills the page, and
+ * what stands around the particles. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -238,8 +238,8 @@ static void draw_page(const struct canvas *canvas, struct page *page, const stru
         canvas_text(canvas, TEXT_NOTE, middle, "no particles");
 }
 
-/* How tall the header is, with the legend of a page of WIDTH; needed before there is a canvas of the right
- * height. */
+/* How tall the header is, with the legend of a page of WIDTH; needed before there is a canvas of
+ * the right height. */
 static struct error *measure_head(const struct surroundings *around, double width, double *head)
 {
     struct canvas probe;

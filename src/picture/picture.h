@@ -5,14 +5,15 @@
 #include "model/columns.h"
 #include "model/simulation.h"
 
-/* Collective: the particles of all ranks coloured by FIELD ("pressure", "velocity.x") with axes in a readable unit
- * (mm, µm), colour scale with unit, title, time and outline-free discs of the particle's diameter. In 3-D the
- * particles in the slab about the middle plane (of the smallest extent) are drawn; in 1-D it is a plot of FIELD over x.
- * The picture has the same bits on any number of ranks, however the particles are stored. Rank 0 writes it.
- * FIELD may be "material" or "body" too: one colour each, with a legend of their names.
- * LOW and HIGH fix the colour scale (in 1-D the y axis); NAN: the field's own range. A particle at a place
- * that is not finite is left out, one whose value is NaN is grey. ERROR_INPUT when FIELD is unknown or
- * has several components, ERROR_SYSTEM when PATH cannot be written; then PATH is as it was. */
+/* Collective: the particles of all ranks coloured by FIELD ("pressure", "velocity.x") with axes in
+ * a readable unit (mm, µm), colour scale with unit, title, time and outline-free discs of the
+ * particle's diameter. In 3-D the particles in the slab about the middle plane (of the smallest
+ * extent) are drawn; in 1-D it is a plot of FIELD over x. The picture has the same bits on any
+ * number of ranks, however the particles are stored. Rank 0 writes it. FIELD may be "material" or
+ * "body" too: one colour each, with a legend of their names. LOW and HIGH fix the colour scale (in
+ * 1-D the y axis); NAN: the field's own range. A particle at a place that is not finite is left
+ * out, one whose value is NaN is grey. ERROR_INPUT when FIELD is unknown or has several components,
+ * ERROR_SYSTEM when PATH cannot be written; then PATH is as it was. */
 struct error *picture_particles(const char *path, const struct simulation *simulation,
                                 const struct population *population, const char *field, double low,
                                 double high);
@@ -21,8 +22,8 @@ struct error *picture_particles(const char *path, const struct simulation *simul
 struct error *picture_field_check(const struct simulation *simulation,
                                   const struct population *population, const char *field);
 
-/* How the points of a series are joined: not at all (they are dots), by a line, by one with a dot at each
- * point, or by a thin grey one to measure the others by. */
+/* How the points of a series are joined: not at all (they are dots), by a line, by one with a dot
+ * at each point, or by a thin grey one to measure the others by. */
 enum line_style { LINE_NONE, LINE_PLAIN, LINE_MARKED, LINE_FAINT };
 
 /* One series of a line plot. */
@@ -55,8 +56,8 @@ struct scatter {
 bool scatter_allocate(struct scatter *scatter, int64_t count);
 void scatter_free(struct scatter *scatter);
 
-/* Collective: brings the dots of all ranks to rank 0, sorted, one where several would lie on each other; the others are
- * left with none. Those that are not finite are left out. */
+/* Collective: brings the dots of all ranks to rank 0, sorted, one where several would lie on each
+ * other; the others are left with none. Those that are not finite are left out. */
 struct error *scatter_gather(const struct ranks *ranks, struct scatter *scatter);
 
 #endif

@@ -81,8 +81,8 @@ struct plane plane_find(const struct simulation *simulation, const struct popula
     return plane;
 }
 
-/* Adds particle I, unless it lies outside of the slab: its centre within 3/4 of its diameter of the middle,
- * so that a lattice shows one or two layers and never a gap. */
+/* Adds particle I, unless it lies outside of the slab: its centre within 3/4 of its diameter of the
+ * middle, so that a lattice shows one or two layers and never a gap. */
 static bool take_one(const struct population *population, const struct plane *plane, int64_t i,
                      double value, struct dots *dots)
 {

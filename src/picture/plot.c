@@ -1,4 +1,5 @@
-/* Line plots: several series over one pair of axes, lines (exact solutions) and dots (particles). */
+/* Line plots: several series over one pair of axes, lines (exact solutions) and dots
+ * (particles). */
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -52,8 +53,8 @@ static struct colour series_colour(const struct plot *plot, int index)
     return index == first_line ? grey : colour_of_category(index - (index > first_line));
 }
 
-/* A line as it is drawn: the points that fall one after the other on one column of pixels become their
- * first, lowest, highest and last, since Cairo would take minutes over a million segments. */
+/* A line as it is drawn: the points that fall one after the other on one column of pixels become
+ * their first, lowest, highest and last, since Cairo would take minutes over a million segments. */
 struct stroke {
     cairo_t *pen;
     bool down;    /* a column is begun */
@@ -121,7 +122,8 @@ static void draw_line(const struct canvas *canvas, const struct axis *x, const s
             stroke.started = false;
             continue;
         }
-        /* Cairo's coordinates end at 2^23 pixels; what leaves a fixed y axis ends far outside of it. */
+        /* Cairo's coordinates end at 2^23 pixels; what leaves a fixed y axis ends far outside of
+         * it. */
         double at_y = minimum(maximum(axis_place(y, series->y[i]), -1e5), 1e5);
         stroke_add(&stroke, axis_place(x, series->x[i]), at_y);
     }
@@ -129,7 +131,8 @@ static void draw_line(const struct canvas *canvas, const struct axis *x, const s
     cairo_stroke(canvas->pen);
 }
 
-/* Draws each dot that would not lie on another one of the series: TAKEN has a byte for every pixel. */
+/* Draws each dot that would not lie on another one of the series: TAKEN has a byte for every
+ * pixel. */
 static void draw_dots(const struct canvas *canvas, const struct axis *x, const struct axis *y,
                       const struct series *series, uint8_t *taken)
 {

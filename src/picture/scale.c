@@ -1,7 +1,7 @@
 /* The numbers behind a picture: readable multiples of units, ranges, round ticks, colour maps.
- * Colours: viridis (S. van der Walt and N. Smith) and the diverging map of K. Moreland, "Diverging color
- * maps for scientific visualization" (2009), both sampled; the categories are those of M. Okabe and
- * K. Ito. */
+ * Colours: viridis (S. van der Walt and N. Smith) and the diverging map of K. Moreland, "Diverging
+ * color maps for scientific visualization" (2009), both sampled; the categories are those of M.
+ * Okabe and K. Ito. */
 #include "picture/scale.h"
 
 #include <stdio.h>
@@ -113,7 +113,8 @@ struct range range_drawable(struct range range, bool logarithmic)
         range.low /= 2.0;
         range.high *= 2.0;
     } else {
-        /* A tenth of the value, as a readable width; the smallest normal numbers have no room below. */
+        /* A tenth of the value, as a readable width; the smallest normal numbers have no room
+         * below. */
         double half = reach > 1e-300 ? 0.05 * reach : 1.0;
         range.low -= half;
         range.high += half;

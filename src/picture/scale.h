@@ -52,8 +52,8 @@ BOLIDE_INLINE double range_reach(struct range range)
     return maximum(fabs(range.low), fabs(range.high));
 }
 
-/* A range that can be drawn: 0 .. 1 for an empty one, and a constant (but for rounding) gets room on both
- * sides. With LOGARITHMIC the range is positive already. */
+/* A range that can be drawn: 0 .. 1 for an empty one, and a constant (but for rounding) gets room
+ * on both sides. With LOGARITHMIC the range is positive already. */
 struct range range_drawable(struct range range, bool logarithmic);
 
 /* RANGE with FRACTION of its length more on both sides. */
@@ -65,8 +65,8 @@ struct ticks {
     char text[TICKS_MAX][TICK_TEXT];
 };
 
-/* Ticks at multiples of 1, 2 or 5 times a power of ten, in at most MOST intervals, written in units of
- * SCALE. */
+/* Ticks at multiples of 1, 2 or 5 times a power of ten, in at most MOST intervals, written in units
+ * of SCALE. */
 struct ticks ticks_linear(struct range range, double scale, int most);
 
 /* Ticks at powers of ten, and at 2 and 5 times them where the range is short. */
@@ -76,8 +76,8 @@ struct colour {
     double red, green, blue;
 };
 
-/* How a field's values become colours: viridis from low to high; where both signs matter, blue over grey
- * (zero) to red. */
+/* How a field's values become colours: viridis from low to high; where both signs matter, blue over
+ * grey (zero) to red. */
 struct colour_scale {
     struct range range;
     bool diverging;

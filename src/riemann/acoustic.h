@@ -1,11 +1,11 @@
-/* The contact problem between two states in the acoustic approximation: waves carry jumps of velocity and
- * stress in the ratio of the impedance Z = rho c.
+/* The contact problem between two states in the acoustic approximation: waves carry jumps of
+ * velocity and stress in the ratio of the impedance Z = rho c.
  *
  *   U* = (Z_l U_l + Z_r U_r + sigma_r - sigma_l) / (Z_l + Z_r)                       (1.20), (1.32), (1.36)
  *   sigma* = (Z_l sigma_r + Z_r sigma_l + Z_l Z_r (U_r - U_l)) / (Z_l + Z_r)         (1.21), (1.33), (1.37)
  *
- * for the component along the axis with longitudinal impedances, for those across it with shear impedances.
- * Stress is positive in tension. Source: Parshikov (2013), sections 1.2 and 1.3. */
+ * for the component along the axis with longitudinal impedances, for those across it with shear
+ * impedances. Stress is positive in tension. Source: Parshikov (2013), sections 1.2 and 1.3. */
 #ifndef BOLIDE_RIEMANN_ACOUSTIC_H
 #define BOLIDE_RIEMANN_ACOUSTIC_H
 
@@ -18,8 +18,8 @@ struct contact_weights {
     double left, right, compliance, impedance;
 };
 
-/* Two states without impedance (fluids in shear) carry no stress and meet at their mean velocity. INVERSE is that of the
- * sum where that is not zero. */
+/* Two states without impedance (fluids in shear) carry no stress and meet at their mean velocity.
+ * INVERSE is that of the sum where that is not zero. */
 BOLIDE_INLINE struct contact_weights contact_weights_of(double left, double right, double inverse)
 {
     struct contact_weights w;
@@ -37,8 +37,9 @@ BOLIDE_INLINE struct contact_weights riemann_acoustic_weights(double left, doubl
     return contact_weights_of(left, right, 1.0 / maximum(left + right, tiny));
 }
 
-/* The inverses that contact_weights_of wants for the sums of two pairs of impedances, with one division. A sum of zero
- * becomes a tiny one: were it chosen by a condition, compilers would divide once a branch. */
+/* The inverses that contact_weights_of wants for the sums of two pairs of impedances, with one
+ * division. A sum of zero becomes a tiny one: were it chosen by a condition, compilers would divide
+ * once a branch. */
 struct two_inverses {
     double first, second;
 };
@@ -53,8 +54,8 @@ BOLIDE_INLINE struct two_inverses inverses_of_sums(double left, double right, do
     return both;
 }
 
-/* The arithmetic means of the two states, which turn the contact form of the SPH equations into the standard
- * one: (1.15)-(1.17) follow from (1.24)-(1.26) by (1.22), (1.23). */
+/* The arithmetic means of the two states, which turn the contact form of the SPH equations into the
+ * standard one: (1.15)-(1.17) follow from (1.24)-(1.26) by (1.22), (1.23). */
 BOLIDE_INLINE struct contact_weights riemann_mean_weights(void)
 {
     struct contact_weights w = {0.5, 0.5, 0.0, 0.0};

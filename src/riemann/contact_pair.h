@@ -1,9 +1,9 @@
 /* The contact of two particles: what a pair of them exchanges where a Riemann problem is solved
  * along the pair, with velocity and traction split into the part along its axis and the part across
  * it. The kernel of second-order SPH calls contact_pair, that of first order its parts
- * (sph/contact/body.h). Both parts are linear in the differences between the two sides (acoustic.h);
- * the part along may be one of strong shocks instead; and a contact law may open the contact or let
- * it slip.
+ * (sph/contact/body.h). Both parts are linear in the differences between the two sides
+ * (acoustic.h); the part along may be one of strong shocks instead; and a contact law may open the
+ * contact or let it slip.
  *
  * Values may be carried to the contact first by limited slopes: the left side's by a fraction l of
  * the difference between the two, the right side's by a fraction r, so that 1 - l - r of it is left

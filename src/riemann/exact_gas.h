@@ -20,8 +20,8 @@ BOLIDE_INLINE struct contact riemann_exact_gas(struct side left, struct side rig
         contact.stress = 0.0;
         return contact;
     }
-    /* The velocities' difference is increasing and concave in p*: after one step to the left of the root,
-     * Newton's steps rise to it. */
+    /* The velocities' difference is increasing and concave in p*: after one step to the left of the
+     * root, Newton's steps rise to it. */
     double least = pl < pr ? pl : pr;
     double p = maximum(-contact.stress, 1e-6 * least);
     for (int k = 0; k < 60; k++) {

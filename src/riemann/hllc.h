@@ -1,7 +1,7 @@
-/* The contact problem of two elastic, perfectly plastic solids in three steps, each side with an elastic and, where
- * it yields, a plastic wave: elastic contact (7); deviator behind it (9), at most at yield (10), (11), and the
- * state at the elastic limit (12); contact of these by the waves that follow (13)-(15). Along the axis from left
- * to right, tension positive:
+/* The contact problem of two elastic, perfectly plastic solids in three steps, each side with an
+ * elastic and, where it yields, a plastic wave: elastic contact (7); deviator behind it (9), at
+ * most at yield (10), (11), and the state at the elastic limit (12); contact of these by the waves
+ * that follow (13)-(15). Along the axis from left to right, tension positive:
  *
  *   c_E^2 = p_rho - (sigma/rho^2) p_e + 4 mu/(3 rho)     (6a)
  *   c_P^2 = c_E^2 - 3 mu S^2/(rho Y^2)                   (6b) at yield, S = -+2Y/3: c_E^2 less 4 mu/(3 rho)
@@ -13,8 +13,8 @@
 #include "base/exponential.h"
 #include "riemann/side.h"
 
-/* One side: density, velocity, stress sigma = S - p and its deviator S along the axis, (dp/drho)_e, (dp/de)_rho,
- * shear modulus and yield stress as they stand, both zero for a fluid. SI units. */
+/* One side: density, velocity, stress sigma = S - p and its deviator S along the axis, (dp/drho)_e,
+ * (dp/de)_rho, shear modulus and yield stress as they stand, both zero for a fluid. SI units. */
 struct elastic_side {
     double density, velocity, stress, deviator, dp_drho, dp_de, shear_modulus, yield;
 };
@@ -24,7 +24,8 @@ struct elastic_wave {
     double impedance, velocity, stress;
 };
 
-/* (7), (15) by means and differences, so that equal states give themselves and a mirror mirrors, to the bit. */
+/* (7), (15) by means and differences, so that equal states give themselves and a mirror mirrors, to
+ * the bit. */
 BOLIDE_INLINE struct contact hllc_contact(struct elastic_wave left, struct elastic_wave right)
 {
     struct contact contact;
@@ -51,8 +52,8 @@ BOLIDE_INLINE struct elastic_wave hllc_elastic(struct elastic_side side)
     return wave;
 }
 
-/* How far an elastic contact takes a side: by how much the volume behind its wave changes, times Z over the volume, and
- * which way; what the deviator has left until yield there. */
+/* How far an elastic contact takes a side: by how much the volume behind its wave changes, times Z
+ * over the volume, and which way; what the deviator has left until yield there. */
 struct elastic_reach {
     double change, towards, left;
 };
@@ -68,8 +69,8 @@ BOLIDE_INLINE struct elastic_reach hllc_reach(struct elastic_side side, struct c
     return reach;
 }
 
-/* What runs into the contact behind the elastic wave: the plastic wave on a side that yields, the elastic one on the
- * others, on a fluid, and where the elastic contact would leave no volume. */
+/* What runs into the contact behind the elastic wave: the plastic wave on a side that yields, the
+ * elastic one on the others, on a fluid, and where the elastic contact would leave no volume. */
 BOLIDE_INLINE struct elastic_wave hllc_second(struct elastic_side side, struct elastic_wave elastic,
                                               struct contact contact, double way)
 {
@@ -89,8 +90,8 @@ BOLIDE_INLINE struct elastic_wave hllc_second(struct elastic_side side, struct e
     return second;
 }
 
-/* Positive unless the side is certain to stay elastic: |e^x - 1| >= |x| - x^2/2 where x goes towards yield; times
- * mu^2. */
+/* Positive unless the side is certain to stay elastic: |e^x - 1| >= |x| - x^2/2 where x goes
+ * towards yield; times mu^2. */
 BOLIDE_INLINE double hllc_doubt(struct elastic_side side, struct elastic_wave elastic,
                                 struct contact contact, double way)
 {
@@ -107,7 +108,8 @@ BOLIDE_INLINE struct contact riemann_hllc(struct elastic_side left, struct elast
     return hllc_contact(hllc_second(left, l, elastic, -1.0), hllc_second(right, r, elastic, 1.0));
 }
 
-/* What of it is certain without plastic waves: the elastic contact, and whether a side may yield: doubt > 0. */
+/* What of it is certain without plastic waves: the elastic contact, and whether a side may yield:
+ * doubt > 0. */
 struct elastic_contact {
     struct contact contact;
     double doubt;

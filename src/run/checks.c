@@ -78,7 +78,8 @@ static const struct one_of *against_of(const struct measurement *m)
     return m->check->against.choice ? &m->check->against : &m->simulation->problem->input->exact;
 }
 
-/* The solution of the problem that PREPARED is measured against, if a check before it has solved it. */
+/* The solution of the problem that PREPARED is measured against, if a check before it has solved
+ * it. */
 static const void *solved_before(const struct checks *checks, const struct prepared_check *prepared)
 {
     const void *problem = against_of(&prepared->measurement)->value;
@@ -274,7 +275,8 @@ struct error *checks_watch(const struct checks *checks, const struct check_momen
 }
 
 /* An error may grow, a distance from what is wanted too, and another value may change, by the
- * fraction or the quantity. While the record is being made, what is measured stands for what was recorded. */
+ * fraction or the quantity. While the record is being made, what is measured stands for what was
+ * recorded. */
 static void bound_change(const struct check_input *check, bool is_error,
                          struct check_result *result)
 {

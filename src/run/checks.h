@@ -1,5 +1,5 @@
-/* The checks of a case: each measures something, at its time or at the end of the run, and compares it
- * with what the case says is right. */
+/* The checks of a case: each measures something, at its time or at the end of the run, and compares
+ * it with what the case says is right. */
 #ifndef BOLIDE_CHECKS_H
 #define BOLIDE_CHECKS_H
 
@@ -51,8 +51,8 @@ struct checks;
 const char *checks_unit(const struct checks *checks, int index);
 
 /* Readies the checks of a run before its first step: finds their fields in VIEWS, looks at
- * dimensions, solves the exact problems. PROBES (NULL: none), which stay, keep what checks read. All
- * mistakes come joined in one ERROR_INPUT. */
+ * dimensions, solves the exact problems. PROBES (NULL: none), which stay, keep what checks read.
+ * All mistakes come joined in one ERROR_INPUT. */
 struct error *checks_prepare(const struct simulation *simulation,
                              const struct population *population, const struct probes *probes,
                              struct checks **result);
@@ -78,8 +78,8 @@ struct error *checks_evaluate(const struct checks *checks, const struct check_mo
  * none. Free it. */
 char *checks_picture(const struct checks *checks, int index);
 
-/* Collective: draws FOLDER/check-FIELD.png for every field that is measured against an exact solution: the
- * solution as a line, the particles as dots, over the check's axis or distance. */
+/* Collective: draws FOLDER/check-FIELD.png for every field that is measured against an exact
+ * solution: the solution as a line, the particles as dots, over the check's axis or distance. */
 struct error *checks_draw(const struct checks *checks, const struct simulation *simulation,
                           const struct population *population, const char *folder);
 

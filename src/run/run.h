@@ -30,7 +30,8 @@ struct run_options {
     /* How many times a checkpoint was asked for; the run then continues. May be NULL. */
     const volatile sig_atomic_t *checkpoints;
     const struct listener *listener; /* may be NULL */
-    /* Told of an error that this rank alone has, which nothing else can tell the others, who wait for it; NULL: nobody. */
+    /* Told of an error that this rank alone has, which nothing else can tell the others, who wait
+     * for it; NULL: nobody. */
     void (*alarm)(const struct ranks *ranks, const struct error *error);
     struct progress_pace progress;
 };

@@ -107,8 +107,9 @@ struct error *run_check_step(struct run *run);
 /* Says after the first step how many will follow if they are hopelessly many. */
 void run_warn_of_length(struct run *run);
 
-/* summary.csv at the beginning of a run; and at its end, with what went wrong (ERROR, NULL: nothing), then
- * report.html. run_report returns ERROR, joined with what went wrong in the writing. */
+/* summary.csv at the beginning of a run; and at its end, with what went wrong (ERROR, NULL:
+ * nothing), then report.html. run_report returns ERROR, joined with what went wrong in the
+ * writing. */
 struct error *run_summary_begin(const struct run *run);
 struct error *run_report(const struct run *run, struct error *error);
 

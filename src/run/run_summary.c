@@ -1,6 +1,7 @@
-/* summary.csv: what a run is and how it went, for the report and for other programs. Its columns: about
- * (run, body, material, method, phase, picture), name, quantity, value, unit ("text" where the value is
- * no number). Written at the beginning, so that a run that is killed has one too, and at the end. */
+/* summary.csv: what a run is and how it went, for the report and for other programs. Its columns:
+ * about (run, body, material, method, phase, picture), name, quantity, value, unit ("text" where
+ * the value is no number). Written at the beginning, so that a run that is killed has one too, and
+ * at the end. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,7 @@
-/* The number of threads follows what the scheduler tells. Delay over time is the mean number of threads that were ready
- * and had no processor: so many are too many. More are tried again after a while. A trial that fails costs one window,
- * and each one that does doubles the time to the next. */
+/* The number of threads follows what the scheduler tells. Delay over time is the mean number of
+ * threads that were ready and had no processor: so many are too many. More are tried again after a
+ * while. A trial that fails costs one window, and each one that does doubles the time to the
+ * next. */
 #include "run/threads.h"
 
 static const double WINDOW = 0.05; /* s; short of it a few ticks of the scheduler decide */

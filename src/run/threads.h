@@ -1,7 +1,8 @@
-/* How many threads a run uses while other programs want the same processors. Threads wait for each other many times a
- * step; when one of them has no processor, all wait until the scheduler comes back to it, some milliseconds later. So a
- * run with as many threads as processors is slower beside one busy program than a run with fewer. Results have the same
- * bits with any number of threads, which may therefore change between steps. */
+/* How many threads a run uses while other programs want the same processors. Threads wait for each
+ * other many times a step; when one of them has no processor, all wait until the scheduler comes
+ * back to it, some milliseconds later. So a run with as many threads as processors is slower beside
+ * one busy program than a run with fewer. Results have the same bits with any number of threads,
+ * which may therefore change between steps. */
 #ifndef BOLIDE_THREADS_H
 #define BOLIDE_THREADS_H
 
@@ -24,7 +25,8 @@ struct threads threads_start(int most, double now, double delay);
 /* True when the window has lasted long enough for threads_adapt. */
 bool threads_are_due(const struct threads *threads, double now);
 
-/* Ends the window at NOW, with all threads delayed by DELAY until then, and sets the number for the next one. */
+/* Ends the window at NOW, with all threads delayed by DELAY until then, and sets the number for the
+ * next one. */
 void threads_adapt(struct threads *threads, double now, double delay);
 
 /* The mean number of threads used until NOW. */

@@ -148,8 +148,8 @@ static double load_speed(const struct simulation *simulation, const struct load_
     return isfinite(speed) ? speed : 0.0;
 }
 
-/* What else moves members: loads; bodies with prescribed motion, and, where work is done on the case, the
- * mean speed of what moves, sum m u^2/sum m |u|. Collective. */
+/* What else moves members: loads; bodies with prescribed motion, and, where work is done on the
+ * case, the mean speed of what moves, sum m u^2/sum m |u|. Collective. */
 static void follow_speed(struct warnings *w, const struct simulation *simulation,
                          const struct population *p, const struct totals *now)
 {
@@ -270,7 +270,8 @@ static void agree_on_worst(const struct simulation *simulation, const struct pop
     found->worst = first;
 }
 
-/* Takes VALUE, LIMIT and COUNT, the state of a warning now, into its memory. True where it is new. */
+/* Takes VALUE, LIMIT and COUNT, the state of a warning now, into its memory. True where it is
+ * new. */
 static bool remember(struct warning_memory *memory, const struct simulation *simulation,
                      double value, double limit, double count)
 {

@@ -56,8 +56,8 @@ bool tension_follow(struct warnings *warnings, const struct simulation *simulati
 double tension_of(const struct warnings *warnings, const struct population *p, int32_t i);
 bool tension_check_loaded(const struct warnings *warnings);
 
-/* "tension in copper", and the whole line, of memory INDEX. Owned by the caller; NULL when memory is
- * out. */
+/* "tension in copper", and the whole line, of memory INDEX. Owned by the caller; NULL when memory
+ * is out. */
 char *warning_name(const struct warnings *warnings, const struct simulation *simulation, int index);
 char *warning_text(const struct warnings *warnings, const struct simulation *simulation, int index);
 /* What a run says when it first occurs: the whole text, or the name alone where it is expected. */

@@ -1,15 +1,15 @@
 /* Tension that lasts, in which SPH loses a body with energy conserved to rounding.
  *
  * Pairs that follow the particles are unstable in tension: a particle that nears a neighbour is
- * drawn nearer, and contacts damp that with the impedance rho c. So the state of a body follows from
- * the integral over time of sigma/(rho c spacing). A nudged square of aluminium under 0.25 to 4 GPa,
- * fluid or solid, has its least kinetic energy where that is 0.1 to 0.3, ten times as much at 0.7 to
- * 0.9, that of the start at 1 to 2, and opens at 2 to 4. A cube does the same; `standard` opens at
- * 0.9, and a hexagonal lattice that does not fit the walls at 0.2.
+ * drawn nearer, and contacts damp that with the impedance rho c. So the state of a body follows
+ * from the integral over time of sigma/(rho c spacing). A nudged square of aluminium under 0.25 to
+ * 4 GPa, fluid or solid, has its least kinetic energy where that is 0.1 to 0.3, ten times as much
+ * at 0.7 to 0.9, that of the start at 1 to 2, and opens at 2 to 4. A cube does the same; `standard`
+ * opens at 0.9, and a hexagonal lattice that does not fit the walls at 0.2.
  *
  * At surfaces that cut the lattice elastic strain creeps, however small it is: a bent beam of 10
- * particles across loses nine tenths of its energy while waves pass 600 particles, at that rate half
- * of it in 200.
+ * particles across loses nine tenths of its energy while waves pass 600 particles, at that rate
+ * half of it in 200.
  *
  * A pulse that passes through a body leaves most of it alone, or stays below these limits. */
 #include <stdlib.h>

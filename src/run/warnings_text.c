@@ -158,7 +158,8 @@ char *warning_text(const struct warnings *warnings, const struct simulation *sim
     return text;
 }
 
-/* The reason that the case gives for KIND in MATERIAL (-1: in none); NULL: it does not expect it. */
+/* The reason that the case gives for KIND in MATERIAL (-1: in none); NULL: it does not expect
+ * it. */
 static const char *expected(const struct simulation_case *input, enum warning_kind kind,
                             int material)
 {

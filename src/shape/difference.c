@@ -1,5 +1,5 @@
-/* The first of a list of shapes without all others. Its bounds are the first's, and so is its lattice: a
- * hole does not move the sites around it. */
+/* The first of a list of shapes without all others. Its bounds are the first's, and so is its
+ * lattice: a hole does not move the sites around it. */
 #include "shape/kinds.h"
 
 const struct parameter shape_difference_table[] = {

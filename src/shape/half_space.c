@@ -15,8 +15,8 @@ const struct parameter shape_half_space_table[] = {
     PARAMETER_END,
 };
 
-/* A plane belongs to what lies above it along the first axis that it is not parallel to, as the faces of
- * a box do: a body that is cut in two loses no point and gains none. */
+/* A plane belongs to what lies above it along the first axis that it is not parallel to, as the
+ * faces of a box do: a body that is cut in two loses no point and gains none. */
 static bool plane_belongs(struct vec3 normal)
 {
     const double first = normal.x != 0.0 ? normal.x : normal.y != 0.0 ? normal.y : normal.z;

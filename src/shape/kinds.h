@@ -60,15 +60,16 @@ struct shape_difference {
     struct one_of_list shapes;
 };
 
-/* Copies of a shape, moved by whole steps: count[axis] of them along each axis. Where `stagger` is 1 + an
- * axis, every second row of copies is shifted by half a step along it; 0: none is. */
+/* Copies of a shape, moved by whole steps: count[axis] of them along each axis. Where `stagger` is
+ * 1 + an axis, every second row of copies is shifted by half a step along it; 0: none is. */
 struct shape_repeat {
     struct one_of shape;
     struct vector_value count, step;
     int stagger;
 };
 
-/* A shape turned by an angle (radians) about a line through `about` (count 0: the origin) along `axis`. */
+/* A shape turned by an angle (radians) about a line through `about` (count 0: the origin) along
+ * `axis`. */
 struct shape_rotate {
     struct one_of shape;
     double angle;

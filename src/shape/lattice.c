@@ -1,6 +1,6 @@
-/* Square, cubic and hexagonal lattices, and concentric rings.
- * Rings: Parshikov (2013), section 2.6, sectors of equal area; and for any number of sites a ring the
- * same as near as whole numbers allow. */
+/* Square, cubic and hexagonal lattices, and concentric rings. Rings: Parshikov (2013), section 2.6,
+ * sectors of equal area; and for any number of sites a ring the same as near as whole numbers
+ * allow. */
 #include "shape/lattice.h"
 
 #include "shape/kinds.h"
@@ -111,8 +111,8 @@ static double ring_edge(const struct lattice *lattice, int64_t index)
     return inner + part * (outer - inner);
 }
 
-/* Ring INDEX, whose first site is FIRST. Every other ring is turned by half a step, and all are mirror
- * images of themselves about the direction in which they start. */
+/* Ring INDEX, whose first site is FIRST. Every other ring is turned by half a step, and all are
+ * mirror images of themselves about the direction in which they start. */
 static struct lattice_row make_ring(const struct lattice *lattice, int64_t index, int64_t first)
 {
     const double inner = ring_edge(lattice, index), outer = ring_edge(lattice, index + 1);
@@ -174,7 +174,8 @@ struct lattice lattice_make(const struct one_of *lattice, const struct one_of *s
     return made;
 }
 
-/* A line along x: of a hexagonal lattice they are shifted in turn, by a quarter of a step either way. */
+/* A line along x: of a hexagonal lattice they are shifted in turn, by a quarter of a step either
+ * way. */
 static struct lattice_row make_line(const struct lattice *lattice, int64_t index)
 {
     const int64_t across = index % lattice->count[1], up = index / lattice->count[1];

@@ -1,6 +1,6 @@
-/* Lattices: where the particles of a body stand at the start, and how much of it each of them is. The sites
- * are numbered row by row, and a row is found from a number by arithmetic: each rank walks its part of the
- * numbers, and no array of sites exists. */
+/* Lattices: where the particles of a body stand at the start, and how much of it each of them is.
+ * The sites are numbered row by row, and a row is found from a number by arithmetic: each rank
+ * walks its part of the numbers, and no array of sites exists. */
 #ifndef BOLIDE_LATTICE_H
 #define BOLIDE_LATTICE_H
 
@@ -44,8 +44,8 @@ struct lattice_row {
     double radius;               /* of a ring */
 };
 
-/* NULL when SHAPE in DIMENSION can have this lattice, else what is wrong (static text). The shape itself is
- * right and has bounds. */
+/* NULL when SHAPE in DIMENSION can have this lattice, else what is wrong (static text). The shape
+ * itself is right and has bounds. */
 const char *lattice_wrong(const struct one_of *lattice, const struct one_of *shape, int dimension);
 
 /* The lattice of SHAPE with sites RESOLUTION apart, as far as it is in BOUNDS. */

@@ -11,9 +11,9 @@ const struct parameter shape_polygon_table[] = {
     PARAMETER_END,
 };
 
-/* Whether the edge between two corners crosses the line that runs from POINT to the right. An edge has its
- * low end and not its high one, and is computed from the low one: polygons with a common edge share no
- * point and miss none. */
+/* Whether the edge between two corners crosses the line that runs from POINT to the right. An edge
+ * has its low end and not its high one, and is computed from the low one: polygons with a common
+ * edge share no point and miss none. */
 static bool edge_crosses(const double *from, const double *to, struct vec3 point)
 {
     const double *low = from[1] < to[1] ? from : to, *high = from[1] < to[1] ? to : from;

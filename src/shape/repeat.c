@@ -1,5 +1,5 @@
-/* Copies of a shape at equal steps along the axes, in straight or staggered rows. The copies near a point
- * are found by arithmetic: a million cost as much as one. */
+/* Copies of a shape at equal steps along the axes, in straight or staggered rows. The copies near a
+ * point are found by arithmetic: a million cost as much as one. */
 #include "shape/kinds.h"
 
 /* The names begin with none: an axis is one less than the choice. */

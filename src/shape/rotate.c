@@ -1,5 +1,5 @@
-/* A shape turned by an angle: in 2-D about a point, in 3-D about a line along an axis. The lattice of the
- * body is not turned. */
+/* A shape turned by an angle: in 2-D about a point, in 3-D about a line along an axis. The lattice
+ * of the body is not turned. */
 #include "shape/kinds.h"
 
 static const char *const axis_names[] = {"x", "y", "z", NULL};

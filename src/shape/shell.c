@@ -25,8 +25,8 @@ const struct parameter shape_shell_table[] = {
     PARAMETER_END,
 };
 
-/* The inner surface belongs to the shell, the outer does not: a ball in a shell in a shell share no point
- * and miss none. */
+/* The inner surface belongs to the shell, the outer does not: a ball in a shell in a shell share no
+ * point and miss none. */
 static bool inside(const void *shape, struct vec3 point)
 {
     const struct shape_shell *shell = shape;

@@ -1,5 +1,5 @@
-/* The sites of a map that bear one letter; 2-D. Bodies that take one letter each of the same map touch and
- * do not overlap. Parshikov (2013), section 5.3. */
+/* The sites of a map that bear one letter; 2-D. Bodies that take one letter each of the same map
+ * touch and do not overlap. Parshikov (2013), section 5.3. */
 #include <string.h>
 
 #include "shape/kinds.h"

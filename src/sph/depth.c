@@ -5,8 +5,8 @@
 #include "sph/scheme.h"
 
 /* Of the equation of motion per radian, m dU/dt = ... - A sigma_tt g e_r with the g of the pair
- * sums: a uniform pressure is then balanced as well as in plane strain. The hoop stress does no work
- * on E + U^2/2. */
+ * sums: a uniform pressure is then balanced as well as in plane strain. The hoop stress does no
+ * work on E + U^2/2. */
 void sph_add_hoop(const struct sph *sph, const struct simulation *simulation,
                   const struct sph_fields *f, const double *stress)
 {

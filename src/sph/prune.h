@@ -1,5 +1,5 @@
-/* Near rows from the rows: of each the entries whose records lie nearer than (1 + near skin) times the support, in the
- * same order. */
+/* Near rows from the rows: of each the entries whose records lie nearer than (1 + near skin) times
+ * the support, in the same order. */
 #ifndef BOLIDE_PRUNE_H
 #define BOLIDE_PRUNE_H
 
@@ -13,8 +13,8 @@ struct prune_loop {
     const struct neighbours *neighbours; /* whose near rows and their counts are written */
 };
 
-/* Finds the near rows of the particles of block B, if they are asked for, with the best instruction set of this
- * processor. */
+/* Finds the near rows of the particles of block B, if they are asked for, with the best instruction
+ * set of this processor. */
 void prune_loop_run(const struct prune_loop *loop, const struct block *block, int32_t b);
 
 #endif

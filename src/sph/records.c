@@ -38,8 +38,8 @@ static void copy_places(const struct sph *sph, const struct simulation *simulati
                records->first + (count + (size_t)g) * stride, bytes);
 }
 
-/* What the fields of a record are multiplied by, 1 or -1, in an image of each kind, and what is added
- * to the position then. */
+/* What the fields of a record are multiplied by, 1 or -1, in an image of each kind, and what is
+ * added to the position then. */
 struct reflections {
     double sign[IMAGE_CODES][SPH_STRIDE_MAX], shift[IMAGE_CODES][3];
 };

@@ -57,8 +57,8 @@ BOLIDE_INLINE double packing_growth(const struct material *material, const struc
     return growth;
 }
 
-/* The volume ratio in a step of DT, where it is RATIO by the velocities of contacts, and SHARE of it
- * follows positions; ACROSS is the strain rate that the plane does not know of, that of a hoop.
+/* The volume ratio in a step of DT, where it is RATIO by the velocities of contacts, and SHARE of
+ * it follows positions; ACROSS is the strain rate that the plane does not know of, that of a hoop.
  * Courant's condition keeps what the particles' places do to a volume below a tenth a step; what
  * single neighbours do is kept below a third. */
 BOLIDE_INLINE double volume_ratio(const double *volume, double share, double dt, double ratio,
@@ -71,8 +71,8 @@ BOLIDE_INLINE double volume_ratio(const double *volume, double share, double dt,
 }
 
 /* The same for ring I. A fit through the few neighbours that a fragment has left says little of its
- * volume, and no work goes with what it says. So its share falls from one to none as neighbours fill
- * less than a half of the surroundings, which they do at a corner, down to a quarter. */
+ * volume, and no work goes with what it says. So its share falls from one to none as neighbours
+ * fill less than a half of the surroundings, which they do at a corner, down to a quarter. */
 BOLIDE_INLINE double ring_volume_ratio(const struct sph_fields *f, int32_t i, double dt,
                                        double ratio)
 {

@@ -109,7 +109,8 @@ static struct error *make_quantities(const struct simulation_case *input, int ru
 
 static bool same(double a, double b) { return fabs(a - b) <= 1e-9 * fabs(a); }
 
-/* A run of a study must be finer than another in all that it is made of. OTHER is an earlier one. */
+/* A run of a study must be finer than another in all that it is made of. OTHER is an earlier
+ * one. */
 static struct error *compare_runs(const struct simulation_case *input,
                                   const struct simulation_case *other)
 {

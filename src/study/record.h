@@ -7,8 +7,8 @@
 /* ERROR_SYSTEM where the record of the case at PATH could not be written when it has been run. */
 struct error *record_check(const char *path);
 
-/* Stores what the COUNT runs of the case at PATH, called NAME, measured under READING's form and settings.
- * The rows of other forms and settings stay. */
+/* Stores what the COUNT runs of the case at PATH, called NAME, measured under READING's form and
+ * settings. The rows of other forms and settings stay. */
 struct error *record_store(const char *path, const char *name, const struct case_options *reading,
                            const struct verify_case *runs, int count);
 

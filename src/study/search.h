@@ -24,10 +24,10 @@ struct search_result {
 };
 
 /* Runs the case at PATH as NAME with both values of SEARCH and then with values between, each in a
- * folder in FOLDER, which also gets the table and the plots of a sweep. ERROR_INPUT before the first
- * run when key, values or check are wrong, and after the second when the check gives the same with
- * both values. A run that does not come to its end ends the search with its error. Free RESULT also
- * after an error. Stopped early nothing is found. */
+ * folder in FOLDER, which also gets the table and the plots of a sweep. ERROR_INPUT before the
+ * first run when key, values or check are wrong, and after the second when the check gives the same
+ * with both values. A run that does not come to its end ends the search with its error. Free RESULT
+ * also after an error. Stopped early nothing is found. */
 struct error *search_run(const char *path, const char *name, const char *folder,
                          const struct verify_options *options, const struct search *search,
                          struct search_result *result);

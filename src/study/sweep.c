@@ -29,7 +29,8 @@ static char *values_text(const struct sweep_value *values, int first, int count)
     return text;
 }
 
-/* The unit of the swept value at INDEX where all runs have a quantity of one dimension; else NULL. */
+/* The unit of the swept value at INDEX where all runs have a quantity of one dimension; else
+ * NULL. */
 static const char *swept_unit(const struct verify_case *runs, int count, int index, char *buffer)
 {
     const struct quantity *first = &runs[0].sweep[index].quantity;
@@ -180,8 +181,8 @@ static int take_dots(const struct verify_case *runs, int count, const char *name
     return taken;
 }
 
-/* Fills X and Y, of 3 COUNT + 1 places each, and the series: a point a run, and, where there is one group,
- * the limits as one series behind them. Returns how many series. */
+/* Fills X and Y, of 3 COUNT + 1 places each, and the series: a point a run, and, where there is one
+ * group, the limits as one series behind them. Returns how many series. */
 static int make_series(const struct dot *dots, int count, double *x, double *y,
                        struct series *series)
 {
@@ -233,8 +234,8 @@ static struct error *draw(const char *path, const char *x_name, const char *x_un
     return error;
 }
 
-/* The picture of the check NAME, where two runs measured something. Without a quantity on the first axis
- * the runs are counted. */
+/* The picture of the check NAME, where two runs measured something. Without a quantity on the first
+ * axis the runs are counted. */
 static struct error *draw_check(const char *folder, const struct verify_case *runs, int count,
                                 const char *name, struct dot *dots)
 {

@@ -1,5 +1,5 @@
-/* What the runs of a sweep come to together: a table, and a plot of each measured value over the first of
- * the swept ones. */
+/* What the runs of a sweep come to together: a table, and a plot of each measured value over the
+ * first of the swept ones. */
 #ifndef BOLIDE_SWEEP_H
 #define BOLIDE_SWEEP_H
 

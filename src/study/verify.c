@@ -287,7 +287,8 @@ static struct error *run_path(const char *path, const char *name, const char *fo
     return runs && !error ? run_sweep(path, name, folder, runs, options, result) : error;
 }
 
-/* The messages of a case that did not run, each with the case in front, unless it begins with the path. */
+/* The messages of a case that did not run, each with the case in front, unless it begins with the
+ * path. */
 static struct error *named_error(const struct verify_case *verified)
 {
     struct error *all = NULL;

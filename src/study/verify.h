@@ -1,5 +1,5 @@
-/* Verification: runs cases, and all runs of those that have a sweep, and gathers their checks in one
- * table. */
+/* Verification: runs cases, and all runs of those that have a sweep, and gathers their checks in
+ * one table. */
 #ifndef BOLIDE_VERIFY_H
 #define BOLIDE_VERIFY_H
 
@@ -54,10 +54,11 @@ const struct check_result *verify_find_check(const struct verify_case *run, cons
 struct error *verify_cases(const char *const *paths, int count,
                            const struct verify_options *options, struct verify_result *result);
 
-/* Runs the case at PATH, or every run of its sweep, as NAME into FOLDER (NULL: nothing is written); a
- * run of a sweep gets a folder in it, the sweep's table and plots stand beside these. Options.running's
- * own folder counts for nothing. RESULT, empty or not, grows by how each went. With `resume`, a run that
- * left a checkpoint goes on with it, another begins. As above, of all that stands in RESULT. */
+/* Runs the case at PATH, or every run of its sweep, as NAME into FOLDER (NULL: nothing is written);
+ * a run of a sweep gets a folder in it, the sweep's table and plots stand beside these.
+ * Options.running's own folder counts for nothing. RESULT, empty or not, grows by how each went.
+ * With `resume`, a run that left a checkpoint goes on with it, another begins. As above, of all
+ * that stands in RESULT. */
 struct error *verify_case(const char *path, const char *name, const char *folder,
                           const struct verify_options *options, struct verify_result *result);
 void verify_result_free(struct verify_result *result);
@@ -65,8 +66,8 @@ void verify_result_free(struct verify_result *result);
 /* Collective: whether any rank received a request to stop. */
 bool verify_stop_requested(const struct verify_options *options);
 
-/* "riemann/gas" of ".../riemann/gas/case.yaml", the path itself where it has no such folders. A path
- * with "." or ".." in it is resolved before. NULL when memory is out; free it. */
+/* "riemann/gas" of ".../riemann/gas/case.yaml", the path itself where it has no such folders. A
+ * path with "." or ".." in it is resolved before. NULL when memory is out; free it. */
 char *verify_name(const char *path);
 
 #endif

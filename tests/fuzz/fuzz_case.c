@@ -1,7 +1,7 @@
-/* The reader of cases under libFuzzer: whatever the bytes, it returns a case or an error and gives all
- * memory back. What stands behind a first zero byte is a setting as of --set. A case that is right is
- * looked at as a run does before it makes particles, and read again as a run of its sweep, and as the
- * program would write it, which must be right too. */
+/* The reader of cases under libFuzzer: whatever the bytes, it returns a case or an error and gives
+ * all memory back. What stands behind a first zero byte is a setting as of --set. A case that is
+ * right is looked at as a run does before it makes particles, and read again as a run of its sweep,
+ * and as the program would write it, which must be right too. */
 #define _GNU_SOURCE /* memfd_create */
 #include <stdlib.h>
 #include <string.h>

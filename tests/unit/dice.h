@@ -1,5 +1,5 @@
-/* Repeatable random numbers and the assertions that the tests of the lower modules share. Includes cmocka
- * with what it needs. */
+/* Repeatable random numbers and the assertions that the tests of the lower modules share. Includes
+ * cmocka with what it needs. */
 #ifndef BOLIDE_TEST_DICE_H
 #define BOLIDE_TEST_DICE_H
 

@@ -1,5 +1,5 @@
-/* Random particles with reaches of their own, walls and contact groups, and a brute-force judge of their
- * neighbour rows. */
+/* Random particles with reaches of their own, walls and contact groups, and a brute-force judge of
+ * their neighbour rows. */
 #ifndef BOLIDE_TEST_SCENE_H
 #define BOLIDE_TEST_SCENE_H
 
@@ -82,8 +82,9 @@ static inline void scene_build(struct scene *scene)
                                     &scene->mirrors, &scene->groups, scene->threads));
 }
 
-/* Place of particle I, or of its IMAGE, where the rows have seen it: a particle that has gone round since then is outside.
- */
+/* Place of particle I, or of its IMAGE, where the rows have seen it: a particle that has gone round
+ * since then is outside.
+ * */
 static inline struct vec3 scene_place(const struct scene *scene, int32_t i, image_code image)
 {
     const struct neighbours *n = &scene->neighbours;
@@ -145,7 +146,8 @@ static inline double scene_distance2(const struct scene *scene, int32_t i, int32
     return vec3_dot(apart, apart);
 }
 
-/* Marks in SEEN (count x 27) the neighbours that a loop walks for I, checking order, parts and that none comes twice. */
+/* Marks in SEEN (count x 27) the neighbours that a loop walks for I, checking order, parts and that
+ * none comes twice. */
 static inline void scene_mark_row(const struct scene *scene, int32_t i, uint8_t *seen)
 {
     const struct particles *p = &scene->particles;
@@ -186,8 +188,8 @@ static inline void scene_mark_row(const struct scene *scene, int32_t i, uint8_t 
     }
 }
 
-/* Every pair within support, images included, is in the rows; FRESH: and nothing lies beyond the support
- * and the skin. Returns the number of pairs within support. */
+/* Every pair within support, images included, is in the rows; FRESH: and nothing lies beyond the
+ * support and the skin. Returns the number of pairs within support. */
 static inline int64_t scene_judge(const struct scene *scene, bool fresh)
 {
     const struct particles *p = &scene->particles;

@@ -1,5 +1,5 @@
-/* A catalogue for tests of cases. It is small and stays as it is, so that new shapes and measures leave
- * the messages that list them alone. */
+/* A catalogue for tests of cases. It is small and stays as it is, so that new shapes and measures
+ * leave the messages that list them alone. */
 #ifndef BOLIDE_TESTS_SMALL_CATALOGUE_H
 #define BOLIDE_TESTS_SMALL_CATALOGUE_H
 

@@ -1,4 +1,5 @@
-/* A case given as text with checks, whose particles tests move by hand. Its last line is `checks:`. */
+/* A case given as text with checks, whose particles tests move by hand. Its last line is
+ * `checks:`. */
 #ifndef BOLIDE_TEST_STAGE_H
 #define BOLIDE_TEST_STAGE_H
 

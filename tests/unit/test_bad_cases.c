@@ -1,6 +1,6 @@
-/* Bad cases against all that a user is told of them: tests/data/bad/NAME.yaml and NAME.expected. Each is read
- * with everything that the program knows; a case that reads well is looked at as a run would before its first
- * step. */
+/* Bad cases against all that a user is told of them: tests/data/bad/NAME.yaml and NAME.expected.
+ * Each is read with everything that the program knows; a case that reads well is looked at as a run
+ * would before its first step. */
 #include <dirent.h>
 #include <setjmp.h>
 #include <stdarg.h>

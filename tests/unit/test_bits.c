@@ -1,5 +1,6 @@
-/* The same bits for any number of threads, order of storage, skin, age of rows, and after a resume: one hash
- * of the state after many steps. And what the steps must keep: mass, momentum and energy. */
+/* The same bits for any number of threads, order of storage, skin, age of rows, and after a resume:
+ * one hash of the state after many steps. And what the steps must keep: mass, momentum and
+ * energy. */
 #include "populations.h"
 #include "running.h"
 
@@ -9,7 +10,8 @@ enum { STEPS = 30 };
 enum { STEPS = 120 };
 #endif
 
-/* A block strikes another, faces that slip and do not stick, in a corner of mirrors; an inclusion adheres. */
+/* A block strikes another, faces that slip and do not stick, in a corner of mirrors; an inclusion
+ * adheres. */
 #define BLOCKS(floor)                                                                              \
     "materials:\n"                                                                                 \
     "  aluminium:\n"                                                                               \

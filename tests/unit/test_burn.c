@@ -1,5 +1,5 @@
-/* Burning: values of the products, the share burnt against its formulas, and when a detonation arrives.
- * Values: Cui, dissertation (2014), table 3.1, (3-1), (3-2). */
+/* Burning: values of the products, the share burnt against its formulas, and when a detonation
+ * arrives. Values: Cui, dissertation (2014), table 3.1, (3-1), (3-2). */
 #include "dice.h"
 
 #include "build_case.h"

@@ -142,7 +142,8 @@ static void keys_beside_the_library_replace_its_values(void **state)
     case_free(input);
 }
 
-/* The state of the body `air` of the impact, or of `many`, from what the equation of state gives. */
+/* The state of the body `air` of the impact, or of `many`, from what the equation of state
+ * gives. */
 static void start_states_follow_from_two_of_three(void **state)
 {
     (void)state;

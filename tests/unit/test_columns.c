@@ -1,4 +1,5 @@
-/* Columns: the fields of the store by name, quantities computed from them, and single components. */
+/* Columns: the fields of the store by name, quantities computed from them, and single
+ * components. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,6 @@
-/* Concrete after Holmquist, Johnson and Cook: values of its source, unloading, crushing and tearing.
- * Values: Cui, dissertation (2014), tables 4.1 to 4.3 and (2-61) to (2-63), worked out apart. */
+/* Concrete after Holmquist, Johnson and Cook: values of its source, unloading, crushing and
+ * tearing. Values: Cui, dissertation (2014), tables 4.1 to 4.3 and (2-61) to (2-63), worked out
+ * apart. */
 #include "dice.h"
 
 #include "material/material.h"

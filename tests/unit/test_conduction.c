@@ -1,6 +1,6 @@
-/* Conduction as a part of the solver: the step that it allows, particles that stand still, one hash for all orders and
- * after a resume, energy that is kept, a cylinder that cools about its axis, and what a case without the constants
- * is told. */
+/* Conduction as a part of the solver: the step that it allows, particles that stand still, one hash
+ * for all orders and after a resume, energy that is kept, a cylinder that cools about its axis, and
+ * what a case without the constants is told. */
 #include "material/material.h"
 #include "populations.h"
 #include "running.h"
@@ -118,7 +118,8 @@ static void the_step_is_the_smaller_of_two(void **state)
     end(run);
 }
 
-/* The slowest mode of an insulated cylinder, J_0(j r/R) with J_1(j) = 0, falls by exp(-a j^2 t/R^2). */
+/* The slowest mode of an insulated cylinder, J_0(j r/R) with J_1(j) = 0, falls by exp(-a j^2
+ * t/R^2). */
 static void a_cylinder_cools_about_its_axis(void **state)
 {
     (void)state;

@@ -21,7 +21,8 @@ static struct pair_difference difference_of(struct dice *dice, const struct pair
 
 static const struct pair_limits free_of_laws = {0.0, 0.0, 1.0};
 
-/* Along the axis and across it a pair is two acoustic contacts, with and without slopes that carry nothing. */
+/* Along the axis and across it a pair is two acoustic contacts, with and without slopes that carry
+ * nothing. */
 static void both_parts_of_a_contact_are_acoustic(void **state)
 {
     (void)state;
@@ -51,7 +52,8 @@ static void both_parts_of_a_contact_are_acoustic(void **state)
     }
 }
 
-/* Where slopes carry all of the difference, half from each side, there is no jump left to dissipate anything. */
+/* Where slopes carry all of the difference, half from each side, there is no jump left to dissipate
+ * anything. */
 static void a_linear_field_is_met_in_the_middle(void **state)
 {
     (void)state;

@@ -1,12 +1,14 @@
-/* A corner of two mirror walls stands for the whole: particle by particle, a quarter between walls moves
- * as the same quarter of the whole body without them. So does one half of a body of revolution. */
+/* A corner of two mirror walls stands for the whole: particle by particle, a quarter between walls
+ * moves as the same quarter of the whole body without them. So does one half of a body of
+ * revolution. */
 #include "model/particles/fill.h"
 #include "populations.h"
 #include "running.h"
 
 enum { STEPS = 60 };
 
-/* A pressed block of metal with a hot liquid core flies apart; %s: what differs between whole and part. */
+/* A pressed block of metal with a hot liquid core flies apart; %s: what differs between whole and
+ * part. */
 static const char block[] =
     "format: 1\n"
     "dimension: 2\n"

@@ -1,5 +1,6 @@
-/* SPH with corrected kernel gradients, `hllc` and `monaghan`: the same bits for any threads, storage, rows and after a
- * resume; what corrected gradients must do exactly; what is conserved; frozen ends. */
+/* SPH with corrected kernel gradients, `hllc` and `monaghan`: the same bits for any threads,
+ * storage, rows and after a resume; what corrected gradients must do exactly; what is conserved;
+ * frozen ends. */
 #include "populations.h"
 #include "running.h"
 

@@ -28,7 +28,8 @@ static const char can[] =
 static const char *const smoothings[] = {"solver.sph.smoothing=1", "solver.sph.smoothing=1.2",
                                          "solver.sph.smoothing=1.5"};
 
-/* A stress that is alike along the radius and round the axis, and another along it: no force either. */
+/* A stress that is alike along the radius and round the axis, and another along it: no force
+ * either. */
 static void press(struct running *run)
 {
     const struct particles *p = particles_of(&run->simulation);
@@ -62,7 +63,8 @@ static void a_uniform_state_between_axis_and_walls_stays_uniform(void **state)
     }
 }
 
-/* u = c r: the rates along the radius and round the axis are alike to the last digits, at the axis too. */
+/* u = c r: the rates along the radius and round the axis are alike to the last digits, at the axis
+ * too. */
 static void a_uniform_expansion_from_the_axis_has_no_shear(void **state)
 {
     (void)state;
@@ -89,7 +91,8 @@ static void a_uniform_expansion_from_the_axis_has_no_shear(void **state)
     }
 }
 
-/* A ball of metal that flies apart: momentum along the axis and total energy, the axis and its hoop stress booked. */
+/* A ball of metal that flies apart: momentum along the axis and total energy, the axis and its hoop
+ * stress booked. */
 static const char burst[] =
     "format: 1\n"
     "dimension: 2\n"
@@ -148,8 +151,9 @@ static const char ring[] =
     "  above: {mirror: y, at: 8 mm, side: high}\n"
     "run: {until: 1 s}\n";
 
-/* omega^2 = E/((1 - nu^2) rho R^2), with the correction of (thickness/R)^2 left out; the kernel's sums are a per cent too
- * large on a lattice, and it starts with its waves through the thickness. */
+/* omega^2 = E/((1 - nu^2) rho R^2), with the correction of (thickness/R)^2 left out; the kernel's
+ * sums are a per cent too large on a lattice, and it starts with its waves through the
+ * thickness. */
 static void a_free_ring_breathes_at_its_frequency(void **state)
 {
     (void)state;
@@ -257,7 +261,8 @@ static const char sheet[] =
     "  sheet: {material: steel, box: {from: [-5 mm, -5 mm], to: [5 mm, 5 mm]}}\n"
     "run: {until: 1 s}\n";
 
-/* A small strain in the plane: [sigma_xx sigma_yy] = E/(1 - nu^2) [1 nu; nu 1] [strain_xx strain_yy]. */
+/* A small strain in the plane: [sigma_xx sigma_yy] = E/(1 - nu^2) [1 nu; nu 1] [strain_xx
+ * strain_yy]. */
 static void a_thin_plate_has_the_stiffness_of_plane_stress(void **state)
 {
     (void)state;

@@ -108,7 +108,8 @@ static herr_t note_dataset(hid_t group, const char *name, const H5L_info_t *link
 
 #define EVERYWHERE SIZE_MAX
 
-/* Overwrites number WHERE of the dataset NAME, of 8 or 2 bytes, by BITS; EVERYWHERE: all of them. */
+/* Overwrites number WHERE of the dataset NAME, of 8 or 2 bytes, by BITS; EVERYWHERE: all of
+ * them. */
 static void edit(hid_t file, const char *name, size_t where, uint64_t bits)
 {
     hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT), type = H5Dget_type(dataset),

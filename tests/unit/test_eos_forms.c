@@ -1,5 +1,5 @@
-/* Equations of state that are single formulas of density and energy: values of their sources and worked
- * out by hand, shock adiabats, and every derivative against differences of the pressure. */
+/* Equations of state that are single formulas of density and energy: values of their sources and
+ * worked out by hand, shock adiabats, and every derivative against differences of the pressure. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -46,8 +46,8 @@ static void assert_near(double found, double wanted, double within)
         fail_msg("%.12g is not %.12g within %.3g", found, wanted, within);
 }
 
-/* (dp/drho)_e and (dp/de)_rho at DENSITY and ENERGY against central differences. The steps stay on one side
- * of every kink, which are all at the reference density. */
+/* (dp/drho)_e and (dp/de)_rho at DENSITY and ENERGY against central differences. The steps stay on
+ * one side of every kink, which are all at the reference density. */
 static void check_derivatives(const struct eos *eos, double density, double energy)
 {
     struct eos_value value = eos_evaluate(eos, density, energy, no_history);
@@ -96,8 +96,8 @@ static void a_stiffened_gas_without_stiffness_is_an_ideal_gas(void **state)
     assert_near(pressure(&soft, 1.2, 2e5), pressure(&gas, 1.2, 2e5), 1e-9);
 }
 
-/* Behind a shock of speed U_s = C_0 + s U_p into rest: rho_0 U_s = rho (U_s - U_p), p = rho_0 U_s U_p,
- * e = U_p^2/2. */
+/* Behind a shock of speed U_s = C_0 + s U_p into rest: rho_0 U_s = rho (U_s - U_p), p = rho_0 U_s
+ * U_p, e = U_p^2/2. */
 static double adiabat_error(const struct eos *eos, double sound, double slope, double particle)
 {
     double shock = sound + slope * particle, rest = eos_reference_density(eos);
@@ -111,7 +111,8 @@ static void grueneisen_forms_have_their_shock_adiabat(void **state)
     (void)state;
     for (double particle = 1.0; particle < 6000.0; particle += 97.0)
         assert_near(adiabat_error(&wilkins, 5328.0, 1.338, particle), 0.0, 1e-11);
-    /* The cubic leaves the adiabat at the fourth order of mu: by an eighth, relatively, at half of it. */
+    /* The cubic leaves the adiabat at the fourth order of mu: by an eighth, relatively, at half of
+     * it. */
     double weak = adiabat_error(&steel_1006, 4569.0, 1.49, 50.0);
     double strong = adiabat_error(&steel_1006, 4569.0, 1.49, 100.0);
     assert_true(fabs(strong) < 1e-4);
@@ -121,8 +122,8 @@ static void grueneisen_forms_have_their_shock_adiabat(void **state)
 static void wilkins_plateau_is_reached(void **state)
 {
     (void)state;
-    /* The shocked plateau of the plate impact at 800 m/s: elastic jump to 2800.177 kg/m^3, plastic jump to
-     * 2985.629 kg/m^3 at 6435.879 MPa; e from the jumps of sigma = -p + S, S = -200 MPa. */
+    /* The shocked plateau of the plate impact at 800 m/s: elastic jump to 2800.177 kg/m^3, plastic
+     * jump to 2985.629 kg/m^3 at 6435.879 MPa; e from the jumps of sigma = -p + S, S = -200 MPa. */
     double elastic = 0.5 * 635.879e6 * (1.0 / 2785.0 - 1.0 / 2800.177);
     double plastic = elastic + 0.5 * (635.879e6 + 6635.879e6) * (1.0 / 2800.177 - 1.0 / 2985.629);
     assert_near(pressure(&wilkins, 2800.177, elastic), 435.879e6, 2e4);

@@ -1,5 +1,6 @@
-/* The gas Riemann problem and the impedance match: against the printed tables of the reference cases,
- * against the conservation laws across jumps and inside fans, and against their mirror images. */
+/* The gas Riemann problem and the impedance match: against the printed tables of the reference
+ * cases, against the conservation laws across jumps and inside fans, and against their mirror
+ * images. */
 #include "exact_solution.h"
 
 #include "exact/choices.h"

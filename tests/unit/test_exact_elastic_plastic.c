@@ -1,5 +1,5 @@
-/* The elastic-plastic Riemann problem: against the printed tables of the reference case, against the
- * conservation laws and the material's own laws, and against its mirror image. */
+/* The elastic-plastic Riemann problem: against the printed tables of the reference case, against
+ * the conservation laws and the material's own laws, and against its mirror image. */
 #include "exact_solution.h"
 
 #include "exact/elastic_plastic_riemann.h"

@@ -1,5 +1,5 @@
-/* Plates that strike each other: Wilkins' impact against its printed table, the laws of conservation, the
- * Riemann problem while the waves have met nothing, and the mirror image. */
+/* Plates that strike each other: Wilkins' impact against its printed table, the laws of
+ * conservation, the Riemann problem while the waves have met nothing, and the mirror image. */
 #include "exact_solution.h"
 
 #include "exact/elastic_plastic_impact.h"
@@ -75,8 +75,9 @@ static void plateaus_of_wilkins_impact_have_the_printed_digits(void **state)
     }
 }
 
-/* The table reads these off a fine grid, which smears the head of the elastic release: its exact place follows
- * from where it meets the plastic shock, 0.8805 mm at 0.8064 us, and its speed there, 7312.5 m/s. */
+/* The table reads these off a fine grid, which smears the head of the elastic release: its exact
+ * place follows from where it meets the plastic shock, 0.8805 mm at 0.8064 us, and its speed there,
+ * 7312.5 m/s. */
 static void wilkins_plate_is_released_as_printed(void **state)
 {
     static const double plastic[][2] = {{22.90, 300.0},  {23.43, 1000.0}, {24.13, 2000.0},

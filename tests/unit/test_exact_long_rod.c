@@ -42,8 +42,8 @@ static void without_strength_depth_is_hydrodynamic(void **state)
     }
 }
 
-/* With equal strengths u = v/(1 + mu), mu^2 = rho_t/rho_p, down to rest: with k = rho_p mu/(2 Y (1 +
- * mu)), L = L_0 exp(-k (V^2 - v^2)) and P = L_0/mu (1 - exp(-k V^2)). */
+/* With equal strengths u = v/(1 + mu), mu^2 = rho_t/rho_p, down to rest: with k = rho_p mu/(2 Y (1
+ * + mu)), L = L_0 exp(-k (V^2 - v^2)) and P = L_0/mu (1 - exp(-k V^2)). */
 static void equal_strengths_have_a_closed_form(void **state)
 {
     (void)state;
@@ -66,8 +66,8 @@ static void equal_strengths_have_a_closed_form(void **state)
     }
 }
 
-/* Where the target is the stronger, u = 0 below v_c, and what is left then is spent: L = L_c exp(-rho_p
- * v_c^2/(2 Y)). */
+/* Where the target is the stronger, u = 0 below v_c, and what is left then is spent: L = L_c
+ * exp(-rho_p v_c^2/(2 Y)). */
 static void strong_target_stops_the_nose_first(void **state)
 {
     (void)state;

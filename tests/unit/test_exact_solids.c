@@ -1,5 +1,5 @@
-/* The elastic-plastic Riemann problem with equations of state that know energy: the printed tables of
- * the reference cases, the laws that every solution obeys, free surfaces, overdriven shocks. */
+/* The elastic-plastic Riemann problem with equations of state that know energy: the printed tables
+ * of the reference cases, the laws that every solution obeys, free surfaces, overdriven shocks. */
 #include "exact_solution.h"
 
 #include "exact/elastic_plastic_riemann.h"

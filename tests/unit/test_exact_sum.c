@@ -1,5 +1,5 @@
-/* Exact sums: what they are against integer and quadruple arithmetic, and that nothing of order, parts or
- * carries shows in them. */
+/* Exact sums: what they are against integer and quadruple arithmetic, and that nothing of order,
+ * parts or carries shows in them. */
 #include "dice.h"
 
 #include <float.h>

@@ -52,8 +52,9 @@ static void shells_of_given_last_radius_have_the_printed_digits(void **state)
     }
 }
 
-/* To a hundredth of a millimetre and the last digit of the shares: the radii of the table are rounded
- * down, and off by up to 1.3 um. The first row is checked against an integration of da/dt besides. */
+/* To a hundredth of a millimetre and the last digit of the shares: the radii of the table are
+ * rounded down, and off by up to 1.3 um. The first row is checked against an integration of da/dt
+ * besides. */
 static void shell_moves_as_printed(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The formulas of base/exponential.h against the library's functions of more digits: errors in units in the last
- * place. */
+/* The formulas of base/exponential.h against the library's functions of more digits: errors in
+ * units in the last place. */
 #include "dice.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* The rows of a solver's fields: which are declared, with how many components, and where their pointers go. */
+/* The rows of a solver's fields: which are declared, with how many components, and where their
+ * pointers go. */
 #include "dice.h"
 
 #include "model/particles/population.h"

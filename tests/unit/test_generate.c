@@ -1,4 +1,5 @@
-/* From bodies to particles: lattices, masses, replacement, and the mistakes that are found on the way. */
+/* From bodies to particles: lattices, masses, replacement, and the mistakes that are found on the
+ * way. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,5 @@
-/* Images behind mirror walls: where they are, how they are signed, and which of them a plan holds. */
+/* Images behind mirror walls: where they are, how they are signed, and which of them a plan
+ * holds. */
 #include "dice.h"
 
 #include "parallel/ghosts.h"

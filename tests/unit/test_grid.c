@@ -1,5 +1,5 @@
-/* The grid of the material point method: shape functions, particles in cells, and the loops between particles and nodes,
- * judged by slow ones. */
+/* The grid of the material point method: shape functions, particles in cells, and the loops between
+ * particles and nodes, judged by slow ones. */
 #include "dice.h"
 
 #include <stdlib.h>
@@ -9,8 +9,8 @@
 
 enum { PARTICLES = 700 };
 
-/* Particles in a box about the origin, stored as one block of the key that the first of them has, so that most are
- * strays. */
+/* Particles in a box about the origin, stored as one block of the key that the first of them has,
+ * so that most are strays. */
 struct cloud {
     struct transfer transfer;
     struct bins bins;
@@ -125,7 +125,8 @@ static void node_place(const struct cloud *c, int32_t n, int k, int64_t at[3])
         at[axis] += place[axis];
 }
 
-/* The shape function of particle I at a node and its slopes, found from nothing but their places. */
+/* The shape function of particle I at a node and its slopes, found from nothing but their
+ * places. */
 static double slow_weight(const struct cloud *c, int i, const int64_t at[3], double slope[3])
 {
     double value[3] = {1.0, 1.0, 1.0}, along[3] = {0.0, 0.0, 0.0};
@@ -328,7 +329,8 @@ static void particles_take_a_linear_field_from_nodes_as_it_is(void **state)
     }
 }
 
-/* Angular momentum about z of all particles, and of what their gradients give to nodes on either side of them. */
+/* Angular momentum about z of all particles, and of what their gradients give to nodes on either
+ * side of them. */
 static double spin_of_particles(const struct cloud *c)
 {
     double spin = 0.0;
@@ -369,7 +371,8 @@ static double spin_of_nodes(const struct cloud *c, bool take)
     return spin;
 }
 
-/* Jiang et al., ACM Trans. Graph. 34 (2015) 51: there and back. Without gradients what comes back is less. */
+/* Jiang et al., ACM Trans. Graph. 34 (2015) 51: there and back. Without gradients what comes back
+ * is less. */
 static void nodes_have_the_angular_momentum_of_particles_and_moments_bring_it_back(void **state)
 {
     (void)state;

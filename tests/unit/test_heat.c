@@ -1,5 +1,6 @@
-/* Temperature of a point: the shock adiabat after Walsh and Christian against its differential equation, the curves of
- * the other equations of state against what thermodynamics asks of them, and energy from temperature. */
+/* Temperature of a point: the shock adiabat after Walsh and Christian against its differential
+ * equation, the curves of the other equations of state against what thermodynamics asks of them,
+ * and energy from temperature. */
 #include "dice.h"
 
 #include <string.h>
@@ -49,7 +50,8 @@ static void the_adiabat_obeys_its_differential_equation(void **state)
 static void the_adiabat_holds_up_to_its_largest_compression(void **state)
 {
     (void)state;
-    /* The equation of state is held where 1 - S_a eta falls below a thousandth; so is the temperature's integral. */
+    /* The equation of state is held where 1 - S_a eta falls below a thousandth; so is the
+     * temperature's integral. */
     double last = 0.0;
     for (double eta = 0.7; eta < 0.9; eta += 1e-3) {
         double temperature = mie_grueneisen_adiabat(&aluminium_heat, &aluminium, eta);

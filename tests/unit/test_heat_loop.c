@@ -1,5 +1,5 @@
-/* The heat loop: against sums written straight from the fluxes (1.42)-(1.47), (1.51), against itself on other
- * instruction sets, and what it must keep. */
+/* The heat loop: against sums written straight from the fluxes (1.42)-(1.47), (1.51), against
+ * itself on other instruction sets, and what it must keep. */
 #include "scene.h"
 
 #include "base/isa.h"
@@ -8,8 +8,8 @@
 typedef void heat_loop_isa(const struct heat_loop *, int32_t, int32_t);
 ISA_DECLARE(heat_loop_isa, heat_loop_run);
 
-/* A scene whose store keeps temperature, conductivity and sqrt(diffusivity) in `energy`, `pressure` and
- * `plastic_strain`, a depth in the velocity; and the loop over it. */
+/* A scene whose store keeps temperature, conductivity and sqrt(diffusivity) in `energy`, `pressure`
+ * and `plastic_strain`, a depth in the velocity; and the loop over it. */
 struct trial {
     struct scene scene;
     struct heat_loop loop;
@@ -110,8 +110,8 @@ static double naive_slope(double r, double h, int dimension)
     return (phi < 1.0 ? -12.0 * phi + 9.0 * phi * phi : -3.0 * tail * tail) / norm;
 }
 
-/* What the image of J gives to I: V_j W' (q_i + q_j)/rho_i by way of the contact temperature; *SIZE grows by the
- * magnitude of its terms. */
+/* What the image of J gives to I: V_j W' (q_i + q_j)/rho_i by way of the contact temperature; *SIZE
+ * grows by the magnitude of its terms. */
 static double naive_pair(const struct trial *t, int32_t i, int32_t j, image_code image,
                          double *size)
 {
@@ -150,7 +150,8 @@ static void compare_with_naive(const struct trial *t, int32_t i)
     assert_near(t->loop.rate[i], rate, 1e-13 * size);
 }
 
-/* K = 0 .. 15: one to three dimensions and a plane with depths, both forms, with walls and without. */
+/* K = 0 .. 15: one to three dimensions and a plane with depths, both forms, with walls and
+ * without. */
 static void trial_of(struct trial *t, unsigned k, int count, double skin)
 {
     static const int dimension[4] = {1, 2, 3, 2};
@@ -221,7 +222,8 @@ static void heat_is_conserved_and_walls_pass_none(void **state)
             size += fabs(t.scene.particles.mass[i] * t.loop.rate[i]);
         }
         assert_true(size > 0.0);
-        /* An image of one particle near another passes heat, but what it passes is passed back behind the wall. */
+        /* An image of one particle near another passes heat, but what it passes is passed back
+         * behind the wall. */
         assert_near(sum, 0.0, 1e-13 * size);
         trial_destroy(&t);
     }

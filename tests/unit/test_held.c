@@ -1,4 +1,5 @@
-/* Bodies that something outside holds: pistons that are driven and strikers that stop, and what the ledger says. */
+/* Bodies that something outside holds: pistons that are driven and strikers that stop, and what the
+ * ledger says. */
 #include "populations.h"
 #include "running.h"
 
@@ -131,8 +132,8 @@ static char *swung(void)
     return text_format("%.*s100 m/s + 700 m/s*cos(t/0.4 us)%s", (int)(at - push), push, at + 7);
 }
 
-/* It moves by the rule of trapezoids, and what that takes is booked: momentum to rounding where the method keeps it, which
- * hllc does not, and energy by SPH that keeps it. */
+/* It moves by the rule of trapezoids, and what that takes is booked: momentum to rounding where the
+ * method keeps it, which hllc does not, and energy by SPH that keeps it. */
 static void a_driven_body_follows_the_time(void **state)
 {
     (void)state;

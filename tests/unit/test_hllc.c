@@ -1,5 +1,5 @@
-/* The elastic-plastic HLLC contact against the tabulated states of the three tests of Wang et al. (2024), and against
- * what a contact problem must do. */
+/* The elastic-plastic HLLC contact against the tabulated states of the three tests of Wang et al.
+ * (2024), and against what a contact problem must do. */
 #include "dice.h"
 
 #include "material/eos.h"
@@ -84,7 +84,8 @@ static void contacts_of_the_three_tests_are_the_tabulated_ones(void **state)
     assert_near(contact.velocity, 40.6717, 6e-5);
 }
 
-/* Copper and aluminium as the exact solution leaves them: one stress, one velocity, both at yield. */
+/* Copper and aluminium as the exact solution leaves them: one stress, one velocity, both at
+ * yield. */
 static void a_contact_at_yield_reproduces_itself(void **state)
 {
     (void)state;

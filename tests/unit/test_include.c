@@ -1,5 +1,5 @@
-/* Cases that include others: what lies over what, and where the files are looked for. Mistakes have their
- * messages in tests/data/bad. */
+/* Cases that include others: what lies over what, and where the files are looked for. Mistakes have
+ * their messages in tests/data/bad. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Johnson and Cook's strength: values of its formula worked out apart, and what its return must satisfy.
- * Values: Cui, dissertation (2014), (2-64) with tables 3.2, 4.5 and 5.5. */
+/* Johnson and Cook's strength: values of its formula worked out apart, and what its return must
+ * satisfy. Values: Cui, dissertation (2014), (2-64) with tables 3.2, 4.5 and 5.5. */
 #include "dice.h"
 
 #include "material/material.h"
@@ -163,7 +163,8 @@ static void only_softening_steel_remembers_its_heat(void **state)
     assert_int_equal(material_history(&soft), HISTORY_BIT(plastic_heating));
 }
 
-/* What is hot at the start is soft at the start, and what is at rest is as before to the last bit. */
+/* What is hot at the start is soft at the start, and what is at rest is as before to the last
+ * bit. */
 static void a_hot_start_softens_as_plastic_work_does(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* The cubic spline: its integral, its first moment (which sets the numerical viscosity) and its slope. */
+/* The cubic spline: its integral, its first moment (which sets the numerical viscosity) and its
+ * slope. */
 #include "dice.h"
 
 #include "sph/kernel.h"
@@ -70,7 +71,8 @@ static void the_kernel_ends_at_two_smoothing_lengths(void **state)
     }
 }
 
-/* Section 0.3 of the acceptance tests: with h = D only the nearest neighbours act, as Godunov's scheme. */
+/* Section 0.3 of the acceptance tests: with h = D only the nearest neighbours act, as Godunov's
+ * scheme. */
 static void the_nearest_neighbour_alone_weighs_one_over_the_diameter(void **state)
 {
     (void)state;

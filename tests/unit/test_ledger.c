@@ -1,4 +1,5 @@
-/* The ledger and the totals of the particles: what is booked is found again, exactly, in any order. */
+/* The ledger and the totals of the particles: what is booked is found again, exactly, in any
+ * order. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

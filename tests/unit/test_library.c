@@ -1,5 +1,5 @@
-/* The material library: every file of materials/ can be used and tells where its values come from; its
- * names; what is said where there is no such material. */
+/* The material library: every file of materials/ can be used and tells where its values come from;
+ * its names; what is said where there is no such material. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -171,8 +171,8 @@ static bool holds_one_of(const char *text, const char *const *words)
     return false;
 }
 
-/* A line whose value holds a digit has a comment that names a place of the source, or another source
- * by its year. */
+/* A line whose value holds a digit has a comment that names a place of the source, or another
+ * source by its year. */
 static void check_line(const char *file, int number, char *line)
 {
     static const char *const places[] = {"section ", "table ", "chapter ", "equation ", " test",

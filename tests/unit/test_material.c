@@ -1,5 +1,5 @@
-/* The physics of a point: equations of state against independent values and differences, strength against
- * what rotation, yield and uniaxial strain must give. */
+/* The physics of a point: equations of state against independent values and differences, strength
+ * against what rotation, yield and uniaxial strain must give. */
 #include "dice.h"
 
 #include "material/material.h"
@@ -68,8 +68,8 @@ static void barotropic_liquid_follows_its_modulus(void **state)
         check_derivatives(&liquid, density, 0.0, 1.0);
 }
 
-/* Behind a shock of particle velocity U_p: U_s = C + S U_p, p = rho_0 U_s U_p, rho = rho_0 U_s/(U_s - U_p),
- * e = U_p^2/2. */
+/* Behind a shock of particle velocity U_p: U_s = C + S U_p, p = rho_0 U_s U_p, rho = rho_0 U_s/(U_s
+ * - U_p), e = U_p^2/2. */
 static void mie_grueneisen_passes_through_its_shock_adiabat(void **state)
 {
     (void)state;
@@ -87,7 +87,8 @@ static void mie_grueneisen_passes_through_its_shock_adiabat(void **state)
 static void mie_grueneisen_has_an_independent_value(void **state)
 {
     (void)state;
-    /* rho = 3000: v_0 - v = 1/27000, p_r = 5350^2 27000/8.65^2 = 10.328544 GPa, e_r = 191269.3 J/kg. */
+    /* rho = 3000: v_0 - v = 1/27000, p_r = 5350^2 27000/8.65^2 = 10.328544 GPa, e_r = 191269.3
+     * J/kg. */
     double curve = 5350.0 * 5350.0 * 27000.0 / (8.65 * 8.65), reference = 0.5 * curve / 27000.0;
     assert_near(curve, 10.328544221e9, 1.0);
     assert_near(reference, 191269.3374, 1e-4);
@@ -137,7 +138,8 @@ static void mie_grueneisen_says_when_it_is_compressed_beyond_its_adiabat(void **
 static void sound_speeds_follow_from_pressure_along_the_isentrope(void **state)
 {
     (void)state;
-    /* c_b^2 = dp/drho along de = p drho/rho^2, by differences; with shear C_l^2 = c_b^2 + 4G/(3 rho). */
+    /* c_b^2 = dp/drho along de = p drho/rho^2, by differences; with shear C_l^2 = c_b^2 + 4G/(3
+     * rho). */
     struct point point = {.density = 3100.0, .energy = 7e5};
     struct response response = material_evaluate(&aluminium, &point);
     double d = 1e-5 * point.density, p = point.pressure;
@@ -214,7 +216,8 @@ static void rotation_turns_a_stress_with_the_right_hand(void **state)
     assert_near(turned.yz, sin(0.05) * cos(0.05), 1e-13);
 }
 
-/* Section 7.4 of the method: S_w = S + dt (W S - S W), W_ab = (dU^a/dx^b - dU^b/dx^a)/2, spin = curl U/2. */
+/* Section 7.4 of the method: S_w = S + dt (W S - S W), W_ab = (dU^a/dx^b - dU^b/dx^a)/2, spin =
+ * curl U/2. */
 static void rotation_is_the_jaumann_rate_to_first_order(void **state)
 {
     (void)state;
@@ -272,8 +275,8 @@ static void radial_return_puts_the_stress_on_yield(void **state)
     }
 }
 
-/* What the return takes is dissipated, never gained: S : plastic strain = equivalent stress times equivalent
- * plastic strain. */
+/* What the return takes is dissipated, never gained: S : plastic strain = equivalent stress times
+ * equivalent plastic strain. */
 static void plastic_work_is_positive(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Measures of whole bodies, and checks that are measured at a time or divided by another value, against
- * particles that are moved by hand. */
+/* Measures of whole bodies, and checks that are measured at a time or divided by another value,
+ * against particles that are moved by hand. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

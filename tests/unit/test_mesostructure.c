@@ -1,5 +1,5 @@
-/* The mesostructures of Parshikov (2013), chapters 3 to 5, composed of shapes: how many particles they
- * have. */
+/* The mesostructures of Parshikov (2013), chapters 3 to 5, composed of shapes: how many particles
+ * they have. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -42,7 +42,8 @@ static void a_plate_with_square_pores_has_1232_particles_per_25_pores(void **sta
     }
 }
 
-/* Octagons of 120 sites in cells of 16 x 16: a block of 12 x 12 less 3 + 2 + 1 sites at each corner. */
+/* Octagons of 120 sites in cells of 16 x 16: a block of 12 x 12 less 3 + 2 + 1 sites at each
+ * corner. */
 static void an_octagon_takes_120_of_256_sites_of_its_cell(void **state)
 {
     (void)state;
@@ -63,8 +64,8 @@ static void an_octagon_takes_120_of_256_sites_of_its_cell(void **state)
     assert_int_equal(count[1], 32 * 120);
 }
 
-/* Chains of round pores, every second one shifted by half a period: two pores 20.8 d wide in 40 d x 40 d
- * leave 1006 of 1750 kg/m^3. */
+/* Chains of round pores, every second one shifted by half a period: two pores 20.8 d wide in 40 d x
+ * 40 d leave 1006 of 1750 kg/m^3. */
 static void staggered_round_pores_leave_the_mean_density(void **state)
 {
     (void)state;
@@ -99,8 +100,8 @@ static void a_channel_takes_its_rectangle_of_sites(void **state)
     assert_int_equal(count[0], 24800);
 }
 
-/* Square inclusions, one a cell of 32 x 32 sites, every second one half a cell higher, where the walls cut
- * it: 20, 18, 14, 10 sites wide. */
+/* Square inclusions, one a cell of 32 x 32 sites, every second one half a cell higher, where the
+ * walls cut it: 20, 18, 14, 10 sites wide. */
 static void staggered_squares_keep_their_sites_between_walls(void **state)
 {
     (void)state;

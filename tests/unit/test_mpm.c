@@ -1,5 +1,5 @@
-/* The material point method step by step: the same bits whatever the threads, the storage, and after a resume; what the
- * steps keep; and what it refuses. */
+/* The material point method step by step: the same bits whatever the threads, the storage, and
+ * after a resume; what the steps keep; and what it refuses. */
 #include "populations.h"
 #include "running.h"
 
@@ -41,7 +41,8 @@ static const char space_case[] =
     "  floor: {mirror: z, at: 0 mm, side: low}\n"
     "run: {until: 1 s}\n";
 
-/* Two rods slip along each other while a third body sticks to one of them, and a fourth strikes; it has friction. */
+/* Two rods slip along each other while a third body sticks to one of them, and a fourth strikes; it
+ * has friction. */
 static const char contact_case[] =
     "format: 1\ntitle: Contacts\ndimension: 2\nresolution: 1 mm\n"
     "solver: {mpm: {cell: 2 mm, courant: 0.3}}\n" MATERIALS "bodies:\n"
@@ -186,8 +187,8 @@ static void mixing_in_shocks_turns_motion_into_heat(void **state)
     }
 }
 
-/* A dense, cold and a hot gas at the same pressure and at rest: only if they are one material do the
- * nodes that both reach pass energy from one to the other. */
+/* A dense, cold and a hot gas at the same pressure and at rest: only if they are one material do
+ * the nodes that both reach pass energy from one to the other. */
 static void mixing_in_shocks_does_not_heat_across_materials(void **state)
 {
     (void)state;
@@ -261,8 +262,9 @@ static const char axis_case[] =
     "walls: {floor: {mirror: y, at: 0 mm, side: low}}\n"
     "run: {until: 1 s}\n";
 
-/* Every scheme, and every shape but the linear one (and about an axis gimp), with walls, contacts, friction, an ambient pressure; in the plane gravity;
- * and damping where there is no contact: of both at one node each works as if alone. */
+/* Every scheme, and every shape but the linear one (and about an axis gimp), with walls, contacts,
+ * friction, an ambient pressure; in the plane gravity; and damping where there is no contact: of
+ * both at one node each works as if alone. */
 static void energy_is_conserved(void **state)
 {
     (void)state;
@@ -314,7 +316,8 @@ static void a_wall_between_planes_of_the_grid_is_a_mistake(void **state)
     end(run);
 }
 
-/* A bar that sounds softly, and whose last particle is hardly beyond a node: by a hundredth of a cell. */
+/* A bar that sounds softly, and whose last particle is hardly beyond a node: by a hundredth of a
+ * cell. */
 static const char sounding[] =
     "format: 1\ndimension: 1\nresolution: 1 mm\nsolver: {mpm: {cell: 2 mm}}\n" MATERIALS "bodies:\n"
     "  bar: {material: aluminium, box: {from: [0.52 mm], to: [20.52 mm]}, velocity: "

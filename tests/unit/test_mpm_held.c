@@ -1,5 +1,5 @@
-/* Bodies that something outside holds, by the material point method: pistons that are driven, strikers that stop, ends that
- * keep all of their state; and what the ledger says. */
+/* Bodies that something outside holds, by the material point method: pistons that are driven,
+ * strikers that stop, ends that keep all of their state; and what the ledger says. */
 #include "populations.h"
 #include "running.h"
 

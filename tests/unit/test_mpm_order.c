@@ -1,5 +1,5 @@
-/* Velocities of nodes by the inverse of the full mass matrix to some order, in a bar at rest in which no force acts yet: so
- * one step shows what nodes make of the velocities of particles. */
+/* Velocities of nodes by the inverse of the full mass matrix to some order, in a bar at rest in
+ * which no force acts yet: so one step shows what nodes make of the velocities of particles. */
 #include "populations.h"
 #include "running.h"
 
@@ -22,8 +22,8 @@ static double alternating(double x) { return (int)(x / 1e-3) % 2 ? -1e-3 : 1e-3;
 static double linear(double x) { return x - 0.032; }
 static double wave(double x) { return 1e-3 * sin(M_PI * x / 8e-3); } /* of eight cells */
 
-/* The component of the velocities along those that they were, after one step by particles that keep FLIP of their own, over
- * MARGIN from the walls; *most becomes the largest change. */
+/* The component of the velocities along those that they were, after one step by particles that keep
+ * FLIP of their own, over MARGIN from the walls; *most becomes the largest change. */
 static double kept(double (*velocity)(double), const char *shape, int order, double flip,
                    double margin, double *most)
 {

@@ -111,7 +111,8 @@ static const char pulse[] =
     "before: 0.8 us}\n"
     "run: {until: 1 s}\n";
 
-/* Half a sine has the impulse 2 T t/pi; that of the steps, each with what its middle has, is booked to rounding. */
+/* Half a sine has the impulse 2 T t/pi; that of the steps, each with what its middle has, is booked
+ * to rounding. */
 static void a_load_follows_the_time(void **state)
 {
     (void)state;
@@ -173,7 +174,8 @@ static void what_leaves_is_booked(void **state)
     end(run);
 }
 
-/* Of a stream faster than sound with the pressure about it, as much leaves as comes, and nothing changes before the face. */
+/* Of a stream faster than sound with the pressure about it, as much leaves as comes, and nothing
+ * changes before the face. */
 static void a_fast_stream_leaves_as_it_came(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* The second-order contact method: what its gradients must give exactly, and what its sums must keep. */
+/* The second-order contact method: what its gradients must give exactly, and what its sums must
+ * keep. */
 #include "material/material.h"
 #include "populations.h"
 #include "second_order.h"
@@ -23,7 +24,8 @@ static const struct {
 static const char layer[] =
     BODY("3", METAL, "metal", "{from: [-4 mm, -4 mm, 0 mm], to: [4 mm, 4 mm, 1 mm]}");
 
-/* Moves particles off their sites by up to SHIFT metres, and takes up to a tenth from their mass or adds it. */
+/* Moves particles off their sites by up to SHIFT metres, and takes up to a tenth from their mass or
+ * adds it. */
 static void distort(struct running *run, double shift, struct dice *dice)
 {
     struct particles *p = particles_of(&run->simulation);
@@ -188,7 +190,8 @@ static void linear_stresses_have_their_gradient_inside_and_at_free_surfaces(void
     }
 }
 
-/* Whether no surface is nearer to particle I of a body of extent ACROSS about the origin than its support, 2.4 mm. */
+/* Whether no surface is nearer to particle I of a body of extent ACROSS about the origin than its
+ * support, 2.4 mm. */
 static bool is_inside(const struct particles *p, int32_t i, const double across[3])
 {
     bool inside = true;

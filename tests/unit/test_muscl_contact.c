@@ -1,5 +1,6 @@
-/* The points of the second-order contact method: its contact problem against what waves must do and against a tabulated
- * one, and the deformation of a step against rotations and strains that are known. */
+/* The points of the second-order contact method: its contact problem against what waves must do and
+ * against a tabulated one, and the deformation of a step against rotations and strains that are
+ * known. */
 #include "dice.h"
 
 #include "riemann/shock.h"
@@ -104,7 +105,8 @@ static void the_pressure_of_a_blast_wave_is_within_two_per_cent(void **state)
     assert_close(shock_contact(hot, cold).stress, -1.4205672612e10, 0.02);
 }
 
-/* Up to jumps of the lesser sound speed; what compresses both sides far more than that may yield as the other grows. */
+/* Up to jumps of the lesser sound speed; what compresses both sides far more than that may yield as
+ * the other grows. */
 static void the_contact_pressure_grows_with_what_drives_it(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* What frozen ends do by the second-order contact method: waves run out of them, whatever the pressure of the matter at rest;
- * nothing happens without waves; and the ledger has what they take. */
+/* What frozen ends do by the second-order contact method: waves run out of them, whatever the
+ * pressure of the matter at rest; nothing happens without waves; and the ledger has what they
+ * take. */
 #include "populations.h"
 #include "second_order.h"
 

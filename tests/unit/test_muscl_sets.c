@@ -1,5 +1,5 @@
-/* Nothing but the state decides the bits of the second-order method: not the instruction set, the threads, the rows, nor a
- * resume. */
+/* Nothing but the state decides the bits of the second-order method: not the instruction set, the
+ * threads, the rows, nor a resume. */
 #include "populations.h"
 #include "second_order.h"
 
@@ -35,7 +35,8 @@ static const char *const cases[] = {CASE("1", SOLID, LINE),    CASE("2", FLUID, 
                                     CASE(ROUND, SOLID, PLANE), CASE("3", FLUID, SPACE),
                                     CASE("3", SOLID, SPACE)};
 
-/* Particles off their sites in random motion, a few steps on: records of gradients that are not zero. */
+/* Particles off their sites in random motion, a few steps on: records of gradients that are not
+ * zero. */
 static struct running *begin_random(const char *text, struct dice *dice)
 {
     struct running *run = begin_fresh(text, &plain);

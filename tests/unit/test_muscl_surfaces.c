@@ -1,10 +1,12 @@
-/* What the second-order contact method does where matter ends and where it meets again: the force that is expected at free
- * surfaces, thin plates that ring out, and density that follows the packing of particles. */
+/* What the second-order contact method does where matter ends and where it meets again: the force
+ * that is expected at free surfaces, thin plates that ring out, and density that follows the
+ * packing of particles. */
 #include "populations.h"
 #include "second_order.h"
 #include "sph/kernel.h"
 
-/* Uniform stress, and particles that know no slopes and stand still: a loop over records of this very moment. */
+/* Uniform stress, and particles that know no slopes and stand still: a loop over records of this
+ * very moment. */
 static void sum_uniform_stress(struct running *run, const double stress[6])
 {
     const struct particles *p = particles_of(&run->simulation);
@@ -26,8 +28,9 @@ static void sum_uniform_stress(struct running *run, const double stress[6])
     muscl_loop_run(&loop, 0, p->count);
 }
 
-/* Forces at a free plane of a lattice over its traction sigma.n/D: what is expected there, and what the pairs make of it in
- * the first layer and in all. Directions are exact; with one neighbour to the other side so is the amount. */
+/* Forces at a free plane of a lattice over its traction sigma.n/D: what is expected there, and what
+ * the pairs make of it in the first layer and in all. Directions are exact; with one neighbour to
+ * the other side so is the amount. */
 static void the_force_expected_at_a_free_plane_is_its_traction_over_a_layer(void **state)
 {
     (void)state;
@@ -76,8 +79,9 @@ static void the_force_expected_at_a_free_plane_is_its_traction_over_a_layer(void
     }
 }
 
-/* Three layers, 5 mm each, in the first mode of their thickness. Stress has no slope in it: but for the traction that ends
- * at the faces, half a step ahead would know no force, and the mode would grow a hundredfold in a millisecond. */
+/* Three layers, 5 mm each, in the first mode of their thickness. Stress has no slope in it: but for
+ * the traction that ends at the faces, half a step ahead would know no force, and the mode would
+ * grow a hundredfold in a millisecond. */
 #define PLATE(dimension, box, walls)                                                          \
     "format: 1\ndimension: " dimension "\nresolution: 5 mm\nsolver: {sph: {method: muscl}}\n" \
     "run: {until: 1 s}\n"                                                                     \
@@ -147,7 +151,8 @@ static struct running *begin_lattice(const char *text)
     return run;
 }
 
-/* What the volumes about particle I fill of its space: the trace of its second moment over that of a complete lattice. */
+/* What the volumes about particle I fill of its space: the trace of its second moment over that of
+ * a complete lattice. */
 static double packing_of(const struct running *run, int32_t i)
 {
     const struct particles *p = particles_of(&run->simulation);
@@ -243,8 +248,8 @@ static void volumes_that_overlap_are_squeezed_and_volumes_apart_are_not(void **s
         prepare(run); /* now neighbours tell of the same places */
         assert_true(assert_squeeze(run, start) > p->count / 8);
 
-        /* one step: density follows with C/D, the deviator and the energy do not; cold matter of more density has no heat to
-         * pay for it */
+        /* one step: density follows with C/D, the deviator and the energy do not; cold matter of
+         * more density has no heat to pay for it */
         const struct sph_fields f = sph_fields_of(&run->sph, &run->simulation);
         int32_t most = 0, cold = -1;
         for (int32_t i = 0; i < p->count; i++) {
@@ -312,8 +317,9 @@ static void packing_counts_from_that_of_the_start(void **state)
     }
 }
 
-/* Plastic flow draws a block out to two and a half times its length: columns of particles stand further apart than the support
- * of a lattice reaches, which lets density go astray by half a per cent. */
+/* Plastic flow draws a block out to two and a half times its length: columns of particles stand
+ * further apart than the support of a lattice reaches, which lets density go astray by half a per
+ * cent. */
 static void what_flow_draws_out_keeps_its_neighbours_and_its_density(void **state)
 {
     (void)state;

@@ -134,7 +134,8 @@ static void a_case_far_from_the_origin_is_searched_alike(void **state)
             }
 }
 
-/* A blob whose lengths grow by FACTOR a step, each part at a rate of its own, in a haphazard wind. */
+/* A blob whose lengths grow by FACTOR a step, each part at a rate of its own, in a haphazard
+ * wind. */
 static int expand(struct scene *scene, double factor, int steps, struct dice *dice)
 {
     struct particles *p = &scene->particles;
@@ -170,7 +171,8 @@ static void rows_hold_while_a_gas_expands_a_thousandfold(void **state)
         const double factor = 1.01;
         int steps = (int)ceil(log(1000.0) / dimension / log(factor));
         int builds = expand(&scene, factor, steps, &dice);
-        /* In 1-D a block is 64 cells long, and its ends move apart by more than the skin at each step. */
+        /* In 1-D a block is 64 cells long, and its ends move apart by more than the skin at each
+         * step. */
         print_message("%d-D: %d builds in %d steps\n", dimension, builds, steps);
         assert_true(dimension == 1 || builds < steps);
         scene_destroy(&scene);

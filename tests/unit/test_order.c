@@ -1,4 +1,5 @@
-/* Orders of accuracy and extrapolation, of errors and values that are made up to have a known order. */
+/* Orders of accuracy and extrapolation, of errors and values that are made up to have a known
+ * order. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -29,8 +30,8 @@ static void errors_of_a_known_order_have_that_order(void **state)
 static void the_fitted_order_is_the_line_of_least_squares(void **state)
 {
     (void)state;
-    /* Of three runs that halve the spacing, the middle one has no say: the published L1 errors of an
-     * elastic-plastic impact at 500, 1000 and 2000 particles. */
+    /* Of three runs that halve the spacing, the middle one has no say: the published L1 errors of
+     * an elastic-plastic impact at 500, 1000 and 2000 particles. */
     const double spacing[] = {4, 2, 1}, error[] = {2.44e-2, 1.60e-2, 1.03e-2};
     assert_float_equal(order_fitted(spacing, error, 3), 0.62, 0.005);
     assert_float_equal(order_fitted(spacing, error, 3), log(2.44 / 1.03) / log(4.0), 1e-12);
@@ -65,8 +66,9 @@ static void a_monotone_sequence_gives_its_limit_and_order(void **state)
         }
 }
 
-/* The worked example of NASA's tutorial on grid convergence (NPARC, pressure recovery of an inlet): 0.97050,
- * 0.96854 and 0.96178 from fine to coarse give p = 1.78617, the limit 0.97130, an index of 0.103083 %. */
+/* The worked example of NASA's tutorial on grid convergence (NPARC, pressure recovery of an inlet):
+ * 0.97050, 0.96854 and 0.96178 from fine to coarse give p = 1.78617, the limit 0.97130, an index of
+ * 0.103083 %. */
 static void a_worked_example_comes_out_as_published(void **state)
 {
     (void)state;

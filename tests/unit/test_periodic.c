@@ -1,5 +1,5 @@
-/* Particles in periodic domains: places on the grain, a uniform flow that goes round, the same problem
- * with the seam elsewhere, the same bits however it is run, and what must be conserved. */
+/* Particles in periodic domains: places on the grain, a uniform flow that goes round, the same
+ * problem with the seam elsewhere, the same bits however it is run, and what must be conserved. */
 #include "populations.h"
 #include "running.h"
 

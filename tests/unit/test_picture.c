@@ -247,7 +247,8 @@ static void section_of_a_solid_shows_its_two_longest_axes(void **state)
     struct simulation *simulation = lattice(3, 4, 40, 20, 1e-3);
     assert_null(draw_in(simulation, "pressure", NAN, NAN));
     cairo_surface_t *surface = read_picture();
-    /* The middle plane lies between the second and the third layer along x; the third is in front. */
+    /* The middle plane lies between the second and the third layer along x; the third is in
+     * front. */
     struct colour_scale scale = colour_scale_make((struct range){2e9, 3e9});
     assert_true(count_pixels(surface, colour_of(&scale, 3e9)) > 500000);
     assert_int_equal(cairo_image_surface_get_width(surface), 1600);

@@ -19,7 +19,8 @@
 #include "run/checks.h"
 #include "shape/kinds.h"
 
-/* Two bodies of EACH x EACH particles in a plane, or EACH^3 in space, 0.1 m apart, side by side along x. */
+/* Two bodies of EACH x EACH particles in a plane, or EACH^3 in space, 0.1 m apart, side by side
+ * along x. */
 enum { BODIES = 2, EACH = 4 };
 
 struct bench {
@@ -564,7 +565,8 @@ static void a_profile_has_mean_and_scatter_of_each_bin(void **state)
     assert_string_equal(csv_field(&csv, 1, 0), "left");
     assert_float_equal(csv_number(&csv, 1, 1), 0.3, 1e-15);
     assert_float_equal(csv_number(&csv, 1, 2), 8.0, 0.0);
-    /* 2 and 3 and then every fourth: mean 8.5, variance 20.25 of the rows and 0.25 between the columns */
+    /* 2 and 3 and then every fourth: mean 8.5, variance 20.25 of the rows and 0.25 between the
+     * columns */
     assert_float_equal(csv_number(&csv, 1, 3), 8.5, 1e-14);
     assert_float_equal(csv_number(&csv, 1, 4), sqrt(20.25), 1e-14);
     assert_float_equal(csv_number(&csv, 1, 5), 2.0, 0.0);

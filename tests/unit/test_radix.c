@@ -1,4 +1,5 @@
-/* The sort of keys: against one that looks at two neighbours at a time, and the same with any number of threads. */
+/* The sort of keys: against one that looks at two neighbours at a time, and the same with any
+ * number of threads. */
 #include "dice.h"
 
 #include <string.h>

@@ -53,7 +53,8 @@ static void acoustic_contact_is_the_same_from_both_sides(void **state)
     }
 }
 
-/* Across a wave of impedance Z the jumps of stress and velocity are in the ratio Z: momentum is kept. */
+/* Across a wave of impedance Z the jumps of stress and velocity are in the ratio Z: momentum is
+ * kept. */
 static void acoustic_contact_keeps_momentum_across_both_waves(void **state)
 {
     (void)state;
@@ -132,7 +133,8 @@ static struct side shock_side(double density, double pressure, double velocity, 
     return side;
 }
 
-/* Acceptance tests T2 and T3. Of T3 the pressure is that of both curves at the tabulated velocity. */
+/* Acceptance tests T2 and T3. Of T3 the pressure is that of both curves at the tabulated
+ * velocity. */
 static void strong_shock_solvers_give_the_tabulated_states(void **state)
 {
     (void)state;

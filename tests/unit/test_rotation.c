@@ -1,4 +1,5 @@
-/* Velocities corrected to the contact point (`rotation: corrected`): a body that turns as a whole feels nothing of it. */
+/* Velocities corrected to the contact point (`rotation: corrected`): a body that turns as a whole
+ * feels nothing of it. */
 #include "populations.h"
 #include "running.h"
 

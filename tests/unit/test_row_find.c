@@ -1,4 +1,5 @@
-/* The search for the neighbours of one point: against brute force, by each instruction set of this processor. */
+/* The search for the neighbours of one point: against brute force, by each instruction set of this
+ * processor. */
 #include "dice.h"
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* What a body starts with: states from two givens, temperatures, stresses, and fields of the position. */
+/* What a body starts with: states from two givens, temperatures, stresses, and fields of the
+ * position. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

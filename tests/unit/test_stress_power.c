@@ -1,4 +1,5 @@
-/* The step whose energy comes from the power of stress: adiabats of gases and solids, elastic and plastic work. */
+/* The step whose energy comes from the power of stress: adiabats of gases and solids, elastic and
+ * plastic work. */
 #include "dice.h"
 
 #include "material/material.h"
@@ -45,7 +46,8 @@ static void squeeze(const struct material *material, struct point *point, double
     }
 }
 
-/* The energy at DENSITY on the adiabat through POINT: de = -p dv by the classical Runge-Kutta method. */
+/* The energy at DENSITY on the adiabat through POINT: de = -p dv by the classical Runge-Kutta
+ * method. */
 static double adiabat(const struct material *material, struct point point, double density)
 {
     enum { STEPS = 4000 };

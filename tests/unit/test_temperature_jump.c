@@ -1,5 +1,5 @@
-/* The decay of a jump of temperature: against the table of the reference case, against the equation of heat
- * conduction, and what is conserved. */
+/* The decay of a jump of temperature: against the table of the reference case, against the equation
+ * of heat conduction, and what is conserved. */
 #include "exact_solution.h"
 
 #include "exact/temperature_jump.h"
@@ -113,8 +113,8 @@ static void porcelain_against_hot_gas_has_the_printed_digits(void **state)
     release(&solution);
 }
 
-/* Heat stays, the equation of conduction holds on either side, and temperature and flux are continuous at the
- * contact. */
+/* Heat stays, the equation of conduction holds on either side, and temperature and flux are
+ * continuous at the contact. */
 static void assert_conducts(const struct exact_temperature_jump *problem, double time)
 {
     struct solution solution = solve(&exact_temperature_jump_class, problem, time);

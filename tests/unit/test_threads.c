@@ -50,7 +50,8 @@ static void they_come_back_when_none_waits(void **state)
     assert_int_equal(threads.now, 8);
 }
 
-/* A second run that has reduced its threads as well: one thread of each is never delayed, and two always are. */
+/* A second run that has reduced its threads as well: one thread of each is never delayed, and two
+ * always are. */
 static void trials_that_fail_become_rare(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Tillotson's equation of state with the constants of aluminium (Melosh 1989, table AII.3): values worked out by
- * hand from the formulas, continuity where its regions meet, and its derivatives against differences. */
+/* Tillotson's equation of state with the constants of aluminium (Melosh 1989, table AII.3): values
+ * worked out by hand from the formulas, continuity where its regions meet, and its derivatives
+ * against differences. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,4 +1,5 @@
-/* Expressions of the position and of the time: values, dimensions over all their pieces, and the text that is written. */
+/* Expressions of the position and of the time: values, dimensions over all their pieces, and the
+ * text that is written. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -223,8 +224,8 @@ static void the_written_text_gives_the_same_bits(void **state)
     }
 }
 
-/* No text of the grammar's pieces crashes the compiler, and what it takes it writes so that it takes it
- * again. */
+/* No text of the grammar's pieces crashes the compiler, and what it takes it writes so that it
+ * takes it again. */
 static void random_texts_are_taken_and_written_or_refused(void **state)
 {
     (void)state;

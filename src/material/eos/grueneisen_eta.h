@@ -1,10 +1,11 @@
-/* Mie-Grüneisen with constant gamma rho, as one formula of eta = rho/rho_0 in compression and tension:
+/* Mie-Grüneisen with constant gamma rho, as one formula of eta = rho/rho_0 in compression and
+ * tension:
  *
  *   p = rho_0 C_0^2 f(eta) + rho_0 gamma_0 e
  *   f = (eta - 1) [eta - gamma_0 (eta - 1)/2] / [eta - s (eta - 1)]^2
  *
- * In compression its shock adiabat from rest is U_s = C_0 + s U_p.
- * Source: Wang, Chen and Huang (2024), (19). */
+ * In compression its shock adiabat from rest is U_s = C_0 + s U_p. Source: Wang, Chen and Huang
+ * (2024), (19). */
 #ifndef BOLIDE_EOS_GRUENEISEN_ETA_H
 #define BOLIDE_EOS_GRUENEISEN_ETA_H
 

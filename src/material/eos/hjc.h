@@ -1,5 +1,5 @@
-/* Concrete after Holmquist, Johnson and Cook: pressure in three stages of mu = rho/rho_0 - 1, where mu_max is the largest
- * so far and unloading keeps what has been crushed:
+/* Concrete after Holmquist, Johnson and Cook: pressure in three stages of mu = rho/rho_0 - 1, where
+ * mu_max is the largest so far and unloading keeps what has been crushed:
  *
  *   elastic     mu <= mu_crush             p = K_e mu, K_e = P_crush/mu_crush, in tension too
  *   transition  mu_crush < mu <= mu_pl     the line from (mu_crush, P_crush) to (mu_pl, P_lock);
@@ -7,8 +7,9 @@
  *   compacted   mu > mu_pl                 p = K_1 m + K_2 m^2 + K_3 m^3, m = (mu - mu_lock)/(1 + mu_lock);
  *               unloading with K_1
  *
- * mu_pl is where that cubic reaches P_lock. Energy does not matter. What tension concrete bears its strength says.
- * Source: Holmquist, Johnson and Cook, Proc. 14th Int. Symp. Ballistics (1993) 591, restored for Cui, dissertation (2014). */
+ * mu_pl is where that cubic reaches P_lock. Energy does not matter. What tension concrete bears its
+ * strength says. Source: Holmquist, Johnson and Cook, Proc. 14th Int. Symp. Ballistics (1993) 591,
+ * restored for Cui, dissertation (2014). */
 #ifndef BOLIDE_EOS_HJC_H
 #define BOLIDE_EOS_HJC_H
 
@@ -123,8 +124,8 @@ BOLIDE_INLINE struct eos_value eos_hjc(const struct eos_hjc *concrete, double de
     return value;
 }
 
-/* Notes the compression of DENSITY in HISTORY. Returns the compression that will not come back, d mu_p = d mu - dp/K_u in
- * the transition. */
+/* Notes the compression of DENSITY in HISTORY. Returns the compression that will not come back, d
+ * mu_p = d mu - dp/K_u in the transition. */
 BOLIDE_INLINE double eos_hjc_compact(const struct eos_hjc *concrete, double density,
                                      double *history)
 {

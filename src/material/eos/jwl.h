@@ -4,9 +4,9 @@
  *   p = A [1 - w/(R_1 V)] exp(-R_1 V) + B [1 - w/(R_2 V)] exp(-R_2 V) + w E/V
  *
  * e counts from the explosive at rest, so that E_0 is the heat of the reaction for products; for an
- * unreacted explosive it makes the pressure vanish at rest; it is zero where e holds the chemical energy.
- * Source: Lee and Tarver, Phys. Fluids 23 (1980) 2362, in the form of Cui, dissertation (2014), (2-60),
- * and Parshikov (2013), (5.4)-(5.7). */
+ * unreacted explosive it makes the pressure vanish at rest; it is zero where e holds the chemical
+ * energy. Source: Lee and Tarver, Phys. Fluids 23 (1980) 2362, in the form of Cui, dissertation
+ * (2014), (2-60), and Parshikov (2013), (5.4)-(5.7). */
 #ifndef BOLIDE_EOS_JWL_H
 #define BOLIDE_EOS_JWL_H
 

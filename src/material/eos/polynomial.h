@@ -1,5 +1,5 @@
-/* Polynomial in the compression mu = rho/rho_0 - 1, without energy: the intact ceramics and glasses of
- * the Johnson-Holmquist models.
+/* Polynomial in the compression mu = rho/rho_0 - 1, without energy: the intact ceramics and glasses
+ * of the Johnson-Holmquist models.
  *
  *   p = K_1 mu + K_2 mu^2 + K_3 mu^3   mu > 0
  *   p = K_1 mu                         mu <= 0
@@ -51,7 +51,8 @@ BOLIDE_INLINE struct eos_traits eos_polynomial_traits(const struct eos_polynomia
 {
     struct eos_traits traits = eos_default_traits();
     traits.shock_slope = 0.5 * (1.0 + solid->second_modulus / solid->bulk_modulus);
-    /* shock heating then adds about gamma (4 s) (1 - rho_0/rho)^2/12 to the pressure, a twentieth */
+    /* shock heating then adds about gamma (4 s) (1 - rho_0/rho)^2/12 to the pressure, a
+     * twentieth */
     traits.largest_compression = 4.0 / 3.0;
     return traits;
 }

@@ -2,10 +2,10 @@
  *
  *   p = C_0^2 (rho - rho_0) + (gamma - 1) rho e
  *
- * which is p = (gamma - 1) rho e' - gamma p_inf with gamma p_inf = rho_0 C_0^2 and the energy counted
- * from the state at rest, e = e' - C_0^2/(gamma - 1). The sound speed vanishes at p = -p_inf, which
- * no state reaches that is warmer than the cold curve; below, c^2 is held at C_0^2/100, times
- * rho/rho_0 in expansion. Source: Wang, Chen and Huang (2024), (18). */
+ * which is p = (gamma - 1) rho e' - gamma p_inf with gamma p_inf = rho_0 C_0^2 and the energy
+ * counted from the state at rest, e = e' - C_0^2/(gamma - 1). The sound speed vanishes at p =
+ * -p_inf, which no state reaches that is warmer than the cold curve; below, c^2 is held at
+ * C_0^2/100, times rho/rho_0 in expansion. Source: Wang, Chen and Huang (2024), (18). */
 #ifndef BOLIDE_EOS_STIFFENED_GAS_H
 #define BOLIDE_EOS_STIFFENED_GAS_H
 

@@ -1,19 +1,21 @@
-/* Tillotson's equation of state for metals and rocks from rest to vaporisation, eta = rho/rho_0, mu = eta - 1,
- * w = 1 + e/(e_0 eta^2):
+/* Tillotson's equation of state for metals and rocks from rest to vaporisation, eta = rho/rho_0, mu
+ * = eta - 1, w = 1 + e/(e_0 eta^2):
  *
  *   condensed (rho >= rho_0 or e <= e_iv):  p_c = (a + b/w) rho e + A mu + B mu^2
  *   vapour (rho < rho_0 and e >= e_cv):     p_v = a rho e + [b rho e/w + A mu exp(-beta (1/eta - 1))]
  *                                                          exp(-alpha (1/eta - 1)^2)
  *   between:                                p = [(e - e_iv) p_v + (e_cv - e) p_c] / (e_cv - e_iv)
  *
- * and no pressure below that at which matter parts, where it is given: what is drawn out farther keeps that tension, and
- * bears pressure again once it is pressed together as far as it was drawn out.
+ * and no pressure below that at which matter parts, where it is given: what is drawn out farther
+ * keeps that tension, and bears pressure again once it is pressed together as far as it was drawn
+ * out.
  *
- * By default w does not fall below 1, where energies below zero would let it vanish, and c^2 is held
- * at a hundredth of A/rho_0 times eta in tension beyond its maximum, A^2/(4 B) at no energy. Where
- * p > 0 the form has a sound speed everywhere.
+ * By default w does not fall below 1, where energies below zero would let it vanish, and c^2 is
+ * held at a hundredth of A/rho_0 times eta in tension beyond its maximum, A^2/(4 B) at no energy.
+ * Where p > 0 the form has a sound speed everywhere.
  *
- * Source: Tillotson, General Atomic report GA-3216 (1962); in this form Melosh, Impact Cratering (1989), II.4. */
+ * Source: Tillotson, General Atomic report GA-3216 (1962); in this form Melosh, Impact Cratering
+ * (1989), II.4. */
 #ifndef BOLIDE_EOS_TILLOTSON_H
 #define BOLIDE_EOS_TILLOTSON_H
 

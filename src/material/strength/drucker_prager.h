@@ -5,10 +5,12 @@
  *   border   h = tau - tau^p - alpha^p (sigma_m - sigma^t)                       (2-67)
  *            tau^p = k_phi - q_phi sigma^t, alpha^p = sqrt(1 + q_phi^2) - q_phi  (2-68), (2-69)
  *
- * The elastic trial returns in shear by dl = f^s/(G + K q_phi q_psi) where sigma_m < sigma^t and f^s > 0, or sigma_m >=
- * sigma^t and h > 0; to sigma^t where sigma_m >= sigma^t and h <= 0. Tension beyond sigma^t that a return in shear leaves
- * is cut too, which the source does not say; a return in tension leaves its shear to the next step. The volume that a return takes stays: see `dilation` in material.h.
- * Source: Cui, dissertation (2014); plastic strains as in the public MPM3D codes. */
+ * The elastic trial returns in shear by dl = f^s/(G + K q_phi q_psi) where sigma_m < sigma^t and
+ * f^s > 0, or sigma_m >= sigma^t and h > 0; to sigma^t where sigma_m >= sigma^t and h <= 0. Tension
+ * beyond sigma^t that a return in shear leaves is cut too, which the source does not say; a return
+ * in tension leaves its shear to the next step. The volume that a return takes stays: see
+ * `dilation` in material.h. Source: Cui, dissertation (2014); plastic strains as in the public
+ * MPM3D codes. */
 #ifndef BOLIDE_STRENGTH_DRUCKER_PRAGER_H
 #define BOLIDE_STRENGTH_DRUCKER_PRAGER_H
 

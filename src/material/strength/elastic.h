@@ -3,8 +3,8 @@
  *   dS/dt = 2 G (strain rate - trace/3)   (1.54)-(1.56)
  *   rotation of S by the spin             (1.59), (1.60), by the exact rotation matrix
  *
- * Source: Parshikov (2013), sections 1.3 and 1.5. The source's rotation matrix is linear in dt and not
- * quite orthogonal; the exact one differs from it in second order. */
+ * Source: Parshikov (2013), sections 1.3 and 1.5. The source's rotation matrix is linear in dt and
+ * not quite orthogonal; the exact one differs from it in second order. */
 #ifndef BOLIDE_STRENGTH_ELASTIC_H
 #define BOLIDE_STRENGTH_ELASTIC_H
 

@@ -5,12 +5,13 @@
  *   dD_t/dt = a D_t (1 - D_t) (sigma_s/sigma_0 - 1)^gamma where sigma_s > sigma_0                           (2-63)
  *   p >= -T (1 - max(D_c, D_t))
  *
- * D is D_c, in tension the larger of both. sigma_s is max(-p, 0)/(1 - D_t), or the largest principal stress over that;
- * over a step it is held, and D_t/(1 - D_t) grows by exactly exp(a (sigma_s/sigma_0 - 1)^gamma dt), from D_t0 on. At its
- * limit either damage becomes one, and the concrete has failed: it bears no tension and no shear, or as rubble the friction
- * B p*^N alone.
- * Source: Holmquist, Johnson and Cook, Proc. 14th Int. Symp. Ballistics (1993) 591; the damage by tension after Jiang Dong
- * (2010), both as in Cui, dissertation (2014). He names no constants of (2-63): defaults are ours. */
+ * D is D_c, in tension the larger of both. sigma_s is max(-p, 0)/(1 - D_t), or the largest
+ * principal stress over that; over a step it is held, and D_t/(1 - D_t) grows by exactly exp(a
+ * (sigma_s/sigma_0 - 1)^gamma dt), from D_t0 on. At its limit either damage becomes one, and the
+ * concrete has failed: it bears no tension and no shear, or as rubble the friction B p*^N alone.
+ * Source: Holmquist, Johnson and Cook, Proc. 14th Int. Symp. Ballistics (1993) 591; the damage by
+ * tension after Jiang Dong (2010), both as in Cui, dissertation (2014). He names no constants of
+ * (2-63): defaults are ours. */
 #ifndef BOLIDE_STRENGTH_HJC_H
 #define BOLIDE_STRENGTH_HJC_H
 

@@ -7,10 +7,11 @@
  *
  *   S_eq - 3 G d eps = Y(eps + d eps, d eps/dt)
  *
- * of the elastic trial S_eq, by Newton's method; T is that before the step. The explicit variant is that
- * of the public MPM3D codes: d eps = (S_eq - Y)/[3 G + B n (eps + 1e-4)^(n-1)] with the Y before the step, then the
- * stress is put on Y after it; their Y before the step is stored, ours has the strain rate of the step.
- * Source: Johnson and Cook, Proc. 7th Int. Symp. Ballistics (1983) 541, in the form of Cui, dissertation (2014). */
+ * of the elastic trial S_eq, by Newton's method; T is that before the step. The explicit variant is
+ * that of the public MPM3D codes: d eps = (S_eq - Y)/[3 G + B n (eps + 1e-4)^(n-1)] with the Y
+ * before the step, then the stress is put on Y after it; their Y before the step is stored, ours
+ * has the strain rate of the step. Source: Johnson and Cook, Proc. 7th Int. Symp. Ballistics (1983)
+ * 541, in the form of Cui, dissertation (2014). */
 #ifndef BOLIDE_STRENGTH_JOHNSON_COOK_H
 #define BOLIDE_STRENGTH_JOHNSON_COOK_H
 
@@ -103,7 +104,8 @@ BOLIDE_INLINE double strength_johnson_cook_yield(const struct strength_johnson_c
     return johnson_cook_stress(solid, point->history[HISTORY_plastic_strain], 0.0, heating);
 }
 
-/* Up to eight points that flow, each on its own: what it does for one does not depend on the others. */
+/* Up to eight points that flow, each on its own: what it does for one does not depend on the
+ * others. */
 struct johnson_cook_points {
     double trial[LANES];     /* Mises stress of the elastic trial, beyond SLOW */
     double strain[LANES];    /* plastic, before the step */
@@ -116,8 +118,8 @@ struct johnson_cook_points {
  *
  *   x + a ln x = b,  w = x/a:  w + ln w = z
  *
- * with w roughly known and brought nearer by one step of third order (Fritsch, Shafer and Crowley, Commun. ACM 16 (1973)
- * 123). */
+ * with w roughly known and brought nearer by one step of third order (Fritsch, Shafer and Crowley,
+ * Commun. ACM 16 (1973) 123). */
 BOLIDE_INLINE double johnson_cook_guess(const struct strength_johnson_cook *solid, double dt,
                                         double trial, double slow, double along)
 {
@@ -132,9 +134,9 @@ BOLIDE_INLINE double johnson_cook_guess(const struct strength_johnson_cook *soli
     return minimum(a * w * (1.0 + rest / up * (much - rest) / (much - 2.0 * rest)), beyond / stiff);
 }
 
-/* What COUNT points flow in a step of DT. What is left of the trial stress falls with the flow and Y grows, and Y bends
- * down on either side of the reference rate: from the left Newton's method does not overshoot, from the right it comes
- * to the left. It stops over where Y has its kink. */
+/* What COUNT points flow in a step of DT. What is left of the trial stress falls with the flow and
+ * Y grows, and Y bends down on either side of the reference rate: from the left Newton's method
+ * does not overshoot, from the right it comes to the left. It stops over where Y has its kink. */
 BOLIDE_INLINE void johnson_cook_flow(const struct strength_johnson_cook *solid, int count,
                                      double dt, struct johnson_cook_points *p)
 {

@@ -6,10 +6,10 @@
 
 struct particles;
 
-/* Collective. Appends the particles of all bodies to PARTICLES, each rank its slice of every lattice,
- * with id, body, material, mass, density, energy, position and velocity, and commits. Fails as
- * generate_count does. A particle's mass is rho times the volume of its site. In axisymmetry x is the
- * radius: bodies are cut at the axis. */
+/* Collective. Appends the particles of all bodies to PARTICLES, each rank its slice of every
+ * lattice, with id, body, material, mass, density, energy, position and velocity, and commits.
+ * Fails as generate_count does. A particle's mass is rho times the volume of its site. In
+ * axisymmetry x is the radius: bodies are cut at the axis. */
 struct error *generate_particles(const struct simulation *simulation, struct particles *particles);
 
 #endif

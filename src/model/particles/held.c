@@ -41,7 +41,8 @@ struct drive {
     double dt, velocity[3];
 };
 
-/* The place in the middle of the step is where the impulse has the moment that the particle gains. */
+/* The place in the middle of the step is where the impulse has the moment that the particle
+ * gains. */
 static void drive_particle(const struct simulation *simulation, const struct particles *p,
                            const void *of, int32_t i, struct ledger *ledger)
 {

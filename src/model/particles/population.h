@@ -24,9 +24,9 @@ struct error *particles_add(struct simulation *simulation, double cell,
                             struct particles **particles);
 void particles_drop(struct particles *particles);
 
-/* Collective: plans the exchange of GHOSTS, the particles of other ranks within LINK diameters of those
- * of POPULATION, and takes down what they are. Nothing crosses periodic faces. Free them also after an
- * error. */
+/* Collective: plans the exchange of GHOSTS, the particles of other ranks within LINK diameters of
+ * those of POPULATION, and takes down what they are. Nothing crosses periodic faces. Free them also
+ * after an error. */
 struct error *particles_see(const struct population_source *population, const double *diameter,
                             double link, struct ghosts *ghosts);
 

@@ -290,8 +290,8 @@ struct volume_pair {
 };
 
 /* What the contact is ahead of its place between the two, one volume gains and the other loses:
- * weighed so that the sum of the logarithms stays, if they were of one size at the start. Rings limit
- * the weight: a thin one would gain the more the thinner it is. */
+ * weighed so that the sum of the logarithms stays, if they were of one size at the start. Rings
+ * limit the weight: a thin one would gain the more the thinner it is. */
 BOLIDE_INLINE void add_volume(struct muscl_kind kind, const struct pairs *pairs, int k,
                               const struct volume_pair *pair, double (*sums)[LANES])
 {

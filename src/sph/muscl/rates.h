@@ -133,8 +133,8 @@ BOLIDE_INLINE void find_forces(struct muscl_kind kind, struct batch *batch, int 
 }
 
 /* What the volumes about a particle fill beyond the space there is: the excess of tr M/dimension
- * over the start's, less a slack. Where matter has met across a gap the velocity gradient counts too
- * little of the closing, and bodies would run into each other. The trace is 1 on the average of
+ * over the start's, less a slack. Where matter has met across a gap the velocity gradient counts
+ * too little of the closing, and bodies would run into each other. The trace is 1 on the average of
  * points that stand at random; among particles that have been stirred it scatters by 0.02, so the
  * mean over the neighbours counts: those of the same material, the less the more their compression
  * differs. And how thinly neighbours stand on some axis: the norm of the inverse of the moment of

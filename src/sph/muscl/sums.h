@@ -1,5 +1,5 @@
-/* The sums over a neighbour list in the second-order pair loop. For the files that are compiled once
- * an instruction set. */
+/* The sums over a neighbour list in the second-order pair loop. For the files that are compiled
+ * once an instruction set. */
 #ifndef BOLIDE_SPH_MUSCL_SUMS_H
 #define BOLIDE_SPH_MUSCL_SUMS_H
 
