@@ -24,7 +24,7 @@ static void check_limits(struct checking *checking, const struct check_input *ch
         case_wrong(checking, "recorded_value", "this needs `regression_bound` beside it");
     if (check->at_least.value > check->at_most.value &&
         dimension_equal(check->at_least.dimension, check->at_most.dimension))
-        case_wrong(checking, "at_least", "this lies above `at_most`");
+        case_wrong(checking, "at_least", "this is larger than `at_most`");
     if (!is_given(within))
         return;
     if (within->value < 0.0)
@@ -129,7 +129,7 @@ void case_check_order(struct checking *checking, int index)
     if (isnan(order->at_least) && isnan(order->at_most) && !case_is_wrong(checking, ""))
         case_wrong(checking, "", "a limit is missing: `at_least` or `at_most`");
     if (order->at_least > order->at_most)
-        case_wrong(checking, "at_least", "this lies above `at_most`");
+        case_wrong(checking, "at_least", "this is larger than `at_most`");
     if (order->known_deviation && !order->known_deviation[0])
         case_wrong(checking, "known_deviation", "a reason is required");
 }

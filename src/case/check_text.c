@@ -60,8 +60,7 @@ static void check_name(struct checking *checking, const char *name, bool of_file
         good = good && (is_letter_or_digit(*c) || *c == ' ' || strchr(punctuation, *c));
     if (!good)
         case_wrong(checking, "",
-                   "a name starts with a letter or a digit and holds besides these only blanks and "
-                   "%s",
+                   "a name must start with a letter or a digit; it may also contain blanks and %s",
                    punctuation);
     check_looks(checking, name);
 }

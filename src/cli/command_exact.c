@@ -87,7 +87,7 @@ static struct error *print_solution(const struct choice *choice, const void *val
         else if (time > 0.0 && profile_range(class, numbers, count, &low, &high))
             print_profile(class, solved, time, low, high, points);
         else
-            error = error_new(ERROR_INPUT, "a profile wants --time");
+            error = error_new(ERROR_INPUT, "a profile needs --time");
     }
     free(solved);
     return error;
@@ -123,7 +123,7 @@ static struct error *wants_values(const struct choice *choice)
     write_wanted(out, "", choice->table);
     struct error *error =
         fclose(out) ? error_new(ERROR_SYSTEM, "out of memory")
-                    : error_new(ERROR_INPUT, "%s wants its values:%s", choice->name, text);
+                    : error_new(ERROR_INPUT, "%s needs its values:%s", choice->name, text);
     error = error_join(error, error_new(ERROR_INPUT,
                                         "`bolide help %s` explains them; `bolide exact CASE` takes "
                                         "those of a case",

@@ -27,7 +27,7 @@ static const struct option option_table[] = {
      "folder of the results (run: results/<name of the case>; search: results/<name>-search; "
      "verify: none)",
      OPTION_TEXT, AT(output), COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH},
-    {"--overwrite", NULL, "replace the results that the folder holds", OPTION_FLAG, AT(overwrite),
+    {"--overwrite", NULL, "replace the results in the folder", OPTION_FLAG, AT(overwrite),
      COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH},
     {"--resume", NULL, "continue from the folder's checkpoint (restart)", OPTION_FLAG, AT(resume),
      COMMAND_RUN | COMMAND_SEARCH},
@@ -157,7 +157,7 @@ static struct error *read_option(const struct command *command, int count, char 
         return error_new(ERROR_INPUT, "%s takes no value", option->name);
     if (option->kind != OPTION_FLAG && !value) {
         if (*at + 1 >= count)
-            return error_new(ERROR_INPUT, "%s wants %s", option->name, option->value);
+            return error_new(ERROR_INPUT, "%s needs %s", option->name, option->value);
         value = words[++*at];
     }
     return store(option, value, options);

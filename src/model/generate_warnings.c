@@ -89,7 +89,7 @@ struct error *generate_warnings(const struct simulation_case *input)
                     warnings,
                     input_error(input, "bodies", input->bodies.names[body],
                                 "smaller than the resolution along %c (%.3g m of %.3g m): "
-                                "one particle stands for it",
+                                "it becomes one particle",
                                 "xyz"[axis], spacing[axis], wanted));
                 break;
             }

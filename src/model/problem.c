@@ -136,7 +136,7 @@ static struct error *law_table_make(struct problem *problem, struct law_table *t
         int law[2];
         struct error *mistake = NULL;
         if (first == second)
-            mistake = input_error(input, "contacts", name, "`between` wants two different bodies");
+            mistake = input_error(input, "contacts", name, "`between` needs two different bodies");
         else if (*law_entry(table, first, second))
             mistake =
                 input_error(input, "contacts", name, "another contact names the same two bodies");
@@ -235,10 +235,11 @@ static struct error *check_counts(const struct simulation_case *input)
 {
     struct error *error = NULL;
     if (input->bodies.count > UINT16_MAX)
-        error = input_error(input, "bodies", NULL, "a case holds at most %d bodies", UINT16_MAX);
+        error = input_error(input, "bodies", NULL, "a case can have at most %d bodies", UINT16_MAX);
     if (input->materials.count > MATERIALS_MAX)
-        error = error_join(error, input_error(input, "materials", NULL,
-                                              "a case holds at most %d materials", MATERIALS_MAX));
+        error =
+            error_join(error, input_error(input, "materials", NULL,
+                                          "a case can have at most %d materials", MATERIALS_MAX));
     return error;
 }
 

@@ -134,7 +134,8 @@ struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
     const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
     if (simulation->problem->geometry == GEOMETRY_PLANE_STRESS)
-        error = input_error(input, "geometry", NULL, "the solver mpm knows no plane stress");
+        error =
+            input_error(input, "geometry", NULL, "the solver mpm does not support plane stress");
     error = error_join(error, refuse_transfer(given, input));
     error = error_join(error, refuse_filter(given, input));
     error = error_join(error, refuse_order(given, simulation));

@@ -278,7 +278,7 @@ static void put_balance(const struct page *page, const struct table *table, cons
     for (int i = 0; i < table->columns; i++)
         if (name_before(&table->column[i], ending, cause) && has_booked(table, cause))
             put_cell(page->file, cause, table->column[i].value[table->rows - 1], column->unit);
-    put_cell(page->file, "unaccounted for", relative_loss(table, column), "");
+    put_cell(page->file, "conservation error", relative_loss(table, column), "");
     fputs("</tr>\n", page->file);
 }
 
@@ -295,7 +295,7 @@ static void put_conservation(const struct page *page, const struct table *table)
             page_text(page->file, cause);
             fputs("</th>", page->file);
         }
-    fputs("<th scope=\"col\" class=\"num\">unaccounted for</th></tr></thead>\n<tbody>\n",
+    fputs("<th scope=\"col\" class=\"num\">conservation error</th></tr></thead>\n<tbody>\n",
           page->file);
     put_balance(page, table, "mass", "mass");
     put_balance(page, table, "momentum.x", "momentum, x");
@@ -303,10 +303,9 @@ static void put_conservation(const struct page *page, const struct table *table)
     put_balance(page, table, "momentum.z", "momentum, z");
     put_balance(page, table, "energy", "energy");
     fputs(
-        "</tbody></table>\n<p class=\"note\">Unaccounted for: the most that was neither there nor "
-        "booked at any moment, as a fraction: of the mass at the start, for momentum of √(2 "
-        "<i>m</i> "
-        "<i>E</i><sub>kinetic</sub>), for energy of the largest energy of the case.</p>\n",
+        "</tbody></table>\n<p class=\"note\">Conservation error: the largest unexplained change at "
+        "any time, relative to the mass at the start, for momentum to √(2 <i>m</i> "
+        "<i>E</i><sub>kinetic</sub>), for energy to the largest energy of the case.</p>\n",
         page->file);
 }
 

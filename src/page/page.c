@@ -133,7 +133,7 @@ static struct error *look_for_run(const char *folder)
     bool there = access(path, R_OK) == 0;
     free(path);
     return there ? NULL
-                 : error_new(ERROR_INPUT, "%s: holds no results of a run (there is no run.log)",
+                 : error_new(ERROR_INPUT, "%s: contains no results of a run (there is no run.log)",
                              folder);
 }
 

@@ -48,7 +48,7 @@ static void put_plot(FILE *file, const char *bytes, size_t size)
 {
     fputs("<section id=\"errors\" class=\"pictures\"><h2>Errors</h2>\n<figure><img "
           "alt=\"Relative errors over the resolution, both axes logarithmic, with slopes of "
-          "first and second order; the numbers stand in the table below",
+          "first and second order; the numbers are in the table below",
           file);
     page_png(file, bytes, size);
     fputs("</figure>\n", file);

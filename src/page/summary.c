@@ -291,7 +291,7 @@ void page_verdict(const struct page *page)
     } else if (!strcmp(status, "stopped")) {
         fputs("<p class=\"verdict warn\"><strong>Stopped early", page->file);
         put_moment(page);
-        fputs(".</strong> It goes on with <code>bolide run … --resume</code>; the checks are "
+        fputs(".</strong> Continue it with <code>bolide run … --resume</code>; the checks are "
               "judged at its end.</p>\n",
               page->file);
     } else if (!strcmp(status, "running"))

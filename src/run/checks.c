@@ -47,7 +47,7 @@ struct error *check_find_limits(const struct check_input *check, const char *wha
     const bool bounded = given(&check->regression_bound);
     if (given(&check->is) && !given(&check->within)) {
         if (!bounded)
-            return error_new(ERROR_INPUT, "`is` wants `within`");
+            return error_new(ERROR_INPUT, "`is` needs `within`");
         *wanted = check->is.value;
     }
     if (given(&check->within)) {
@@ -105,14 +105,13 @@ static struct error *solve_exact(struct checks *checks, struct prepared_check *p
     const struct exact_state some = {0};
     if (isnan(exact_field(&some, parameters->field)))
         return measure_error(m,
-                             "exact solutions know density, velocity.x, speed, pressure, energy, "
+                             "exact solutions have density, velocity.x, speed, pressure, energy, "
                              "stress.xx, deviator.xx and temperature, not \"%s\"",
                              parameters->field);
     m->exact = against->choice->thing;
     if (m->exact->thermal != !strcmp(parameters->field, "temperature"))
         return measure_error(m, "%s %s", against->choice->name,
-                             m->exact->thermal ? "knows temperature and nothing else"
-                                               : "has no temperature");
+                             m->exact->thermal ? "has temperature only" : "has no temperature");
     if (class_of(m->check)->needs_contact && !m->exact->star)
         return measure_error(m, "`%s` needs an exact solution with a star state; %s has none",
                              m->check->measure.choice->name, against->choice->name);
@@ -144,7 +143,7 @@ static struct error *prepare_check(struct checks *checks, struct prepared_check 
         return NULL;
     prepared->raw_unit = own_unit;
     if (m->check->between.count != 0 && m->check->between.count != 2)
-        return measure_error(m, "`between` wants two positions");
+        return measure_error(m, "`between` needs two positions");
     if (class->of_bodies && m->check->between.count)
         return measure_error(m, "`between` has no meaning for `%s`",
                              m->check->measure.choice->name);

@@ -156,7 +156,7 @@ struct error *run_save_failure(struct run *run, struct error *error)
     if (!failure && run->sound && run->snapshots > 0)
         failure = run_checkpoint(run);
     if (run->checkpoint_step >= 0)
-        run_say(run, "checkpoint.h5 holds step %lld, t = %.9g s; --resume goes on from there",
+        run_say(run, "checkpoint.h5 holds step %lld, t = %.9g s; --resume continues from there",
                 (long long)run->checkpoint_step, run->checkpoint_time);
     return error_join(error, failure);
 }

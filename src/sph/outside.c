@@ -7,7 +7,7 @@
 
 #include "sph/scheme.h"
 
-/* What of a contact only the solver mpm knows. */
+/* Refuses options of a contact that only the solver mpm has. */
 static struct error *refuse_contact(const struct simulation_case *input, int c)
 {
     const struct contact_input *contact = case_contact(input, c);
@@ -20,7 +20,7 @@ static struct error *refuse_contact(const struct simulation_case *input, int c)
         return NULL;
     snprintf(path, sizeof path, "%.100s.%s", input->contacts.names[c], key);
     return input_error(input, "contacts", path,
-                       "the solver sph knows none: bodies slip or stick where they meet; use mpm");
+                       "not available with the solver sph, where bodies slip or stick; use mpm");
 }
 
 struct error *sph_refuse(const struct simulation *simulation)

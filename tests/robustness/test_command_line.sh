@@ -72,7 +72,7 @@ expect 2 "usage: bolide run CASE" "$BOLIDE" run
 expect 2 "--threads" "$BOLIDE" run case.yaml --threads many
 expect 2 "--ranks" "$BOLIDE" run case.yaml --ranks 0
 expect 2 "unknown option --ranks" "$BOLIDE" check case.yaml --ranks 2
-expect 2 "--set wants PATH=VALUE" "$BOLIDE" run case.yaml --set
+expect 2 "--set needs PATH=VALUE" "$BOLIDE" run case.yaml --set
 expect 2 "exclude each other" "$BOLIDE" run case.yaml --resume --overwrite
 expect 2 "No such file" "$BOLIDE" run missing.yaml
 expect 2 "nothing to resume" "$BOLIDE" run "$cases/riemann/gas/case.yaml" --output never --resume
