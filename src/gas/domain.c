@@ -191,7 +191,6 @@ static struct error *inflow(const struct simulation *simulation, int material, i
     number[GAS_DENSITY] = point.density;
     number[GAS_ENERGY] = point.density * (point.energy + kinetic);
     number[GAS_SHOCK] = 0.0;
-    number[GAS_OPEN] = 1.0;
     return NULL;
 }
 
@@ -231,7 +230,8 @@ static struct error *fill_plane(const struct gas *gas, const struct simulation *
     const bool closed = is_closed(simulation, cells, axis, filled->side);
     for (int j = 0; j < block->count[second]; j++)
         for (int i = 0; i < rows; i++) {
-            double at[3] = {0.0, 0.0, 0.0}, number[GAS_FIELDS];
+            double at[3] = {0.0, 0.0, 0.0}, number[GAS_FIELDS] = {0.0};
+            number[gas->written] = 1.0; /* open */
             row_place(cells, block, first, second, i + j * rows, at);
             at[axis] = (double)(filled->side ? cells->high : cells->low)[axis] * edge;
             const int b = boundary_at(input, axis, filled->side, vec3_make(at[0], at[1], at[2]));
@@ -240,7 +240,7 @@ static struct error *fill_plane(const struct gas *gas, const struct simulation *
             if (kind == BOUNDARY_INFLOW) {
                 /* the state is one of the cell outside */
                 at[axis] = ((double)filled->at + 0.5) * edge;
-                TRY(inflow(simulation, gas->material, b, vec3_make(at[0], at[1], at[2]), time,
+                TRY(inflow(simulation, gas->material[0], b, vec3_make(at[0], at[1], at[2]), time,
                            number));
             } else
                 for (int n = 0; n < gas->halo.numbers; n++)

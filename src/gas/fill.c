@@ -96,6 +96,10 @@ static void add_state(struct filling *f, int body, struct vec3 place, double wei
         kinetic += 0.5 * square(velocity[axis]);
     }
     sum[GAS_ENERGY] += weight * point.density * (point.energy + kinetic);
+    if (f->gas->two && of->material_index == f->gas->material[1]) {
+        sum[GAS_SECOND] += weight * point.density;
+        sum[GAS_FRACTION] += weight;
+    }
 }
 
 /* The K-th of POINTS^dimension points of a cell, at PART of its edge along each axis. */
@@ -159,7 +163,7 @@ static void fill_whole(struct filling *f, int body, const double centre[3], doub
         add_state(f, body, place, weight, sum);
         all += weight;
     }
-    for (int n = 0; n < GAS_NUMBERS; n++)
+    for (int n = 0; n < GAS_FIELDS; n++)
         sum[n] /= all;
 }
 
@@ -182,7 +186,7 @@ static void fill_parts(struct filling *f, const double centre[3], double *sum)
                             "no body fills the domain here: bodies and obstacles must fill all of "
                             "it");
     }
-    for (int n = 0; n < GAS_NUMBERS && all > 0.0; n++)
+    for (int n = 0; n < GAS_FIELDS && all > 0.0; n++)
         sum[n] /= all;
 }
 
@@ -192,7 +196,7 @@ static void fill_cell(struct filling *f, int32_t i)
     struct gas *gas = f->gas;
     const double *centre = cells->position[i];
     const struct vec3 place = place_of(centre);
-    double low[3], high[3], sum[GAS_NUMBERS] = {0.0};
+    double low[3], high[3], sum[GAS_FIELDS] = {0.0};
     for (int axis = 0; axis < 3; axis++) {
         low[axis] = centre[axis] - 0.5 * cells->edge;
         high[axis] = centre[axis] + 0.5 * cells->edge;
@@ -203,11 +207,11 @@ static void fill_cell(struct filling *f, int32_t i)
             f->here[f->heres++] = f->near[k];
     const int body = body_at(f, place);
     cells->body[i] = (uint16_t)(body < 0 ? 0 : body);
-    cells->material[i] = (uint16_t)gas->material;
+    cells->material[i] = (uint16_t)gas->material[0];
     gas->u[GAS_SHOCK][i] = 0.0;
     if (gas->blocked) {
-        gas->u[GAS_OPEN][i] = gas_in_obstacle(f->simulation->problem->input, place) ? 0.0 : 1.0;
-        if (gas->u[GAS_OPEN][i] == 0.0)
+        gas->open[i] = gas_in_obstacle(f->simulation->problem->input, place) ? 0.0 : 1.0;
+        if (gas->open[i] == 0.0)
             return;
     }
     if (body >= 0 && has_all(f, body, centre))
@@ -215,6 +219,8 @@ static void fill_cell(struct filling *f, int32_t i)
     else
         fill_parts(f, centre, sum);
     for (int n = 0; n < GAS_NUMBERS; n++)
+        gas->u[n][i] = sum[n];
+    for (int n = GAS_SECOND; n < gas->written; n++)
         gas->u[n][i] = sum[n];
 }
 

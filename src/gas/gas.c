@@ -75,19 +75,25 @@ static const struct field_row field_rows[] = {
                FIELD_STATE}},
     {.field = {"shock", NULL, "sum of 1, 2, 4 for the axes x, y, z of strong shocks", NUMBER_DOUBLE,
                1, FIELD_STATE}},
+    {.field = {"second", "kg/m^3", "mass of the second material per volume of the cell",
+               NUMBER_DOUBLE, 1, FIELD_STATE}},
+    {.field = {"fraction", "1", "fraction of the volume that the second material fills",
+               NUMBER_DOUBLE, 1, FIELD_STATE}},
     {.field = {"open", NULL, "1, or 0 where an obstacle blocks the cell", NUMBER_DOUBLE, 1,
                FIELD_STATE}},
     FIELD_ROWS_END,
 };
 enum { OWN_FIELDS = COUNT_OF(field_rows) - 1 };
 
-/* The last row counts where obstacles have BLOCKED cells. */
-static struct error *make_store(struct cell_blocks *cells, bool blocked)
+/* The last row counts where obstacles have BLOCKED cells, the two before it with TWO materials. */
+static struct error *make_store(struct cell_blocks *cells, bool two, bool blocked)
 {
     struct field_declaration own[OWN_FIELDS];
+    int count = 0;
     for (int k = 0; k < OWN_FIELDS; k++)
-        own[k] = field_rows[k].field;
-    return cell_blocks_create(cells, own, OWN_FIELDS - !blocked);
+        if (k < OWN_FIELDS - 3 || (k < OWN_FIELDS - 1 ? two : blocked))
+            own[count++] = field_rows[k].field;
+    return cell_blocks_create(cells, own, count);
 }
 
 static double courant_of(const struct gas_parameters *parameters)
@@ -116,9 +122,12 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     gas->parameters = *(const struct gas_parameters *)parameters;
     gas->parameters.courant = courant_of(&gas->parameters);
     choose_scheme(gas);
-    TRY(gas_refuse(simulation));
-    gas->material = case_body(input, 0)->material_index;
-    gas->eos = simulation->problem->material[gas->material].eos;
+    TRY(gas_refuse(simulation, &gas->parameters));
+    gas_find_materials(simulation, gas->material);
+    gas->two = gas->material[1] != gas->material[0];
+    gas->written = gas_written(gas->two);
+    for (int k = 0; k < 2; k++)
+        gas->eos[k] = simulation->problem->material[gas->material[k]].eos;
     gas->blocked = input->obstacles.count > 0;
     gas->around = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
     gas->sleepless = problem_has_gravity(simulation->problem);
@@ -131,12 +140,12 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     cells->partition = &simulation->partition;
     cells->threads = simulation->threads;
     TRY(error_join(gas_find_domain(simulation, cells),
-                   gas_check_inflows(simulation, gas->material)));
+                   gas_check_inflows(simulation, gas->material[0])));
     TRY(gas_check_shapes(simulation, cells));
     gas_find_faces(simulation, cells, &gas->halo);
     gas->halo.depth = gas->second_order ? 2 : CELL_GHOSTS;
-    gas->halo.numbers = gas->blocked ? GAS_FIELDS : GAS_WRITTEN;
-    TRY(make_store(cells, gas->blocked));
+    gas->halo.numbers = gas->written + gas->blocked;
+    TRY(make_store(cells, gas->two, gas->blocked));
     simulation_add_population(simulation, "gas", &cell_population, cells);
     return NULL;
 }
@@ -149,7 +158,12 @@ void gas_bind(struct gas *gas, const struct cell_blocks *cells)
     gas->u[GAS_MOMENTUM + 2] = cell_blocks_field(cells, "momentum_z");
     gas->u[GAS_ENERGY] = cell_blocks_field(cells, "total_energy");
     gas->u[GAS_SHOCK] = cell_blocks_field(cells, "shock");
-    gas->u[GAS_OPEN] = gas->blocked ? cell_blocks_field(cells, "open") : NULL;
+    if (gas->two) {
+        gas->u[GAS_SECOND] = cell_blocks_field(cells, "second");
+        gas->u[GAS_FRACTION] = cell_blocks_field(cells, "fraction");
+    }
+    gas->open = gas->blocked ? cell_blocks_field(cells, "open") : NULL;
+    gas->u[gas->written] = gas->open;
     gas->sound = cell_blocks_field(cells, "sound_long");
 }
 
@@ -158,7 +172,11 @@ static struct error *look(struct gas *gas, const struct simulation *simulation)
 {
     const struct cell_blocks *cells = gas->cells;
     struct gas_look look = {.cells = cells,
-                            .eos = &gas->eos,
+                            .eos = &gas->eos[0],
+                            .other = gas->two ? &gas->eos[1] : NULL,
+                            .material = {(uint16_t)gas->material[0], (uint16_t)gas->material[1]},
+                            .open = gas->open,
+                            .written = gas->written,
                             .sound = gas->sound,
                             .around = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC};
     struct ranked first = {INFINITY, UINT64_MAX, 0};
@@ -190,7 +208,7 @@ struct error *gas_plan(struct gas *gas, struct simulation *simulation)
 {
     struct cell_blocks *cells = gas->cells;
     struct error *error = NULL;
-    for (int n = 0; n < GAS_WRITTEN && cells->count > gas->room; n++) {
+    for (int n = 0; n < gas->written && cells->count > gas->room; n++) {
         free(gas->other[n]);
         gas->other[n] = memory_allocate(((size_t)cells->count + 1) * sizeof(double));
         if (!gas->other[n])
@@ -239,13 +257,25 @@ static struct error *balance(struct gas *gas, struct simulation *simulation)
     return ranks_agree(simulation->ranks, look(gas, simulation));
 }
 
+/* The part of the step that the first steps of two materials take: products that begin to expand into air
+ * are soon faster than any wave before. */
+static double start_part(const struct gas *gas, int64_t step)
+{
+    double part = gas->two ? 0.1 : 1.0;
+    for (int64_t k = 0; k < step && part < 1.0; k++)
+        part *= 1.15;
+    return minimum(part, 1.0);
+}
+
 static struct error *gas_prepare(void *solver, struct simulation *simulation, struct limit *limit)
 {
     static const char *const reasons[] = {"a wave that crosses a cell"};
     struct gas *gas = solver;
     TRY(balance(gas, simulation));
     const double edge = gas->cells->edge;
-    const struct ranked own = {gas->parameters.courant * edge / gas->fastest, gas->fastest_id, 0};
+    const struct ranked own = {start_part(gas, simulation->step) * gas->parameters.courant * edge /
+                                   gas->fastest,
+                               gas->fastest_id, 0};
     *limit = limit_of_ranks(simulation->ranks, own, reasons);
     simulation_end_phase(simulation, PHASE_SHARED, "time step");
     return NULL;
@@ -264,7 +294,7 @@ static void pull(const struct gas *gas, struct simulation *simulation, double dt
 #pragma omp for schedule(static)
         for (int32_t i = 0; i < cells->count; i++) {
             double work = 0.0, impulse[3];
-            if (gas->blocked && gas->u[GAS_OPEN][i] == 0.0)
+            if (gas->blocked && gas->open[i] == 0.0)
                 continue;
             for (int axis = 0; axis < 3; axis++) {
                 double *momentum = &gas->u[GAS_MOMENTUM + axis][i];
@@ -316,7 +346,7 @@ static void gas_destroy(void *solver)
     struct gas *gas = solver;
     gas_free_strips(gas);
     cell_halo_free(&gas->halo);
-    for (int n = 0; n < GAS_WRITTEN; n++)
+    for (int n = 0; n < GAS_FIELDS; n++)
         free(gas->other[n]);
     free(gas->block);
     free(gas->shocked);
@@ -330,10 +360,10 @@ static double gas_bytes(const void *parameters, int dimension)
 {
     (void)parameters;
     struct cell_blocks store = {.dimension = dimension};
-    error_free(make_store(&store, false));
+    error_free(make_store(&store, false, false));
     const double bytes = (double)cell_blocks_bytes(&store);
     cell_blocks_destroy(&store);
-    return bytes + GAS_WRITTEN * sizeof(double);
+    return bytes + gas_written(false) * sizeof(double);
 }
 
 static double gas_step(const void *parameters, int dimension, const struct material *material,

@@ -32,10 +32,12 @@ struct gas {
     struct cell_blocks *cells;
     bool second_order;
     struct lax_wendroff scheme;
-    struct eos eos;
-    int material;
-    bool blocked; /* some cells are */
-    bool around;  /* the first axis is a radius */
+    struct eos eos[2];
+    int material[2]; /* the same twice: there is one */
+    bool two;        /* materials */
+    int written;     /* fields that sweeps write */
+    bool blocked;    /* some cells are */
+    bool around;     /* the first axis is a radius */
     struct cell_halo halo;
     uint64_t order; /* of the blocks when the strips were made */
     int32_t room;   /* cells for which `other` has room */
@@ -46,15 +48,21 @@ struct gas {
     struct gas_through *through; /* one a thread */
     int throughs;
     struct gas_strips strips[3];
-    double *u[GAS_FIELDS];      /* conserved numbers, as the store has them */
-    double *other[GAS_WRITTEN]; /* where sweeps write */
+    double *u[GAS_FIELDS];     /* conserved numbers, as the store has them */
+    double *other[GAS_FIELDS]; /* where sweeps write */
+    double *open;              /* NULL: all cells are */
     double *sound;
     double fastest; /* |u_i| + c of all of this rank's cells, m/s */
     uint64_t fastest_id;
 };
 
+/* The materials of the bodies, the one of lower reference density first; the same twice where there
+ * is one. */
+void gas_find_materials(const struct simulation *simulation, int material[2]);
+
 /* What the gas solver cannot do of a case, located. */
-struct error *gas_refuse(const struct simulation *simulation);
+struct error *gas_refuse(const struct simulation *simulation,
+                         const struct gas_parameters *parameters);
 
 /* The domain of a case in CELLS of an edge: as it says, else where its walls are, else the bounds of its
  * bodies. ERROR_INPUT: a face does not lie on a plane of the grid. */

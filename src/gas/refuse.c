@@ -27,29 +27,99 @@ static struct error *refuse_body(const struct simulation_case *input, int index)
     return error;
 }
 
-/* One material, a fluid whose pressure follows from its density and energy alone. */
-static struct error *refuse_materials(const struct simulation *simulation)
+void gas_find_materials(const struct simulation *simulation, int material[2])
 {
     const struct simulation_case *input = simulation->problem->input;
-    const int first = case_body(input, 0)->material_index;
-    const struct material *material = &simulation->problem->material[first];
-    const char *name = input->materials.names[first], *text = NULL;
-    for (int b = 1; b < input->bodies.count; b++)
-        if (case_body(input, b)->material_index != first)
-            return input_error(input, "bodies", input->bodies.names[b],
-                               "the solver gas computes one material, and this is the second: "
-                               "\"%s\", beside \"%s\"",
-                               case_body(input, b)->material, name);
-    if (material_has_strength(material))
-        text = "the solver gas computes fluids: leave the strength out";
-    else if (material_burns(material))
-        text = "the solver gas does not burn explosives: leave `burn` out and begin with products";
-    else if (material_history(material))
-        text = "the solver gas keeps no history of a material: choose another equation of state";
-    return text ? input_error(input, "materials", name, "%s", text) : NULL;
+    material[0] = material[1] = case_body(input, 0)->material_index;
+    for (int b = 1; b < input->bodies.count && material[1] == material[0]; b++)
+        if (case_body(input, b)->material_index != material[0])
+            material[1] = case_body(input, b)->material_index;
+    const struct material *of = simulation->problem->material;
+    const double density[2] = {eos_reference_density(&of[material[0]].eos),
+                               eos_reference_density(&of[material[1]].eos)};
+    if (density[1] < density[0] || (density[1] == density[0] && material[1] < material[0])) {
+        const int denser = material[0];
+        material[0] = material[1];
+        material[1] = denser;
+    }
 }
 
-struct error *gas_refuse(const struct simulation *simulation)
+/* A fluid whose pressure follows from its density and energy alone. */
+static const char *refuse_material(const struct material *material)
+{
+    if (material_has_strength(material))
+        return "the solver gas computes fluids: leave the strength out";
+    if (material_burns(material))
+        return "the solver gas does not burn explosives: leave `burn` out and begin with products";
+    if (material_history(material))
+        return "the solver gas keeps no history of a material: choose another equation of state";
+    return NULL;
+}
+
+/* Whether pressures grow in proportion to the energy at each density. */
+static bool is_linear(const struct eos *eos)
+{
+    static const double part[] = {0.001, 0.1, 0.7, 1.0, 1.2}, energy[] = {0.0, 1e4, 2e6};
+    const double none[POINT_HISTORY] = {0.0};
+    for (int k = 0; k < (int)COUNT_OF(part); k++) {
+        const double density = part[k] * eos_reference_density(eos);
+        struct eos_value value[COUNT_OF(energy)];
+        for (int n = 0; n < (int)COUNT_OF(energy); n++)
+            value[n] = eos_evaluate(eos, density, energy[n], none);
+        for (int n = 0; n < (int)COUNT_OF(energy); n++) {
+            const double pressure = value[0].pressure + value[0].dp_de * energy[n];
+            if (!(value[0].dp_de > 0.0) ||
+                fabs(value[n].pressure - pressure) > 1e-9 * value[0].dp_de * energy[2])
+                return false;
+        }
+    }
+    return true;
+}
+
+/* Two materials at most. */
+static struct error *refuse_materials(const struct simulation *simulation,
+                                      const struct gas_parameters *parameters)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    const struct material *of = simulation->problem->material;
+    int material[2];
+    struct error *error = NULL;
+    gas_find_materials(simulation, material);
+    const bool two = material[0] != material[1];
+    for (int b = 0; b < input->bodies.count; b++) {
+        const int m = case_body(input, b)->material_index;
+        if (m != material[0] && m != material[1])
+            return input_error(input, "bodies", input->bodies.names[b],
+                               "the solver gas computes two materials at most, and this is another "
+                               "one: \"%s\", beside \"%s\" and \"%s\"",
+                               case_body(input, b)->material, input->materials.names[material[0]],
+                               input->materials.names[material[1]]);
+    }
+    for (int k = 0; k <= two; k++) {
+        const char *text = refuse_material(&of[material[k]]);
+        if (!text && two && !is_linear(&of[material[k]].eos))
+            text = "beside a second material the solver gas needs a pressure that grows in "
+                   "proportion to the energy, as of ideal-gas, stiffened-gas, noble-abel and jwl";
+        if (text)
+            error = error_join(error, input_error(input, "materials",
+                                                  input->materials.names[material[k]], "%s", text));
+    }
+    if (two && parameters->method.index != GAS_MUSCL_HANCOCK)
+        error =
+            error_join(error, input_error(input, "solver", NULL,
+                                          "lax-wendroff computes one material: leave the method "
+                                          "out"));
+    for (int b = 0; two && b < input->boundaries.count; b++)
+        if (case_boundary(input, b)->kind == BOUNDARY_INFLOW)
+            error = error_join(
+                error, input_error(input, "boundaries", input->boundaries.names[b],
+                                   "no inflow beside a second material: leave one of the two "
+                                   "materials out, or let gas flow in from a body"));
+    return error;
+}
+
+struct error *gas_refuse(const struct simulation *simulation,
+                         const struct gas_parameters *parameters)
 {
     const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
@@ -67,7 +137,7 @@ struct error *gas_refuse(const struct simulation *simulation)
                                          "the solver gas does not burn explosives"));
     for (int b = 0; b < input->bodies.count; b++)
         error = error_join(error, refuse_body(input, b));
-    return error_join(error, refuse_materials(simulation));
+    return error_join(error, refuse_materials(simulation, parameters));
 }
 
 bool gas_in_obstacle(const struct simulation_case *input, struct vec3 place)

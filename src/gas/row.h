@@ -20,21 +20,26 @@ enum { GAS_DENSITY, GAS_MOMENTUM, GAS_ENERGY = 4, GAS_NUMBERS = 5 };
 /* Cells of a row at most, and those known beyond either end of it. */
 enum { ROW_CELLS = 64, ROW_GHOSTS = 4, ROW_ROOM = ROW_CELLS + 2 * ROW_GHOSTS };
 
+/* What cells have of a second material: its mass per volume of the cell, kg/m^3, and the fraction of the
+ * volume that it fills. */
+enum { PART_MASS, PART_FRACTION, PARTS };
+
 /* Numbers of a row: cell c is at [c + ROW_GHOSTS], the face below it too. */
 struct gas_numbers {
     double of[GAS_NUMBERS][ROW_ROOM];
 };
 
 struct gas_row {
-    const struct eos *eos;
-    int cells, axis; /* the axis that it runs along */
-    bool around;     /* it runs along the radius */
-    double first;    /* radius of the face below its first cell, in cells */
+    const struct eos *eos, *other; /* of the second material, NULL: there is one */
+    int cells, axis;               /* the axis that it runs along */
+    bool around;                   /* it runs along the radius */
+    double first;                  /* radius of the face below its first cell, in cells */
     struct gas_numbers u;
     double shock[ROW_ROOM]; /* axes of strong shocks in cells: the sum of 1, 2, 4 for x, y, z */
     bool crossed; /* some of `shock` may not be zero; else it is zero in cells -2 .. cells + 1 */
     bool shocked; /* found by a sweep: a strong shock runs along the row */
-    double push[ROW_ROOM]; /* found along a radius: mean pressures in a sweep, Pa */
+    double part[PARTS][ROW_ROOM]; /* of the second material, where there are two */
+    double push[ROW_ROOM];        /* found along a radius: mean pressures in a sweep, Pa */
 };
 
 /* Where the cells or faces FIRST to LAST are in the numbers of a row. */

@@ -6,17 +6,23 @@
 #include "gas/lax_wendroff.h"
 #include "grid/cell_halo.h"
 
-/* Conserved numbers of a cell, and behind them the axes of strong shocks in it, as sweeps left them, and
- * whether it is open, 1, or blocked by a rigid body, 0. */
-enum { GAS_SHOCK = GAS_NUMBERS, GAS_WRITTEN, GAS_OPEN = GAS_WRITTEN, GAS_FIELDS };
+/* Conserved numbers of a cell, and behind them the axes of strong shocks in it, as sweeps left them;
+ * with two materials the mass per volume and the fraction of volume of the second; and, where a case
+ * has obstacles, whether the cell is open, 1, or blocked, 0. */
+enum { GAS_SHOCK = GAS_NUMBERS, GAS_SECOND, GAS_FRACTION, GAS_FIELDS = GAS_FRACTION + 2 };
+
+/* How many of them sweeps write, which is where `open` is. */
+BOLIDE_INLINE int gas_written(bool two) { return two ? GAS_FRACTION + 1 : GAS_SHOCK + 1; }
 
 /* A sweep along an axis: what all strips share. */
 struct gas_sweep {
     const struct cell_blocks *cells;
     const struct cell_halo *halo;
-    const struct eos *eos;
-    const double *from[GAS_FIELDS]; /* [GAS_OPEN] is NULL where no cell is blocked */
-    double *to[GAS_WRITTEN];
+    const struct eos *eos, *other; /* of the second material, NULL: there is one */
+    const double *from[GAS_FIELDS];
+    double *to[GAS_FIELDS];
+    int written;  /* fields that sweeps write */
+    bool blocked; /* some cells are: from[written] is `open` */
     int axis;
     double r;          /* dt/h */
     bool around;       /* the axis is a radius */
@@ -57,8 +63,10 @@ void gas_sweep_strip(const struct gas_sweep *sweep, const struct gas_strip *stri
 /* Cells whose derived fields are to be found. */
 struct gas_look {
     const struct cell_blocks *cells;
-    const struct eos *eos;
-    const double *u[GAS_FIELDS];
+    const struct eos *eos, *other; /* of the second material, NULL: there is one */
+    uint16_t material[2];
+    const double *u[GAS_FIELDS], *open; /* NULL: all cells are open */
+    int written;
     double *sound; /* m/s */
     bool around;
 };

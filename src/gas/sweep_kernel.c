@@ -6,6 +6,7 @@
 
 #include "base/isa.h"
 #include "gas/muscl_hancock.h"
+#include "gas/two_materials.h"
 
 /* The axes across a sweep, the lower first. */
 struct across {
@@ -79,32 +80,43 @@ static int load_row(const struct gather *g, int first, int end, double (*out)[RO
     return k - ROW_GHOSTS;
 }
 
+/* Cells BEGIN to END - 1 of a block, of a row whose cell IN[0] is the first of the block. */
+static inline void store_cells(const double *in, double *out, int32_t stride, int begin, int end)
+{
+    for (int c = begin; c < end; c++)
+        out[c * stride] = in[c];
+}
+
 /* The cells of a row that begins with cell FIRST of the strip. */
 static void store_row(const struct gather *g, const struct gas_row *row, int first)
 {
     const struct gas_sweep *sweep = g->sweep;
-    const int fields = g->strip->calm && !row->shocked ? GAS_NUMBERS : GAS_WRITTEN;
+    const bool marks = !g->strip->calm || row->shocked;
     int k = 0;
     for (int s = 0; s < g->strip->count; s++) {
         const struct cell_block *block = &sweep->cells->block[g->strip->block[s]];
         const int32_t at = place_of(g, block), stride = cell_stride(block, sweep->axis);
         const int count = block->count[sweep->axis], begin = first > k ? first - k : 0,
-                  end = first + row->cells < k + count ? first + row->cells - k : count;
-        for (int n = 0; n < fields && begin < end; n++) {
-            const double *in = n == GAS_SHOCK ? row->shock : row->u.of[n];
-            double *out = sweep->to[n] + at;
+                  end = first + row->cells < k + count ? first + row->cells - k : count,
+                  in = ROW_GHOSTS + k - first;
+        for (int n = 0; n < GAS_NUMBERS; n++)
+            store_cells(row->u.of[n] + in, sweep->to[n] + at, stride, begin, end);
+        if (marks) {
+            store_cells(row->shock + in, sweep->to[GAS_SHOCK] + at, stride, begin, end);
             for (int c = begin; c < end; c++)
-                out[c * stride] = in[ROW_GHOSTS + k - first + c];
+                sweep->shocked[g->strip->block[s]] |= row->shock[in + c] != 0.0;
         }
-        for (int c = begin; c < end && fields == GAS_WRITTEN; c++)
-            sweep->shocked[g->strip->block[s]] |= row->shock[ROW_GHOSTS + k - first + c] != 0.0;
+        for (int n = 0; n < PARTS && row->other; n++)
+            store_cells(row->part[n] + in, sweep->to[GAS_SECOND + n] + at, stride, begin, end);
         k += count;
     }
 }
 
 static void sweep_row(const struct gas_sweep *sweep, struct gas_row *row, struct gas_numbers *flux)
 {
-    if (sweep->second_order)
+    if (row->other)
+        row_two_materials(row, sweep->r, flux);
+    else if (sweep->second_order)
         row_muscl_hancock(row, sweep->r, flux);
     else
         row_lax_wendroff(row, &sweep->scheme, sweep->r, flux);
@@ -146,6 +158,8 @@ static void copy_cell(double (*all)[ROW_ROOM], int from, bool turned, int axis, 
                       int k)
 {
     to->shock[k] = all[GAS_SHOCK][from];
+    for (int n = 0; n < PARTS && to->other; n++)
+        to->part[n][k] = all[GAS_SECOND + n][from];
     for (int n = 0; n < GAS_NUMBERS; n++)
         to->u.of[n][k] = turned && n == GAS_MOMENTUM + axis ? -all[n][from] : all[n][from];
 }
@@ -169,7 +183,7 @@ static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cell
 {
     const int depth = g->sweep->halo->depth, axis = g->sweep->axis;
     const int begin = ROW_GHOSTS, end = ROW_GHOSTS + cells; /* of the row's own cells */
-    const double *open = all[GAS_OPEN], first = row->first;
+    const double *open = all[g->sweep->written], first = row->first;
     double push[ROW_ROOM] = {0.0};
     struct gas_numbers flux;
     for (int k = begin - depth; k < end + depth;) {
@@ -231,9 +245,9 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
     const struct cell_block *block = &sweep->cells->block[strip->block[0]];
     const struct across across = across_of(sweep->axis);
     const int rows = block->count[across.first], columns = block->count[across.second];
-    const bool blocked = sweep->from[GAS_OPEN] != NULL;
     struct gas_row row;
     row.eos = sweep->eos;
+    row.other = sweep->other;
     row.axis = sweep->axis;
     row.around = sweep->around;
     row.shocked = true;
@@ -253,17 +267,19 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
             const int number = i + j * rows;
             double all[GAS_FIELDS][ROW_ROOM];
             struct gas_numbers flux;
-            const int cells =
-                blocked ? load_row(&g, 0, GAS_FIELDS, all) : load_row(&g, 0, GAS_NUMBERS, row.u.of);
+            const int cells = sweep->blocked ? load_row(&g, 0, sweep->written + 1, all)
+                                             : load_row(&g, 0, GAS_NUMBERS, row.u.of);
             row.cells = cells;
             row.crossed = !strip->calm;
-            if (!blocked && !strip->calm)
-                load_row(&g, GAS_SHOCK, GAS_WRITTEN, &row.shock);
+            if (!sweep->blocked && !strip->calm)
+                load_row(&g, GAS_SHOCK, GAS_SHOCK + 1, &row.shock);
             else if (row.shocked)
                 memset(row.shock, 0, sizeof row.shock);
             row.shocked = false;
-            if (blocked) {
-                if (any_blocked(all[GAS_OPEN], cells, sweep->halo->depth)) {
+            if (!sweep->blocked && row.other)
+                load_row(&g, GAS_SECOND, GAS_SECOND + PARTS, row.part);
+            if (sweep->blocked) {
+                if (any_blocked(all[sweep->written], cells, sweep->halo->depth)) {
                     for (int n = 0; n < GAS_NUMBERS; n++)
                         through->end[0][number][n] = through->end[1][number][n] = 0.0;
                     sweep_runs(&g, all, cells, number, &row, through);
@@ -274,6 +290,9 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
                         row.u.of[n][k] = all[n][k];
                 FOR_ROW (k, -sweep->halo->depth, cells - 1 + sweep->halo->depth)
                     row.shock[k] = all[GAS_SHOCK][k];
+                for (int n = 0; n < PARTS && row.other; n++)
+                    FOR_ROW (k, -sweep->halo->depth, cells - 1 + sweep->halo->depth)
+                        row.part[n][k] = all[GAS_SECOND + n][k];
             }
             sweep_row(sweep, &row, &flux);
             store_row(&g, &row, 0);
@@ -290,9 +309,40 @@ struct run {
     double density[ROW_ROOM], energy[ROW_ROOM], velocity[3][ROW_ROOM], fastest[ROW_ROOM];
 };
 
+/* Pressures, and derivatives that give the speed of sound, of cells of one or two materials. */
+static void evaluate_run(const struct gas_look *look, const struct run *run,
+                         struct row_values *values)
+{
+    const int last = run->count - 1;
+    row_evaluate(look->eos, run->density, run->energy, 0, last, values);
+    if (!look->other)
+        return;
+    const struct eos *const eos[2] = {look->eos, look->other};
+    const double *second = look->u[GAS_SECOND] + run->first,
+                 *fractions = look->u[GAS_FRACTION] + run->first;
+    struct row_values of_second;
+    row_evaluate(look->other, run->density, run->energy, 0, last, &of_second);
+    FOR_ROW (k, 0, last) {
+        const double fraction = fractions[k - ROW_GHOSTS], mass = second[k - ROW_GHOSTS];
+        if (fraction >= 1.0) {
+            values->pressure[k] = of_second.pressure[k];
+            values->dp_drho[k] = of_second.dp_drho[k];
+            values->dp_de[k] = of_second.dp_de[k];
+        } else if (fraction > 0.0) {
+            const double density[2] = {
+                mixture_density(eos[0], run->density[k] - mass, 1.0 - fraction),
+                mixture_density(eos[1], mass, fraction)};
+            const struct mixture mixture = mixture_of(eos, density, fraction);
+            values->pressure[k] = mixture_pressure(&mixture, run->density[k] * run->energy[k]);
+            values->dp_drho[k] = mixture_sound_square(&mixture, values->pressure[k]);
+            values->dp_de[k] = 0.0;
+        }
+    }
+}
+
 static bool is_closed(const struct gas_look *look, int32_t i)
 {
-    return look->u[GAS_OPEN] && look->u[GAS_OPEN][i] == 0.0;
+    return look->open && look->open[i] == 0.0;
 }
 
 /* Velocities and specific energies of the cells; closed ones get a density that can be divided by. */
@@ -313,7 +363,7 @@ static void take_run(const struct gas_look *look, struct run *run)
         run->energy[k] = u[GAS_ENERGY][i] / u[GAS_DENSITY][i] - kinetic;
         run->fastest[k] = fastest;
     }
-    for (int k = 0; k < run->count && look->u[GAS_OPEN]; k++)
+    for (int k = 0; k < run->count && look->open; k++)
         if (is_closed(look, first + k)) {
             const int at = k + ROW_GHOSTS;
             run->density[at] = eos_reference_density(look->eos);
@@ -342,6 +392,8 @@ static void put_run(const struct gas_look *look, const struct run *run,
             open ? density * (look->around ? volume * cells->position[i][0] : volume) : 0.0;
         cells->pressure[i] = open ? values->pressure[at] : 0.0;
         look->sound[i] = open ? sqrt(sound) : 0.0;
+        if (look->other)
+            cells->material[i] = look->material[look->u[GAS_FRACTION][i] > 0.5];
     }
 }
 
@@ -366,7 +418,7 @@ static void find_fastest(const struct gas_look *look, const struct run *run,
 static bool is_still(const struct gas_look *look, int32_t first, int32_t end)
 {
     bool still = true;
-    for (int32_t i = first; i < end && look->u[GAS_OPEN]; i++)
+    for (int32_t i = first; i < end && look->open; i++)
         still &= !is_closed(look, i);
     for (int n = 0; n < GAS_NUMBERS && still; n++) {
         const bool rests = n >= GAS_MOMENTUM && n < GAS_ENERGY;
@@ -374,8 +426,11 @@ static bool is_still(const struct gas_look *look, int32_t first, int32_t end)
         for (int32_t i = first; i < end; i++)
             still &= u[i] == value;
     }
-    for (int32_t i = first; i < end && still; i++)
-        still &= look->u[GAS_SHOCK][i] == 0.0;
+    for (int n = GAS_SHOCK; n < look->written && still; n++) {
+        const double *u = look->u[n], value = n == GAS_SHOCK ? 0.0 : u[first];
+        for (int32_t i = first; i < end; i++)
+            still &= u[i] == value;
+    }
     return still;
 }
 
@@ -393,7 +448,7 @@ ISA_KERNEL(struct gas_fastest, gas_look_at_block, const struct gas_look *look, i
     for (run.first = block->first; run.first < end; run.first += run.count) {
         run.count = end - run.first < ROW_CELLS ? end - run.first : ROW_CELLS;
         take_run(look, &run);
-        row_evaluate(look->eos, run.density, run.energy, 0, run.count - 1, &values);
+        evaluate_run(look, &run, &values);
         put_run(look, &run, &values, volume);
         find_fastest(look, &run, &fastest);
     }

@@ -60,6 +60,7 @@ kill_and_resume() {
     same_but_for_order whole killed || fail "$everything killed on 2 ranks and resumed on 3"
 }
 kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-gas.yaml"
+kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-gas-two.yaml"
 everything=$BOLIDE_SOURCE_DIR/tests/data/everything.yaml
 kill_and_resume "$everything" # whose `whole` serves below
 

@@ -1,0 +1,106 @@
+/* Two materials in one cell: one velocity and one pressure, each with the fraction alpha_k of the volume
+ * and the density rho_k of its own (Allaire, Clerc and Kokh, J. Comput. Phys. 181 (2002) 577, with the
+ * isobaric closure). Each equation of state is linear in the specific energy, p = p_0(rho) + b(rho) e,
+ * so that rho_k e_k = xi_k (p - p_0k) with xi_k = rho_k/b_k, and the mixture has
+ *
+ *   rho e = sum alpha_k xi_k (p - p_0k)    xi rho c^2 = sum alpha_k xi_k rho_k c_k^2
+ *   xi = sum alpha_k xi_k
+ *
+ * without iteration. The fractions follow the flow, d alpha/dt + u . grad alpha = 0. */
+#ifndef BOLIDE_GAS_MIXTURE_H
+#define BOLIDE_GAS_MIXTURE_H
+
+#include "material/eos.h"
+
+/* Below a fraction of volume a material is not there, and its mass goes to the other one: of the second,
+ * which is the denser one, so little that the mass of the first stays too; of the first, whose fraction
+ * is the rest, what rounding leaves. */
+static const double MIXTURE_NONE[2] = {1e-14, 1e-18};
+
+/* Below this one the density of a material may be rounding, and bounds of its reference density hold. */
+static const double MIXTURE_TRACE = 1e-8;
+
+/* A material of a mixture at a density: its weight alpha xi, p_0 and what its sound speed follows from. */
+struct mixture_part {
+    double density, weight, cold, slope, rise;
+    double ratio; /* b */
+};
+
+struct mixture {
+    double density; /* of both */
+    struct mixture_part part[2];
+};
+
+/* The density of a material of which MASS per volume of the cell fills FRACTION. */
+BOLIDE_INLINE double mixture_density(const struct eos *eos, double mass, double fraction)
+{
+    const double reference = eos_reference_density(eos), density = mass / fraction;
+    if (fraction >= MIXTURE_TRACE)
+        return maximum(density, 1e-6 * reference);
+    return minimum(maximum(density, 1e-4 * reference), 1e2 * reference);
+}
+
+static inline struct mixture_part mixture_part_of(const struct eos *eos, double density,
+                                                  double fraction)
+{
+    static const double energy = 1e6;
+    const double none[POINT_HISTORY] = {0.0};
+    const struct eos_value cold = eos_evaluate(eos, density, 0.0, none),
+                           warm = eos_evaluate(eos, density, energy, none);
+    struct mixture_part part;
+    part.density = density;
+    part.ratio = cold.dp_de;
+    part.weight = fraction * density / cold.dp_de;
+    part.cold = cold.pressure;
+    part.slope = cold.dp_drho;
+    part.rise = (warm.dp_drho - cold.dp_drho) / energy;
+    return part;
+}
+
+/* A mixture of EOS at DENSITY; FRACTION is that of the second. */
+BOLIDE_INLINE struct mixture mixture_of(const struct eos *const eos[2], const double density[2],
+                                        double fraction)
+{
+    struct mixture mixture;
+    mixture.part[0] = mixture_part_of(eos[0], density[0], 1.0 - fraction);
+    mixture.part[1] = mixture_part_of(eos[1], density[1], fraction);
+    mixture.density = (1.0 - fraction) * density[0] + fraction * density[1];
+    return mixture;
+}
+
+/* rho e, J/m^3, at a PRESSURE. */
+BOLIDE_INLINE double mixture_energy(const struct mixture *mixture, double pressure)
+{
+    const struct mixture_part *part = mixture->part;
+    return part[0].weight * (pressure - part[0].cold) + part[1].weight * (pressure - part[1].cold);
+}
+
+/* The pressure at ENERGY, rho e. */
+BOLIDE_INLINE double mixture_pressure(const struct mixture *mixture, double energy)
+{
+    const struct mixture_part *part = mixture->part;
+    return (energy + part[0].weight * part[0].cold + part[1].weight * part[1].cold) /
+           (part[0].weight + part[1].weight);
+}
+
+BOLIDE_INLINE double mixture_sound_square(const struct mixture *mixture, double pressure)
+{
+    double sum = 0.0, all = 0.0;
+    for (int k = 0; k < 2; k++) {
+        const struct mixture_part *part = &mixture->part[k];
+        const double energy = (pressure - part->cold) / part->ratio;
+        sum += part->weight * part->density *
+               eos_sound_square(pressure, part->slope + part->rise * energy, part->ratio,
+                                part->density);
+        all += part->weight;
+    }
+    return sum / (all * mixture->density);
+}
+
+/* G = (dp/de)/rho at given fractions. */
+BOLIDE_INLINE double mixture_gamma(const struct mixture *mixture)
+{
+    return 1.0 / (mixture->part[0].weight + mixture->part[1].weight);
+}
+
+#endif

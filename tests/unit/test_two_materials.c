@@ -1,0 +1,185 @@
+/* Sweeps along rows of cells of two materials: a block of detonation products that air carries round a
+ * ring, cut into rows whose ghosts are the cells of the next ones. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "dice.h"
+#include "gas/two_materials.h"
+
+enum { CELLS = 200, NUMBERS = GAS_NUMBERS + PARTS, STEPS = 1000 };
+
+static const double pressure = 1e8, courant = 0.4;
+
+struct ring {
+    struct eos eos[2];
+    double speed; /* of all of it, m/s */
+    double u[NUMBERS][CELLS];
+};
+
+static struct ring make_ring(double speed, double density)
+{
+    static const struct eos_jwl products = EOS_jwl_SAMPLE;
+    const struct eos_ideal_gas air = {1.0, 1.4};
+    struct ring ring = {{eos_make_ideal_gas(&air), eos_make_jwl(&products)}, speed, {{0.0}}};
+    const struct eos *const eos[2] = {&ring.eos[0], &ring.eos[1]};
+    const double densities[2] = {1.0, density};
+    for (int c = 0; c < CELLS; c++) {
+        const double fraction = c == 50 ? 0.3 : c > 50 && c < 100 ? 1.0 : 0.0;
+        const struct mixture mixture = mixture_of(eos, densities, fraction);
+        ring.u[GAS_DENSITY][c] = mixture.density;
+        ring.u[GAS_MOMENTUM][c] = mixture.density * speed;
+        ring.u[GAS_ENERGY][c] =
+            mixture_energy(&mixture, pressure) + 0.5 * mixture.density * square(speed);
+        ring.u[GAS_NUMBERS + PART_MASS][c] = fraction * density;
+        ring.u[GAS_NUMBERS + PART_FRACTION][c] = fraction;
+    }
+    return ring;
+}
+
+/* A sweep in rows of ROWS cells at most. */
+static void sweep(struct ring *ring, int rows, double r)
+{
+    struct ring next = *ring;
+    for (int first = 0; first < CELLS; first += rows) {
+        struct gas_row row = {.eos = &ring->eos[0], .other = &ring->eos[1]};
+        struct gas_numbers flux;
+        row.cells = CELLS - first < rows ? CELLS - first : rows;
+        FOR_ROW (k, -2, row.cells + 1) {
+            const int c = (first + k - ROW_GHOSTS + CELLS) % CELLS;
+            for (int n = 0; n < NUMBERS; n++)
+                *(n < GAS_NUMBERS ? &row.u.of[n][k] : &row.part[n - GAS_NUMBERS][k]) =
+                    ring->u[n][c];
+        }
+        row_two_materials(&row, r, &flux);
+        FOR_ROW (k, 0, row.cells - 1)
+            for (int n = 0; n < NUMBERS; n++)
+                next.u[n][first + k - ROW_GHOSTS] =
+                    n < GAS_NUMBERS ? row.u.of[n][k] : row.part[n - GAS_NUMBERS][k];
+    }
+    *ring = next;
+}
+
+static double sum_of(const struct ring *ring, int n)
+{
+    double sum = 0.0;
+    for (int c = 0; c < CELLS; c++)
+        sum += ring->u[n][c];
+    return sum;
+}
+
+static void a_mixture_has_the_pressure_of_both_materials(void **state)
+{
+    (void)state;
+    const struct ring ring = make_ring(0.0, 1000.0);
+    const struct eos *const eos[2] = {&ring.eos[0], &ring.eos[1]};
+    const double none[POINT_HISTORY] = {0.0}, density[2] = {12.0, 700.0};
+    for (double fraction = 0.01; fraction < 1.0; fraction += 0.14) {
+        const struct mixture mixture = mixture_of(eos, density, fraction);
+        double energy = 0.0;
+        for (int k = 0; k < 2; k++) {
+            const double part = k ? fraction : 1.0 - fraction;
+            const double of = (pressure - mixture.part[k].cold) / mixture.part[k].ratio;
+            assert_close(eos_evaluate(eos[k], density[k], of, none).pressure, pressure, 1e-10);
+            energy += part * density[k] * of;
+        }
+        assert_close(mixture_energy(&mixture, pressure), energy, 1e-12);
+        assert_close(mixture_pressure(&mixture, energy), pressure, 1e-9);
+    }
+}
+
+/* Both materials are compressed alike, and the work goes into their energy. */
+static void the_speed_of_sound_of_a_mixture_is_that_of_its_isentrope(void **state)
+{
+    (void)state;
+    const struct ring ring = make_ring(0.0, 1000.0);
+    const struct eos *const eos[2] = {&ring.eos[0], &ring.eos[1]};
+    const double rise = 1e-5;
+    for (double fraction = 0.01; fraction < 1.0; fraction += 0.14) {
+        double at[2];
+        const double density[2] = {12.0, 700.0};
+        const struct mixture rest = mixture_of(eos, density, fraction);
+        for (int side = 0; side < 2; side++) {
+            const double by = side ? 1.0 + rise : 1.0 - rise;
+            const double there[2] = {by * density[0], by * density[1]};
+            const struct mixture mixture = mixture_of(eos, there, fraction);
+            /* d(rho e) = (rho e + p) d rho/rho, to second order */
+            double energy = mixture_energy(&rest, pressure), now = pressure;
+            for (int k = 0; k < 4; k++) {
+                const double mean = mixture_energy(&rest, pressure) / rest.density;
+                energy = by * rest.density *
+                         (mean + 0.5 * (pressure + now) * (1.0 - 1.0 / by) / rest.density);
+                now = mixture_pressure(&mixture, energy);
+            }
+            at[side] = now;
+        }
+        const double expected = (at[1] - at[0]) / (2.0 * rise * rest.density),
+                     found = mixture_sound_square(&rest, pressure);
+        if (!(fabs(found / expected - 1.0) < 1e-6))
+            fail_msg("fraction %g: %g, expected %g", fraction, found, expected);
+    }
+}
+
+static void a_contact_of_two_materials_keeps_pressure_and_width(void **state)
+{
+    (void)state;
+    for (int direction = -1; direction <= 1; direction += 2) {
+        struct ring ring = make_ring(1000.0 * direction, 1000.0);
+        const struct ring start = ring;
+        const struct eos *const eos[2] = {&ring.eos[0], &ring.eos[1]};
+        for (int step = 0; step < STEPS; step++)
+            sweep(&ring, ROW_CELLS, courant / 12e3);
+        int between = 0;
+        for (int c = 0; c < CELLS; c++) {
+            const double fraction = ring.u[GAS_NUMBERS + PART_FRACTION][c],
+                         density = ring.u[GAS_DENSITY][c], u = ring.u[GAS_MOMENTUM][c] / density;
+            const double here[2] = {1.0, 1000.0};
+            const struct mixture mixture = mixture_of(eos, here, fraction);
+            const double found =
+                mixture_pressure(&mixture, ring.u[GAS_ENERGY][c] - 0.5 * density * square(u));
+            if (!(fabs(found - pressure) < 1e-8 * pressure && fabs(u - ring.speed) < 1e-5))
+                fail_msg("cell %d: pressure %.12g, velocity %.12g", c, found, u);
+            between += fraction > 0.05 && fraction < 0.95;
+        }
+        if (between > 2 * 4)
+            fail_msg("%d cells are in both contacts", between);
+        for (int n = 0; n < NUMBERS; n++) {
+            const double all = sum_of(&start, n);
+            if (!(fabs(sum_of(&ring, n) - all) <= 1e-12 * fabs(all)))
+                fail_msg("number %d: %.17g, before %.17g", n, sum_of(&ring, n), all);
+        }
+        const double air = sum_of(&start, GAS_DENSITY) - sum_of(&start, GAS_NUMBERS + PART_MASS);
+        const double now = sum_of(&ring, GAS_DENSITY) - sum_of(&ring, GAS_NUMBERS + PART_MASS);
+        if (!(fabs(now - air) <= 1e-12 * air))
+            fail_msg("mass of air: %.17g, before %.17g", now, air);
+    }
+}
+
+static void rows_of_any_length_give_the_same_bits(void **state)
+{
+    (void)state;
+    struct ring ring[2];
+    for (int k = 0; k < 2; k++) {
+        ring[k] = make_ring(300.0, 1500.0);
+        for (int c = 50; c < 100; c++) /* it expands */
+            ring[k].u[GAS_ENERGY][c] += 2e9;
+        for (int step = 0; step < 100; step++)
+            sweep(&ring[k], k ? 7 : ROW_CELLS, 0.2 / 12e3);
+    }
+    assert_memory_equal(ring[0].u, ring[1].u, sizeof ring[0].u);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_mixture_has_the_pressure_of_both_materials),
+        cmocka_unit_test(the_speed_of_sound_of_a_mixture_is_that_of_its_isentrope),
+        cmocka_unit_test(a_contact_of_two_materials_keeps_pressure_and_width),
+        cmocka_unit_test(rows_of_any_length_give_the_same_bits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
