@@ -330,7 +330,6 @@ struct replacements {
 struct error *case_replacements(const struct simulation_case *input, struct replacements *result);
 bool replaces(const struct replacements *replacements, int by, int of);
 
-/* Whether detonation INDEX lights BODY. */
 bool detonation_lights(const struct simulation_case *input, int index, int body);
 
 /* When the first of the detonations that light BODY arrives at PLACE, s; zero where nothing

@@ -95,7 +95,6 @@ void options_free(struct cli_options *options);
 bool options_fix_threads(void);
 /* Name, help and takers (bits of commands) of option INDEX; false after the last. */
 bool options_at(int index, const char **name, const char **help, unsigned *takers);
-/* Prints the options of COMMAND. */
 void options_print(const struct command *command);
 
 /* terminal.c */

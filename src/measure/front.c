@@ -1,8 +1,8 @@
-/* front: the place where a field first crosses a value, seen from one end. The field is linear
- * between particles sorted along the axis, or, in a plane or in space, between the means of slabs.
- * The value is given, or half the jump, by which the speed of a shock in porous matter is measured:
- * U_s0 = (x_2 - x_1)/(t_2 - t_1) (3.4), and in the frame of the matter ahead, which moves with U_0,
- * U_s = U_0 - U_s0 (3.5). Source: Parshikov (2013), chapter 3. */
+/* front: the position where a field first crosses a value, seen from one end. The field is linear
+ * between particles sorted along the axis or, in 2-D and 3-D, between the means of slabs. The value
+ * is given, or half the jump. With half the jump the speed of a shock in porous material is
+ * measured: U_s0 = (x_2 - x_1)/(t_2 - t_1) (3.4), and in the frame of the material ahead, which
+ * moves with U_0, U_s = U_0 - U_s0 (3.5). Source: Parshikov (2013), chapter 3. */
 #include <stdlib.h>
 
 #include "base/memory.h"

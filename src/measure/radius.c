@@ -1,8 +1,7 @@
-/* radius: how far from a point a circle or sphere of matter now lies that lay at a given radius a_0
- * at the start, a surface for example, beside which no particle stands. Each particle that stood
- * within a layer of it tells a place for it, as if the matter between the two had kept its volume:
- *   a_i^d = a_0^d + r_i^d - R_i^d,   d = 2 in the plane, 3 in space and in axisymmetry,
- * R_i at the start, r_i now. */
+/* radius: the present radius of a material circle or sphere that had radius a_0 at the start, for
+ * example a surface, at which no particle lies. Each particle that was within a layer of it gives a
+ * value, assuming that the volume between the two is constant: a_i^d = a_0^d + r_i^d - R_i^d, d = 2
+ * in 2-D, 3 in 3-D and in axisymmetry, with R_i at the start and r_i now. */
 #include <stdlib.h>
 
 #include "base/memory.h"

@@ -45,7 +45,7 @@ struct population {
     const int64_t *fragment; /* of each member, from 0 (measure/fragments.h); NULL: not wanted */
 };
 
-/* Whether member I holds matter: a cell that an obstacle blocks does not. */
+/* Whether member I contains material; false for a cell that an obstacle blocks. */
 BOLIDE_INLINE bool population_has(const struct population *population, int32_t i)
 {
     return population->mass[i] != 0.0;

@@ -15,7 +15,7 @@ static double particle_diameter(const struct population *population, bool rings,
     return diameter_of_volume(volume, population->dimension);
 }
 
-/* Where the matter lies on a wall, its extent ends there. */
+/* The range of a picture ends at a wall that the material touches. */
 static void end_at_walls(struct plane *plane, const struct mirrors *mirrors)
 {
     for (int axis = 0; axis < 3; ++axis) {

@@ -6,7 +6,7 @@
  *
  * whose one meeting point is u*. Source: Dukowicz, J. Comput. Phys. 61 (1985) 119, in the form of
  * Parshikov (2013), section 2.3. For a gas A = (gamma + 1)/2, the limit of strong shocks; for
- * condensed matter the slope of the shock adiabat. */
+ * condensed material the slope of the shock adiabat. */
 #ifndef BOLIDE_RIEMANN_DUKOWICZ_H
 #define BOLIDE_RIEMANN_DUKOWICZ_H
 

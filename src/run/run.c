@@ -121,8 +121,9 @@ static struct error *loop(struct run *run)
     return NULL;
 }
 
-/* What the stresses at the start can set free: m p^2/(2 rho^2 C^2), the acoustic energy of matter
- * that expands to no pressure, and the elastic energy m S:S/(4 G rho) of its deviator. */
+/* The energy that the initial stresses can release: m p^2/(2 rho^2 C^2), the acoustic energy of
+ * material that expands to zero pressure, and the elastic energy m S:S/(4 G rho) of its deviator.
+ * */
 static double released_energy(const struct run *run)
 {
     const struct population population = simulation_population(&run->simulation), *p = &population;

@@ -6,9 +6,8 @@
  *                                                          exp(-alpha (1/eta - 1)^2)
  *   between:                                p = [(e - e_iv) p_v + (e_cv - e) p_c] / (e_cv - e_iv)
  *
- * and no pressure below that at which matter parts, where it is given: what is drawn out farther
- * keeps that tension, and bears pressure again once it is pressed together as far as it was drawn
- * out.
+ * and the pressure is not below -tension, where that is given: the material keeps this tension as it
+ * expands further, and has pressure again once it is compressed to the same density.
  *
  * By default w does not fall below 1, where energies below zero would let it vanish, and c^2 is
  * held at a hundredth of A/rho_0 times eta in tension beyond its maximum, A^2/(4 B) at no energy.
@@ -123,7 +122,7 @@ BOLIDE_INLINE struct eos_value eos_tillotson(const struct eos_tillotson *t, doub
     struct eos_value value = eos_tillotson_whole(t, density, energy);
     if (value.pressure < -t->tension) { /* never where it is NAN */
         value.pressure = -t->tension;
-        value.dp_drho = t->bulk_modulus / t->density; /* the sound of matter at rest */
+        value.dp_drho = t->bulk_modulus / t->density; /* the sound of material at rest */
         value.dp_de = 0.0;
     }
     if (t->form == EOS_EXTENDED)

@@ -77,12 +77,12 @@ BOLIDE_INLINE void row_forces(const struct hllc_loop *loop, struct hllc_kind kin
     const double *own = loop->record + (size_t)i * (size_t)hllc_stride(kind);
     const struct hllc_rates *rates = &loop->rates;
     const uint32_t *entry = neighbours_row(loop->neighbours, i);
-    int count = (int)loop->neighbours->row[i].count, matter = count;
-    while (matter > 0 && entry[matter - 1] >> ENTRY_PART_SHIFT == PART_IMAGE)
-        matter--;
+    int count = (int)loop->neighbours->row[i].count, without_images = count;
+    while (without_images > 0 && entry[without_images - 1] >> ENTRY_PART_SHIFT == PART_IMAGE)
+        without_images--;
     struct forces part[2] = {{{0.0, 0.0, 0.0}, 0.0, 0.0, 0.0}};
     for (int k = 0, begin = 0; k < 2 && begin < count; k++) {
-        const int end = k ? count : matter;
+        const int end = k ? count : without_images;
         part[k] = part_forces(loop, kind, i, entry + begin, end - begin);
         begin = end;
     }

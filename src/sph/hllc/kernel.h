@@ -63,7 +63,7 @@ struct hllc_rates {
     double (*slopes)[3];       /* 1-D gradients of density, pressure, deviator; NULL: not wanted */
     double (*strain_rate)[6];  /* symmetric part of sum V_j (u_j - u_i) (x) g, 1/s */
     double (*spin)[3];         /* half the curl of u, rad/s */
-    double *density_rate;      /* of the matter in the plane, (2a), kg/m^3/s */
+    double *density_rate;      /* of the material in the plane, (2a), kg/m^3/s */
     double (*acceleration)[3]; /* (2b), m/s^2 */
     double *power;             /* (2c), W/kg */
     double (*wall)[3]; /* the part of the acceleration that images gave; NULL without walls */

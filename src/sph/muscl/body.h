@@ -192,7 +192,7 @@ BOLIDE_INLINE void add_slopes(struct muscl_kind kind, const double *own, const s
 
 /* The differences between the two particles of a pair, along n and across, and the fractions of
  * them that limited slopes carry: zero unless both are of the material MATTER. */
-BOLIDE_INLINE void find_change(struct muscl_kind kind, double matter, const double *own,
+BOLIDE_INLINE void find_change(struct muscl_kind kind, double material, const double *own,
                                const struct lanes *lanes, struct pairs *pairs, int k)
 {
     const int dimension = kind.dimension;
@@ -206,8 +206,8 @@ BOLIDE_INLINE void find_change(struct muscl_kind kind, double matter, const doub
                                     vector_from(dimension, own + u, 1));
     const double along_u = vec3_dot(du, n), speed = fabs(along_u);
     const double other_z = lanes->field[z][k], other_q = lanes->field[q][k];
-    const bool smooth = (matter == muscl_index(lanes->field[other][k])) & (speed * own_q < own_z) &
-                        (speed * other_q < other_z);
+    const bool smooth = (material == muscl_index(lanes->field[other][k])) &
+                        (speed * own_q < own_z) & (speed * other_q < other_z);
     const double near = pairs->near[k], near_i = smooth ? near : 0.0,
                  near_j = smooth ? 2.0 - near : 0.0;
     const struct slopes here = {own, NULL, 1};
@@ -272,18 +272,18 @@ BOLIDE_INLINE void find_change(struct muscl_kind kind, double matter, const doub
     }
 }
 
-BOLIDE_INLINE void find_changes(struct muscl_kind kind, double matter, const double *own,
+BOLIDE_INLINE void find_changes(struct muscl_kind kind, double material, const double *own,
                                 const struct lanes *lanes, struct pairs *pairs)
 {
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++)
-        find_change(kind, matter, own, lanes, pairs, k);
+        find_change(kind, material, own, lanes, pairs, k);
 }
 
-/* What the volumes of a pair follow from: whether it counts, 0 or 1; how far its packing does, 1 in
- * like matter and 0 in another material; how much faster the contact moves along n than the own
- * particle, and the neighbour; how much more the neighbour is compressed, and its packing.
- */
+/* The data of a pair for the change of volumes: whether it counts, 0 or 1; whether its packing
+ * counts, 1 in the same material and 0 in another; the velocity of the contact along n relative to
+ * particle i and to its neighbour; the neighbour's compression relative to that of i, and its
+ * packing. */
 struct volume_pair {
     double counts, like, contact, compression, packing;
     struct vec3 moved;

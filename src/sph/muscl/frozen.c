@@ -1,9 +1,9 @@
-/* What frozen bodies do to matter beside them, by the scheme of second order. They stay where they
- * are while that matter moves with the waves that run out, so pairs across would lose their
- * balance: a base pressure would push back like a spring, as stiff as a wall to a long wave. So
- * frozen particles have no volume in the records, matter ends beside them as at a free surface, and
- * here that surface gets the traction of its contact with matter at rest, by impedances (Lysmer and
- * Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859). */
+/* Transmitting boundaries in the second-order scheme. Frozen particles stay in place while the
+ * material beside them moves with the outgoing waves, so the areas of pairs across would no longer
+ * add up to zero, and an initial pressure would act like a spring that reflects long waves as a
+ * wall does. Frozen particles therefore have no volume in the records: the material ends beside
+ * them as at a free surface, and that surface gets the traction of its contact with material at
+ * rest, from the impedances (Lysmer and Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859). */
 #include <string.h>
 
 #include "base/memory.h"
@@ -52,8 +52,9 @@ struct surface {
     struct vec3 velocity; /* of what is frozen there, and its stress and impedances */
     struct sym3 stress;
     double along, across;
-    /* The area a unit of volume that pairs of matter leave open; the part 1 - Q of linear fields
-     * that they miss, with Q = -sum f w a x; the moments for forces, below. */
+    /* The area per unit of volume that pairs of material leave open; the part 1 - Q of linear
+     * fields that these pairs do not represent, with Q = -sum f w a x; the moments for forces, see
+     * below. */
     struct vec3 open, offset;
     double missing[3][3];
     struct sym3 moment;
@@ -121,9 +122,10 @@ static void add_matter(struct muscl_kind kind, const struct look *look, struct s
     s->open = vec3_add(s->open, vec3_scale(2.0 * weight, a));
 }
 
-/* The moments for forces are those of matter that goes on behind the surface as it does before it:
- * a neighbour well before it counts twice, one well behind it not at all, so that it does not
- * matter where frozen ones stand. A complete lattice has the moments that it has. */
+/* The moments for forces are computed as if the material continued symmetrically outside the
+ * surface: a neighbour well inside counts twice and one well outside not at all, so that the motion
+ * of the material past the frozen particles does not matter. On a complete lattice the moments are
+ * those of the lattice. */
 static void add_moments(const struct look *look, struct surface *s)
 {
     const struct vec3 e = look->e, c = vec3_scale(-look->weight * look->near, look->x);
@@ -178,7 +180,7 @@ static struct vec3 traction(struct muscl_kind kind, struct sym3 stress, struct v
                                      : traction_of(kind.dimension, stress, n);
 }
 
-/* Velocity, traction of its own and that of the contact, where the matter ends. */
+/* At the surface of the material: its velocity, its own traction, and that of the contact. */
 struct meeting {
     struct vec3 velocity, own, contact;
 };

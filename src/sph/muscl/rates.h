@@ -132,14 +132,14 @@ BOLIDE_INLINE void find_forces(struct muscl_kind kind, struct batch *batch, int 
                correction_of(dimension, moment_of_forces(second, first)));
 }
 
-/* What the volumes about a particle fill beyond the space there is: the excess of tr M/dimension
- * over the start's, less a slack. Where matter has met across a gap the velocity gradient counts
- * too little of the closing, and bodies would run into each other. The trace is 1 on the average of
- * points that stand at random; among particles that have been stirred it scatters by 0.02, so the
- * mean over the neighbours counts: those of the same material, the less the more their compression
- * differs. And how thinly neighbours stand on some axis: the norm of the inverse of the moment of
- * forces, 100 at most. At the start it counts as that of a moment with 1/sqrt(3) on one axis and 1
- * on the others, at least. */
+/* The packing excess: by how much the volumes of the particles around i exceed the space there, the
+ * excess of tr M/dimension over its initial value less a tolerance. Where bodies have met across a
+ * gap, the velocity gradient underestimates the compression, and particles would overlap. For a
+ * random arrangement the trace is 1 on average, but in stirred particles it scatters by 0.02. The
+ * mean over the neighbours of the same material is therefore used, with smaller weights for those
+ * of other compression. Also computed here: how sparse neighbours are along some axis, by the norm
+ * of the inverse of the moment for forces, at most 100. Its initial value is at least that of a
+ * moment with 1/sqrt(3) on one axis and 1 on the others. */
 BOLIDE_INLINE void find_packing(struct muscl_kind kind, double smoothing, struct batch *batch,
                                 int k)
 {
@@ -286,7 +286,8 @@ BOLIDE_INLINE void find_expected(struct muscl_kind kind, struct batch *batch, in
     const int dimension = kind.dimension, stresses = muscl_stresses(kind);
     const struct layout at = layout_of(kind);
     const double weight = batch->all[at.weight][k];
-    /* Beside matter of far higher impedance the stress is that matter's, and so is the slope. */
+    /* Beside material of much higher impedance the stress, and its slope, is that of the other
+     * material. */
     const double ours = 2.0 * batch->impedance[k] * weight, mean = batch->all[at.impedance][k];
     const double ratio = ours / mean, share = ours > mean ? ratio : 1.0;
     for (int a = 0; a < dimension; a++)

@@ -21,7 +21,7 @@ struct layout {
     int narrow;          /* slopes of what stands in no row */
     int hoop;            /* of axisymmetry: w |a| (depth - d) n_x, w |a| x n_x */
     /* in 2-D and 3-D, v = V W/h^2: v x^a x^b, v (U_j - U)^a x^b; w |a| of the exchange of volume; v
-     * of like matter, v times its packing */
+     * of like material, v times its packing */
     int spread, parting, exchange, like, packing;
     int slopes; /* totals only: -f w dq e^b by b, of the values after the step; all above, a multiple of eight */
     int count;
