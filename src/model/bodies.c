@@ -11,7 +11,7 @@ bool body_is_frozen(const struct simulation *simulation, int body)
     return case_body(simulation->problem->input, body)->frozen;
 }
 
-bool body_is_held(const struct simulation *simulation, int body)
+bool body_is_prescribed(const struct simulation *simulation, int body)
 {
     const struct body_input *input = case_body(simulation->problem->input, body);
     return body_stands(simulation, body) || input->driven || input->frozen;
@@ -19,7 +19,7 @@ bool body_is_held(const struct simulation *simulation, int body)
 
 bool body_is_heavy(const struct simulation *simulation, int body)
 {
-    return problem_has_gravity(simulation->problem) && !body_is_held(simulation, body);
+    return problem_has_gravity(simulation->problem) && !body_is_prescribed(simulation, body);
 }
 
 bool any_body(const struct simulation *simulation, bool (*is)(const struct simulation *, int))

@@ -9,7 +9,7 @@
  * these reasons. */
 bool body_stands(const struct simulation *simulation, int body);
 bool body_is_frozen(const struct simulation *simulation, int body);
-bool body_is_held(const struct simulation *simulation, int body);
+bool body_is_prescribed(const struct simulation *simulation, int body);
 
 /* Whether gravity pulls BODY: that of the case does, and nothing holds it. */
 bool body_is_heavy(const struct simulation *simulation, int body);

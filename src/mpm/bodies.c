@@ -9,18 +9,20 @@
 #include "model/particles/held.h"
 #include "mpm/mpm_internal.h"
 
-/* The layer of a contact group for bodies with prescribed motion (HELD) or without, or that of one
- * frozen body; created if it does not exist yet. BIN_GROUPS when there are too many. */
-static int layer_for(struct mpm *mpm, const struct simulation *simulation, int body, bool held)
+/* The layer of a contact group for bodies with prescribed motion or without, or that of one frozen
+ * body; created if it does not exist yet. BIN_GROUPS when there are too many. */
+static int layer_for(struct mpm *mpm, const struct simulation *simulation, int body,
+                     bool prescribed)
 {
     const bool frozen = body_is_frozen(simulation, body);
     const int group = simulation->problem->group_of_body[body];
     int g = 0;
     while (g < mpm->layers && (frozen || mpm->layer[g].frozen || mpm->layer[g].group != group ||
-                               mpm->layer[g].held != held))
+                               mpm->layer[g].prescribed != prescribed))
         g++;
     if (g == mpm->layers && g < BIN_GROUPS)
-        mpm->layer[mpm->layers++] = (struct layer){.group = group, .held = held, .frozen = frozen};
+        mpm->layer[mpm->layers++] =
+            (struct layer){.group = group, .prescribed = prescribed, .frozen = frozen};
     return g;
 }
 
@@ -47,13 +49,13 @@ struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulat
         return error_new(ERROR_SYSTEM, "out of memory");
     for (int b = 0; b < input->bodies.count; b++) {
         const struct body_input *body = case_body(input, b);
-        const bool held = body->driven || body->frozen || body->stop <= 0.0;
-        const int own = layer_for(mpm, simulation, b, held),
+        const bool prescribed = body->driven || body->frozen || body->stop <= 0.0;
+        const int own = layer_for(mpm, simulation, b, prescribed),
                   rest = isnan(body->stop) ? own : layer_for(mpm, simulation, b, true);
         if (own == BIN_GROUPS || rest == BIN_GROUPS)
             return input_error(input, "bodies", input->bodies.names[b],
                                "the solver mpm tells %d kinds of bodies apart, by contacts and by "
-                               "how they are held, and this is one more",
+                               "how they are prescribed, and this is one more",
                                (int)BIN_GROUPS);
         mpm->layer_of_body[b] = (uint8_t)own;
         mpm->layer_at_rest[b] = (uint8_t)rest;
@@ -71,14 +73,14 @@ void mpm_stop_bodies(struct mpm *mpm, struct simulation *simulation)
             mpm->layer_of_body[b] = mpm->layer_at_rest[b];
 }
 
-void mpm_move_held(const struct mpm *mpm, const struct simulation *simulation, double dt)
+void mpm_move_prescribed(const struct mpm *mpm, const struct simulation *simulation, double dt)
 {
     const struct particles *p = mpm->particles;
-    if (!any_body(simulation, body_is_held))
+    if (!any_body(simulation, body_is_prescribed))
         return;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
-        if (!body_is_held(simulation, p->body[i]))
+        if (!body_is_prescribed(simulation, p->body[i]))
             continue;
         for (int k = 0; k < simulation->problem->dimension; k++)
             p->position[i][k] += dt * p->velocity[i][k];
@@ -162,7 +164,7 @@ struct hoop {
 
 static bool is_free(const struct simulation *simulation, int body)
 {
-    return !body_is_held(simulation, body);
+    return !body_is_prescribed(simulation, body);
 }
 
 /* Shape functions sum to one, those around the axis too. */
@@ -244,11 +246,11 @@ void mpm_book_hoop(const struct mpm *mpm, struct simulation *simulation, double 
             struct ledger own = {0};
 #pragma omp for schedule(static)
             for (int32_t b = 0; b < layer->bins.count; b++)
-                if (by_faces && !layer->held && !mpm_is_far(mpm, layer, b))
+                if (by_faces && !layer->prescribed && !mpm_is_far(mpm, layer, b))
                     book_ring(mpm, layer, b, dt, &own);
 #pragma omp for schedule(static)
             for (int32_t n = 0; n < layer->grid.blocks; n++)
-                if (!layer->held && !mpm_is_far(mpm, layer, layer->grid.touch[n][0].bin))
+                if (!layer->prescribed && !mpm_is_far(mpm, layer, layer->grid.touch[n][0].bin))
                     unbook_lost(mpm, layer, n, dt, &own);
 #pragma omp critical(bolide_mpm_hoop)
             ledger_join(&simulation->ledger, &own);

@@ -98,7 +98,7 @@ static struct contact_side side_of(const double *node, double dt)
 }
 
 /* Which layer of a meeting has prescribed motion. */
-enum held_side { HELD_NONE, HELD_FIRST, HELD_SECOND };
+enum prescribed_side { PRESCRIBED_NONE, PRESCRIBED_FIRST, PRESCRIBED_SECOND };
 
 /* Two layers, and two blocks of theirs at the same position. */
 struct meeting {
@@ -109,7 +109,7 @@ struct meeting {
     struct contact_rule rule;
     int normal; /* enum contact_normal */
     int touch;  /* enum contact_touch */
-    enum held_side held;
+    enum prescribed_side prescribed;
     bool frozen;
     double edge;
 };
@@ -183,27 +183,28 @@ static void set_touch(double *normal, int other, enum contact_state state)
 
 /* The impulse on the body of FREE from one with prescribed motion in a step of DT; NORMAL points
  * out of FREE. The impulse and its work are noted in the second field of the prescribed layer. */
-static struct contact_push push_by_held(const struct meeting *m, int k, const double *node,
-                                        const double *held, struct vec3 normal, double dt)
+static struct contact_push push_by_prescribed(const struct meeting *m, int k, const double *node,
+                                              const double *prescribed, struct vec3 normal,
+                                              double dt)
 {
-    const struct layer *layer = m->held == HELD_FIRST ? m->a : m->b;
-    const int32_t block = m->held == HELD_FIRST ? m->in_a : m->in_b;
+    const struct layer *layer = m->prescribed == PRESCRIBED_FIRST ? m->a : m->b;
+    const int32_t block = m->prescribed == PRESCRIBED_FIRST ? m->in_a : m->in_b;
     const struct contact_side side = side_of(node, dt);
-    struct vec3 u = vec3_scale(1.0 / held[NODE_MASS], vector_at(held + NODE_MOMENTUM));
+    struct vec3 u = vec3_scale(1.0 / prescribed[NODE_MASS], vector_at(prescribed + NODE_MOMENTUM));
     struct contact_push push;
     if (m->frozen) {
         const struct vec3 g = vector_at(grid_node(&layer->normal, block, k));
         const double area = sqrt(vec3_dot(g, g)); /* times the density */
         const struct contact_outlet outlet = {area > 0.0 ? vec3_scale(1.0 / area, g) : g,
                                               area * layer->sound_long, area * layer->sound_shear};
-        push.impulse = contact_run_out(side, vector_at(held + NODE_FORCE), u, outlet, dt);
+        push.impulse = contact_run_out(side, vector_at(prescribed + NODE_FORCE), u, outlet, dt);
         push.state = CONTACT_NONE;
         const struct vec3 kick =
             vec3_add(vec3_scale(dt, vector_at(node + NODE_FORCE)), push.impulse);
         u = vec3_scale(1.0 / side.mass,
                        vec3_add(vector_at(node + NODE_MOMENTUM), vec3_scale(0.5, kick)));
     } else {
-        push = contact_push_held(side, u, normal, m->rule);
+        push = contact_push_prescribed(side, u, normal, m->rule);
     }
     double *note = grid_node(&layer->back, block, k);
     note[0] += push.impulse.x;
@@ -230,11 +231,11 @@ static void meet_block(const struct meeting *m, double least, double dt)
                 continue;
         }
         struct contact_push push;
-        if (m->held == HELD_FIRST) {
-            push = push_by_held(m, k, second, first, vec3_scale(-1.0, normal), dt);
+        if (m->prescribed == PRESCRIBED_FIRST) {
+            push = push_by_prescribed(m, k, second, first, vec3_scale(-1.0, normal), dt);
             push_node(second, 1.0 / dt, push.impulse);
-        } else if (m->held == HELD_SECOND) {
-            push = push_by_held(m, k, first, second, normal, dt);
+        } else if (m->prescribed == PRESCRIBED_SECOND) {
+            push = push_by_prescribed(m, k, first, second, normal, dt);
             push_node(first, 1.0 / dt, push.impulse);
         } else {
             push = contact_push(side_of(first, dt), side_of(second, dt), normal, m->rule);
@@ -263,15 +264,17 @@ static void join_block(const struct meeting *m)
         const struct contact_side a = {first, vec3_scale(first, vector_at(u))},
                                   b = {second, vec3_scale(second, vector_at(v))};
         const struct contact_push push =
-            m->held == HELD_FIRST    ? contact_push_held(b, vector_at(u), normal, rule)
-            : m->held == HELD_SECOND ? contact_push_held(a, vector_at(v), normal, rule)
-                                     : contact_push(a, b, normal, rule);
+            m->prescribed == PRESCRIBED_FIRST
+                ? contact_push_prescribed(b, vector_at(u), normal, rule)
+            : m->prescribed == PRESCRIBED_SECOND
+                ? contact_push_prescribed(a, vector_at(v), normal, rule)
+                : contact_push(a, b, normal, rule);
         const double change[3] = {push.impulse.x, push.impulse.y, push.impulse.z};
         for (int c = 0; c < 3; c++) {
-            u[c] += m->held == HELD_FIRST ? 0.0 : change[c] / first;
-            v[c] += m->held == HELD_FIRST    ? change[c] / second
-                    : m->held == HELD_SECOND ? 0.0
-                                             : -change[c] / second;
+            u[c] += m->prescribed == PRESCRIBED_FIRST ? 0.0 : change[c] / first;
+            v[c] += m->prescribed == PRESCRIBED_FIRST    ? change[c] / second
+                    : m->prescribed == PRESCRIBED_SECOND ? 0.0
+                                                         : -change[c] / second;
         }
     }
 }
@@ -298,7 +301,7 @@ static bool wants_normals(const struct mpm *mpm, const struct simulation *simula
 static void meet_pair(struct mpm *mpm, const struct simulation *simulation, int g, int h, double dt)
 {
     struct layer *a = &mpm->layer[g], *b = &mpm->layer[h];
-    const bool first = a->held, second = b->held;
+    const bool first = a->prescribed, second = b->prescribed;
     const bool frozen = (first ? a : b)->frozen;
     const int law = law_of(simulation, a, b);
     const struct contact_surface *surface = &simulation->problem->surface[law / LAW_SURFACE];
@@ -320,9 +323,9 @@ static void meet_pair(struct mpm *mpm, const struct simulation *simulation, int 
                                         .rule = rule,
                                         .normal = surface->normal,
                                         .touch = surface->touch,
-                                        .held = first    ? HELD_FIRST
-                                                : second ? HELD_SECOND
-                                                         : HELD_NONE,
+                                        .prescribed = first    ? PRESCRIBED_FIRST
+                                                      : second ? PRESCRIBED_SECOND
+                                                               : PRESCRIBED_NONE,
                                         .frozen = frozen,
                                         .edge = mpm->edge};
         if (other >= 0 && dt > 0.0)
@@ -425,7 +428,7 @@ static double heat_of_contact(const struct mpm *mpm, int g, int32_t block, int k
                                : -1;
         if (in < 0)
             continue;
-        if (layer->held) {
+        if (layer->prescribed) {
             heat += grid_node(&layer->back, in, k)[BACK_HEAT]; /* the work of what holds it */
         } else {
             heat -= work_of_contact(layer, in, k, dt);
@@ -443,15 +446,15 @@ static void heat_by_contact(struct mpm *mpm, const struct simulation *simulation
         const struct layer *layer = &mpm->layer[g];
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
         for (int32_t n = 0; n < layer->grid.blocks; n++)
-            for (int k = 0; k < BLOCK_CELLS && !layer->held; k++)
+            for (int k = 0; k < BLOCK_CELLS && !layer->prescribed; k++)
                 grid_node(&layer->back, n, k)[BACK_HEAT] =
                     layer->meets[n] ? heat_of_contact(mpm, g, n, k, dt) : 0.0;
     }
     for (int g = 0; g < mpm->layers; g++)
-        if (!mpm->layer[g].held)
+        if (!mpm->layer[g].prescribed)
             mpm_mirror_contact(mpm, &mpm->layer[g]);
     for (int g = 0; g < mpm->layers; g++)
-        if (!mpm->layer[g].held)
+        if (!mpm->layer[g].prescribed)
             mpm_warm(mpm, simulation, &mpm->layer[g], mpm->layer[g].meets);
 }
 
@@ -465,14 +468,14 @@ void mpm_meet(struct mpm *mpm, struct simulation *simulation, double dt)
     for (int g = 0; g < mpm->layers && normals; g++)
         find_normals(mpm, simulation, &mpm->layer[g]);
     for (int g = 0; g < mpm->layers; g++)
-        if (mpm->layer[g].held)
+        if (mpm->layer[g].prescribed)
             clear_notes(&mpm->layer[g]);
         else
             keep_forces(&mpm->layer[g], simulation->threads);
     meet_pairs(mpm, simulation, dt);
     heat_by_contact(mpm, simulation, dt);
     for (int g = 0; g < mpm->layers; g++)
-        if (mpm->layer[g].held)
+        if (mpm->layer[g].prescribed)
             book_notes(mpm, simulation, &mpm->layer[g]);
 }
 

@@ -58,8 +58,9 @@ BOLIDE_INLINE struct contact_push contact_push(struct contact_side a, struct con
 }
 
 /* Body B keeps its VELOCITY whatever pushes back. */
-BOLIDE_INLINE struct contact_push contact_push_held(struct contact_side a, struct vec3 velocity,
-                                                    struct vec3 normal, struct contact_rule rule)
+BOLIDE_INLINE struct contact_push contact_push_prescribed(struct contact_side a,
+                                                          struct vec3 velocity, struct vec3 normal,
+                                                          struct contact_rule rule)
 {
     return contact_limit(vec3_sub(vec3_scale(a.mass, velocity), a.momentum), normal, rule);
 }

@@ -159,11 +159,11 @@ void mpm_damp_shear(struct mpm *mpm, struct simulation *simulation, double dt)
         struct layer *layer = &mpm->layer[g];
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
         for (int32_t b = 0; b < layer->bins.count; b++)
-            if (!mpm_is_far(mpm, layer, b) && !layer->held)
+            if (!mpm_is_far(mpm, layer, b) && !layer->prescribed)
                 damp_bin(mpm, simulation, layer, b);
     }
     mpm_exchange(mpm, simulation, offsetof(struct layer, back));
     for (int g = 0; g < mpm->layers; g++)
-        if (!mpm->layer[g].held)
+        if (!mpm->layer[g].prescribed)
             add_forces(mpm, simulation, &mpm->layer[g], dt);
 }

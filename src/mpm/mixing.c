@@ -23,7 +23,7 @@ bool mpm_find_shocks(const struct mpm *mpm, const struct simulation *simulation,
                      struct layer *layer)
 {
     bool any = false;
-    if (!(mpm->parameters.shock_mixing > 0.0) || layer->held)
+    if (!(mpm->parameters.shock_mixing > 0.0) || layer->prescribed)
         return false;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads) reduction(| : any)
     for (int32_t n = 0; n < layer->grid.blocks; n++) {
@@ -54,14 +54,15 @@ void mpm_mix_shocks(struct mpm *mpm, struct simulation *simulation, double dt)
         const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
         for (int32_t b = 0; b < layer->bins.count; b++)
-            if (!layer->held && !mpm_is_far(mpm, layer, b) && mpm_covers(layer, b, layer->shocked))
+            if (!layer->prescribed && !mpm_is_far(mpm, layer, b) &&
+                mpm_covers(layer, b, layer->shocked))
                 transfer_heat(&transfer, b);
     }
     mpm_exchange(mpm, simulation, offsetof(struct layer, back));
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];
         const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
-        if (layer->held)
+        if (layer->prescribed)
             continue;
         sum_heat(mpm, simulation, layer);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)

@@ -22,14 +22,14 @@ struct wall_node {
 /* Distances of a surface from a node that are told apart, and the largest in cells. */
 enum { SURFACES = 256, SURFACE_REACH = 2 };
 
-/* The nodes of bodies that share their velocities: of all bodies where the case names no contacts
- * and holds none, else of each contact group and each way to be held. */
+/* The nodes of bodies that have common velocities: all bodies if the case has no contacts and no
+ * prescribed motion; else those of one contact group with the same kind of motion. */
 struct layer {
     int group;                      /* contact group */
-    bool held, frozen;              /* its bodies keep their velocities, or all of their state */
+    bool prescribed, frozen;        /* its bodies keep their velocities, or all of their state */
     double sound_long, sound_shear; /* of a frozen body at the start */
-    struct bins
-        bins; /* a part of all bins, or own ones and, without particles, those of other ranks; not owned */
+    /* a part of all bins, or own ones and, without particles, those of other ranks; not owned */
+    struct bins bins;
     struct grid grid;
     struct grid_field main, back;
     struct grid_field
@@ -161,7 +161,7 @@ void mpm_start_gradients(const struct mpm *mpm, const struct simulation *simulat
 /* Neither rounding nor what holds a body takes a particle at X through a wall. */
 void mpm_keep_before_walls(const struct simulation *simulation, double x[3]);
 /* Held bodies move by their velocities in a step of DT. */
-void mpm_move_held(const struct mpm *mpm, const struct simulation *simulation, double dt);
+void mpm_move_prescribed(const struct mpm *mpm, const struct simulation *simulation, double dt);
 
 /* Books what the ambient pressure of fluids has done in the step of velocities. */
 void mpm_book_ambient(const struct mpm *mpm, struct simulation *simulation);

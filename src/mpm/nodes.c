@@ -238,7 +238,7 @@ static void add_gravity(const struct simulation *simulation, const struct layer 
 struct error *mpm_sum_nodes(const struct mpm *mpm, const struct simulation *simulation,
                             struct layer *layer)
 {
-    const bool heavy = problem_has_gravity(simulation->problem) && !layer->held;
+    const bool heavy = problem_has_gravity(simulation->problem) && !layer->prescribed;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++) {
         grid_reduce(&layer->grid, &layer->main, n);
@@ -364,7 +364,7 @@ static void book_walls(const struct mpm *mpm, struct simulation *simulation,
 void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
                        double dt)
 {
-    const bool held = layer->held;
+    const bool prescribed = layer->prescribed;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++)
         for (int k = 0; k < BLOCK_CELLS; k++) {
@@ -376,16 +376,16 @@ void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, str
             }
             node[NODE_MIXING] = mixing_of_velocity(dt * node[NODE_MIXING] / mass);
             for (int c = 0; c < 3; c++) {
-                const double force = held ? 0.0 : node[NODE_FORCE + c];
+                const double force = prescribed ? 0.0 : node[NODE_FORCE + c];
                 node[NODE_VELOCITY + c] = (node[NODE_MOMENTUM + c] + dt * force) / mass;
                 node[NODE_ACCELERATION + c] = force / mass;
             }
         }
-    if (!held)
+    if (!prescribed)
         book_walls(mpm, simulation, layer, dt);
 }
 
-/* What held bodies have is in the main field, before the step as momentum. */
+/* The main field has the momentum of bodies with prescribed motion, at the start of the step. */
 static void keep_velocities(const struct simulation *simulation, struct layer *layer, bool momentum)
 {
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
@@ -401,7 +401,7 @@ static void keep_velocities(const struct simulation *simulation, struct layer *l
 void mpm_find_velocities(const struct mpm *mpm, const struct simulation *simulation,
                          struct layer *layer, bool plain)
 {
-    if (layer->held) {
+    if (layer->prescribed) {
         keep_velocities(simulation, layer, plain);
         return;
     }

@@ -128,15 +128,15 @@ static void start_series(const struct simulation *simulation, struct layer *laye
 void mpm_raise_order(struct mpm *mpm, struct simulation *simulation, double dt, bool accelerations)
 {
     for (int g = 0; g < mpm->layers && mpm->parameters.order > 1; g++)
-        if (!mpm->layer[g].held)
+        if (!mpm->layer[g].prescribed)
             start_series(simulation, &mpm->layer[g], accelerations);
     for (int64_t order = 1; order < mpm->parameters.order; order++) {
         for (int g = 0; g < mpm->layers; g++)
-            if (!mpm->layer[g].held)
+            if (!mpm->layer[g].prescribed)
                 map_left(mpm, simulation, &mpm->layer[g], accelerations);
         mpm_exchange(mpm, simulation, offsetof(struct layer, mapped));
         for (int g = 0; g < mpm->layers; g++)
-            if (!mpm->layer[g].held) {
+            if (!mpm->layer[g].prescribed) {
                 sum_mapped(mpm, simulation, &mpm->layer[g], dt, accelerations);
                 add_term(mpm, simulation, &mpm->layer[g], accelerations);
             }

@@ -187,7 +187,7 @@ static void sum_surface(struct mpm *mpm, struct simulation *simulation,
         const struct layer *layer = &mpm->layer[g];
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
         for (int32_t b = 0; b < layer->bins.count; b++)
-            if (!mpm_is_far(mpm, layer, b) && !layer->held)
+            if (!mpm_is_far(mpm, layer, b) && !layer->prescribed)
                 give_bin(mpm, simulation, layer, surface, b);
     }
     mpm_exchange(mpm, simulation, offsetof(struct layer, back));
@@ -195,7 +195,7 @@ static void sum_surface(struct mpm *mpm, struct simulation *simulation,
         struct layer *layer = &mpm->layer[g];
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
         for (int32_t n = 0; n < layer->grid.blocks; n++)
-            if (!layer->held)
+            if (!layer->prescribed)
                 grid_reduce(&layer->grid, &layer->back, n);
     }
 }
@@ -323,7 +323,7 @@ static void push_surface(struct mpm *mpm, struct simulation *simulation,
     sum_surface(mpm, simulation, surface);
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];
-        if (layer->held)
+        if (layer->prescribed)
             continue;
         if (surface->outflow)
             push_face(layer, surface, dt, simulation->threads);

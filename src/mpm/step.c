@@ -303,7 +303,7 @@ static void find_velocities(struct mpm *mpm, struct simulation *simulation,
             if (mpm_is_far(mpm, layer, b))
                 continue;
             grid_spread(&layer->grid, &layer->main, b);
-            if (!layer->held)
+            if (!layer->prescribed)
                 transfer_velocity(&transfer, b, step, scatter);
         }
     }
@@ -320,7 +320,7 @@ static void find_states(struct mpm *mpm, struct simulation *simulation, struct l
 {
     const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
     const struct particles *p = mpm->particles;
-    if (layer->held) /* nothing strains it; held bodies that meet would strain each other */
+    if (layer->prescribed) /* two of them that meet would strain each other */
         return;
 #pragma omp parallel num_threads(simulation->threads)
     {
@@ -394,7 +394,7 @@ struct error *mpm_advance(void *solver, struct simulation *simulation, double dt
     mpm_book_ambient(mpm, simulation);
     mpm_book_gravity(mpm, simulation, dt, false);
     struct error *error = scheme == MPM_USF ? NULL : update_states(mpm, simulation, dt, false);
-    mpm_move_held(mpm, simulation, dt);
+    mpm_move_prescribed(mpm, simulation, dt);
     error = error_join(error, drive_bodies(simulation, mpm->particles, dt));
     mpm_lose_particles(mpm, simulation);
     return error;

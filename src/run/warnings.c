@@ -74,8 +74,8 @@ struct warnings *warnings_create(const struct simulation *simulation)
     w->memories = materials * WARNING_ENERGY + 1;
     w->watch = memory_allocate((size_t)materials * sizeof *w->watch);
     w->memory = memory_allocate((size_t)w->memories * sizeof *w->memory);
-    w->held = memory_allocate((size_t)simulation->problem->input->bodies.count);
-    if (!w->watch || !w->memory || !w->held || !tension_create(w, simulation)) {
+    w->prescribed = memory_allocate((size_t)simulation->problem->input->bodies.count);
+    if (!w->watch || !w->memory || !w->prescribed || !tension_create(w, simulation)) {
         warnings_free(w);
         return NULL;
     }
@@ -83,7 +83,7 @@ struct warnings *warnings_create(const struct simulation *simulation)
         find_limits(&w->watch[m], &simulation->problem->material[m],
                     case_material(simulation->problem->input, m)->tensile_strength);
     for (int b = 0; b < simulation->problem->input->bodies.count; b++)
-        w->held[b] = body_is_held(simulation, b);
+        w->prescribed[b] = body_is_prescribed(simulation, b);
     return w;
 }
 
@@ -93,7 +93,7 @@ void warnings_free(struct warnings *warnings)
         return;
     free(warnings->watch);
     free(warnings->memory);
-    free(warnings->held);
+    free(warnings->prescribed);
     free(warnings->tension);
     free(warnings->tension_watch);
     free(warnings);
@@ -157,9 +157,9 @@ static void follow_speed(struct warnings *w, const struct simulation *simulation
     for (int i = 0; i < simulation->problem->input->loads.count; i++)
         largest =
             maximum(largest, load_speed(simulation, case_load(simulation->problem->input, i)));
-    if (any_body(simulation, body_is_held))
+    if (any_body(simulation, body_is_prescribed))
         for (int32_t i = 0; i < p->count; i++)
-            if (w->held[p->body[i]])
+            if (w->prescribed[p->body[i]])
                 largest = maximum(largest, speed_of(p, i));
     if (now->momentum_scale > 0.0)
         largest = maximum(largest, 2.0 * now->kinetic / now->momentum_scale);

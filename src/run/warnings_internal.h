@@ -36,7 +36,7 @@ struct warnings {
     int materials, memories;
     struct material_watch *watch;
     struct warning_memory *memory;
-    bool *held;         /* by body: it has a prescribed motion */
+    bool *prescribed;   /* by body: it has a prescribed motion */
     double speed;       /* the largest that needs no warning, so far, m/s */
     bool loses_tension; /* of the solver, in the dimension of the case */
     int bodies;

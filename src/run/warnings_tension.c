@@ -46,7 +46,8 @@ static void watch_body(struct tension_watch *watch, const struct simulation *sim
     const struct body_input *body = case_body(simulation->problem->input, b);
     const struct material *material = &simulation->problem->material[body->material_index];
     struct point rest = {.density = material_density(material)};
-    if (body_is_held(simulation, b) || eos_traits(&material->eos).gas || material_burns(material))
+    if (body_is_prescribed(simulation, b) || eos_traits(&material->eos).gas ||
+        material_burns(material))
         return;
     const double c = any_material_evaluate(material, &rest).sound_long;
     if (!(c > 0.0))

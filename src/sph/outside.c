@@ -96,7 +96,7 @@ static void return_stray(const struct simulation *simulation, const struct parti
                          const void *of, int32_t i, struct ledger *ledger)
 {
     (void)of;
-    if (body_is_frozen(simulation, p->body[i]) || body_is_held(simulation, p->body[i]))
+    if (body_is_frozen(simulation, p->body[i]) || body_is_prescribed(simulation, p->body[i]))
         return;
     for (int axis = 0; axis < simulation->problem->dimension; axis++) {
         const double x = p->position[i][axis], low = simulation->problem->mirrors.low[axis],
@@ -171,7 +171,7 @@ void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, 
 {
     const struct act act = {f, dt, 0.0};
     act_on_particles(simulation, f->particles, body_is_frozen, freeze_particle, &act);
-    act_on_particles(simulation, f->particles, body_is_held, hold_particle, &act);
+    act_on_particles(simulation, f->particles, body_is_prescribed, hold_particle, &act);
 }
 
 /* Its work goes with the mean velocity of the step, so that free fall keeps its energy to rounding.

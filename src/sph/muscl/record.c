@@ -35,10 +35,10 @@ BOLIDE_INLINE struct expected expected_rates(const struct simulation *simulation
             force[1] += p->deviator[i][3] * opening;
         rates.gradient[2][2] = ring_hoop_rate(ring, p->velocity[i][0], g[0]);
     }
-    bool held = body_is_held(simulation, p->body[i]);
+    bool prescribed = body_is_prescribed(simulation, p->body[i]);
     for (int a = 0; a < 3; a++)
         rates.acceleration[a] =
-            held ? 0.0 : force[a] / p->density[i] + simulation->problem->gravity[a];
+            prescribed ? 0.0 : force[a] / p->density[i] + simulation->problem->gravity[a];
     return rates;
 }
 
@@ -161,7 +161,7 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     record[k++] = p->density[i] * state->shock_slope[p->material[i]];
     const double mark = has_failed(simulation, p, i) ? muscl_failed_mark(p->material[i])
                                                      : state->mark[p->material[i]];
-    record[k++] = body_is_held(simulation, p->body[i]) ? -2.0 - mark : mark;
+    record[k++] = body_is_prescribed(simulation, p->body[i]) ? -2.0 - mark : mark;
     if (dimension > 1) {
         record[k++] = p->density[i] / f->sph.density_start[i];
         record[k++] = muscl_limit_excess(f->sph.packing[i][PACKING_EXCESS]);
