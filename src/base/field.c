@@ -4,15 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/chance.h"
 #include "base/memory.h"
-
-/* The finaliser of splitmix64: every bit of WORD reaches every bit of the result. */
-static uint64_t mix(uint64_t word)
-{
-    word = (word ^ word >> 30) * 0xbf58476d1ce4e5b9u;
-    word = (word ^ word >> 27) * 0x94d049bb133111ebu;
-    return word ^ word >> 31;
-}
 
 static uint64_t member_hash(const struct field *field, int fields, int64_t i)
 {
@@ -26,7 +19,7 @@ static uint64_t member_hash(const struct field *field, int fields, int64_t i)
         for (int c = 0; c < declaration->components; c++) {
             uint64_t word = 0;
             memcpy(&word, data + (size_t)c * size, size);
-            hash = mix(hash * 0x9e3779b97f4a7c15u + word + 1);
+            hash = mix_bits(hash * 0x9e3779b97f4a7c15u + word + 1);
         }
     }
     return hash;

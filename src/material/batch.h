@@ -155,6 +155,7 @@ BOLIDE_INLINE void batch_fail(const struct material *material, struct batch *b,
                                         .deviator = batch_tensor(b->new_deviator, k)};            \
             struct failing failing =                                                              \
                 material_failing(&motion, &point, b->plastic_strain[k] - strain[k], pressure[k]); \
+            failing.relative = 1.0 + b->scatter[k];                                               \
             if (softens)                                                                          \
                 failing.homologous = johnson_cook_homologous(&material->strength.of.johnson_cook, \
                                                              b->plastic_heating[k]);              \

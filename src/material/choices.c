@@ -3,6 +3,7 @@
  *
  *   NUMBER(T, member, unit, default, range, help)
  *   CHOICE(T, member, default, help, names...)      an int, the index of the name
+ *   COUNT(T, member, default, help)                 an int that is not negative
  *   FLAG(T, member, default, help)                  a bool
  *
  * T is the struct, and the key in a case is the member's name. A default is text as a user would
@@ -34,6 +35,13 @@
      .offset = offsetof(T, member),                  \
      .standard = as_typed,                           \
      .names = (const char *const[]){__VA_ARGS__, 0}, \
+     .help = text},
+#define COUNT(T, member, as_typed, text) \
+    {.key = #member,                     \
+     .kind = PARAMETER_INTEGER,          \
+     .offset = offsetof(T, member),      \
+     .standard = as_typed,               \
+     NOT_NEGATIVE,                       \
      .help = text},
 #define FLAG(T, member, as_typed, text) \
     {.key = #member,                    \

@@ -11,29 +11,52 @@
 #include "material/failure/grady.h"
 #include "material/failure/johnson_cook.h"
 #include "material/failure/spall.h"
+#include "material/failure/threshold.h"
 
-/* X(identifier): in failure/<identifier>.h struct failure_<identifier>, whose first member is the
- * friction of failed material, failure_<identifier>(), which gives the damage after a step,
+/* X(identifier): in failure/<identifier>.h struct failure_<identifier>, that begins with
+ * FAILURE_MEMBERS, failure_<identifier>(), which gives the damage after a step,
  * failure_<identifier>_traits(), and its name, help and parameters (see choices.c). */
 #define FAILURE_LIST(X) \
     X(spall)            \
     X(johnson_cook)     \
     X(cockcroft_latham) \
-    X(grady)
+    X(grady)            \
+    X(threshold)
 
 #define FAILURE_ENUM(name) FAILURE_##name,
 enum failure_kind { FAILURE_NONE, FAILURE_LIST(FAILURE_ENUM) FAILURE_KINDS };
 #undef FAILURE_ENUM
 
+struct failure_common {
+    FAILURE_MEMBERS
+};
+
 #define FAILURE_MEMBER(name) struct failure_##name name;
 struct failure {
     enum failure_kind kind;
     union {
-        double friction;
+        struct failure_common common;
         FAILURE_LIST(FAILURE_MEMBER)
     } of;
 };
 #undef FAILURE_MEMBER
+
+/* Whether strength differs from point to point. */
+BOLIDE_INLINE bool failure_scatters(const struct failure *failure)
+{
+    return failure->kind != FAILURE_NONE && failure->of.common.weibull_modulus > 0.0;
+}
+
+/* The strength of a particle of VOLUME, m^3, over the characteristic one, as Weibull distributes
+ * it: the share exp(-V/V_0 s^m) of all particles bears more than s. ID decides which it is. */
+BOLIDE_INLINE double failure_relative_strength(const struct failure *failure, uint64_t id,
+                                               double volume)
+{
+    const struct failure_common *common = &failure->of.common;
+    const double chance = chance_of(id, (uint64_t)common->seed);
+    const double specimens = common->weibull_volume > 0.0 ? volume / common->weibull_volume : 1.0;
+    return power(-logarithm(chance) / specimens, 1.0 / common->weibull_modulus);
+}
 
 /* The damage of POINT after a step; DAMAGE: before. */
 BOLIDE_INLINE double failure_damage(const struct failure *failure, const struct failing *point,

@@ -10,6 +10,7 @@
     X(largest_compression, "", "largest rho/rho_0 - 1 so far")                           \
     X(damage, "", "damage by crushing or by a failure model; 1: failed")                 \
     X(void_ratio, "", "volume of voids in failed material over that of the material")    \
+    X(strength_scatter, "", "strength at failure over the characteristic one, less 1")   \
     X(tensile_damage, "", "damage by tension; 1: broken")                                \
     X(plastic_heating, "K", "temperature rise from a hot start and plastic work")        \
     X(lighting_time, "s", "arrival time of the detonation")                              \

@@ -175,6 +175,7 @@ BOLIDE_INLINE struct failing material_failing(const struct motion *motion,
     failing.flow = flow;
     failing.rate = strength_strain_rate(motion->strain_rate);
     failing.stretching = sym3_trace(motion->strain_rate);
+    failing.relative = 1.0 + point->history[HISTORY_strength_scatter];
     return failing;
 }
 
@@ -184,7 +185,7 @@ BOLIDE_INLINE void material_leave_rubble(const struct material *material, struct
 {
     material_open(material, point);
     const double friction =
-        material->failure.of.friction * material_pressure(material, point).pressure;
+        material->failure.of.common.friction * material_pressure(material, point).pressure;
     const double mises = sym3_mises(point->deviator);
     if (mises > friction)
         point->deviator = sym3_scale(friction / mises, point->deviator);
@@ -321,7 +322,9 @@ BOLIDE_INLINE double material_start_heating(const struct material *material,
 BOLIDE_INLINE unsigned material_history(const struct material *material)
 {
     unsigned burning = HISTORY_BIT(lighting_time) | HISTORY_BIT(burnt);
-    const unsigned failing = HISTORY_BIT(damage) | HISTORY_BIT(void_ratio);
+    unsigned failing = HISTORY_BIT(damage) | HISTORY_BIT(void_ratio);
+    if (failure_scatters(&material->failure))
+        failing |= HISTORY_BIT(strength_scatter);
     return eos_history(&material->eos) | strength_history(&material->strength) |
            (material_fails(material) ? failing : 0) | (material_burns(material) ? burning : 0);
 }

@@ -230,6 +230,19 @@ struct error *refuse_boundaries(const struct simulation_case *input)
     return error_join(error, refuse_obstacles(input));
 }
 
+struct error *refuse_broken_contacts(const struct problem *problem)
+{
+    struct error *error = NULL;
+    for (int m = 0; m < problem->materials; m++)
+        if (failure_traits(&problem->material[m].failure).at_contacts)
+            error = error_join(
+                error, input_error(problem->input, "materials", problem->input->materials.names[m],
+                                   "`failure: threshold` is for contacts of particles that break, "
+                                   "which `method: contact` and `method: standard` of the solver "
+                                   "sph have: choose one, or `failure: spall`"));
+    return error;
+}
+
 /* The store keeps the number of a body in 16 bits. */
 static struct error *check_counts(const struct simulation_case *input)
 {

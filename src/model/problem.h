@@ -47,6 +47,10 @@ struct error *input_error(const struct simulation_case *input, const char *secti
 struct error *refuse_obstacles(const struct simulation_case *input);
 struct error *refuse_boundaries(const struct simulation_case *input);
 
+/* That a material breaks at contacts of particles, for solvers and methods that have none that
+ * break. */
+struct error *refuse_broken_contacts(const struct problem *problem);
+
 /* The fields for the history variables of the case's materials beyond the core's, POINT_HISTORY at
  * most, which the solver adds to its store. Returns their number. */
 int problem_history(const struct problem *problem, struct field_declaration *fields);

@@ -86,7 +86,8 @@ BOLIDE_INLINE void points_load(const struct point_loop *loop, const int32_t *lis
     const double *strain = loop->history[HISTORY_plastic_strain],
                  *heating = loop->history[HISTORY_plastic_heating],
                  *damage = loop->history[HISTORY_damage],
-                 *voids = loop->history[HISTORY_void_ratio];
+                 *voids = loop->history[HISTORY_void_ratio],
+                 *scatter = loop->history[HISTORY_strength_scatter];
     b->dt = loop->dt;
     b->count = (count + LANES - 1) / LANES * LANES;
     for (int c = 0; c < 9; c++)
@@ -103,6 +104,7 @@ BOLIDE_INLINE void points_load(const struct point_loop *loop, const int32_t *lis
         b->plastic_heating[k] = heating ? heating[i] : 0.0;
         b->damage[k] = voids ? damage[i] : 0.0;
         b->void_ratio[k] = voids ? voids[i] : 0.0;
+        b->scatter[k] = scatter ? scatter[i] : 0.0;
         b->viscous_pressure[k] = loop->viscosity[i];
         b->sound_long[k] = loop->sound[i];
     }

@@ -142,6 +142,7 @@ struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
     error = error_join(error, refuse_contacts(input));
     error = error_join(error, refuse_wide_cell(edge, simulation));
     error = error_join(error, refuse_boundaries(input));
+    error = error_join(error, refuse_broken_contacts(simulation->problem));
     return error_join(error, refuse_far_bodies(edge, simulation));
 }
 

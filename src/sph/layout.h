@@ -33,6 +33,7 @@ struct pair_rates {
      * rate; both are one in the continuum. Both include (k+ - k-)^2/k, k+ and k- the parts of k due
      * to neighbours outside and inside: what a free surface lacks on one side. */
     double *hoop_pull, *hoop_strain;
+    double *broken; /* share of the contacts that are broken, by V W'; NULL unless contacts break */
 };
 
 /* How the volumes about a particle fill space, in 2-D and 3-D (muscl/rates.h): at the start, one at

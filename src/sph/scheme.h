@@ -36,6 +36,7 @@ enum sph_trait {
     SPH_PACKING = 1 << 15,       /* volumes follow places, fill space, and correct supports */
     SPH_ALL_RECONSTRUCTED = 1 << 16,
     SPH_PERIODIC = 1 << 17, /* an axis is periodic */
+    SPH_BREAKS = 1 << 18,   /* contacts break */
 };
 
 /* Components that depend on the run: of a symmetric tensor and of a gradient of velocity in its
@@ -107,6 +108,7 @@ struct sph_scheme {
     double smoothing[3];           /* defaults by dimension */
     double courant, courant_limit; /* the default, and the largest K that is stable */
     bool conducts;                 /* heat may be conducted beside it */
+    bool breaks;                   /* contacts break where the material fails */
     size_t state_size;             /* bytes of its own state, zeroed before create */
     const struct field_row *rows;  /* its own fields; sph_rows has those of all schemes */
 

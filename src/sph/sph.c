@@ -84,15 +84,18 @@ static unsigned traits_of(const struct sph *sph, const struct simulation *simula
     unsigned traits =
         sph->scheme->traits(sph->parameters.method.value, simulation->problem->dimension);
     struct field_declaration history[POINT_HISTORY];
-    bool strong = false;
-    for (int m = 0; m < simulation->problem->materials; m++)
+    bool strong = false, fails = false;
+    for (int m = 0; m < simulation->problem->materials; m++) {
         strong |= material_has_strength(&simulation->problem->material[m]);
+        fails |= material_fails(&simulation->problem->material[m]);
+    }
     traits |= has_walls(simulation) ? SPH_WALLS : 0u;
     traits |= mirrors_periodic(&simulation->problem->mirrors) ? SPH_PERIODIC : 0u;
     traits |= sph_axisymmetric(simulation) ? SPH_AXISYMMETRIC : 0u;
     traits |= simulation->problem->geometry == GEOMETRY_PLANE_STRESS ? SPH_THIN : 0u;
     traits |= simulation->problem->dimension > 1 ? SPH_PLANE : 0u;
     traits |= strong && simulation->problem->dimension > 1 ? SPH_SHEAR : 0u;
+    traits |= fails && sph->scheme->breaks ? SPH_BREAKS : 0u;
     traits |= problem_history(simulation->problem, history) > 0 ? SPH_HISTORY : 0u;
     return traits | (conduction_on(&sph->parameters) ? SPH_CONDUCTION : 0u);
 }
@@ -115,6 +118,8 @@ static struct error *refuse(const struct sph *sph, const struct simulation *simu
         error = error_join(error, sph_option_error(sph, input, "motion",
                                                    "nothing happens without motion unless heat is "
                                                    "conducted: give `conduction` as well"));
+    if (!scheme->breaks)
+        error = error_join(error, refuse_broken_contacts(simulation->problem));
     for (int m = 0; sph_has(sph, SPH_THIN) && m < simulation->problem->materials; m++)
         if (!material_has_strength(&simulation->problem->material[m]))
             error = error_join(

@@ -41,10 +41,9 @@ done
 
 # One rank is killed when the first checkpoint is there; others go on, in another number.
 kill_and_resume() {
-    local everything=$1
     rm -rf whole killed
-    "$BOLIDE" run "$everything" --output whole >whole.log 2>&1 || fail "the whole run: $(cat whole.log)"
-    OMP_NUM_THREADS=1 $BOLIDE_MPIRUN -n 2 "$BOLIDE" run "$everything" --output killed >killed.log 2>&1 </dev/null &
+    "$BOLIDE" run "$@" --output whole >whole.log 2>&1 || fail "the whole run: $(cat whole.log)"
+    OMP_NUM_THREADS=1 $BOLIDE_MPIRUN -n 2 "$BOLIDE" run "$@" --output killed >killed.log 2>&1 </dev/null &
     local runner=$!
     while [ ! -e killed/checkpoint.h5 ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
     local rank
@@ -54,13 +53,16 @@ kill_and_resume() {
     wait $runner && fail "a run with a killed rank must fail"
     grep -q "rank [01] .* signal 9" killed.log || fail "a killed rank must be told of: $(cat killed.log)"
     [ ! -e killed/checks.csv ] || fail "the killed run came to its end"
-    on 3 run "$everything" --output killed --resume >resumed.log 2>&1 ||
+    on 3 run "$@" --output killed --resume >resumed.log 2>&1 ||
         fail "resuming after a kill: $(cat resumed.log)"
     grep -q "^resumed at step" resumed.log || fail "nothing was resumed: $(cat resumed.log)"
-    same_but_for_order whole killed || fail "$everything killed on 2 ranks and resumed on 3"
+    same_but_for_order whole killed || fail "$* killed on 2 ranks and resumed on 3"
 }
 kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-gas.yaml"
 kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-gas-two.yaml"
+for solver in mpm sph; do
+    kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-failure.yaml" --set solver=$solver
+done
 everything=$BOLIDE_SOURCE_DIR/tests/data/everything.yaml
 kill_and_resume "$everything" # whose `whole` serves below
 

@@ -15,6 +15,7 @@
 /* One side of a pair, images already reflected. */
 struct naive_particle {
     double mass, density, diameter, x[3], u[3], stress[3][3], z_long, z_shear, shock_slope;
+    double bears[2]; /* along a contact and across it, where contacts break */
     double depth,
         spin[3]; /* one and zero where the kind has none; behind an axis the depth is negative */
 };
@@ -25,7 +26,7 @@ struct naive_sums {
     double wall[3];
     double power, power_size;
     double gradient[3][3], spin[3], gradient_size;
-    double weight, drift[3];
+    double weight, drift[3], broken;
     double hoop_pull, hoop_outside, hoop_inside, hoop_size;
 };
 
@@ -69,7 +70,7 @@ static inline void naive_turn_back(const double a[3][3], const double v[3], doub
 static inline void naive_contact(struct pair_kind kind, unsigned law,
                                  const struct naive_particle *i, const struct naive_particle *j,
                                  double u[2][3], double sigma[2][3], double u_star[3],
-                                 double sigma_star[3])
+                                 double sigma_star[3], bool *broken)
 {
     for (int k = 0; k < 3; k++) {
         double zi = k == 0 ? i->z_long : i->z_shear, zj = k == 0 ? j->z_long : j->z_shear;
@@ -93,9 +94,16 @@ static inline void naive_contact(struct pair_kind kind, unsigned law,
         }
     }
     bool opened = law & LAW_NO_TENSION && sigma_star[0] > 0.0;
+    /* (2.52)-(2.54): the contact parts in tension, and slips where shear alone breaks it */
+    const double *a = i->bears, *b = j->bears;
+    const bool sheared = kind.breaks && hypot(sigma_star[1], sigma_star[2]) > fmin(a[1], b[1]);
+    const bool torn =
+        kind.breaks && (sigma_star[0] > fmin(a[0], b[0]) || (sheared && sigma_star[0] > 0.0));
+    *broken = sheared || torn;
+    opened |= torn;
     for (int k = 0; k < 3; k++) {
         double zi = k == 0 ? i->z_long : i->z_shear;
-        bool free_surface = opened || (k > 0 && law & LAW_SLIP);
+        bool free_surface = opened || (k > 0 && (law & LAW_SLIP || sheared));
         if (!free_surface || (k > 0 && !kind.shear))
             continue; /* a fluid's shear is free already */
         sigma_star[k] = 0.0;
@@ -142,7 +150,8 @@ static inline void naive_pair(struct pair_kind kind, double smoothing, unsigned 
     naive_turn(j->stress, e, traction[1]);
     naive_turn(a, traction[0], sigma[0]);
     naive_turn(a, traction[1], sigma[1]);
-    naive_contact(kind, law, i, j, u, sigma, turned_u, turned_sigma);
+    bool broken;
+    naive_contact(kind, law, i, j, u, sigma, turned_u, turned_sigma, &broken);
     double u_star[3], sigma_star[3];
     naive_turn_back(a, turned_u, u_star);
     naive_turn_back(a, turned_sigma, sigma_star);
@@ -153,6 +162,7 @@ static inline void naive_pair(struct pair_kind kind, double smoothing, unsigned 
     double push = -2.0 * between / (i->density * i->depth) * volume; /* of (1.39) and (1.40) */
     double work = 0.0, speed = 0.0, stress = 0.0, own_speed = 0.0;
     sums->weight += volume;
+    sums->broken += broken ? volume : 0.0;
     sums->hoop_pull -= 2.0 * volume * (between - i->depth) * e[0];
     *(e[0] > 0.0 ? &sums->hoop_outside : &sums->hoop_inside) -= volume * (j->x[0] - i->x[0]) * e[0];
     sums->hoop_size += 2.0 * fabs(volume) * (between + fabs(i->depth) + r);

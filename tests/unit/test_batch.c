@@ -60,6 +60,7 @@ static void put(struct batch *b, int k, const struct point *point, const struct 
     b->plastic_heating[k] = point->history[HISTORY_plastic_heating];
     b->damage[k] = point->history[HISTORY_damage];
     b->void_ratio[k] = point->history[HISTORY_void_ratio];
+    b->scatter[k] = point->history[HISTORY_strength_scatter];
 }
 
 static void check(const struct batch *b, int k, const struct point *point,
@@ -94,10 +95,20 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
         {STRENGTH_johnson_cook, {.johnson_cook = soft()}}};
     const struct failure failures[] = {
         {.kind = FAILURE_NONE},
-        {FAILURE_spall, {.spall = {0.3, 1e9, SPALL_PRINCIPAL}}},
-        {FAILURE_spall, {.spall = {0.3, 0.5e9, SPALL_MEAN}}},
-        {FAILURE_johnson_cook, {.johnson_cook = {0.3, 0.01, 0.1, -1.5, 0.01, 0.5, 1.0, 1e-3, 2e9}}},
-        {FAILURE_cockcroft_latham, {.cockcroft_latham = {0.3, 1e7, NAN}}}};
+        {FAILURE_spall, {.spall = {.friction = 0.3, .strength = 1e9}}},
+        {FAILURE_spall, {.spall = {.friction = 0.3, .strength = 0.5e9, .stress = SPALL_MEAN}}},
+        {FAILURE_johnson_cook,
+         {.johnson_cook = {.friction = 0.3,
+                           .d1 = 0.01,
+                           .d2 = 0.1,
+                           .d3 = -1.5,
+                           .d4 = 0.01,
+                           .d5 = 0.5,
+                           .rate = 1.0,
+                           .least_strain = 1e-3,
+                           .spall = 2e9}}},
+        {FAILURE_cockcroft_latham,
+         {.cockcroft_latham = {.friction = 0.3, .work = 1e7, .spall = NAN}}}};
     struct dice dice = {3};
     size_t broken = 0, whole = 0;
     for (size_t m = 0; m < COUNT_OF(forms) * COUNT_OF(strengths) * COUNT_OF(failures) * 20; m++) {
@@ -116,6 +127,7 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
                 point[k].history[HISTORY_damage] = damage;
                 point[k].history[HISTORY_void_ratio] =
                     damage == 1.0 ? dice_between(&dice, 0.0, VOIDS_MOST) : 0.0;
+                point[k].history[HISTORY_strength_scatter] = dice_between(&dice, -0.5, 0.5);
             }
             put(&batch, k, &point[k], &motion[k]);
         }

@@ -216,6 +216,55 @@ static void failed_material_bears_no_tension_whatever_happens(void **state)
     }
 }
 
+/* Of many particles the share exp(-V/V_0 s^m) bears more than s, and a particle bears the same in
+ * every run. */
+static void strength_scatters_as_weibull_says(void **state)
+{
+    (void)state;
+    enum { MANY = 200000 };
+    struct failure failure = {.kind = FAILURE_spall};
+    assert_false(failure_scatters(&failure));
+    failure.of.common.weibull_modulus = 8.0;
+    failure.of.common.weibull_volume = 3e-9;
+    assert_true(failure_scatters(&failure));
+    static const double volumes[] = {3e-9, 1e-12}, bears[] = {0.6, 0.9, 1.0, 1.2};
+    for (size_t v = 0; v < COUNT_OF(volumes); v++)
+        for (size_t b = 0; b < COUNT_OF(bears); b++)
+            for (int seed = 1; seed <= 2; seed++) {
+                failure.of.common.seed = seed;
+                const double specimens = volumes[v] / 3e-9;
+                const double least = bears[b] * pow(specimens, -1.0 / 8.0);
+                const double share = exp(-pow(bears[b], 8.0));
+                int stronger = 0;
+                for (uint64_t id = 0; id < MANY; id++)
+                    stronger += failure_relative_strength(&failure, id, volumes[v]) > least;
+                /* four standard deviations */
+                assert_near(stronger, MANY * share, 4.0 * sqrt(MANY * share * (1.0 - share)));
+            }
+    failure.of.common.weibull_volume = NAN;
+    const double first = failure_relative_strength(&failure, 7, 1e-9);
+    assert_true(first == failure_relative_strength(&failure, 7, 1e-3));
+    assert_true(first != failure_relative_strength(&failure, 8, 1e-9));
+}
+
+/* Twice the strength, twice the tension. */
+static void a_stronger_point_fails_later(void **state)
+{
+    (void)state;
+    struct material material = metal(100e9);
+    material.failure.kind = FAILURE_spall;
+    material.failure.of.spall = (struct failure_spall){.friction = 0.3, .strength = 600e6};
+    const double strain = 600e6 / (73e9 + 4.0 / 3.0 * 23e9);
+    for (double relative = 0.5; relative < 2.1; relative += 0.5) {
+        struct point point = at_rest(&material);
+        point.history[HISTORY_strength_scatter] = relative - 1.0;
+        strain_by(&material, 0.97 * relative * strain, 0.0, 0.0, 1e-6, &point);
+        assert_true(point.history[HISTORY_damage] == 0.0);
+        strain_by(&material, 0.06 * relative * strain, 0.0, 0.0, 1e-6, &point);
+        assert_true(point.history[HISTORY_damage] == 1.0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -227,6 +276,8 @@ int main(void)
         cmocka_unit_test(grady_takes_the_weaker_of_cracks_and_holes),
         cmocka_unit_test(fluids_and_models_that_fail_by_themselves_take_none),
         cmocka_unit_test(failed_material_bears_no_tension_whatever_happens),
+        cmocka_unit_test(strength_scatters_as_weibull_says),
+        cmocka_unit_test(a_stronger_point_fails_later),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

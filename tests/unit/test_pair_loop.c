@@ -6,9 +6,9 @@
 typedef void pair_loop_isa(const struct pair_loop *, int32_t, int32_t);
 ISA_DECLARE(pair_loop_isa, pair_loop_run);
 
-#define KIND(...)                 \
-    {                             \
-        __VA_ARGS__, false, false \
+#define KIND(...)                        \
+    {                                    \
+        __VA_ARGS__, false, false, false \
     }
 static const struct pair_kind kinds[] = {KIND(1, false, STAR_ACOUSTIC, false),
                                          KIND(1, false, STAR_MEAN, false),
@@ -26,14 +26,19 @@ static const struct pair_kind kinds[] = {KIND(1, false, STAR_ACOUSTIC, false),
                                          KIND(1, false, STAR_EXACT_GAS, false),
                                          KIND(3, false, STAR_EXACT_GAS, true),
                                          KIND(2, true, STAR_ACOUSTIC, true),
-                                         {2, false, STAR_ACOUSTIC, false, true, false},
-                                         {2, true, STAR_MEAN, true, true, false},
-                                         {2, false, STAR_DUKOWICZ, true, true, false},
-                                         {2, false, STAR_EXACT_GAS, false, true, false},
-                                         {2, true, STAR_ACOUSTIC, false, true, false},
-                                         {2, true, STAR_ACOUSTIC, false, false, true},
-                                         {3, true, STAR_ACOUSTIC, true, false, true},
-                                         {2, true, STAR_ACOUSTIC, true, true, true}};
+                                         {2, false, STAR_ACOUSTIC, false, true, false, false},
+                                         {2, true, STAR_MEAN, true, true, false, false},
+                                         {2, false, STAR_DUKOWICZ, true, true, false, false},
+                                         {2, false, STAR_EXACT_GAS, false, true, false, false},
+                                         {2, true, STAR_ACOUSTIC, false, true, false, false},
+                                         {2, true, STAR_ACOUSTIC, false, false, true, false},
+                                         {3, true, STAR_ACOUSTIC, true, false, true, false},
+                                         {2, true, STAR_ACOUSTIC, true, true, true, false},
+                                         {1, false, STAR_ACOUSTIC, false, false, false, true},
+                                         {2, true, STAR_ACOUSTIC, false, false, false, true},
+                                         {2, true, STAR_ACOUSTIC, false, true, true, true},
+                                         {3, true, STAR_ACOUSTIC, false, false, false, true},
+                                         {3, true, STAR_DUKOWICZ, true, false, false, true}};
 
 static void the_fast_loop_agrees_with_the_naive_one(void **state)
 {
@@ -82,6 +87,7 @@ static void assert_same_rates(const struct pair_rates *a, const struct pair_rate
     assert_memory_equal(a->wall, b->wall, 3 * n);
     assert_memory_equal(a->hoop_pull, b->hoop_pull, n);
     assert_memory_equal(a->hoop_strain, b->hoop_strain, n);
+    assert_memory_equal(a->broken, b->broken, n);
 }
 
 static void all_instruction_sets_give_the_same_bits(void **state)

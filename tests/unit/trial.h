@@ -29,6 +29,12 @@ static inline double spin_of(struct pair_kind kind, uint64_t id, int axis)
     return has ? 700.0 * ((double)((id + (uint64_t)axis) % 7) - 3.0) : 0.0;
 }
 
+/* What contacts of a particle bear along and across them, where they break: some bear anything. */
+static inline double bears_of(uint64_t id, int across)
+{
+    return id % 4 == 3 ? INFINITY : 4e8 * (double)((id + (uint64_t)across) % 4);
+}
+
 static inline void random_state(struct scene *scene, struct pair_kind kind, struct dice *dice)
 {
     struct particles *p = &scene->particles;
@@ -77,6 +83,8 @@ static inline void pack(const struct trial *t, int32_t i, double *record)
         record[record_depth(kind)] = depth_of(kind, p->id[i]);
     for (int axis = dimension == 2 ? 2 : 0, k = 0; kind.turn && axis < 3; axis++)
         record[record_spin(kind) + k++] = spin_of(kind, p->id[i], axis);
+    for (int across = 0; kind.breaks && across < 2; across++)
+        record[record_breaking(kind) + across] = bears_of(p->id[i], across);
 }
 
 /* The record of a ghost from its particle, reflected. */
@@ -116,7 +124,8 @@ static inline struct pair_rates rates_new(int32_t count)
                                .wall = calloc((size_t)count, 3 * sizeof(double)),
                                .drift = calloc((size_t)count, 3 * sizeof(double)),
                                .hoop_pull = calloc((size_t)count, sizeof(double)),
-                               .hoop_strain = calloc((size_t)count, sizeof(double))};
+                               .hoop_strain = calloc((size_t)count, sizeof(double)),
+                               .broken = calloc((size_t)count, sizeof(double))};
     return rates;
 }
 
@@ -130,6 +139,7 @@ static inline void rates_free(struct pair_rates *rates)
     free(rates->drift);
     free(rates->hoop_pull);
     free(rates->hoop_strain);
+    free(rates->broken);
 }
 
 /* Builds rows and records of a scene whose particles are in place. */
@@ -213,7 +223,8 @@ static inline struct naive_particle naive_of(const struct trial *t, int32_t i, i
                                .diameter = t->scene.reach.diameter[i],
                                .z_long = p->energy[i],
                                .z_shear = dimension > 1 ? p->plastic_strain[i] : 0.0,
-                               .shock_slope = shock_slope_of(p->id[i])};
+                               .shock_slope = shock_slope_of(p->id[i]),
+                               .bears = {bears_of(p->id[i], 0), bears_of(p->id[i], 1)}};
     struct vec3 s = image_sign(&t->scene.mirrors, image),
                 x = image_position(
                     &t->scene.mirrors, image,
@@ -261,6 +272,8 @@ static inline void compare_with_naive(const struct trial *t, int32_t i)
         assert_near(rates->spin[i][a], sums.spin[a], fraction * sums.gradient_size);
     }
     assert_near(rates->power[i], sums.power, fraction * sums.power_size);
+    if (t->loop.kind.breaks)
+        assert_near(rates->broken[i], sums.weight < 0.0 ? sums.broken / sums.weight : 0.0, 1e-12);
     if (t->loop.kind.depth) {
         double both = sums.hoop_outside + sums.hoop_inside;
         double missing = both > 0.0 ? square(sums.hoop_outside - sums.hoop_inside) / both : 0.0;

@@ -11,7 +11,7 @@
 #include "material/failure/common.h"
 
 struct failure_cockcroft_latham {
-    double friction;
+    FAILURE_MEMBERS
     double work;  /* W_c, Pa */
     double spall; /* Pa; NAN: none */
 };
@@ -19,17 +19,19 @@ struct failure_cockcroft_latham {
 #define FAILURE_cockcroft_latham_NAME "cockcroft-latham"
 #define FAILURE_cockcroft_latham_HELP "ductile damage by the plastic work of the largest tension"
 #define FAILURE_cockcroft_latham_PARAMETERS(T)                                   \
-    FAILURE_FRICTION(T)                                                          \
     NUMBER(T, work, "Pa", REQUIRED, POSITIVE, "W_c: work per volume at failure") \
     NUMBER(T, spall, "Pa", OPTIONAL, POSITIVE,                                   \
-           "mean tension at which it fails at once; default: none")
+           "mean tension at which it fails at once; default: none")              \
+    FAILURE_COMMON(T)
 
 BOLIDE_INLINE double failure_cockcroft_latham(const struct failure_cockcroft_latham *failure,
                                               const struct failing *point, double damage)
 {
-    const double grown =
-        damage + maximum(failing_largest_stress(point), 0.0) * point->flow / failure->work;
-    return -point->pressure >= failure->spall ? 1.0 : grown; /* not where there is none: NAN */
+    const double grown = damage + maximum(failing_largest_stress(point), 0.0) * point->flow /
+                                      (failure->work * point->relative);
+    return -point->pressure >= failure->spall * point->relative
+               ? 1.0
+               : grown; /* not where there is none: NAN */
 }
 
 BOLIDE_INLINE struct failure_traits failure_cockcroft_latham_traits(

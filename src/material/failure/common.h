@@ -3,6 +3,7 @@
 #ifndef BOLIDE_FAILURE_COMMON_H
 #define BOLIDE_FAILURE_COMMON_H
 
+#include "base/chance.h"
 #include "base/exponential.h"
 #include "material/strength/elastic.h"
 
@@ -16,24 +17,42 @@ struct failing {
     double flow, rate;    /* plastic strain of the step; equivalent strain rate, 1/s */
     double stretching;    /* trace of the strain rate, 1/s */
     double homologous;    /* T* of the strength model; zero where it has none */
+    double relative;      /* its strength over the characteristic one of its material */
 };
 
-/* The first parameter of every model. */
+/* What every model has: the first members of its struct, and their rows. */
+#define FAILURE_MEMBERS                                                           \
+    double friction;                                                              \
+    double weibull_modulus; /* NAN, or not positive: strength does not scatter */ \
+    double weibull_volume;  /* m^3; NAN: that of each particle */                 \
+    int seed;
+
 #define FAILURE_FRICTION(T)                                                                   \
     NUMBER(T, friction, "", "0.3", NOT_NEGATIVE,                                              \
            "of failed material: the Mises stress that it bears over its pressure, up to the " \
            "yield stress")
+#define FAILURE_SCATTER(T)                                                                        \
+    NUMBER(T, weibull_modulus, "", OPTIONAL, POSITIVE,                                            \
+           "of the scatter from particle to particle of the strength, or of strain or work at "   \
+           "failure, of which the one given is then the characteristic one; default: no scatter") \
+    NUMBER(T, weibull_volume, "m^3", OPTIONAL, POSITIVE,                                          \
+           "of a specimen with the characteristic strength; smaller ones are stronger; "          \
+           "default: the volume of each particle")                                                \
+    COUNT(T, seed, "1", "of the scatter: another one gives another specimen")
+
+#define FAILURE_COMMON(T) FAILURE_FRICTION(T) FAILURE_SCATTER(T)
 
 struct failure_traits {
     bool limits_tension; /* by a stress that it is given */
     bool batched;        /* of many points at once: it does not ask for sound and yield */
+    bool at_contacts;    /* pairs of particles break, points do not */
     /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
     const char *wrong, *wrong_key;
 };
 
 BOLIDE_INLINE struct failure_traits failure_default_traits(void)
 {
-    struct failure_traits traits = {false, false, NULL, NULL};
+    struct failure_traits traits = {false, false, false, NULL, NULL};
     return traits;
 }
 

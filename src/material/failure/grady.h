@@ -12,19 +12,19 @@
 #include "material/failure/common.h"
 
 struct failure_grady {
-    double friction;
+    FAILURE_MEMBERS
     double toughness_squared; /* K_c^2, Pa^2 m; NAN: ductile alone */
     double strain;            /* eps_c; zero: brittle alone */
 };
 
 #define FAILURE_grady_NAME "grady"
 #define FAILURE_grady_HELP "spall strength from toughness, yield stress and strain rate"
-#define FAILURE_grady_PARAMETERS(T)                                              \
-    FAILURE_FRICTION(T)                                                          \
-    NUMBER(T, toughness_squared, "Pa^2*m", OPTIONAL, POSITIVE,                   \
-           "K_c^2: square of the fracture toughness; default: no brittle spall") \
-    NUMBER(T, strain, "", "0.15", NOT_NEGATIVE,                                  \
-           "eps_c: volume strain of holes at ductile spall; 0: no ductile spall")
+#define FAILURE_grady_PARAMETERS(T)                                               \
+    NUMBER(T, toughness_squared, "Pa^2*m", OPTIONAL, POSITIVE,                    \
+           "K_c^2: square of the fracture toughness; default: no brittle spall")  \
+    NUMBER(T, strain, "", "0.15", NOT_NEGATIVE,                                   \
+           "eps_c: volume strain of holes at ductile spall; 0: no ductile spall") \
+    FAILURE_COMMON(T)
 
 /* The mean tension at which POINT fails, Pa. */
 BOLIDE_INLINE double grady_strength(const struct failure_grady *failure,
@@ -44,8 +44,10 @@ BOLIDE_INLINE double grady_strength(const struct failure_grady *failure,
 BOLIDE_INLINE double failure_grady(const struct failure_grady *failure, const struct failing *point,
                                    double damage)
 {
-    return point->pressure < 0.0 && -point->pressure >= grady_strength(failure, point) ? 1.0
-                                                                                       : damage;
+    return point->pressure < 0.0 &&
+                   -point->pressure >= grady_strength(failure, point) * point->relative
+               ? 1.0
+               : damage;
 }
 
 BOLIDE_INLINE struct failure_traits failure_grady_traits(const struct failure_grady *failure)

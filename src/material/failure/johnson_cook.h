@@ -14,7 +14,7 @@
 #include "material/failure/common.h"
 
 struct failure_johnson_cook {
-    double friction;
+    FAILURE_MEMBERS
     double d1, d2, d3, d4, d5;
     double rate;         /* rate_0, 1/s */
     double least_strain; /* of eps_f */
@@ -25,7 +25,6 @@ struct failure_johnson_cook {
 #define FAILURE_johnson_cook_HELP \
     "ductile damage by plastic strain, dependent on triaxiality, strain rate and temperature"
 #define FAILURE_johnson_cook_PARAMETERS(T)                                                      \
-    FAILURE_FRICTION(T)                                                                         \
     NUMBER(T, d1, "", REQUIRED, ANY, "D1: failure strain at high triaxiality")                  \
     NUMBER(T, d2, "", REQUIRED, ANY, "D2: factor of exp(D3 mean stress/Mises stress)")          \
     NUMBER(T, d3, "", REQUIRED, ANY, "D3: negative where tension embrittles")                   \
@@ -35,7 +34,8 @@ struct failure_johnson_cook {
     NUMBER(T, least_strain, "", "0.001", POSITIVE,                                              \
            "least failure strain, where the formula gives less")                                \
     NUMBER(T, spall, "Pa", OPTIONAL, POSITIVE,                                                  \
-           "mean tension at which it fails at once; default: none")
+           "mean tension at which it fails at once; default: none")                             \
+    FAILURE_COMMON(T)
 
 /* eps_f at the mean stress over Mises stress TRIAXIALITY, RATE (1/s) and T* HOMOLOGOUS. */
 BOLIDE_INLINE double johnson_cook_failure_strain(const struct failure_johnson_cook *failure,
@@ -54,8 +54,11 @@ BOLIDE_INLINE double failure_johnson_cook(const struct failure_johnson_cook *fai
     const double mises = maximum(sym3_mises(point->deviator), 1e-100);
     const double strain = johnson_cook_failure_strain(
         failure, maximum(-point->pressure / mises, -20.0), point->rate, point->homologous);
-    const double grown = damage + (point->flow > 0.0 ? point->flow / strain : 0.0);
-    return -point->pressure >= failure->spall ? 1.0 : grown; /* not where there is none: NAN */
+    const double grown =
+        damage + (point->flow > 0.0 ? point->flow / (strain * point->relative) : 0.0);
+    return -point->pressure >= failure->spall * point->relative
+               ? 1.0
+               : grown; /* not where there is none: NAN */
 }
 
 BOLIDE_INLINE struct failure_traits failure_johnson_cook_traits(

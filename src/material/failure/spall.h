@@ -8,7 +8,7 @@
 enum spall_stress { SPALL_PRINCIPAL, SPALL_MEAN };
 
 struct failure_spall {
-    double friction;
+    FAILURE_MEMBERS
     double strength; /* Pa */
     int stress;      /* enum spall_stress */
 };
@@ -16,18 +16,18 @@ struct failure_spall {
 #define FAILURE_spall_NAME "spall"
 #define FAILURE_spall_HELP "fails where the tension reaches the spall strength"
 #define FAILURE_spall_PARAMETERS(T)                                                         \
-    FAILURE_FRICTION(T)                                                                     \
     NUMBER(T, strength, "Pa", REQUIRED, POSITIVE, "tension at which it fails")              \
     CHOICE(T, stress, "principal",                                                          \
            "which tension; principal: the largest principal stress; mean: the mean stress", \
-           "principal", "mean")
+           "principal", "mean")                                                             \
+    FAILURE_COMMON(T)
 
 BOLIDE_INLINE double failure_spall(const struct failure_spall *spall, const struct failing *point,
                                    double damage)
 {
     const double tension =
         spall->stress == SPALL_MEAN ? -point->pressure : failing_largest_stress(point);
-    return tension >= spall->strength ? 1.0 : damage;
+    return tension >= spall->strength * point->relative ? 1.0 : damage;
 }
 
 BOLIDE_INLINE struct failure_traits failure_spall_traits(const struct failure_spall *spall)

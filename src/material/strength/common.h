@@ -40,8 +40,8 @@ struct batch {
         viscous_pressure[BATCH];
     double strain_rate[6][BATCH], spin[3][BATCH], deviator[6][BATCH], new_deviator[6][BATCH];
     double plastic_strain[BATCH], plastic_heating[BATCH];
-    double damage[BATCH], void_ratio[BATCH]; /* where the material fails */
-    double sound_long[BATCH];                /* after; zero: there is none */
+    double damage[BATCH], void_ratio[BATCH], scatter[BATCH]; /* where the material fails */
+    double sound_long[BATCH];                                /* after; zero: there is none */
 };
 
 BOLIDE_INLINE struct sym3 batch_tensor(const double (*of)[BATCH], int k)

@@ -8,6 +8,14 @@
 #include "model/walk.h"
 #include "particle/particles.h"
 
+/* What the strength of a particle of MATERIAL and VOLUME is beyond the characteristic one, over it. */
+static double strength_scatter(const struct material *material, uint64_t id, double volume)
+{
+    if (!failure_scatters(&material->failure))
+        return 0.0;
+    return failure_relative_strength(&material->failure, id, volume) - 1.0;
+}
+
 /* Makes the particles of BODY from index *next on, and moves it behind the last. */
 static struct error *fill_body(const struct simulation *simulation, struct particles *particles,
                                const struct overlaps *overlaps, int body, int32_t *next)
@@ -36,6 +44,10 @@ static struct error *fill_body(const struct simulation *simulation, struct parti
                 material_start_heating(case_material(input, of->material_index)->material, &start);
         if (particles->history[HISTORY_lighting_time])
             particles->history[HISTORY_lighting_time][i] = detonation_arrival(input, body, place);
+        if (particles->history[HISTORY_strength_scatter])
+            particles->history[HISTORY_strength_scatter][i] =
+                strength_scatter(case_material(input, of->material_index)->material,
+                                 particles->id[i], walk.row.volume * walk_depth(input, place));
         particles->position[i][0] = place.x;
         particles->position[i][1] = place.y;
         particles->position[i][2] = place.z;

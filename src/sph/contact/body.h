@@ -33,12 +33,13 @@ struct sums {
     double traction[3][LANES] ALIGNED, gradient[9][LANES] ALIGNED, power[LANES] ALIGNED;
     double weight[LANES] ALIGNED, drift[3][LANES] ALIGNED; /* V W', V W' (U* - U) */
     double hoop[3][LANES] ALIGNED; /* A (w - d) W' e_x, A x W' e_x, A x W' |e_x| */
-    double unused[4][LANES] ALIGNED;
+    double broken[LANES] ALIGNED;  /* V W' of broken contacts */
+    double unused[3][LANES] ALIGNED;
 };
 
 /* In the same order; what the kind has not stays zero. */
 struct totals_of_row {
-    double traction[3], gradient[9], power, weight, drift[3], hoop[3], unused[4];
+    double traction[3], gradient[9], power, weight, drift[3], hoop[3], broken, unused[3];
 };
 enum { TOTALS = sizeof(struct totals_of_row) / sizeof(double) };
 
@@ -189,12 +190,13 @@ BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const 
     const bool shear = kind.shear && dimension > 1;
     const int d = record_diameter(dimension), z = record_impedance(dimension, shear);
     const int depth = record_depth(kind), spin = record_spin(kind);
+    const int breaking = kind.breaks ? record_breaking(kind) : 0;
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
         const double r = pairs->r[k], weight = pairs->weight[k];
         const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
         const struct between b = between_of(kind, own, lanes, k, e);
-        double stress, jump, opened = 0.0;
+        double stress, jump;
         struct contact_weights across;
         if (usual) {
             const int across_z = shear ? z + 1 : z;
@@ -209,14 +211,13 @@ BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const 
             across = (struct contact_weights){contacts->left[k], contacts->right[k],
                                               contacts->compliance[k], contacts->impedance[k]};
             stress = contacts->stress[k];
-            opened = stress > 0.0 ? lanes->open[k] : 0.0;
-            jump = pair_free_velocity(opened > 0.0, own[z], b.i, contacts->jump[k]);
-            stress = opened > 0.0 ? 0.0 : stress;
+            jump = contacts->jump[k];
         }
-        struct vec3 t = vec3_scale(stress, e), w = vec3_scale(jump, e);
+        const struct vec3 none = {0.0, 0.0, 0.0};
+        struct vec3 across_u = none, ta = none, wa = none, ai = none;
+        struct vec3 own_turn = none; /* what the spin of i adds at the contact */
         if (dimension > 1) {
-            struct vec3 across_u = vec3_sub(b.du, vec3_scale(b.u, e));
-            struct vec3 own_turn = {0.0, 0.0, 0.0}; /* what the spin of i adds at the contact */
+            across_u = vec3_sub(b.du, vec3_scale(b.u, e));
             if (kind.turn) {
                 double share = own[d] / (own[d] + lanes->field[d][k]);
                 struct vec3 spin_i = spin_from(dimension, own + spin, 1);
@@ -227,15 +228,34 @@ BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const 
                     vec3_add(own_turn, vec3_scale((1.0 - share) * r, vec3_cross(spin_j, e))));
             }
             if (shear) {
-                struct vec3 ai = vec3_sub(b.ti, vec3_scale(b.i, e));
+                ai = vec3_sub(b.ti, vec3_scale(b.i, e));
                 struct vec3 aj = vec3_sub(b.tj, vec3_scale(b.j, e));
-                struct vec3 ta = pair_shear(across, ai, aj, across_u);
-                struct vec3 wa = pair_sliding(across, across_u, vec3_sub(aj, ai));
-                if (!usual) {
-                    bool free = opened > 0.0 || lanes->slip[k] > 0.0;
-                    ta = vec3_scale(free ? 0.0 : 1.0, ta);
-                    wa = pair_free_sliding(free, own[z + 1], ai, wa);
-                }
+                ta = pair_shear(across, ai, aj, across_u);
+                wa = pair_sliding(across, across_u, vec3_sub(aj, ai));
+            }
+        }
+        if (!usual) {
+            double opened = stress > 0.0 ? lanes->open[k] : 0.0, slips = lanes->slip[k];
+            if (kind.breaks) {
+                const double tension = minimum(own[breaking], lanes->field[breaking][k]);
+                const double most = minimum(own[breaking + 1], lanes->field[breaking + 1][k]);
+                const double sheared = vec3_dot(ta, ta) > most * most ? 1.0 : 0.0;
+                const double torn = stress > tension ? 1.0 : stress > 0.0 ? sheared : 0.0;
+                sums->broken[k] += weight * maximum(torn, sheared);
+                opened = maximum(opened, torn);
+                slips = maximum(slips, sheared);
+            }
+            jump = pair_free_velocity(opened > 0.0, own[z], b.i, jump);
+            stress = opened > 0.0 ? 0.0 : stress;
+            if (shear) {
+                bool free = opened > 0.0 || slips > 0.0;
+                ta = vec3_scale(free ? 0.0 : 1.0, ta);
+                wa = pair_free_sliding(free, own[z + 1], ai, wa);
+            }
+        }
+        struct vec3 t = vec3_scale(stress, e), w = vec3_scale(jump, e);
+        if (dimension > 1) {
+            if (shear) {
                 t = vec3_add(t, ta);
                 w = vec3_add(w, wa);
                 if (kind.turn)

@@ -16,8 +16,9 @@ BOLIDE_INLINE struct totals_of_row totals_of_sums(struct pair_kind kind, bool dr
         totals.traction[0] = across_lanes(sums->traction[0]);
         totals.gradient[0] = across_lanes(sums->gradient[0]);
         totals.power = across_lanes(sums->power);
-        totals.weight = drift ? across_lanes(sums->weight) : 0.0;
+        totals.weight = drift || kind.breaks ? across_lanes(sums->weight) : 0.0;
         totals.drift[0] = drift ? across_lanes(sums->drift[0]) : 0.0;
+        totals.broken = kind.breaks ? across_lanes(sums->broken) : 0.0;
         return totals;
     }
     memcpy(lane, sums, sizeof lane);
@@ -81,6 +82,8 @@ BOLIDE_INLINE void write_rates(const struct pair_rates *rates, int32_t i, double
         if (rates->drift) /* weights are never positive */
             rates->drift[i][a] = all->weight < 0.0 ? all->drift[a] / all->weight : 0.0;
     }
+    if (rates->broken)
+        rates->broken[i] = all->weight < 0.0 ? all->broken / all->weight : 0.0;
     rates->power[i] = factor * all->power;
     if (rates->hoop_pull) {
         double both = -all->hoop[1], missing = square(all->hoop[2]);
@@ -128,8 +131,8 @@ static void add_next(const struct pair_loop *loop, add_apart *add, int32_t i, st
 BOLIDE_INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind, add_apart *add,
                              int32_t i)
 {
-    struct rest rest = {.usual =
-                            !kind.turn && loop->kind.star == STAR_ACOUSTIC && !loop->kind.drift};
+    struct rest rest = {.usual = !kind.turn && loop->kind.star == STAR_ACOUSTIC &&
+                                 !loop->kind.drift && !loop->kind.breaks};
     rest.entry = neighbours_walk(loop->neighbours, i, &rest.count);
     const bool drift = loop->kind.drift;
     const double *own = loop->record + (size_t)i * (size_t)record_stride(loop->kind);
@@ -148,18 +151,20 @@ BOLIDE_INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind
     }
     if (rest.begin < rest.count)
         add_next(loop, add, i, &rest, PART_LAW, &sums);
-    all = totals_of_sums(kind, drift, &sums);
+    const struct pair_kind summed = {.dimension = kind.dimension, .breaks = loop->kind.breaks};
+    all = totals_of_sums(summed, drift, &sums);
     if (rest.begin < rest.count) {
         memset(&sums, 0, sizeof sums);
         add_next(loop, add, i, &rest, PART_IMAGE, &sums);
         add_next(loop, add, i, &rest, PART_IMAGE | PART_LAW, &sums);
-        images = totals_of_sums(kind, drift, &sums);
+        images = totals_of_sums(summed, drift, &sums);
         for (int a = 0; a < 3; a++)
             all.traction[a] += images.traction[a];
         for (int a = 0; a < 9; a++)
             all.gradient[a] += images.gradient[a];
         all.power += images.power;
         all.weight += images.weight;
+        all.broken += images.broken;
         for (int a = 0; a < 3; a++)
             all.drift[a] += images.drift[a];
         for (int a = 0; a < 3; a++)
@@ -172,27 +177,29 @@ BOLIDE_INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind
 /* Each body of the rows' loop is an instance; its name says of which kind. How the two of a pair
  * meet along it and whether the drift is wanted is asked in the other instance of the part, out of
  * line. */
-#define INSTANCE(name, dimension, shear, depth, turn)                                        \
-    APART void name##_part(const struct pair_loop *loop, struct part part, int32_t i,        \
-                           struct sums *sums)                                                \
-    {                                                                                        \
-        const struct pair_kind kind = {dimension, shear, STAR_ACOUSTIC, false, depth, turn}; \
-        const struct pair_kind any = {dimension,        shear, loop->kind.star,              \
-                                      loop->kind.drift, depth, turn};                        \
-        struct sums copy = *sums; /* that nothing else points at */                          \
-        const struct part usual = {part.entry, part.count, true, false};                     \
-        const struct part other = {part.entry, part.count, false, part.with_law};            \
-        if (!turn && part.usual && !part.with_law)                                           \
-            add_part(loop, kind, usual, i, &copy);                                           \
-        else                                                                                 \
-            add_part(loop, any, other, i, &copy);                                            \
-        *sums = copy;                                                                        \
-    }                                                                                        \
-    static void name(const struct pair_loop *loop, int32_t begin, int32_t end)               \
-    {                                                                                        \
-        const struct pair_kind kind = {dimension, shear, STAR_ACOUSTIC, false, depth, turn}; \
-        for (int32_t i = begin; i < end; i++)                                                \
-            row_rates(loop, kind, name##_part, i);                                           \
+#define INSTANCE(name, dimension, shear, depth, turn)                                       \
+    APART void name##_part(const struct pair_loop *loop, struct part part, int32_t i,       \
+                           struct sums *sums)                                               \
+    {                                                                                       \
+        const struct pair_kind kind = {                                                     \
+            dimension, shear, STAR_ACOUSTIC, false, depth, turn, false};                    \
+        const struct pair_kind any = {dimension, shear, loop->kind.star,  loop->kind.drift, \
+                                      depth,     turn,  loop->kind.breaks};                 \
+        struct sums copy = *sums; /* that nothing else points at */                         \
+        const struct part usual = {part.entry, part.count, true, false};                    \
+        const struct part other = {part.entry, part.count, false, part.with_law};           \
+        if (!turn && part.usual && !part.with_law)                                          \
+            add_part(loop, kind, usual, i, &copy);                                          \
+        else                                                                                \
+            add_part(loop, any, other, i, &copy);                                           \
+        *sums = copy;                                                                       \
+    }                                                                                       \
+    static void name(const struct pair_loop *loop, int32_t begin, int32_t end)              \
+    {                                                                                       \
+        const struct pair_kind kind = {                                                     \
+            dimension, shear, STAR_ACOUSTIC, false, depth, turn, false};                    \
+        for (int32_t i = begin; i < end; i++)                                               \
+            row_rates(loop, kind, name##_part, i);                                          \
     }
 
 INSTANCE(line, 1, false, false, false)

@@ -2,9 +2,10 @@
  *
  * A neighbour is seen through its record alone, a few doubles packed once a stage:
  *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear]  [density shock_slope]
- *   [depth]  [spin]
+ *   [depth]  [spin]  [tension shear]
  * where stress is sigma_xx alone for fluids and in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz,
- * zx) in 3-D, and spin one component in 2-D, three in 3-D. With a depth d, the volume is the area A
+ * zx) in 3-D, spin one component in 2-D, three in 3-D, and the last two the stresses at which a
+ * contact breaks. With a depth d, the volume is the area A
  * = m/(rho d) of a section of the plane. The loop is compiled for several instruction sets with the
  * same result to the last bit. */
 #ifndef BOLIDE_SPH_PAIR_KERNEL_H
@@ -18,12 +19,12 @@
  * `shear`: stress is a tensor and shear impedances count. `drift`: the mean of contact velocities
  * is wanted too. `depth`: particles of the plane have a depth, the radius r of axisymmetry (-r
  * behind the axis) or the thickness of a plate. `turn`: velocities are those at the contact point
- * (acoustic, with shear). */
+ * (acoustic, with shear). `breaks`: contacts break. */
 struct pair_kind {
     int dimension;
     bool shear;
     enum pair_star star;
-    bool drift, depth, turn;
+    bool drift, depth, turn, breaks;
 };
 
 /* Offsets in a record; up to the stress those of sph/layout.h. */
@@ -45,10 +46,16 @@ BOLIDE_INLINE int record_depth(struct pair_kind kind)
     return record_shock_slope(kind.dimension, kind.shear) + (record_has_shock_slope(kind) ? 2 : 0);
 }
 BOLIDE_INLINE int record_spin(struct pair_kind kind) { return record_depth(kind) + kind.depth; }
+/* The tension along a pair and the shear stress across it at which contacts break; the smaller of
+ * both sides counts. */
+BOLIDE_INLINE int record_breaking(struct pair_kind kind)
+{
+    return record_spin(kind) + (!kind.turn ? 0 : kind.dimension == 2 ? 1 : 3);
+}
 /* Doubles from one record to the next: whole cache lines. */
 BOLIDE_INLINE int record_stride(struct pair_kind kind)
 {
-    int used = record_spin(kind) + (!kind.turn ? 0 : kind.dimension == 2 ? 1 : 3);
+    const int used = record_breaking(kind) + (kind.breaks ? 2 : 0);
     return (used + 7) / 8 * 8;
 }
 

@@ -1,8 +1,27 @@
 /* Records of the contact schemes from the states of particles; see kernel.h for their order. */
 #include <string.h>
 
+#include "material/material.h"
 #include "sph/contact/contact.h"
 #include "sph/record.h"
+
+/* The tension along a contact and the shear stress across it at which a contact of particle I
+ * breaks: those of the threshold; none where it has failed; and no limits otherwise. */
+static void pack_breaking(const struct simulation *simulation, const struct particles *p, int32_t i,
+                          double breaking[2])
+{
+    const struct material *material = &simulation->problem->material[p->material[i]];
+    const struct failure_threshold *threshold = &material->failure.of.threshold;
+    breaking[0] = breaking[1] = INFINITY;
+    if (failure_traits(&material->failure).at_contacts) {
+        const double *scatter = p->history[HISTORY_strength_scatter];
+        const double relative = scatter ? 1.0 + scatter[i] : 1.0;
+        breaking[0] = relative * threshold->strength;
+        breaking[1] = isnan(threshold->shear) ? breaking[0] : relative * threshold->shear;
+    } else if (material_fails(material) && p->history[HISTORY_damage][i] >= 1.0) {
+        breaking[0] = 0.0;
+    }
+}
 
 /* Record of particle I. What KIND has beyond the plain is a constant where this is inlined. */
 BOLIDE_INLINE void pack_owned(const struct contact_state *state,
@@ -44,7 +63,10 @@ BOLIDE_INLINE void pack_owned(const struct contact_state *state,
         const double *spin = f->rates.spin[i];
         memcpy(record + k, dimension == 2 ? spin + 2 : spin,
                (dimension == 2 ? 1 : 3) * sizeof *spin);
+        k += dimension == 2 ? 1 : 3;
     }
+    if (kind.breaks)
+        pack_breaking(simulation, p, i, record + k);
 }
 
 /* Turns the record of a particle into that of its image: place mirrored, normal velocity and the
@@ -88,8 +110,8 @@ void contact_pack(struct sph *sph, const struct simulation *simulation,
     for (int32_t i = 0; i < sph->particles->count; i++) {
         double *record = sph->record + (size_t)i * sph->stride;
         if (plain) {
-            const struct pair_kind same = {kind.dimension, kind.shear, kind.star,
-                                           kind.drift,     false,      false};
+            const struct pair_kind same = {kind.dimension, kind.shear, kind.star,  kind.drift,
+                                           false,          false,      kind.breaks};
             pack_owned(state, simulation, fields, same, i, record);
         } else {
             pack_owned(state, simulation, fields, kind, i, record);

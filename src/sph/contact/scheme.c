@@ -77,7 +77,8 @@ void contact_choose_kind(struct sph *sph, const struct simulation *simulation, e
                                      .star = star,
                                      .drift = sph_has(sph, SPH_DRIFT),
                                      .depth = sph_deep(simulation),
-                                     .turn = sph_has(sph, SPH_SPIN_KEPT)};
+                                     .turn = sph_has(sph, SPH_SPIN_KEPT),
+                                     .breaks = sph_has(sph, SPH_BREAKS)};
     sph->stride = (size_t)record_stride(state->kind);
 }
 
@@ -163,6 +164,7 @@ const struct sph_scheme contact_scheme = {.name = "contact",
                                           .courant = 0.4,
                                           .courant_limit = 1.0,
                                           .conducts = true,
+                                          .breaks = true,
                                           .state_size = sizeof(struct contact_state),
                                           .rows = no_rows,
                                           .traits = traits_of,
