@@ -44,7 +44,11 @@ static const struct answer answers[] = {
      "The field `damage` is that of a failure model (`bolide help failure`) or of crushed\n"
      "concrete (strength: hjc), 1: failed. Concrete has `tensile_damage` too.",
      "failure.md"},
-    {" whipple shield debris crater hole hypervelocity bumper plate ",
+    {" whipple whipple.shield shield bumper debris debris.cloud hypervelocity ",
+     "A sphere through a bumper and its cloud on a wall: a worked case is on the page below.\n"
+     "Checks measure `hole`, `bulge` and `fragments`; `bolide search` finds a ballistic limit.",
+     "tasks/whipple-shield.md"},
+    {" crater hole plate ",
      "A projectile through a plate, with hole and debris cloud: a worked case is on the page\n"
      "below. Checks measure `hole`, `crater`, `bulge` and `fragments`.",
      "tasks/impact-on-a-plate.md"},
