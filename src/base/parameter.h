@@ -58,11 +58,11 @@ struct parameter {
     const char *key;
     enum parameter_kind kind;
     size_t offset;
-    const char *
-        unit; /* NUMBER, VECTOR(S), FIELD(S): the SI unit that fixes the dimension, "" or NULL for none */
+    /* NUMBER, VECTOR(S), FIELD(S): the SI unit that fixes the dimension, "" or NULL for none */
+    const char *unit;
     const char *standard; /* default as typed, PARAMETER_REQUIRED or PARAMETER_OPTIONAL */
-    double above,
-        below; /* NUMBER, INTEGER, constant FIELD: allowed is above < value < below; both 0: anything */
+    /* NUMBER, INTEGER, constant FIELD: allowed is above < value < below; both 0: anything */
+    double above, below;
     bool closed; /* the bounds themselves are allowed too */
     const char *help;
     const struct parameter

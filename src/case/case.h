@@ -105,8 +105,8 @@ struct obstacle_input {
 struct load_input {
     char *on;
     struct field_value pressure; /* of the time */
-    struct field_list
-        traction; /* of the time, on the surface that looks to `side` of `axis`; count 0: not given */
+    /* of the time, on the surface that looks to `side` of `axis`; count 0: not given */
+    struct field_list traction;
     int axis, side;
     struct vector_value between; /* positions along `axis`; count 0: everywhere */
     double after, before;        /* s; before NAN: to the end */
@@ -175,8 +175,8 @@ struct check_input {
     struct quantity within;    /* allowed distance from `is`: a fraction of it, or a quantity */
     struct quantity at_most, at_least;
     double at; /* s, when it is measured; NAN: at the end */
-    char *
-        relative; /* what the value is divided by: "start", its own then, or a check; NULL: nothing */
+    /* what the value is divided by: "start", its own then, or a check; NULL: nothing */
+    char *relative;
     int relative_check;        /* filled by case_read: that check; -1: none */
     struct quantity scale;     /* divides error norms; NAN: the exact solution's own range */
     char *source;              /* where the wanted value comes from, shown in the table */
@@ -270,8 +270,8 @@ struct simulation_case {
     int sweep_values; /* of this run of it; 0: the case itself */
     struct sweep_value *sweep;
     char *name; /* filled by case_read: the name of the case's folder or file */
-    const char *
-        form; /* filled by case_read: "normal", or "short" or "long" where it has what was asked for */
+    /* filled by case_read: "normal", or "short" or "long" where it has what was asked for */
+    const char *form;
     const struct catalogue *catalogue;
     struct document *document; /* for located messages; owned */
 };

@@ -27,8 +27,8 @@ struct extrapolation {
     enum approach approach;
     double order; /* p of value(h) = limit + C h^p; NAN unless MONOTONE */
     double limit; /* the value at no spacing; NAN unless MONOTONE or SETTLED */
-    double
-        index; /* the grid convergence index, in the unit of the value: 1.25 |limit - value of the finest| */
+    /* the grid convergence index, in the unit of the value: 1.25 |limit - value of the finest| */
+    double index;
 };
 
 /* Extrapolates the VALUES of three runs, the coarsest first; each SPACING is below the one

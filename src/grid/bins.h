@@ -49,8 +49,8 @@ struct bins {
     int64_t moved;                 /* particles that have left the cell they were stored by */
 
     /* Kept from step to step. */
-    uint8_t *cell,
-        *home; /* of each particle: its cell within the block it is stored in; the same when last stored */
+    /* of each particle: its cell within the block it is stored in; the same when last stored */
+    uint8_t *cell, *home;
     uint64_t order;
     int64_t list_capacity, cell_capacity, home_capacity, bin_capacity;
     int32_t strays;

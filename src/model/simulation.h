@@ -10,7 +10,7 @@ enum { PHASES_MAX = 16 };
 
 /* What the time of a phase is spent on. */
 enum phase_kind {
-    PHASE_BLOCKS, /* the members and nodes of this rank's blocks: what the partition weighs them by */
+    PHASE_BLOCKS,  /* members and nodes of this rank's blocks, by which the partition weighs them */
     PHASE_WAITING, /* other ranks */
     PHASE_SHARED,  /* what does not move with a block, or is mixed with waiting */
 };

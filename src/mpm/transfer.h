@@ -54,8 +54,8 @@ struct transfer {
     struct grid_field *main, *back, *normal;
     bool by_faces; /* stresses push through the faces between nodes, see transfer_faces.h */
     struct grid_field *stress, *fill; /* then; of the first patches only */
-    double
-        flip; /* of a particle's new velocity, how much is its old one and the nodes' acceleration */
+    /* of a particle's new velocity, how much is its old one and the nodes' acceleration */
+    double flip;
     bool conserves; /* what changes velocities changes energies by as much */
     double mixing;  /* in shocks, the rate over c/h; 0: none */
 
@@ -70,8 +70,8 @@ struct transfer {
 
     const double *half_size; /* of the particles of each body, in cells */
     const double *gauge;     /* pressure that does not count, of each material */
-    double *
-        ambient; /* of each particle, the work of that pressure per mass; NULL where there is none */
+    /* of each particle, the work of that pressure per mass; NULL where there is none */
+    double *ambient;
 };
 
 /* Fills the patch of BIN with the mass, momentum and force of its particles (2-9)-(2-12); by faces

@@ -47,8 +47,8 @@ struct block_motion {
      * no neighbours: the approach of blocks that touch, of others, and the negative of the distance
      * left from a wall. */
     double taken_approach, taken_apart, taken_wall;
-    double
-        taken_seam; /* and the distance left between particles that do not see each other across periodic faces */
+    /* and the distance left between particles that do not see each other across periodic faces */
+    double taken_seam;
     double distance;                              /* of the plan of images */
     enum { BY_GROUPS, BY_BLOCKS, BY_ALL } judged; /* by the smallest that supports fit into */
 };

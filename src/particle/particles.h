@@ -31,8 +31,8 @@ struct particles {
     double cell;                 /* edge of a cell of the global grid, m; fixed for a run */
     double shift; /* of the grid: cell 0 begins at minus this along each axis, m; fixed likewise */
     const int *threads; /* how many sort: the run's; 1 unless told */
-    struct scratch
-        scratch; /* for sorting, and for who has no need of what it holds when particles are sorted */
+    /* for sorting, and for who has no need of what it holds when particles are sorted */
+    struct scratch scratch;
     uint64_t order; /* grows with every sort: an index means the same particle while it stays */
     int fields;
     struct field field[PARTICLES_FIELDS];

@@ -1,8 +1,8 @@
 /* The contact problem between two states in the acoustic approximation: waves carry jumps of
  * velocity and stress in the ratio of the impedance Z = rho c.
  *
- *   U* = (Z_l U_l + Z_r U_r + sigma_r - sigma_l) / (Z_l + Z_r)                       (1.20), (1.32), (1.36)
- *   sigma* = (Z_l sigma_r + Z_r sigma_l + Z_l Z_r (U_r - U_l)) / (Z_l + Z_r)         (1.21), (1.33), (1.37)
+ *   U* = (Z_l U_l + Z_r U_r + sigma_r - sigma_l) / (Z_l + Z_r)               (1.20), (1.32), (1.36)
+ *  sigma* = (Z_l sigma_r + Z_r sigma_l + Z_l Z_r (U_r - U_l)) / (Z_l + Z_r)  (1.21), (1.33), (1.37)
  *
  * for the component along the axis with longitudinal impedances, for those across it with shear
  * impedances. Stress is positive in tension. Source: Parshikov (2013), sections 1.2 and 1.3. */

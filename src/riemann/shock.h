@@ -1,9 +1,9 @@
-/* The contact problem in the acoustic approximation, with the impedances of shocks where material is
- * compressed: the acoustic contact velocity tells by how much each side is, its wave then runs at
- * U_s = c + A |u* - u|, and the two waves meet once more with Z = rho U_s. Waves of expansion keep
- * Z = rho c. One step towards the two-shock solution (dukowicz.h) that never leaves the acoustic
- * form; exact for weak waves. At a ratio of 3e5 of gases it errs by 1.4 % in pressure, and by -27 %
- * in velocity, since the side that expands keeps rho c. */
+/* The contact problem in the acoustic approximation, with the impedances of shocks where material
+ * is compressed: the acoustic contact velocity tells by how much each side is, its wave then runs
+ * at U_s = c + A |u* - u|, and the two waves meet once more with Z = rho U_s. Waves of expansion
+ * keep Z = rho c. One step towards the two-shock solution (dukowicz.h) that never leaves the
+ * acoustic form; exact for weak waves. At a ratio of 3e5 of gases it errs by 1.4 % in pressure, and
+ * by -27 % in velocity, since the side that expands keeps rho c. */
 #ifndef BOLIDE_RIEMANN_SHOCK_H
 #define BOLIDE_RIEMANN_SHOCK_H
 

@@ -7,8 +7,8 @@
 
 /* How one case, or one run of a sweep, went. Without checks it passes by coming to its end. */
 struct verify_case {
-    char *
-        name; /* topic/name: the last two folders of its path; of a sweep with the run's folder behind */
+    /* topic/name: the last two folders of its path; of a sweep with the run's folder behind */
+    char *name;
     const char *path;
     const char *form;    /* static: "normal", "short" or "long" */
     struct error *error; /* NULL: it ran; owned */

@@ -6,8 +6,8 @@
  *                                                          exp(-alpha (1/eta - 1)^2)
  *   between:                                p = [(e - e_iv) p_v + (e_cv - e) p_c] / (e_cv - e_iv)
  *
- * and the pressure is not below -tension, where that is given: the material keeps this tension as it
- * expands further, and has pressure again once it is compressed to the same density.
+ * and the pressure is not below -tension, where that is given: the material keeps this tension as
+ * it expands further, and has pressure again once it is compressed to the same density.
  *
  * By default w does not fall below 1, where energies below zero would let it vanish, and c^2 is
  * held at a hundredth of A/rho_0 times eta in tension beyond its maximum, A^2/(4 B) at no energy.

@@ -1,8 +1,8 @@
 /* Concrete after Holmquist, Johnson and Cook, with damage by tension. p* = p/f_c, T* = T/f_c:
  *
- *   Y/f_c = [A (1 - D) + B p*^N][1 + C ln max(rate/rate_0, 1)], at most S_max; no B term in tension         (2-61)
- *   dD_c = (d eps_p + d mu_p)/max(D_1 (p* + T*)^D_2, eps_min)                                               (2-62)
- *   dD_t/dt = a D_t (1 - D_t) (sigma_s/sigma_0 - 1)^gamma where sigma_s > sigma_0                           (2-63)
+ *   Y/f_c = [A (1 - D) + B p*^N][1 + C ln max(rate/rate_0, 1)] <= S_max; no B term in tension (2-61)
+ *   dD_c = (d eps_p + d mu_p)/max(D_1 (p* + T*)^D_2, eps_min)                                (2-62)
+ *   dD_t/dt = a D_t (1 - D_t) (sigma_s/sigma_0 - 1)^gamma where sigma_s > sigma_0            (2-63)
  *   p >= -T (1 - max(D_c, D_t))
  *
  * D is D_c, in tension the larger of both. sigma_s is max(-p, 0)/(1 - D_t), or the largest

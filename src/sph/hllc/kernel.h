@@ -67,8 +67,8 @@ struct hllc_rates {
     double (*acceleration)[3]; /* (2b), m/s^2 */
     double *power;             /* (2c), W/kg */
     double (*wall)[3]; /* the part of the acceleration that images gave; NULL without walls */
-    double *
-        hoop_pull; /* 2 sum A_j (w - r_i) g_r, w = |r_i + r_j|/2: one in the continuum; NULL without depth */
+    /* 2 sum A_j (w - r_i) g_r, w = |r_i + r_j|/2: one in the continuum; NULL without depth */
+    double *hoop_pull;
 };
 
 /* What the options of a scheme choose in the forces, as numbers that select. */

@@ -23,7 +23,8 @@ struct layout {
     /* in 2-D and 3-D, v = V W/h^2: v x^a x^b, v (U_j - U)^a x^b; w |a| of the exchange of volume; v
      * of like material, v times its packing */
     int spread, parting, exchange, like, packing;
-    int slopes; /* totals only: -f w dq e^b by b, of the values after the step; all above, a multiple of eight */
+    /* totals only: -f w dq e^b by b, of the values after the step; a multiple of eight before */
+    int slopes;
     int count;
 };
 
