@@ -191,7 +191,72 @@ static inline void parts_close_faces(struct gas_row *row, const struct row_parts
         const struct mixture mixture = mixture_of(eos, density, fraction);
         const double pressure = face->of.of[PRIMITIVE_PRESSURE][k];
         face->energy[k] = mixture_energy(&mixture, pressure) / mixture.density;
-        face->sound[k] = sqrt(maximum(mixture_sound_square(&mixture, pressure), 0.0));
+        face->sound[k] = cell->sound[c];
+    }
+}
+
+/* HLLC between gases whose waves are those of the densities OF_LOW and OF_HIGH, not of what they carry
+ * through the face. Where a cell of both materials has the light one alone at its face, waves there would
+ * follow its pressure too fast: the cell is as stiff and heavy as all of it. */
+static inline struct gas_flow parts_hllc(struct gas_side low, struct gas_side high, double of_low,
+                                         double of_high)
+{
+    struct gas_side slow_side = low, fast_side = high;
+    slow_side.density = of_low;
+    fast_side.density = of_high;
+    const struct gas_waves waves = gas_waves_of(slow_side, fast_side);
+    const double ml = of_low * (waves.slow - low.normal), mh = of_high * (waves.fast - high.normal);
+    const double contact =
+        (high.pressure - low.pressure + ml * low.normal - mh * high.normal) / (ml - mh);
+    const bool from_low = contact >= 0.0;
+    const struct gas_side side = from_low ? low : high;
+    const double wave = from_low ? waves.slow : waves.fast, change = contact - side.normal,
+                 push = side.pressure + (from_low ? ml : mh) * change;
+    const double total =
+        side.density * (side.energy + 0.5 * (square(side.normal) + square(side.across[0]) +
+                                             square(side.across[1])));
+    struct gas_flow flow;
+    if (from_low ? wave >= 0.0 : wave <= 0.0) { /* all waves go one way */
+        flow.mass = side.density * side.normal;
+        flow.normal = flow.mass * side.normal + side.pressure;
+        flow.energy = side.normal * (total + side.pressure);
+    } else {
+        const double volume = contact * (wave - side.normal) / (wave - contact);
+        flow.mass = side.density * volume;
+        flow.normal = flow.mass * contact + push;
+        flow.energy = volume * total + flow.mass * change * contact +
+                      contact * (side.pressure * change / (wave - contact) + push);
+    }
+    for (int n = 0; n < 2; n++)
+        flow.across[n] = flow.mass * side.across[n];
+    return flow;
+}
+
+BOLIDE_INLINE void row_put_flow(struct gas_flow flow, struct gas_axes axes, int k,
+                                struct gas_numbers *flux)
+{
+    flux->of[GAS_DENSITY][k] = flow.mass;
+    flux->of[GAS_MOMENTUM + axes.normal][k] = flow.normal;
+    flux->of[GAS_MOMENTUM + axes.across[0]][k] = flow.across[0];
+    flux->of[GAS_MOMENTUM + axes.across[1]][k] = flow.across[1];
+    flux->of[GAS_ENERGY][k] = flow.energy;
+}
+
+/* Fluxes through the faces of cells of both materials. */
+APART void parts_fluxes(const struct gas_row *row, const struct row_parts *parts,
+                        const struct row_states *cell, const struct row_states *below,
+                        const struct row_states *above, struct gas_numbers *flux)
+{
+    const struct gas_axes axes = gas_axes_of(row->axis);
+    const double *own = cell->of.of[PRIMITIVE_DENSITY];
+    FOR_ROW (k, 0, row->cells) {
+        const bool low = parts->kind[k - 1] == PART_BOTH, high = parts->kind[k] == PART_BOTH;
+        if (!low && !high)
+            continue;
+        row_put_flow(parts_hllc(gas_side_of(below, axes, k), gas_side_of(above, axes, k),
+                                low ? own[k - 1] : below->of.of[PRIMITIVE_DENSITY][k],
+                                high ? own[k] : above->of.of[PRIMITIVE_DENSITY][k]),
+                     axes, k, flux);
     }
 }
 
@@ -325,6 +390,7 @@ static inline void parts_sweep(struct gas_row *row, struct row_parts *parts, dou
     parts_close_faces(row, parts, &cell, -1, 1, &below);
     parts_close_faces(row, parts, &cell, 0, 0, &above);
     row_hllc(row, &below, 0, &above, 0, row->cells, flux);
+    parts_fluxes(row, parts, &cell, &below, &above, flux);
     FOR_ROW (k, 0, row->cells)
         parts_flow(flux, &below, parts->below, 0, &above, parts->above, k, parts);
     if (row->crossed) {

@@ -63,7 +63,10 @@ static void compute_temperature(const struct population *p, int64_t begin, int64
 {
     for (int64_t i = begin; i < end; i++) {
         const struct material *material = &p->problem->material[p->material[i]];
-        *out++ = heat_temperature(&material->heat, &material->eos, p->density[i], p->energy[i]);
+        *out++ =
+            population_is_mixed(p, (int32_t)i)
+                ? (double)NAN
+                : heat_temperature(&material->heat, &material->eos, p->density[i], p->energy[i]);
     }
 }
 

@@ -37,8 +37,9 @@ struct population {
     const double *mass, *density, *energy, *pressure; /* energy in J/kg */
     const double (*position)[3], (*velocity)[3];
     const double (*deviator)[6]; /* of stress; NULL: no member bears shear */
-    double edge;                 /* of a cell, m */
-    int fields;                  /* that a store keeps by name, the above among them */
+    const double *fraction; /* of a second material in cells; NULL: members are of one material */
+    double edge;            /* of a cell, m */
+    int fields;             /* that a store keeps by name, the above among them */
     const struct field *field;
     int columns; /* the same throughout a run */
     const struct column *column;
@@ -49,6 +50,12 @@ struct population {
 BOLIDE_INLINE bool population_has(const struct population *population, int32_t i)
 {
     return population->mass[i] != 0.0;
+}
+
+/* Whether member I holds two materials: no equation of state of one gives its pressure. */
+BOLIDE_INLINE bool population_is_mixed(const struct population *population, int32_t i)
+{
+    return population->fraction && population->fraction[i] > 0.0 && population->fraction[i] < 1.0;
 }
 
 /* What its members are called. */

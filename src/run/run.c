@@ -129,7 +129,7 @@ static double released_energy(const struct run *run)
     const struct population population = simulation_population(&run->simulation), *p = &population;
     struct exact_sum sum = {0};
     for (int32_t i = 0; i < p->count; i++) {
-        if (!population_has(p, i))
+        if (!population_has(p, i) || population_is_mixed(p, i))
             continue;
         struct point point = {.density = p->density[i], .energy = p->energy[i]};
         if (p->deviator)

@@ -105,7 +105,7 @@ static double speed_of(const struct population *p, int32_t i)
 }
 
 /* What the state of member I at the start can set in motion: the particle velocity of a wave that
- * relieves its stress, all its energy as motion, its detonation. */
+ * relieves its stress, all its energy as motion, as of a gas that expands without end, its detonation. */
 static double released_speed(const struct simulation *simulation, const struct population *p,
                              int32_t i)
 {
@@ -113,7 +113,11 @@ static double released_speed(const struct simulation *simulation, const struct p
     struct point point = {.density = p->density[i], .energy = p->energy[i]};
     point.history[HISTORY_burnt] = 1.0;
     const struct response response = any_material_evaluate(material, &point);
-    double stress = fabs(point.pressure), speed = sqrt(2.0 * maximum(p->energy[i], 0.0));
+    double stress = fabs(point.pressure), energy = p->energy[i];
+    if (eos_traits(&material->eos).gas) /* products count their energy from the explosive */
+        energy -=
+            eos_curve(&material->eos, &material->heat, 1e-9 * material_density(material)).energy;
+    double speed = sqrt(2.0 * maximum(energy, 0.0));
     if (p->deviator) {
         memcpy(&point.deviator, p->deviator[i], sizeof point.deviator);
         stress += sym3_mises(point.deviator);
@@ -128,7 +132,7 @@ void warnings_start(struct warnings *warnings, const struct simulation *simulati
     const struct population population = simulation_population(simulation), *p = &population;
     double largest = 0.0;
     for (int32_t i = 0; i < p->count; i++)
-        if (population_has(p, i))
+        if (population_has(p, i) && !population_is_mixed(p, i))
             largest = maximum(largest, maximum(speed_of(p, i), released_speed(simulation, p, i)));
     warnings->speed = ranks_maximum(simulation->ranks, largest);
 }
@@ -206,10 +210,10 @@ static void look_at(const struct warnings *w, const struct simulation *simulatio
         [WARNING_TENSION] = -p->pressure[i],
         [WARNING_SPEED] = speed_of(p, i),
         [WARNING_TEMPERATURE] = -1.0,
-        [WARNING_DENSITY] = p->density[i],
+        [WARNING_DENSITY] = population_is_mixed(p, i) ? 0.0 : p->density[i],
         [WARNING_INSTABILITY] = tension_of(w, p, i),
     };
-    if (watch->warm)
+    if (watch->warm && !population_is_mixed(p, i))
         value[WARNING_TEMPERATURE] =
             coldness(watch, &simulation->problem->material[m], p->density[i], p->energy[i]);
     for (int kind = 0; kind < WARNING_ENERGY; kind++)

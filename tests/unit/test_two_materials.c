@@ -13,7 +13,7 @@
 
 enum { CELLS = 200, NUMBERS = GAS_NUMBERS + PARTS, STEPS = 1000 };
 
-static const double pressure = 1e8, courant = 0.4;
+static const double pressure = 1e8, courant = 0.8;
 
 struct ring {
     struct eos eos[2];
@@ -127,12 +127,13 @@ static void the_speed_of_sound_of_a_mixture_is_that_of_its_isentrope(void **stat
 static void a_contact_of_two_materials_keeps_pressure_and_width(void **state)
 {
     (void)state;
-    for (int direction = -1; direction <= 1; direction += 2) {
-        struct ring ring = make_ring(1000.0 * direction, 1000.0);
+    static const double speeds[] = {1000.0, -1000.0, 100.0, -3.0, 10e3};
+    for (size_t s = 0; s < COUNT_OF(speeds); s++) {
+        struct ring ring = make_ring(speeds[s], 1000.0);
         const struct ring start = ring;
         const struct eos *const eos[2] = {&ring.eos[0], &ring.eos[1]};
         for (int step = 0; step < STEPS; step++)
-            sweep(&ring, ROW_CELLS, courant / 12e3);
+            sweep(&ring, ROW_CELLS, courant / (12e3 + fabs(ring.speed)));
         int between = 0;
         for (int c = 0; c < CELLS; c++) {
             const double fraction = ring.u[GAS_NUMBERS + PART_FRACTION][c],
