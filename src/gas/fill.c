@@ -13,6 +13,10 @@
 /* Points along an axis of a cell that bodies share: some thousand of a cell. */
 static int parts_of(int dimension) { return dimension == 1 ? 1024 : dimension == 2 ? 32 : 10; }
 
+/* What is summed over a cell: the fields that sweeps write, and the energies of both materials at rest,
+ * J/m^3. */
+enum { FILL_ENERGY = GAS_FIELDS, FILLS = FILL_ENERGY + 2 };
+
 struct filling {
     const struct simulation *simulation;
     struct gas *gas;
@@ -96,7 +100,9 @@ static void add_state(struct filling *f, int body, struct vec3 place, double wei
         kinetic += 0.5 * square(velocity[axis]);
     }
     sum[GAS_ENERGY] += weight * point.density * (point.energy + kinetic);
-    if (f->gas->two && of->material_index == f->gas->material[1]) {
+    const bool second = f->gas->two && of->material_index == f->gas->material[1];
+    sum[FILL_ENERGY + second] += weight * point.density * point.energy;
+    if (second) {
         sum[GAS_SECOND] += weight * point.density;
         sum[GAS_FRACTION] += weight;
     }
@@ -163,7 +169,7 @@ static void fill_whole(struct filling *f, int body, const double centre[3], doub
         add_state(f, body, place, weight, sum);
         all += weight;
     }
-    for (int n = 0; n < GAS_FIELDS; n++)
+    for (int n = 0; n < FILLS; n++)
         sum[n] /= all;
 }
 
@@ -186,7 +192,7 @@ static void fill_parts(struct filling *f, const double centre[3], double *sum)
                             "no body fills the domain here: bodies and obstacles must fill all of "
                             "it");
     }
-    for (int n = 0; n < GAS_FIELDS && all > 0.0; n++)
+    for (int n = 0; n < FILLS && all > 0.0; n++)
         sum[n] /= all;
 }
 
@@ -196,7 +202,7 @@ static void fill_cell(struct filling *f, int32_t i)
     struct gas *gas = f->gas;
     const double *centre = cells->position[i];
     const struct vec3 place = place_of(centre);
-    double low[3], high[3], sum[GAS_FIELDS] = {0.0};
+    double low[3], high[3], sum[FILLS] = {0.0};
     for (int axis = 0; axis < 3; axis++) {
         low[axis] = centre[axis] - 0.5 * cells->edge;
         high[axis] = centre[axis] + 0.5 * cells->edge;
@@ -218,6 +224,10 @@ static void fill_cell(struct filling *f, int32_t i)
         fill_whole(f, body, centre, sum);
     else
         fill_parts(f, centre, sum);
+    if (sum[GAS_FRACTION] > 0.0 && sum[GAS_FRACTION] < 1.0) {
+        const double mass[2] = {sum[GAS_DENSITY] - sum[GAS_SECOND], sum[GAS_SECOND]};
+        sum[GAS_FRACTION] = gas_relax(gas->eos, mass, sum + FILL_ENERGY, sum[GAS_FRACTION]);
+    }
     for (int n = 0; n < GAS_NUMBERS; n++)
         gas->u[n][i] = sum[n];
     for (int n = GAS_SECOND; n < gas->written; n++)

@@ -87,6 +87,12 @@ void gas_find_faces(const struct simulation *simulation, const struct cell_block
 struct error *gas_fill_planes(const struct gas *gas, const struct simulation *simulation, int axis,
                               double time);
 
+/* The fraction of volume of the second material of a cell, FRACTION, when both have come to one pressure:
+ * the first without heat, the second with the rest of the energy. Masses and energies, those of the
+ * materials at rest, are per volume of the cell. */
+double gas_relax(const struct eos eos[2], const double mass[2], const double energy[2],
+                 double fraction);
+
 /* Collective: what the bodies of the case put into the cells. */
 struct error *gas_fill(void *solver, struct simulation *simulation);
 

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "dice.h"
+#include "gas/gas_internal.h"
 #include "gas/two_materials.h"
 
 enum { CELLS = 200, NUMBERS = GAS_NUMBERS + PARTS, STEPS = 1000 };
@@ -160,6 +161,26 @@ static void a_contact_of_two_materials_keeps_pressure_and_width(void **state)
     }
 }
 
+/* A tenth of a cell has products at 8 GPa: they fill nearly all of it, and compress the air. */
+static void a_shared_cell_begins_with_one_pressure(void **state)
+{
+    (void)state;
+    const struct ring ring = make_ring(0.0, 1000.0);
+    const struct eos *const eos[2] = {&ring.eos[0], &ring.eos[1]};
+    const double none[POINT_HISTORY] = {0.0}, mass[2] = {0.9 * 1.2, 0.1 * 1630.0},
+                 energy[2] = {0.9 * 2.5e5, 0.0};
+    const double fraction = gas_relax(ring.eos, mass, energy, 0.1);
+    const double density[2] = {mass[0] / (1.0 - fraction), mass[1] / fraction};
+    const struct mixture mixture = mixture_of(eos, density, fraction);
+    const double found = mixture_pressure(&mixture, energy[0] + energy[1]);
+    assert_true(fraction > 0.99 && fraction < 1.0);
+    /* the air as on its isentrope p ~ rho^1.4 */
+    assert_close(found, 1e5 * pow(density[0] / 1.2, 1.4), 1e-3);
+    assert_true(found < eos_evaluate(eos[1], density[1], 0.0, none).pressure);
+    assert_true(gas_relax(ring.eos, mass, (const double[2]){0.9 * 2.5e5, -1.7e7 * mass[1]}, 0.1) <
+                0.1 + 1e-3);
+}
+
 static void rows_of_any_length_give_the_same_bits(void **state)
 {
     (void)state;
@@ -180,6 +201,7 @@ int main(void)
         cmocka_unit_test(a_mixture_has_the_pressure_of_both_materials),
         cmocka_unit_test(the_speed_of_sound_of_a_mixture_is_that_of_its_isentrope),
         cmocka_unit_test(a_contact_of_two_materials_keeps_pressure_and_width),
+        cmocka_unit_test(a_shared_cell_begins_with_one_pressure),
         cmocka_unit_test(rows_of_any_length_give_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
