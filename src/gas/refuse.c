@@ -97,9 +97,12 @@ static struct error *refuse_materials(const struct simulation *simulation,
     }
     for (int k = 0; k <= two; k++) {
         const char *text = refuse_material(&of[material[k]]);
-        if (!text && two && !is_linear(&of[material[k]].eos))
-            text = "beside a second material the solver gas needs a pressure that grows in "
-                   "proportion to the energy, as of ideal-gas, stiffened-gas, noble-abel and jwl";
+        const struct eos *eos = &of[material[k]].eos;
+        if (!text && two && !(eos_traits(eos).gas && is_linear(eos)))
+            text =
+                "beside a second material the solver gas computes gases that never pull and whose "
+                "pressure grows in proportion to the energy: ideal-gas, noble-abel and jwl of "
+                "products";
         if (text)
             error = error_join(error, input_error(input, "materials",
                                                   input->materials.names[material[k]], "%s", text));
