@@ -140,7 +140,10 @@ static void a_gas_at_rest_stays_at_rest(void **state)
     };
     for (size_t k = 0; k < (COUNT_OF(cases) - 1) * COUNT_OF(eos); k++) {
         const size_t c = k / COUNT_OF(eos);
-        const struct variant variant = {"at rest", 1, 1.0, eos[k % COUNT_OF(eos)], false};
+        const char *other = eos[k % COUNT_OF(eos)];
+        if (other && strstr(other, "stiffened") && strstr(cases[c].text, "products"))
+            continue; /* no gas, and refused beside products */
+        const struct variant variant = {"at rest", 1, 1.0, other, false};
         struct running *run = begin_fresh(cases[c].text, &variant);
         const int32_t last = run->gas.cells->count - 1;
         run->gas.sleepless = true;
