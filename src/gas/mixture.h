@@ -45,8 +45,18 @@ static inline struct mixture_part mixture_part_of(const struct eos *eos, double 
 {
     static const double energy = 1e6;
     const double none[POINT_HISTORY] = {0.0};
-    const struct eos_value cold = eos_evaluate(eos, density, 0.0, none),
-                           warm = eos_evaluate(eos, density, energy, none);
+    struct eos_value cold = {0.0, 0.0, 0.0, POINT_NO_SOUND}, warm = cold;
+    switch (eos->kind) { /* both in one place: what they share is computed once */
+#define MIXTURE_CASE(name)                                       \
+    case EOS_##name:                                             \
+        cold = eos_##name(&eos->of.name, density, 0.0, none);    \
+        warm = eos_##name(&eos->of.name, density, energy, none); \
+        break;
+        EOS_LIST(MIXTURE_CASE)
+#undef MIXTURE_CASE
+    default:
+        break;
+    }
     struct mixture_part part;
     part.density = density;
     part.ratio = cold.dp_de;
