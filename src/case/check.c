@@ -124,6 +124,8 @@ static void check_material(struct checking *checking, int index)
     }
     if ((text = material_failure_wrong(material->material)))
         case_wrong(checking, "failure", "%s", text);
+    if ((text = material_burn_wrong(material->material)))
+        case_wrong(checking, "burn", "%s", text);
 }
 
 static void check_replaces(struct checking *checking, const struct body_input *body, int index)
@@ -313,7 +315,7 @@ static void check_lit(struct checking *checking, int body)
 {
     const struct simulation_case *input = checking->input;
     const int material = case_body(input, body)->material_index;
-    if (material < 0 || !material_burns(case_material(input, material)->material) ||
+    if (material < 0 || !material_is_lit(case_material(input, material)->material) ||
         document_is_wrong(input->document, "detonations"))
         return;
     for (int i = 0; i < input->detonations.count; i++)

@@ -38,7 +38,7 @@ bool detonation_lights(const struct simulation_case *input, int index, int body)
     const struct material_input *material =
         case_material(input, case_body(input, body)->material_index);
     const int of = case_detonation(input, index)->body;
-    return material_burns(material->material) && (of < 0 || of == body);
+    return material_is_lit(material->material) && (of < 0 || of == body);
 }
 
 static struct vec3 vector(const struct vector_value *value)

@@ -162,7 +162,7 @@ const char *body_start_wrong(const struct body_input *body, const struct materia
     if (stress && pressure)
         return "its mean is the pressure: `pressure` cannot be given beside it";
     *key = "pressure";
-    if (pressure && material_burns(material))
+    if (pressure && material_is_lit(material))
         return "an unburnt explosive has no pressure: leave this out";
     *key = "temperature";
     if (energy && temperature)

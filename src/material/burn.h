@@ -8,6 +8,7 @@
 #define BOLIDE_BURN_H
 
 #include "material/burn/beta.h"
+#include "material/burn/ignition_growth.h"
 #include "material/burn/programmed.h"
 
 /* X(identifier): in burn/<identifier>.h struct burn_<identifier>, whose first member is the speed
@@ -15,7 +16,8 @@
  * choices.c). */
 #define BURN_LIST(X) \
     X(programmed)    \
-    X(beta)
+    X(beta)          \
+    X(ignition_growth)
 
 #define BURN_ENUM(name) BURN_##name,
 enum burn_kind { BURN_INSTANT, BURN_LIST(BURN_ENUM) BURN_KINDS };
@@ -30,6 +32,12 @@ struct burn {
     } of;
 };
 #undef BURN_MEMBER
+
+/* Whether it burns by itself, where it is compressed; the others are lit. */
+BOLIDE_INLINE bool burn_is_kinetic(const struct burn *burn)
+{
+    return burn->kind == BURN_ignition_growth;
+}
 
 /* The fraction burnt of POINT after a step; BEFORE: after the step before. */
 BOLIDE_INLINE double burn_fraction(const struct burn *burn, const struct burning *point,

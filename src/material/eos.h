@@ -16,6 +16,7 @@
 #include "material/eos/mie_grueneisen.h"
 #include "material/eos/noble_abel.h"
 #include "material/eos/polynomial.h"
+#include "material/eos/reactive_jwl.h"
 #include "material/eos/rubber.h"
 #include "material/eos/stiffened_gas.h"
 #include "material/eos/tillotson.h"
@@ -36,7 +37,8 @@
     X(tillotson)             \
     X(jwl)                   \
     X(hjc)                   \
-    X(noble_abel)
+    X(noble_abel)            \
+    X(reactive_jwl)
 
 /* Models of irreversible compaction: eos_<identifier>_compact() notes it in the history. */
 #define EOS_COMPACTING(X) X(hjc)

@@ -14,6 +14,7 @@
     X(tensile_damage, "", "damage by tension; 1: broken")                                \
     X(plastic_heating, "K", "temperature rise from a hot start and plastic work")        \
     X(lighting_time, "s", "arrival time of the detonation")                              \
+    X(explosive_volume, "", "volume of the unburnt explosive over that at rest")         \
     X(burnt, "", "burnt fraction of the explosive")
 
 #define HISTORY_ENUM(slot, unit, help) HISTORY_##slot,

@@ -40,6 +40,21 @@ BOLIDE_INLINE bool material_burns(const struct material *material)
     return material->burn.kind != BURN_INSTANT;
 }
 
+/* Whether it is an explosive that a detonation of the case lights. */
+BOLIDE_INLINE bool material_is_lit(const struct material *material)
+{
+    return material_burns(material) && !burn_is_kinetic(&material->burn);
+}
+
+/* The speed of its detonation, m/s; of one that burns by a rate an estimate from its heat, that of
+ * products with a ratio of specific heats of 3. Zero where there is none. */
+BOLIDE_INLINE double material_detonation_speed(const struct material *material)
+{
+    if (burn_is_kinetic(&material->burn))
+        return 4.0 * sqrt(material->eos.of.reactive_jwl.energy / material_density(material));
+    return material_burns(material) ? material->burn.of.speed : 0.0;
+}
+
 BOLIDE_INLINE bool material_fails(const struct material *material)
 {
     return material->failure.kind != FAILURE_NONE;
@@ -69,7 +84,7 @@ BOLIDE_INLINE struct eos_value material_pressure(const struct material *material
     struct eos_value value =
         eos_evaluate(&material->eos, point->density * share, point->energy, point->history);
     value.dp_drho *= share;
-    if (material_burns(material))
+    if (material_is_lit(material))
         burn_mix(&material->burn, point->history[HISTORY_burnt], &value);
     strength_cut(&material->strength, point->history, &value);
     if (material_failed(material, point->history))
@@ -210,6 +225,29 @@ BOLIDE_INLINE void material_fail(const struct material *material, const struct m
         material_leave_rubble(material, point);
 }
 
+/* The most that an explosive burns between two states of its mixture. */
+#define REACTION_MOST 0.02
+
+/* Burns POINT, at its new density, for DT. */
+BOLIDE_INLINE void material_react(const struct material *material, double dt, struct point *point)
+{
+    const struct burn_ignition_growth *burn = &material->burn.of.ignition_growth;
+    const struct eos_reactive_jwl *jwl = &material->eos.of.reactive_jwl;
+    double *const burnt = &point->history[HISTORY_burnt];
+    double *const explosive = &point->history[HISTORY_explosive_volume];
+    const double volume = jwl->density / point->density;
+    for (double left = dt; left > 0.0 && *burnt < 1.0;) {
+        const struct eos_value value =
+            reactive_jwl_state(jwl, point->density, point->energy, *burnt, explosive);
+        const double pressed =
+            1.0 / (burn->compression == IGNITION_MIXTURE ? volume : *explosive) - 1.0;
+        const double rate = ignition_growth_rate(burn, *burnt, value.pressure, pressed);
+        const double time = rate * left > REACTION_MOST ? REACTION_MOST / rate : left;
+        *burnt = minimum(*burnt + rate * time, 1.0);
+        left = time < left ? left - time : 0.0;
+    }
+}
+
 /* Takes deviator and history of a point to its new density: burning, compaction, then elastic trial, rotation and plastic
  * return, with the damage that they do. */
 BOLIDE_INLINE void material_flow(const struct material *material, struct point *point,
@@ -219,7 +257,9 @@ BOLIDE_INLINE void material_flow(const struct material *material, struct point *
     point->density = motion->density;
     if (material_fails(material))
         point->density /= 1.0 + point->history[HISTORY_void_ratio];
-    if (material_burns(material)) {
+    if (burn_is_kinetic(&material->burn))
+        material_react(material, motion->dt, point);
+    if (material_is_lit(material)) {
         double rest = material_density(material);
         struct burning burning;
         burning.passed = motion->time - point->history[HISTORY_lighting_time];
@@ -256,6 +296,18 @@ BOLIDE_INLINE const char *material_failure_wrong(const struct material *material
         return "only a material with strength fails: a fluid needs none";
     if (strength_takes_pressure(&material->strength))
         return "this strength model has a failure of its own";
+    return NULL;
+}
+
+/* Why equation of state and burning do not go together; NULL when they do. */
+BOLIDE_INLINE const char *material_burn_wrong(const struct material *material)
+{
+    const bool both = material->eos.kind == EOS_reactive_jwl;
+    if (both && !burn_is_kinetic(&material->burn))
+        return "`eos: reactive-jwl` needs `burn: ignition-growth`, which tells how much has burnt";
+    if (!both && burn_is_kinetic(&material->burn))
+        return "ignition-growth needs an equation of state of explosive and products: "
+               "`eos: reactive-jwl`";
     return NULL;
 }
 
@@ -321,12 +373,12 @@ BOLIDE_INLINE double material_start_heating(const struct material *material,
 /* The slots of history that it needs beside the plastic strain. */
 BOLIDE_INLINE unsigned material_history(const struct material *material)
 {
-    unsigned burning = HISTORY_BIT(lighting_time) | HISTORY_BIT(burnt);
+    const unsigned burning = HISTORY_BIT(lighting_time) | HISTORY_BIT(burnt);
     unsigned failing = HISTORY_BIT(damage) | HISTORY_BIT(void_ratio);
     if (failure_scatters(&material->failure))
         failing |= HISTORY_BIT(strength_scatter);
     return eos_history(&material->eos) | strength_history(&material->strength) |
-           (material_fails(material) ? failing : 0) | (material_burns(material) ? burning : 0);
+           (material_fails(material) ? failing : 0) | (material_is_lit(material) ? burning : 0);
 }
 
 /* Whether it remembers no more than its plastic strain and is a fluid or a plain solid, as most

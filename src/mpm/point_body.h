@@ -51,7 +51,7 @@ BOLIDE_INLINE void point_advance(const struct point_loop *loop, const struct mat
     for (int slot = 0; slot < POINT_HISTORY; slot++)
         point.history[slot] = loop->history[slot] ? loop->history[slot][i] : 0.0;
     /* an explosive that has yet to burn has no viscosity */
-    const bool inert = material_burns(material) && point.history[HISTORY_burnt] == 0.0;
+    const bool inert = material_is_lit(material) && point.history[HISTORY_burnt] == 0.0;
     const struct point_flow flow = {solid, motion.density, loop->sound[i], divergence, filtered};
     const double viscosity = inert ? 0.0 : point_viscosity(loop, &flow);
     motion.viscous_pressure = 0.5 * (loop->viscosity[i] + viscosity);

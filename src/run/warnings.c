@@ -124,7 +124,7 @@ static double released_speed(const struct simulation *simulation, const struct p
     }
     if (response.sound_long > 0.0)
         speed = maximum(speed, stress / (point.density * response.sound_long));
-    return material_burns(material) ? maximum(speed, material->burn.of.speed) : speed;
+    return maximum(speed, material_detonation_speed(material));
 }
 
 void warnings_start(struct warnings *warnings, const struct simulation *simulation)

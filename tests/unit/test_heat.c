@@ -75,11 +75,14 @@ static void shocked_aluminium_has_its_temperature(void **state)
     assert_close(heat_temperature(&aluminium_heat, &solid, thin, cold), 293.0, 1e-15);
 }
 
+/* A mixture of two phases has none: its temperature depends on what has burnt. */
+static bool has_curve(int kind) { return kind != EOS_reactive_jwl; }
+
 static void energy_and_temperature_are_inverse(void **state)
 {
     (void)state;
     for (int k = 0; k < EOS_KINDS; k++)
-        for (double ratio = 0.8; ratio < 1.5; ratio += 0.1)
+        for (double ratio = 0.8; ratio < 1.5 && has_curve(k); ratio += 0.1)
             for (double temperature = 100.0; temperature < 2e4; temperature *= 3.0) {
                 double density = ratio * all[k].of.reference_density;
                 double energy = heat_energy(&aluminium_heat, &all[k], density, temperature);
@@ -148,7 +151,7 @@ static void curves_agree_with_their_pressure(void **state)
         /* C_V is not constant; crushing heats */
         if (k == EOS_tillotson || k == EOS_hjc)
             continue;
-        for (double ratio = 0.3; ratio < 3.2; ratio += 0.0994) {
+        for (double ratio = 0.3; ratio < 3.2 && has_curve(k); ratio += 0.0994) {
             if (k == EOS_mie_grueneisen && ratio < 1.0)
                 continue; /* T_r in tension is that of the source */
             if (k == EOS_noble_abel && ratio > 1.4)
@@ -242,8 +245,9 @@ static void a_material_without_capacity_has_no_temperature(void **state)
     (void)state;
     const struct heat nothing = {NAN, NAN, NAN};
     for (int k = 0; k < EOS_KINDS; k++) {
-        assert_null(heat_wrong(&aluminium_heat, &all[k]));
-        assert_non_null(strstr(heat_wrong(&nothing, &all[k]), "capacity"));
+        assert_true(!heat_wrong(&aluminium_heat, &all[k]) == has_curve(k));
+        assert_non_null(
+            strstr(heat_wrong(&nothing, &all[k]), has_curve(k) ? "capacity" : "no temperature"));
     }
 }
 
