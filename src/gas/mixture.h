@@ -52,7 +52,7 @@ static inline struct mixture_part mixture_part_of(const struct eos *eos, double 
         cold = eos_##name(&eos->of.name, density, 0.0, none);    \
         warm = eos_##name(&eos->of.name, density, energy, none); \
         break;
-        EOS_LIST(MIXTURE_CASE)
+        EOS_STATELESS(MIXTURE_CASE)
 #undef MIXTURE_CASE
     default:
         break;

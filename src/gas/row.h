@@ -69,7 +69,7 @@ static inline void row_evaluate(const struct eos *eos, const double *density, co
             any |= beyond[k];                                                                      \
         }                                                                                          \
         break;
-        EOS_LIST(ROW_CASE)
+        EOS_STATELESS(ROW_CASE)
 #undef ROW_CASE
     default:
         break;

@@ -81,7 +81,7 @@ BOLIDE_INLINE void batch_energies(const struct material *material, struct batch 
             any |= beyond[k];                                                                     \
         }                                                                                         \
         break;
-        EOS_LIST(BATCH_CASE)
+        EOS_STATELESS(BATCH_CASE)
 #undef BATCH_CASE
     default:
         break;
@@ -108,7 +108,7 @@ BOLIDE_INLINE void batch_trial(const struct eos *of, const struct batch *b,
             any |= beyond[k];                                                     \
         }                                                                         \
         break;
-        EOS_LIST(BATCH_CASE)
+        EOS_STATELESS(BATCH_CASE)
 #undef BATCH_CASE
     default:
         break;

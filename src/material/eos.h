@@ -25,7 +25,13 @@
  * eos_<identifier>_traits(), eos_<identifier>_curve(), and the name, help and parameters
  * EOS_<identifier>_NAME, _HELP and _PARAMETERS (see choices.c), and EOS_<identifier>_SAMPLE, the
  * constants of some material for the tests of all equations of state. */
-#define EOS_LIST(X)          \
+#define EOS_LIST(X)  \
+    EOS_STATELESS(X) \
+    X(hjc)           \
+    X(reactive_jwl)
+
+/* Those that need no history, of density and energy alone: loops over many points know no others. */
+#define EOS_STATELESS(X)     \
     X(ideal_gas)             \
     X(stiffened_gas)         \
     X(barotropic)            \
@@ -36,9 +42,7 @@
     X(grueneisen_polynomial) \
     X(tillotson)             \
     X(jwl)                   \
-    X(hjc)                   \
-    X(noble_abel)            \
-    X(reactive_jwl)
+    X(noble_abel)
 
 /* Models of irreversible compaction: eos_<identifier>_compact() notes it in the history. */
 #define EOS_COMPACTING(X) X(hjc)

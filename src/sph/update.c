@@ -281,7 +281,7 @@ static void step_plain_points(struct particles *p, const struct advance *step,
             step_points(&m, PLAIN_POINTS, p, step, passage); \
         }                                                    \
         break;
-        EOS_LIST(STEP_CASE)
+        EOS_STATELESS(STEP_CASE)
 #undef STEP_CASE
 #undef STEP_SOLID
     default:

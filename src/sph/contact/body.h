@@ -238,12 +238,16 @@ BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const 
             double opened = stress > 0.0 ? lanes->open[k] : 0.0, slips = lanes->slip[k];
             if (kind.breaks) {
                 const double tension = minimum(own[breaking], lanes->field[breaking][k]);
-                const double most = minimum(own[breaking + 1], lanes->field[breaking + 1][k]);
-                const double sheared = vec3_dot(ta, ta) > most * most ? 1.0 : 0.0;
-                const double torn = stress > tension ? 1.0 : stress > 0.0 ? sheared : 0.0;
-                sums->broken[k] += weight * maximum(torn, sheared);
+                double torn = stress > tension ? 1.0 : 0.0, broken = torn;
+                if (shear) {
+                    const double most = minimum(own[breaking + 1], lanes->field[breaking + 1][k]);
+                    const double sheared = vec3_dot(ta, ta) > most * most ? 1.0 : 0.0;
+                    torn = maximum(torn, stress > 0.0 ? sheared : 0.0);
+                    broken = maximum(torn, sheared);
+                    slips = maximum(slips, sheared);
+                }
+                sums->broken[k] += weight * broken;
                 opened = maximum(opened, torn);
-                slips = maximum(slips, sheared);
             }
             jump = pair_free_velocity(opened > 0.0, own[z], b.i, jump);
             stress = opened > 0.0 ? 0.0 : stress;
