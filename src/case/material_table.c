@@ -83,6 +83,6 @@ const struct parameter case_material_table[] = {
      .standard = PARAMETER_OPTIONAL,
      .below = INFINITY,
      .help = "the mean tension above which the run gives a warning, without any effect on results; "
-             "default: what its models limit, else a twentieth of the bulk modulus"},
+             "default: the tension limit of its models, else a twentieth of the bulk modulus"},
     PARAMETER_END,
 };

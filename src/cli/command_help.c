@@ -103,7 +103,7 @@ static void print_units(void)
 {
     for (int i = 0; unit_symbol(i); i++)
         printf("%s%s", unit_symbol(i), (i + 1) % 16 && unit_symbol(i + 1) ? " " : "\n");
-    printf("joined by * / ^ and whole numbers: kg/m^3, J/(kg*K), mm/us\n");
+    printf("combined with *, / and ^ with a whole exponent: kg/m^3, J/(kg*K), mm/us\n");
 }
 
 /* A line about a field; WHERE says when the store has it, NULL: always. */

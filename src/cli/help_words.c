@@ -23,8 +23,8 @@ static const struct answer answers[] = {
      "Give the material a failure model; `bolide help failure` lists them:\n"
      "  failure: {spall: {strength: 1.3 GPa}}   breaks where the tension reaches a strength\n"
      "  failure: {johnson-cook: ...}            ductile damage; the library has sets\n"
-     "A metal without one carries any tension, and a run warns when it exceeds what the metal\n"
-     "would bear. Concrete (strength: hjc) and soil (drucker-prager) fail by themselves.\n"
+     "A metal without one never breaks; the run warns when the tension exceeds what the real\n"
+     "metal bears. Concrete (strength: hjc) and soil (drucker-prager) fail by themselves.\n"
      "Checks measure fragments and largest_fragment; output: {fragments: yes} lists them.",
      "failure.md"},
     {" tension tensile.strength ",

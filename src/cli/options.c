@@ -66,7 +66,7 @@ static const struct option option_table[] = {
     {"--check", "NAME", "the check that passes with one of the two values and fails with the other",
      OPTION_TEXT, AT(check), COMMAND_SEARCH},
     {"--within", "W",
-     "the interval to end at: 5m/s, or 1% of the value (default: a hundredth of the first one)",
+     "width of the interval at which to stop: 5m/s, or 1% (default: 1% of the first interval)",
      OPTION_TEXT, AT(within), COMMAND_SEARCH},
     {"--template", "NAME",
      "what to start from: impact (default), riemann, plate-2d, block-3d, bar-mpm", OPTION_TEXT,

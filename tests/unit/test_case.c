@@ -435,11 +435,13 @@ static void every_material_of_the_library_can_be_used(void **state)
     for (int i = 0; i < count; i++) {
         char *dot = strstr(entries[i]->d_name, ".yaml");
         if (dot) {
-            char *text =
-                text_format("format: 1\ndimension: 1\nresolution: 1 mm\nsolver: sph\n"
-                            "materials: {a: {library: %.*s, burn: instant}}\nrun: {until: 1 s}\n"
-                            "bodies: {b: {material: a, ball: 1 m, pressure: 1 bar}}\n",
-                            (int)(dot - entries[i]->d_name), entries[i]->d_name);
+            /* an explosive that is lit needs a detonation; one that burns by itself does not */
+            const bool reacts = strstr(entries[i]->d_name, "-reactive") != NULL;
+            char *text = text_format("format: 1\ndimension: 1\nresolution: 1 mm\nsolver: sph\n"
+                                     "materials: {a: {library: %.*s%s}}\nrun: {until: 1 s}\n"
+                                     "bodies: {b: {material: a, ball: 1 m, pressure: 1 bar}}\n",
+                                     (int)(dot - entries[i]->d_name), entries[i]->d_name,
+                                     reacts ? "" : ", burn: instant");
             case_free(good_case(text, NULL, 0, false));
             free(text);
             materials++;

@@ -21,7 +21,7 @@ struct eos_grueneisen_eta {
 
 #define EOS_grueneisen_eta_NAME "grueneisen-eta"
 #define EOS_grueneisen_eta_HELP \
-    "Mie-Grueneisen with gamma density constant, one formula in compression and tension"
+    "Mie-Grueneisen with gamma*density constant, one formula in compression and tension"
 #define EOS_grueneisen_eta_SAMPLE                \
     {                                            \
         2785.0, 5328.0, 1.338, 2.0, EOS_EXTENDED \

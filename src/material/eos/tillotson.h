@@ -55,7 +55,7 @@ struct eos_tillotson {
     NUMBER(T, complete_energy, "J/kg", REQUIRED, POSITIVE,                                         \
            "e_cv: energy at which vaporisation is complete")                                       \
     NUMBER(T, tension, "Pa", OPTIONAL, NOT_NEGATIVE,                                               \
-           "largest tension, kept as it expands further; default: that of the cold curve")         \
+           "largest tension, held constant on further expansion; default: that of the cold curve") \
     EOS_FORM_PARAMETER(T)
 
 BOLIDE_INLINE struct eos_value eos_tillotson_condensed(const struct eos_tillotson *t,

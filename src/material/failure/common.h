@@ -27,10 +27,10 @@ struct failing {
     double weibull_volume;  /* m^3; NAN: that of each particle */                 \
     int seed;
 
-#define FAILURE_FRICTION(T)                                                                   \
-    NUMBER(T, friction, "", "0.3", NOT_NEGATIVE,                                              \
-           "of failed material: the Mises stress that it bears over its pressure, up to the " \
-           "yield stress")
+#define FAILURE_FRICTION(T)                                                                     \
+    NUMBER(T, friction, "", "0.3", NOT_NEGATIVE,                                                \
+           "of failed material: its largest Mises stress over its pressure; that stress is at " \
+           "most the yield stress")
 #define FAILURE_SCATTER(T)                                                                        \
     NUMBER(T, weibull_modulus, "", OPTIONAL, POSITIVE,                                            \
            "of the scatter from particle to particle of the strength, or of strain or work at "   \

@@ -40,34 +40,33 @@ struct strength_hjc {
 #define STRENGTH_hjc_NAME "hjc"
 #define STRENGTH_hjc_HELP \
     "concrete after Holmquist, Johnson and Cook, with damage by crushing and by tension"
-#define STRENGTH_hjc_PARAMETERS(T)                                                              \
-    NUMBER(T, shear_modulus, "Pa", REQUIRED, POSITIVE, "shear modulus")                         \
-    NUMBER(T, a, "", REQUIRED, NOT_NEGATIVE, "A: cohesion of intact concrete, relative to f_c") \
-    NUMBER(T, b, "", REQUIRED, NOT_NEGATIVE, "B: increase of strength with pressure")           \
-    NUMBER(T, n, "", REQUIRED, POSITIVE, "N: exponent of the pressure")                         \
-    NUMBER(T, c, "", REQUIRED, NOT_NEGATIVE, "C: factor of the logarithm of the strain rate")   \
-    NUMBER(T, strength, "Pa", REQUIRED, POSITIVE,                                               \
-           "f_c: quasi-static uniaxial strength in compression")                                \
-    NUMBER(T, rate, "1/s", "1 1/s", POSITIVE, "strain rate below which the rate has no effect") \
-    NUMBER(T, most, "", REQUIRED, POSITIVE, "S_max: largest yield stress, relative to f_c")     \
-    NUMBER(T, tension, "Pa", REQUIRED, NOT_NEGATIVE, "T: largest hydrostatic tension")          \
-    NUMBER(T, d1, "", REQUIRED, NOT_NEGATIVE, "D_1: factor of the failure strain")              \
-    NUMBER(T, d2, "", "1", POSITIVE, "D_2: exponent of the pressure in the failure strain")     \
-    NUMBER(T, damage_limit, "", "1", FROM_ZERO_TO_ONE,                                          \
-           "D_c: damage by crushing at which concrete fails")                                   \
-    NUMBER(T, least_strain, "", REQUIRED, POSITIVE, "smallest failure strain")                  \
-    NUMBER(T, tensile_growth, "1/s", "7e5 1/s", NOT_NEGATIVE,                                   \
-           "a: growth rate of damage by tension; 0: no such damage")                            \
-    NUMBER(T, tensile_threshold, "Pa", "2.5 MPa", POSITIVE,                                     \
-           "sigma_0: tension up to which there is no damage")                                   \
-    NUMBER(T, tensile_exponent, "", "1", POSITIVE, "gamma: exponent of tension/sigma_0 - 1")    \
-    NUMBER(T, tensile_start, "", "1e-3", BETWEEN_ZERO_AND_ONE,                                  \
-           "D_t0: damage by tension from which it grows")                                       \
-    NUMBER(T, tensile_limit, "", "0.9", FROM_ZERO_TO_ONE,                                       \
-           "damage by tension at which concrete fails")                                         \
-    CHOICE(T, tensile_stress, "mean",                                                           \
-           "which tension does damage: mean, or the largest principal stress", "mean",          \
-           "principal")                                                                         \
+#define STRENGTH_hjc_PARAMETERS(T)                                                                \
+    NUMBER(T, shear_modulus, "Pa", REQUIRED, POSITIVE, "shear modulus")                           \
+    NUMBER(T, a, "", REQUIRED, NOT_NEGATIVE, "A: cohesion of intact concrete, relative to f_c")   \
+    NUMBER(T, b, "", REQUIRED, NOT_NEGATIVE, "B: increase of strength with pressure")             \
+    NUMBER(T, n, "", REQUIRED, POSITIVE, "N: exponent of the pressure")                           \
+    NUMBER(T, c, "", REQUIRED, NOT_NEGATIVE, "C: factor of the logarithm of the strain rate")     \
+    NUMBER(T, strength, "Pa", REQUIRED, POSITIVE,                                                 \
+           "f_c: quasi-static uniaxial strength in compression")                                  \
+    NUMBER(T, rate, "1/s", "1 1/s", POSITIVE, "strain rate below which the rate has no effect")   \
+    NUMBER(T, most, "", REQUIRED, POSITIVE, "S_max: largest yield stress, relative to f_c")       \
+    NUMBER(T, tension, "Pa", REQUIRED, NOT_NEGATIVE, "T: largest hydrostatic tension")            \
+    NUMBER(T, d1, "", REQUIRED, NOT_NEGATIVE, "D_1: factor of the failure strain")                \
+    NUMBER(T, d2, "", "1", POSITIVE, "D_2: exponent of the pressure in the failure strain")       \
+    NUMBER(T, damage_limit, "", "1", FROM_ZERO_TO_ONE,                                            \
+           "D_c: damage by crushing at which concrete fails")                                     \
+    NUMBER(T, least_strain, "", REQUIRED, POSITIVE, "smallest failure strain")                    \
+    NUMBER(T, tensile_growth, "1/s", "7e5 1/s", NOT_NEGATIVE,                                     \
+           "a: growth rate of damage by tension; 0: no such damage")                              \
+    NUMBER(T, tensile_threshold, "Pa", "2.5 MPa", POSITIVE,                                       \
+           "sigma_0: tension up to which there is no damage")                                     \
+    NUMBER(T, tensile_exponent, "", "1", POSITIVE, "gamma: exponent of tension/sigma_0 - 1")      \
+    NUMBER(T, tensile_start, "", "1e-3", BETWEEN_ZERO_AND_ONE, "D_t0: initial damage by tension") \
+    NUMBER(T, tensile_limit, "", "0.9", FROM_ZERO_TO_ONE,                                         \
+           "damage by tension at which concrete fails")                                           \
+    CHOICE(T, tensile_stress, "mean",                                                             \
+           "which tension does damage: mean, or the largest principal stress", "mean",            \
+           "principal")                                                                           \
     FLAG(T, rubble, "no", "whether failed concrete keeps its friction under pressure")
 
 /* max(D_c, D_t). */
