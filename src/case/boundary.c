@@ -163,7 +163,7 @@ void case_check_boundary(struct checking *checking, int index)
                    "a periodic axis has no side and no part: remove this key");
     if (!periodic && boundary->side < 0)
         case_wrong(checking, "side", "expected `low` or `high`");
-    if (input->geometry == GEOMETRY_AXISYMMETRIC && boundary->axis == 0 && periodic)
+    if (geometry_power(input->geometry) > 0 && boundary->axis == 0 && periodic)
         case_wrong(checking, "axis", "x is the radius, which does not repeat");
     if (boundary->part.choice && case_dimension_known(checking)) {
         const char *text = shape_wrong(&boundary->part, (int)input->dimension);

@@ -236,14 +236,28 @@ struct sweep_value {
     struct quantity quantity; /* what the text comes to; value NAN: it is no quantity */
 };
 
-/* What a case of two dimensions stands for. */
-enum case_geometry { GEOMETRY_PLANE_STRAIN, GEOMETRY_PLANE_STRESS, GEOMETRY_AXISYMMETRIC };
+/* What a case of one or two dimensions stands for. */
+enum case_geometry {
+    GEOMETRY_PLANE_STRAIN,
+    GEOMETRY_PLANE_STRESS,
+    GEOMETRY_AXISYMMETRIC,
+    GEOMETRY_CYLINDRICAL, /* of one dimension */
+    GEOMETRY_SPHERICAL    /* of one dimension */
+};
+
+/* The power of x that a volume has, which is per radian or steradian: 0 unless x is a radius. */
+static inline int geometry_power(int geometry)
+{
+    return geometry == GEOMETRY_SPHERICAL                                          ? 2
+           : geometry == GEOMETRY_AXISYMMETRIC || geometry == GEOMETRY_CYLINDRICAL ? 1
+                                                                                   : 0;
+}
 
 struct simulation_case {
     int64_t format;
     char *title;
     int64_t dimension;
-    int geometry; /* enum case_geometry; plane strain unless the dimension is 2 */
+    int geometry; /* enum case_geometry; plane strain stands for a plane wave in 1-D, too */
     double resolution;
     struct one_of solver;       /* "solver" */
     struct named_map materials; /* struct material_input */

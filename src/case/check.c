@@ -417,9 +417,12 @@ static void check_map(struct checking *checking, const char *key, const struct n
 static void check_geometry(struct checking *checking)
 {
     checking->map = "geometry";
-    if (case_dimension_known(checking) && checking->input->geometry != GEOMETRY_PLANE_STRAIN &&
-        checking->input->dimension != 2)
-        case_wrong(checking, "", "this is of two dimensions: the case has %d",
+    const int geometry = checking->input->geometry,
+              dimension = geometry >= GEOMETRY_CYLINDRICAL ? 1 : 2;
+    if (case_dimension_known(checking) && geometry != GEOMETRY_PLANE_STRAIN &&
+        checking->input->dimension != dimension)
+        case_wrong(checking, "", "this is of %s: the case has %d",
+                   dimension == 1 ? "one dimension" : "two dimensions",
                    (int)checking->input->dimension);
 }
 

@@ -8,9 +8,9 @@ void case_check_wall(struct checking *checking, int index)
     const struct simulation_case *input = checking->input;
     const struct wall_input *wall = case_wall(input, index);
     case_check_axis(checking, "mirror", wall->axis);
-    if (input->geometry == GEOMETRY_AXISYMMETRIC && wall->axis == 0 &&
+    if (geometry_power(input->geometry) > 0 && wall->axis == 0 &&
         (wall->side == WALL_LOW ? wall->at != 0.0 : wall->at <= 0.0))
-        case_wrong(checking, "at", "the axis of symmetry bounds x from below, at 0 m: %s",
+        case_wrong(checking, "at", "x is a radius, which begins at 0 m: %s",
                    wall->side == WALL_LOW ? "leave this wall out" : "put this wall above it");
     const bool wrong = case_is_wrong(checking, "");
     bool told = false; /* one of many that are alike is enough */
@@ -39,7 +39,7 @@ void case_check_outflow(struct checking *checking, int index)
     const struct simulation_case *input = checking->input;
     const struct outflow_input *outflow = case_outflow(input, index);
     case_check_axis(checking, "across", outflow->axis);
-    if (input->geometry == GEOMETRY_AXISYMMETRIC && outflow->axis == 0 && outflow->side == WALL_LOW)
+    if (geometry_power(input->geometry) > 0 && outflow->axis == 0 && outflow->side == WALL_LOW)
         case_wrong(checking, "side", "nothing flows out through the axis of symmetry");
     for (int i = 0; i < input->walls.count; i++)
         if (case_wall(input, i)->axis == outflow->axis &&
@@ -185,6 +185,6 @@ void case_check_gravity(struct checking *checking)
     if (gravity->count != input->dimension)
         case_wrong(checking, "", "expected %d component%s, one per dimension; found %d",
                    (int)input->dimension, input->dimension == 1 ? "" : "s", gravity->count);
-    else if (input->geometry == GEOMETRY_AXISYMMETRIC && gravity->at[0] != 0.0)
+    else if (geometry_power(input->geometry) > 0 && gravity->at[0] != 0.0)
         case_wrong(checking, "1", "gravity that is symmetric about the axis points along it");
 }

@@ -2,7 +2,8 @@
 #include "case/internal.h"
 
 static const char *const axis_names[] = {"x", "y", "z", NULL};
-static const char *const geometry_names[] = {"plane-strain", "plane-stress", "axisymmetric", NULL};
+static const char *const geometry_names[] = {"plane-strain", "plane-stress", "axisymmetric",
+                                             "cylindrical",  "spherical",    NULL};
 static const char *const side_names[] = {"low", "high", NULL};
 
 static const struct parameter body_table[] = {
@@ -293,7 +294,8 @@ const struct parameter case_table[] = {
      .standard = "plane-strain",
      .names = geometry_names,
      .help = "of a 2-D case: plane-strain; plane-stress: a thin plate; axisymmetric about x = 0, "
-             "where x is the radius"},
+             "where x is the radius. Of a 1-D case in which x is the radius: cylindrical or "
+             "spherical"},
     {.key = "resolution",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct simulation_case, resolution),

@@ -95,7 +95,8 @@ static const struct answer answers[] = {
      "tasks/cluster.md"},
     {" symmetry symmetric mirror half.model quarter.model ",
      "A mirror wall is a plane of symmetry:  walls: {below: {mirror: y, at: 0 mm, side: low}}\n"
-     "`geometry: axisymmetric` makes bodies of revolution in 2-D: x is the radius, y the axis.",
+     "`geometry: axisymmetric` makes bodies of revolution in 2-D: x is the radius, y the axis.\n"
+     "`geometry: spherical` or `cylindrical` makes x the radius in 1-D, with the gas solver.",
      "case.md"},
     {" periodic periodicity ",
      "With SPH and gas: `boundaries: {ends: {axis: x, kind: periodic}}`. Not available with MPM:\n"

@@ -87,9 +87,9 @@ struct error *gas_find_domain(const struct simulation *simulation, struct cell_b
         if (cells->high[axis] <= cells->low[axis])
             return input_error(input, face[axis][1].section, face[axis][1].name,
                                "the domain has no cell along %c", "xyz"[axis]);
-    if (simulation->problem->geometry == GEOMETRY_AXISYMMETRIC && cells->low[0] < 0)
+    if (geometry_power(input->geometry) > 0 && cells->low[0] < 0)
         return input_error(input, face[0][0].section, face[0][0].name,
-                           "x is the radius: the domain may begin at the axis, x = 0");
+                           "x is the radius: the domain may begin at x = 0");
     double all = 1.0;
     for (int axis = 0; axis < cells->dimension; axis++)
         all *= (double)(cells->high[axis] - cells->low[axis]);
@@ -131,7 +131,7 @@ void gas_find_faces(const struct simulation *simulation, const struct cell_block
     const struct simulation_case *input = simulation->problem->input;
     for (int w = 0; w < input->walls.count; w++)
         halo->face[case_wall(input, w)->axis][case_wall(input, w)->side] = CELL_FACE_MIRROR;
-    if (simulation->problem->geometry == GEOMETRY_AXISYMMETRIC && cells->low[0] == 0)
+    if (geometry_power(input->geometry) > 0 && cells->low[0] == 0)
         halo->face[0][0] = CELL_FACE_MIRROR;
     for (int b = 0; b < input->boundaries.count; b++) {
         const struct boundary_input *boundary = case_boundary(input, b);
@@ -166,8 +166,7 @@ static bool is_closed(const struct simulation *simulation, const struct cell_blo
     for (int w = 0; w < input->walls.count; w++)
         if (case_wall(input, w)->axis == axis && case_wall(input, w)->side == side)
             return true;
-    return simulation->problem->geometry == GEOMETRY_AXISYMMETRIC && axis == 0 && side == 0 &&
-           cells->low[0] == 0;
+    return geometry_power(input->geometry) > 0 && axis == 0 && side == 0 && cells->low[0] == 0;
 }
 
 /* Conserved numbers of what flows in. */
@@ -264,13 +263,14 @@ struct error *gas_fill_planes(const struct gas *gas, const struct simulation *si
     return NULL;
 }
 
-/* The area of a face whose centre is AT; of a radian about an axis of symmetry. */
+/* The area of a face whose centre is AT; of a radian or steradian where x is a radius. */
 static double area_of(const struct simulation *simulation, double edge, const double at[3])
 {
     const double area = simulation->problem->dimension == 1   ? 1.0
                         : simulation->problem->dimension == 2 ? edge
                                                               : edge * edge;
-    return simulation->problem->geometry == GEOMETRY_AXISYMMETRIC ? area * at[0] : area;
+    const int power = geometry_power(simulation->problem->geometry);
+    return power == 0 ? area : power == 1 ? area * at[0] : area * square(at[0]);
 }
 
 /* Books what a FLUX has brought to the gas above a face at AT, or, with SIGN -1, to that below. */
@@ -309,12 +309,13 @@ void gas_book(const struct gas *gas, const struct simulation *simulation,
             book(simulation, edge, at, through->end[side][row], side ? -1.0 : 1.0, dt,
                  face == CELL_FACE_MIRROR ? LEDGER_WALLS : LEDGER_OUTFLOWS, ledger);
         }
-    for (int row = 0; row < rows * low->count[second] && axis == 0 && gas->around; row++) {
+    for (int row = 0; row < rows * low->count[second] && axis == 0 && gas->round; row++) {
         double at[3] = {0.0, 0.0, 0.0};
         row_place(cells, low, first, second, row, at);
+        const double section = cells->dimension == 1 && gas->round == 1 ? edge : edge * edge;
         for (int s = 0; s < strip->count; s++)
             ledger_book(ledger, LEDGER_AXIS, 0.0,
-                        vec3_make(dt * edge * edge * through->push[row][s], 0.0, 0.0),
+                        vec3_make(dt * section * through->push[row][s], 0.0, 0.0),
                         vec3_make(at[0], at[1], at[2]), 0.0);
     }
     for (int k = 0; k < through->obstacles; k++) {

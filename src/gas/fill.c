@@ -128,10 +128,11 @@ static int64_t points_in(int64_t base, int exponent)
     return result;
 }
 
-/* The weight of a place: about an axis its radius. */
+/* The weight of a place: along a radius its power. */
 static double weight_of(const struct filling *f, struct vec3 place)
 {
-    return f->simulation->problem->geometry == GEOMETRY_AXISYMMETRIC ? place.x : 1.0;
+    const int round = f->gas->round;
+    return round == 0 ? 1.0 : round == 1 ? place.x : square(place.x);
 }
 
 /* Whether BODY, that of the centre, has the whole cell: its corners lie in it, and no body is so small

@@ -129,7 +129,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     for (int k = 0; k < 2; k++)
         gas->eos[k] = simulation->problem->material[gas->material[k]].eos;
     gas->blocked = input->obstacles.count > 0;
-    gas->around = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
+    gas->round = geometry_power(simulation->problem->geometry);
     gas->sleepless = problem_has_gravity(simulation->problem);
     struct cell_blocks *cells = gas->cells = memory_allocate(sizeof *cells);
     if (!cells)
@@ -178,7 +178,7 @@ static struct error *look(struct gas *gas, const struct simulation *simulation)
                             .open = gas->open,
                             .written = gas->written,
                             .sound = gas->sound,
-                            .around = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC};
+                            .round = gas->round};
     struct ranked first = {INFINITY, UINT64_MAX, 0};
     memcpy(look.u, gas->u, sizeof look.u);
 #pragma omp parallel num_threads(simulation->threads)
@@ -287,7 +287,6 @@ static void pull(const struct gas *gas, struct simulation *simulation, double dt
     const struct cell_blocks *cells = gas->cells;
     const double *g = simulation->problem->gravity;
     const double volume = pow(cells->edge, simulation->problem->dimension);
-    const bool around = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
 #pragma omp parallel num_threads(simulation->threads)
     {
         struct ledger own = {0};
@@ -303,7 +302,8 @@ static void pull(const struct gas *gas, struct simulation *simulation, double dt
                 *momentum += impulse[axis];
             }
             gas->u[GAS_ENERGY][i] += work;
-            const double size = around ? volume * cells->position[i][0] : volume;
+            const double size =
+                gas_cell_volume(volume, cells->edge, cells->position[i][0], gas->round);
             ledger_book(&own, LEDGER_GRAVITY, 0.0,
                         vec3_make(size * impulse[0], size * impulse[1], size * impulse[2]),
                         vector_at(cells->position[i]), size * work);

@@ -37,7 +37,7 @@ struct gas {
     bool two;        /* materials */
     int written;     /* fields that sweeps write */
     bool blocked;    /* some cells are */
-    bool around;     /* the first axis is a radius */
+    int round;       /* the power of x in a volume: 0 unless x is a radius */
     struct cell_halo halo;
     uint64_t order; /* of the blocks when the strips were made */
     int32_t room;   /* cells for which `other` has room */

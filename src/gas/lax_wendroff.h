@@ -54,12 +54,13 @@ BOLIDE_INLINE void row_smooth(const struct gas_row *row, const struct lax_wendro
     }
     for (int n = 0; n < GAS_NUMBERS; n++) {
         const double *u = row->u.of[n];
-        if (row->around && faces)
+        if (row->round && faces)
             FOR_ROW (k, -2, cells + 1) {
-                const double at = row_radius(row, k);
-                smoothed->of[n][k] = u[k] + ((at + 1.0) * high[k] * (u[k + 1] - u[k]) -
-                                             at * low[k] * (u[k] - u[k - 1])) /
-                                                (at + 0.5);
+                const double below = low[k] * (u[k] - u[k - 1]),
+                             above = high[k] * (u[k + 1] - u[k]);
+                smoothed->of[n][k] =
+                    u[k] +
+                    (row_area(row, k + 1) * above - row_area(row, k) * below) / row_size(row, k);
             }
         else
             FOR_ROW (k, -2, cells + 1)
@@ -93,11 +94,11 @@ BOLIDE_INLINE void row_through(const struct gas_row *row, const struct lax_wendr
         FOR_ROW (k, -1, cells + 1) {
             half.of[n][k] = 0.5 * (smoothed->of[n][k - 1] + smoothed->of[n][k]) -
                             0.5 * r * (flow->of[n][k] - flow->of[n][k - 1]);
-            if (row->around && row_radius(row, k) > 0.0) {
+            if (row->round && row_radius(row, k) > 0.0) {
                 double spread = 0.5 * (flow->of[n][k - 1] + flow->of[n][k]);
                 if (n == GAS_MOMENTUM + row->axis)
                     spread -= 0.5 * (pressure[k - 1] + pressure[k]);
-                half.of[n][k] -= 0.5 * r * spread / row_radius(row, k);
+                half.of[n][k] -= 0.5 * r * spread * (double)row->round / row_radius(row, k);
             }
         }
     row_pressures(row->eos, &half, -1, cells + 1, middle);

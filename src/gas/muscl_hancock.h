@@ -96,9 +96,9 @@ BOLIDE_INLINE void row_faces(const struct gas_row *row, const struct row_states 
             rate[n][k] = u[k] * slope.of[n][k];
         }
     }
-    if (row->around)
+    if (row->round)
         FOR_ROW (k, -1, cells)
-            spread[k] = u[k] / (row_radius(row, k) + 0.5);
+            spread[k] = row_widening(row, u[k], k);
     else
         FOR_ROW (k, -1, cells)
             spread[k] = 0.0;
@@ -372,8 +372,8 @@ BOLIDE_INLINE void row_muscl_hancock(struct gas_row *row, double r, struct gas_n
     row_find_shocks(row, &cell);
     FOR_ROW (k, 0, row->cells)
         lost[k] = 0.0;
-    row_mark_lost(row, &cell, fall, -1, 1.0, r, flux, lost);
-    row_mark_lost(row, &cell, fall, 0, -1.0, r, flux, lost);
+    row_mark_lost(row, &cell, fall, -1, 1.0, row_strict(row, r), flux, lost);
+    row_mark_lost(row, &cell, fall, 0, -1.0, row_strict(row, r), flux, lost);
     FOR_ROW (k, 0, row->cells)
         any = maximum(any, lost[k]);
     if (any > 0.0)

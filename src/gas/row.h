@@ -3,9 +3,9 @@
  *
  *   U = (rho, rho u, E)   E = rho e + rho u^2/2   f = (rho u_n, rho u u_n + p n, (E + p) u_n)
  *
- * About an axis of symmetry, along the radius r, a sweep is
+ * Along a radius r, from an axis with s = 1 or a centre with s = 2, a sweep is
  *
- *   d(r U)/dt + d(r f)/dr = p n
+ *   d(r^s U)/dt + d(r^s f)/dr = s r^(s-1) p n
  *
  * whose right side takes a mean pressure of the cell: then a uniform pressure pushes nothing.
  *
@@ -32,14 +32,15 @@ struct gas_numbers {
 struct gas_row {
     const struct eos *eos, *other; /* of the second material, NULL: there is one */
     int cells, axis;               /* the axis that it runs along */
-    bool around;                   /* it runs along the radius */
+    int round;                     /* s along a radius, else 0 */
     double first;                  /* radius of the face below its first cell, in cells */
     struct gas_numbers u;
     double shock[ROW_ROOM]; /* axes of strong shocks in cells: the sum of 1, 2, 4 for x, y, z */
     bool crossed; /* some of `shock` may not be zero; else it is zero in cells -2 .. cells + 1 */
     bool shocked; /* found by a sweep: a strong shock runs along the row */
     double part[PARTS][ROW_ROOM]; /* of the second material, where there are two */
-    double push[ROW_ROOM];        /* found along a radius: mean pressures in a sweep, Pa */
+    double
+        push[ROW_ROOM]; /* found along a radius: mean pressures in a sweep, Pa, times s r^(s-1) */
 };
 
 /* Where the cells or faces FIRST to LAST are in the numbers of a row. */
@@ -114,6 +115,41 @@ BOLIDE_INLINE double row_radius(const struct gas_row *row, int k)
     return row->first + (double)(k - ROW_GHOSTS);
 }
 
+/* The area of the face below cell k and the volume of the cell, in cells; of a radian or steradian. */
+BOLIDE_INLINE double row_area(const struct gas_row *row, int k)
+{
+    const double low = row_radius(row, k);
+    return row->round == 0 ? 1.0 : row->round == 1 ? low : low * low;
+}
+
+BOLIDE_INLINE double row_size(const struct gas_row *row, int k)
+{
+    const double low = row_radius(row, k);
+    return row->round == 0 ? 1.0 : row->round == 1 ? low + 0.5 : low * (low + 1.0) + 1.0 / 3.0;
+}
+
+/* By how much the gas in cell k, which flows at SPEED along the radius, widens per time and cell. */
+BOLIDE_INLINE double row_widening(const struct gas_row *row, double speed, int k)
+{
+    return speed * (row_area(row, k + 1) - row_area(row, k)) / row_size(row, k);
+}
+
+/* dt/h with which both faces of a cell, by their areas, take no more of it than those of a plane cell: at
+ * a centre (1 + 0)/(2/3). */
+BOLIDE_INLINE double row_strict(const struct gas_row *row, double r)
+{
+    return row->round == 2 ? 1.5 * r : r;
+}
+
+/* The volume of a cell whose centre is at the radius X, per radian or steradian; VOLUME where its power
+ * ROUND is 0. */
+static inline double gas_cell_volume(double volume, double edge, double x, int round)
+{
+    return round == 0   ? volume
+           : round == 1 ? volume * x
+                        : volume * (square(x) + square(edge) / 12.0);
+}
+
 /* What FROM become where FLUX leaves through the faces of cells FIRST to LAST in a step of R = dt/h.
  * PUSH, the mean pressures of cells, counts along the radius alone. */
 BOLIDE_INLINE void row_advance(const struct gas_row *row, const struct gas_numbers *from,
@@ -122,30 +158,29 @@ BOLIDE_INLINE void row_advance(const struct gas_row *row, const struct gas_numbe
 {
     for (int n = 0; n < GAS_NUMBERS; n++) {
         const double *f = flux->of[n], *u = from->of[n];
-        if (!row->around)
+        if (!row->round)
             FOR_ROW (k, first, last)
                 to->of[n][k] = u[k] - r * (f[k + 1] - f[k]);
         else if (n == GAS_MOMENTUM + row->axis)
-            FOR_ROW (k, first, last) {
-                const double low = row_radius(row, k);
-                to->of[n][k] =
-                    u[k] -
-                    r * ((low + 1.0) * (f[k + 1] - push[k]) - low * (f[k] - push[k])) / (low + 0.5);
-            }
+            FOR_ROW (k, first, last)
+                to->of[n][k] = u[k] - r *
+                                          (row_area(row, k + 1) * (f[k + 1] - push[k]) -
+                                           row_area(row, k) * (f[k] - push[k])) /
+                                          row_size(row, k);
         else
-            FOR_ROW (k, first, last) {
-                const double low = row_radius(row, k);
-                to->of[n][k] = u[k] - r * ((low + 1.0) * f[k + 1] - low * f[k]) / (low + 0.5);
-            }
+            FOR_ROW (k, first, last)
+                to->of[n][k] =
+                    u[k] - r * (row_area(row, k + 1) * f[k + 1] - row_area(row, k) * f[k]) /
+                               row_size(row, k);
     }
 }
 
 /* Along a radius the row keeps PUSH, for the ledger. */
 BOLIDE_INLINE void row_keep_push(struct gas_row *row, const double *push)
 {
-    if (row->around)
+    if (row->round)
         FOR_ROW (k, 0, row->cells - 1)
-            row->push[k] = push[k];
+            row->push[k] = push[k] * (row_area(row, k + 1) - row_area(row, k));
 }
 
 /* What flows along AXIS in cells FIRST to LAST with numbers U. */

@@ -48,7 +48,7 @@ static bool is_continued(const struct cell_blocks *cells, const struct cell_bloc
 
 /* Strips begin at multiples of the longest row, where the domain does, and after blocks of others. */
 static void make_strips(const struct cell_blocks *cells, const struct cell_halo_axis *halo,
-                        int axis, bool around, struct gas_strips *strips)
+                        int axis, bool round, struct gas_strips *strips)
 {
     int32_t blocks = 0;
     for (int32_t b = 0; b < cells->blocks; b++) {
@@ -64,7 +64,7 @@ static void make_strips(const struct cell_blocks *cells, const struct cell_halo_
         }
         strip->waits = halo->waits[b][0] || halo->waits[last][1];
         const struct cell_block *low = &cells->block[b], *high = &cells->block[last];
-        strip->bounds = around || low->corner[axis] == cells->low[axis] ||
+        strip->bounds = round || low->corner[axis] == cells->low[axis] ||
                         high->corner[axis] + high->count[axis] == cells->high[axis];
     }
     assert(blocks == cells->blocks);
@@ -104,7 +104,7 @@ static struct error *plan_strips(struct gas *gas, const struct cell_blocks *cell
         strips->strip = memory_allocate(2 * room * sizeof *strips->strip);
         if (!strips->block || !strips->strip)
             return out_of_memory();
-        make_strips(cells, &gas->halo.axis[axis], axis, gas->around && axis == 0, strips);
+        make_strips(cells, &gas->halo.axis[axis], axis, gas->round && axis == 0, strips);
     }
     return NULL;
 }
@@ -233,7 +233,7 @@ struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis
                               .blocked = gas->blocked,
                               .axis = axis,
                               .r = dt / cells->edge,
-                              .around = axis == 0 && gas->around,
+                              .round = axis == 0 ? gas->round : 0,
                               .shocked = gas->shocked,
                               .second_order = gas->second_order,
                               .scheme = gas->scheme};

@@ -25,7 +25,7 @@ struct gas_sweep {
     bool blocked; /* some cells are: from[written] is `open` */
     int axis;
     double r;          /* dt/h */
-    bool around;       /* the axis is a radius */
+    int round;         /* the power of the radius in a volume: 0 unless the axis is one */
     bool *shocked;     /* of each block, found: it has strong shocks */
     bool second_order; /* MUSCL-Hancock, else Lax-Wendroff */
     struct lax_wendroff scheme;
@@ -68,7 +68,7 @@ struct gas_look {
     const double *u[GAS_FIELDS], *open; /* NULL: all cells are open */
     int written;
     double *sound; /* m/s */
-    bool around;
+    int round;     /* the power of x in a volume */
 };
 
 /* The fastest |u_i| + c of a block, and the cell with it; a cell whose state is impossible comes before

@@ -133,7 +133,7 @@ static void note_push(const struct gather *g, const double *push, int number,
                       struct gas_through *through)
 {
     int k = ROW_GHOSTS;
-    for (int s = 0; s < g->strip->count && g->sweep->around; s++) {
+    for (int s = 0; s < g->strip->count && g->sweep->round; s++) {
         const int count = g->sweep->cells->block[g->strip->block[s]].count[g->sweep->axis];
         double sum = 0.0;
         for (int c = 0; c < count; c++)
@@ -214,7 +214,7 @@ static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cell
             }
             sweep_row(g->sweep, row, &flux);
             store_row(g, row, from - begin);
-            for (int at = from; at < to && row->around; at++)
+            for (int at = from; at < to && row->round; at++)
                 push[at] = row->push[at - from + ROW_GHOSTS];
             if (from == begin)
                 note_end(&flux, 0, through->end[0][number]);
@@ -249,7 +249,7 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
     row.eos = sweep->eos;
     row.other = sweep->other;
     row.axis = sweep->axis;
-    row.around = sweep->around;
+    row.round = sweep->round;
     row.shocked = true;
     row.first = (double)block->corner[sweep->axis];
     through->obstacles = 0;
@@ -259,7 +259,7 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
                 for (int side = 0; side < 2; side++)
                     for (int n = 0; n < GAS_NUMBERS; n++)
                         through->end[side][i + j * rows][n] = through->end[side][0][n];
-                for (int s = 0; s < strip->count && sweep->around; s++)
+                for (int s = 0; s < strip->count && sweep->round; s++)
                     through->push[i + j * rows][s] = through->push[0][s];
                 continue;
             }
@@ -388,8 +388,9 @@ static void put_run(const struct gas_look *look, const struct run *run,
         for (int axis = 0; axis < 3; axis++)
             cells->velocity[i][axis] = run->velocity[axis][at];
         cells->energy[i] = run->energy[at];
-        cells->mass[i] =
-            open ? density * (look->around ? volume * cells->position[i][0] : volume) : 0.0;
+        cells->mass[i] = open ? density * gas_cell_volume(volume, cells->edge,
+                                                          cells->position[i][0], look->round)
+                              : 0.0;
         cells->pressure[i] = open ? values->pressure[at] : 0.0;
         look->sound[i] = open ? sqrt(sound) : 0.0;
         if (look->other)

@@ -143,8 +143,8 @@ APART void parts_faces(const struct gas_row *row, const struct row_states *cell,
             if (kind == PART_BOTH)
                 parts_fractions(fraction, k, r * u[k], at);
             double widening = limited(u[k] - u[k - 1], u[k + 1] - u[k]);
-            if (row->around)
-                widening += u[k] / (row_radius(row, k) + 0.5);
+            if (row->round)
+                widening += row_widening(row, u[k], k);
             for (int m = 0; m < 2; m++) {
                 double face[2] = {0.0, 0.0};
                 if (kind == PART_BOTH || kind == m)
@@ -303,8 +303,7 @@ static inline void parts_advance(struct gas_row *row, const struct row_parts *pa
     const double *flow = parts->flux[PART_MASS], *volume = parts->flux[PART_FRACTION],
                  *speed = parts->speed;
     FOR_ROW (k, 0, row->cells - 1) {
-        const double low = row->around ? row_radius(row, k) : 1.0,
-                     high = row->around ? low + 1.0 : 1.0, size = row->around ? low + 0.5 : 1.0;
+        const double low = row_area(row, k), high = row_area(row, k + 1), size = row_size(row, k);
         mass[k] -= r * (high * flow[k + 1] - low * flow[k]) / size;
         fraction[k] -= r *
                        (high * (volume[k + 1] - fraction[k] * speed[k + 1]) -
@@ -400,10 +399,10 @@ static inline void parts_sweep(struct gas_row *row, struct row_parts *parts, dou
     row_find_shocks(row, &cell);
     FOR_ROW (k, 0, row->cells)
         lost[k] = 0.0;
-    row_mark_lost(row, &cell, fall, -1, 1.0, r, flux, lost);
-    row_mark_lost(row, &cell, fall, 0, -1.0, r, flux, lost);
-    parts_mark_lost(row, parts, &cell, -1, 1.0, r, flux, lost);
-    parts_mark_lost(row, parts, &cell, 0, -1.0, r, flux, lost);
+    row_mark_lost(row, &cell, fall, -1, 1.0, row_strict(row, r), flux, lost);
+    row_mark_lost(row, &cell, fall, 0, -1.0, row_strict(row, r), flux, lost);
+    parts_mark_lost(row, parts, &cell, -1, 1.0, row_strict(row, r), flux, lost);
+    parts_mark_lost(row, parts, &cell, 0, -1.0, row_strict(row, r), flux, lost);
     parts_replace_lost(row, &cell, lost, parts, flux);
     row_advance(row, &row->u, flux, push, r, 0, row->cells - 1, &to);
     row_keep_push(row, push);

@@ -70,8 +70,8 @@ static int64_t radii(const struct measurement *measurement, const double (*start
     const struct population *p = measurement->population;
     const double layer =
         isnan(parameters->layer) ? simulation->problem->input->resolution : parameters->layer;
-    const bool axisymmetric = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
-    const double power = axisymmetric ? 3.0 : (double)simulation->problem->dimension;
+    const double power =
+        (double)(simulation->problem->dimension + geometry_power(simulation->problem->geometry));
     const double own = pow(parameters->start, power);
     const int body = measure_body(measurement);
     int64_t count = 0;

@@ -35,7 +35,7 @@ static struct error *total_unit(const struct measurement *measurement, const cha
     static const char *const volumes[] = {"m", "m^2", "m^3"};
     const struct simulation *simulation = measurement->simulation;
     const int dimension =
-        simulation->problem->geometry == GEOMETRY_AXISYMMETRIC ? 3 : simulation->problem->dimension;
+        simulation->problem->dimension + geometry_power(simulation->problem->geometry);
     *unit = entry == TOTAL_VOLUME
                 ? volumes[dimension - 1]
                 : ledger_unit(entry < LEDGER_ENTRIES ? (enum ledger_entry)entry : LEDGER_ENERGY,

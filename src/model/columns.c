@@ -49,12 +49,12 @@ static void compute_displacement(const struct population *p, int64_t begin, int6
             moved[i - begin][k] = p->position[i][k] - moved[i - begin][k];
 }
 
-/* (m/rho)^(1/dimension), of axisymmetry that of the section. */
+/* (m/rho)^(1/dimension), where x is a radius that of the section. */
 static void compute_diameter(const struct population *p, int64_t begin, int64_t end, double *out)
 {
-    const bool round = p->problem->geometry == GEOMETRY_AXISYMMETRIC;
+    const int power = geometry_power(p->problem->geometry);
     for (int64_t i = begin; i < end; i++) {
-        const double depth = round ? p->position[i][0] : 1.0;
+        const double x = p->position[i][0], depth = power == 0 ? 1.0 : power == 1 ? x : square(x);
         *out++ = diameter_of_volume(p->mass[i] / (p->density[i] * depth), p->dimension);
     }
 }

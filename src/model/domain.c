@@ -21,7 +21,7 @@ struct face_place domain_face(const struct simulation_case *input, int axis, int
     for (int b = 0; b < input->bodies.count; b++) {
         const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
         double at = end_of(side ? bounds.high : bounds.low, axis);
-        if (input->geometry == GEOMETRY_AXISYMMETRIC && axis == 0 && !side)
+        if (geometry_power(input->geometry) > 0 && axis == 0 && !side)
             at = maximum(at, 0.0);
         if (side ? at > place.at : at < place.at)
             place = (struct face_place){at, "bodies", input->bodies.names[b]};

@@ -133,7 +133,7 @@ static struct error *explore_body(const struct overlaps *overlaps, int body,
 /* Why BODY has no particle. */
 static const char *no_particle(const struct simulation_case *input, int body)
 {
-    if (input->geometry == GEOMETRY_AXISYMMETRIC && body_bounds(input, body).high.x <= 0.0)
+    if (geometry_power(input->geometry) > 0 && body_bounds(input, body).high.x <= 0.0)
         return "no particle: x is the radius, and the whole body is at x < 0; move it to x > 0, or "
                "mirror "
                "it there";

@@ -13,25 +13,38 @@ enum { TOTAL_KINETIC = LEDGER_ENTRIES, TOTAL_INTERNAL, TOTAL_MOMENTUM_SCALE, TOT
 
 const char *ledger_cause_name(enum ledger_cause cause) { return cause_names[cause]; }
 
-/* Names of the entries, and their units in 1-D, 2-D, 3-D and axisymmetry. */
+/* Names of the entries, and their units in 1-D, 2-D and 3-D, then by geometry. */
 static const struct {
-    const char *name, *unit[4];
+    const char *name, *unit[6];
 } entries[LEDGER_ENTRIES] = {
-    [LEDGER_MASS] = {"mass", {"kg/m^2", "kg/m", "kg", "kg/rad"}},
-    [LEDGER_MOMENTUM_X] = {"momentum.x", {"kg/(m*s)", "kg/s", "kg*m/s", "kg*m/(rad*s)"}},
-    [LEDGER_MOMENTUM_Y] = {"momentum.y", {"kg/(m*s)", "kg/s", "kg*m/s", "kg*m/(rad*s)"}},
-    [LEDGER_MOMENTUM_Z] = {"momentum.z", {"kg/(m*s)", "kg/s", "kg*m/s", "kg*m/(rad*s)"}},
-    [LEDGER_ANGULAR_X] = {"angular_momentum.x", {"kg/s", "kg*m/s", "kg*m^2/s", "kg*m^2/(rad*s)"}},
-    [LEDGER_ANGULAR_Y] = {"angular_momentum.y", {"kg/s", "kg*m/s", "kg*m^2/s", "kg*m^2/(rad*s)"}},
-    [LEDGER_ANGULAR_Z] = {"angular_momentum.z", {"kg/s", "kg*m/s", "kg*m^2/s", "kg*m^2/(rad*s)"}},
-    [LEDGER_ENERGY] = {"energy", {"J/m^2", "J/m", "J", "J/rad"}},
+    [LEDGER_MASS] = {"mass", {"kg/m^2", "kg/m", "kg", "kg/rad", "kg/(m*rad)", "kg/sr"}},
+    [LEDGER_MOMENTUM_X] = {"momentum.x",
+                           {"kg/(m*s)", "kg/s", "kg*m/s", "kg*m/(rad*s)", "kg/(rad*s)",
+                            "kg*m/(s*sr)"}},
+    [LEDGER_MOMENTUM_Y] = {"momentum.y",
+                           {"kg/(m*s)", "kg/s", "kg*m/s", "kg*m/(rad*s)", "kg/(rad*s)",
+                            "kg*m/(s*sr)"}},
+    [LEDGER_MOMENTUM_Z] = {"momentum.z",
+                           {"kg/(m*s)", "kg/s", "kg*m/s", "kg*m/(rad*s)", "kg/(rad*s)",
+                            "kg*m/(s*sr)"}},
+    [LEDGER_ANGULAR_X] = {"angular_momentum.x",
+                          {"kg/s", "kg*m/s", "kg*m^2/s", "kg*m^2/(rad*s)", "kg*m/(rad*s)",
+                           "kg*m^2/(s*sr)"}},
+    [LEDGER_ANGULAR_Y] = {"angular_momentum.y",
+                          {"kg/s", "kg*m/s", "kg*m^2/s", "kg*m^2/(rad*s)", "kg*m/(rad*s)",
+                           "kg*m^2/(s*sr)"}},
+    [LEDGER_ANGULAR_Z] = {"angular_momentum.z",
+                          {"kg/s", "kg*m/s", "kg*m^2/s", "kg*m^2/(rad*s)", "kg*m/(rad*s)",
+                           "kg*m^2/(s*sr)"}},
+    [LEDGER_ENERGY] = {"energy", {"J/m^2", "J/m", "J", "J/rad", "J/(m*rad)", "J/sr"}},
 };
 
 const char *ledger_entry_name(enum ledger_entry entry) { return entries[entry].name; }
 
 const char *ledger_unit(enum ledger_entry entry, int dimension, enum case_geometry geometry)
 {
-    return entries[entry].unit[geometry == GEOMETRY_AXISYMMETRIC ? 3 : dimension - 1];
+    const int round = geometry - GEOMETRY_AXISYMMETRIC; /* at least 0 where x is a radius */
+    return entries[entry].unit[round >= 0 ? 3 + round : dimension - 1];
 }
 
 static void add_vector(struct exact_sum *sums, struct vec3 value)

@@ -35,7 +35,7 @@ static struct error *set_mirrors(const struct simulation_case *input, struct mir
     struct error *error = NULL;
     for (int axis = 0; axis < 3; axis++)
         mirrors->low[axis] = mirrors->high[axis] = NAN;
-    if (input->geometry == GEOMETRY_AXISYMMETRIC)
+    if (geometry_power(input->geometry) > 0)
         mirrors->low[0] = 0.0;
     for (int i = 0; i < input->walls.count; i++) {
         const struct wall_input *wall = case_wall(input, i);

@@ -33,7 +33,7 @@ static struct range kept_by_mirrors(const struct simulation_case *input, const s
 struct bounds body_bounds(const struct simulation_case *input, int body)
 {
     struct bounds bounds = shape_bounds(&case_body(input, body)->shape);
-    if (input->geometry == GEOMETRY_AXISYMMETRIC && bounds.high.x > 0.0)
+    if (geometry_power(input->geometry) > 0 && bounds.high.x > 0.0)
         bounds.low.x = maximum(bounds.low.x, 0.0);
     const struct range kept = kept_by_mirrors(input, &bounds);
     bounds.low.y = maximum(bounds.low.y, kept.low);
@@ -159,7 +159,7 @@ static bool site_dropped(struct walk *walk, struct vec3 place)
 static bool site_beyond_axis(const struct walk *walk, struct vec3 place)
 {
     const double margin = 1e-9 * walk->input->resolution;
-    return walk->input->geometry == GEOMETRY_AXISYMMETRIC &&
+    return geometry_power(walk->input->geometry) > 0 &&
            (place.x <= margin || place.y <= walk->kept.low + margin ||
             place.y >= walk->kept.high - margin);
 }
@@ -219,7 +219,8 @@ struct error *walk_check_work(const struct simulation_case *input, const struct 
 
 double walk_depth(const struct simulation_case *input, struct vec3 place)
 {
-    return input->geometry == GEOMETRY_AXISYMMETRIC ? place.x : 1.0;
+    const int power = geometry_power(input->geometry);
+    return power == 0 ? 1.0 : power == 1 ? place.x : square(place.x);
 }
 
 const char *walk_start(const struct simulation_case *input, int body, struct vec3 place,

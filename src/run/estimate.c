@@ -54,7 +54,7 @@ static void find_mean_density(const struct simulation_case *input, struct estima
         box = bounds_around(box, body_bounds(input, i));
     double low[3] = {box.low.x, box.low.y, box.low.z};
     double high[3] = {box.high.x, box.high.y, box.high.z};
-    const bool axisymmetric = input->geometry == GEOMETRY_AXISYMMETRIC;
+    const double power = 1.0 + geometry_power(input->geometry);
     double wall[3][2] = {{NAN, NAN}, {NAN, NAN}, {NAN, NAN}}, volume = 1.0;
     for (int i = 0; i < input->walls.count; i++)
         wall[case_wall(input, i)->axis][case_wall(input, i)->side] = case_wall(input, i)->at;
@@ -64,8 +64,8 @@ static void find_mean_density(const struct simulation_case *input, struct estima
             low[axis] = wall[axis][WALL_LOW];
             high[axis] = wall[axis][WALL_HIGH];
         }
-        volume *= axis == 0 && axisymmetric ? 0.5 * (square(high[0]) - square(low[0]))
-                                            : high[axis] - low[axis];
+        volume *=
+            axis == 0 ? (pow(high[0], power) - pow(low[0], power)) / power : high[axis] - low[axis];
     }
     estimate->box.low = vec3_make(low[0], low[1], low[2]);
     estimate->box.high = vec3_make(high[0], high[1], high[2]);

@@ -28,6 +28,9 @@ struct error *sph_refuse(const struct simulation *simulation)
     static const char text[] = "the solver sph has none: use mpm";
     const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
+    if (geometry_power(input->geometry) > 0 && input->dimension == 1)
+        error = input_error(input, "geometry", NULL,
+                            "the solver gas alone computes cylinders and spheres in 1-D");
     for (int c = 0; c < input->contacts.count; c++)
         error = error_join(error, refuse_contact(input, c));
     if (input->loads.count)

@@ -78,6 +78,18 @@ static const char two_ring[] =
     "  hot: {material: products, ball: {center: [0 m, 0.3 m], radius: 0.05 m}, energy: 0 J/kg, "
     "replaces: air}\n" END;
 
+static const char sphere[] =
+    "format: 1\ndimension: 1\ngeometry: spherical\nresolution: 1 mm\nsolver: gas\n" TWO "bodies:\n"
+    "  air: {material: air, box: {from: [0 m], to: [0.9 m]}, pressure: 0.1 MPa}\n"
+    "  hot: {material: products, ball: {center: [0 m], radius: 0.05 m}, energy: 0 J/kg, "
+    "replaces: air}\n" END;
+static const char cylinder[] =
+    "format: 1\ndimension: 1\ngeometry: cylindrical\nresolution: 1 mm\nsolver: gas\n" AIR
+    "bodies:\n"
+    "  air: {material: air, box: {from: [0.1 m], to: [0.9 m]}, pressure: 0.1 MPa}\n"
+    "  hot: {material: air, box: {from: [0.1 m], to: [0.2 m]}, pressure: 5 MPa, "
+    "replaces: air}\n" END;
+
 static const struct {
     const char *name, *text;
     int steps; /* fewer than the walls of the domain are away */
@@ -88,6 +100,8 @@ static const struct {
              {"space", space, STEPS / 10},
              {"two", two, STEPS},
              {"two in a ring", two_ring, STEPS},
+             {"sphere", sphere, STEPS},
+             {"cylinder", cylinder, STEPS},
              {"heavy", heavy, STEPS}};
 
 static const struct variant plain = {"plain", 1, 1.0, NULL, false};
