@@ -51,16 +51,19 @@ static void print_profile(const struct exact_class *class, const void *solved, d
                           double low, double high, int64_t points)
 {
     printf(class->thermal ? "x [m],temperature [K]\n"
-                          : "x [m],density [kg/m^3],velocity [m/s],pressure [Pa],energy [J/kg],"
-                            "stress.xx [Pa],deviator.xx [Pa]\n");
+           : class->known == EXACT_PRESSURE
+               ? "x [m],pressure [Pa]\n"
+               : "x [m],density [kg/m^3],velocity [m/s],pressure [Pa],energy [J/kg],"
+                 "stress.xx [Pa],deviator.xx [Pa]\n");
     for (int64_t i = 0; i < points; i++) {
         double x = low + (high - low) * ((double)i + 0.5) / (double)points;
         enum exact_side side = exact_side_at(class, solved, x, time);
         struct exact_state s = class->sample(solved, side, x, time);
         const double state[] = {s.density, s.velocity, s.pressure, s.energy, s.stress, s.deviator};
         printf("%.9g", x);
-        for (size_t k = 0; k < (class->thermal ? 1 : COUNT_OF(state)); k++) {
-            const double value = class->thermal ? s.temperature : state[k];
+        const bool alone = class->thermal || class->known == EXACT_PRESSURE;
+        for (size_t k = 0; k < (alone ? 1 : COUNT_OF(state)); k++) {
+            const double value = class->thermal ? s.temperature : alone ? s.pressure : state[k];
             if (isnan(value)) /* without a sign, as in every table */
                 printf(",nan");
             else
@@ -84,6 +87,8 @@ static struct error *print_solution(const struct choice *choice, const void *val
         double low, high;
         if (!points)
             print_numbers(numbers, count);
+        else if (class->known == EXACT_NO_FIELD)
+            error = error_new(ERROR_INPUT, "%s has no profile: leave --points out", choice->name);
         else if (time > 0.0 && profile_range(class, numbers, count, &low, &high))
             print_profile(class, solved, time, low, high, points);
         else

@@ -113,11 +113,24 @@ static const struct answer answers[] = {
      "compression.\n"
      "`bolide help units` lists the symbols.",
      NULL},
-    {" blast air.blast airblast kingery conwep afterburn fireball ",
-     "A charge in air is not available: the solver gas computes one gas, and products in air are\n"
-     "two. Instead: hot air in place of the products (`solver: gas`), a pressure over time on a\n"
-     "surface (`loads`, with MPM), or explosive in contact (bolide help burn).",
-     "gas.md"},
+    {" kingery bulmash kingery.bulmash conwep ufc swisdak friedlander tnt.equivalent "
+     "scaled.distance ",
+     "`exact: {kingery-bulmash: {mass: 5 kg, charge: surface}}` has the curves of Kingery and\n"
+     "Bulmash: checks (bolide help blast) compare gauges with them. Without a case:\n"
+     "  bolide exact kingery-bulmash --set \"mass=5 kg\" --set \"distance=10 m\"",
+     "blast.md"},
+    {" overpressure incident.pressure peak.pressure impulse arrival arrival.time "
+     "positive.phase.duration positive.phase positive.duration gauge.of.blast ",
+     "Record the pressure at a gauge, and let checks take what is wanted of it:\n"
+     "  probes: {near: {gauge: {at: [2 m, 0 m]}, fields: [pressure]}}\n"
+     "  checks: {impulse: {blast: {probe: near, take: impulse}}}\n"
+     "`take` is overpressure, arrival, duration or impulse.",
+     "blast.md"},
+    {" air.blast airblast blast.wave afterburn fireball ",
+     "`solver: gas` computes the blast of detonation products in air (two materials); checks\n"
+     "compare gauges with `exact: kingery-bulmash`. Without gas, `loads` are a pressure over\n"
+     "time on a surface (MPM). Explosive in contact: bolide help burn.",
+     "blast.md"},
     {" shock.tube sod gas.dynamics cfd euler wind.tunnel air grid cells fdm ",
      "`solver: gas` computes a gas in cells, with walls, inflow, outflow, periodic faces and "
      "rigid\n"

@@ -17,6 +17,10 @@
     X(impedance_match, "impedance-match",                                                       \
       "planar impact of two materials with linear shock relations")                             \
     X(sedov, "sedov", "a strong blast in a gas from a point, a line or a plane")                \
+    X(point_explosion, "point-explosion",                                                       \
+      "a blast in an ideal gas from a point, a line or a plane as it weakens: its front")       \
+    X(kingery_bulmash, "kingery-bulmash",                                                       \
+      "the blast of TNT in air, free or on the ground: curves through measurements")            \
     X(gas_expansion, "gas-expansion",                                                           \
       "homogeneous expansion of a slab, cylinder or ball of gas into a vacuum")                 \
     X(slab_detonation, "slab-detonation",                                                       \

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "base/error.h"
+#include "exact/blast_wave.h"
 
 /* The state of a one-dimensional solution at a place and time. SI units. Stress is positive in
  * tension along x; deviator is its S_xx part. */
@@ -25,6 +26,10 @@ struct exact_number {
 
 enum { EXACT_NUMBERS = 40 };
 
+enum exact_known { EXACT_ALL, EXACT_PRESSURE, EXACT_NO_FIELD };
+
+struct vector_value;
+
 struct exact_class {
     size_t size;  /* of the solved problem */
     bool thermal; /* its states are of a body at rest: temperature alone; others have none */
@@ -41,6 +46,14 @@ struct exact_class {
     int (*numbers)(const void *solved, double time, struct exact_number *numbers);
     /* Place of the contact at TIME; NULL: there is none, but a centre. */
     double (*contact)(const void *solved, double time);
+    /* Blasts. Which fields the samples have: all unless it says less. */
+    enum exact_known known;
+    /* Where the charge is; NULL: at the origin. */
+    const struct vector_value *(*center)(const void *solved);
+    /* The wave that passes at DISTANCE from the centre; what the solution does not have is NAN. */
+    struct blast_wave (*blast)(const void *solved, double distance);
+    /* Distance of the front from the centre at TIME; NAN where that is unknown. */
+    double (*front)(const void *solved, double time);
 };
 
 /* On which side of the contact X lies at TIME; left where there is no contact. */

@@ -201,6 +201,12 @@ static struct sedov_place place_of(const struct sedov *s, double log_xi)
     return place_at(s, root_find(depth_of, &sought, 0.0, deepest, 0.0));
 }
 
+static double sedov_front(const void *solved, double time)
+{
+    const struct sedov *s = solved;
+    return time + s->age > 0.0 ? shock_radius(s, time + s->age) : 0.0;
+}
+
 static struct exact_state sedov_sample(const void *solved, enum exact_side side, double x,
                                        double time)
 {
@@ -247,4 +253,5 @@ const struct exact_class exact_sedov_class = {
     .solve = sedov_solve,
     .sample = sedov_sample,
     .numbers = sedov_numbers,
+    .front = sedov_front,
 };

@@ -251,4 +251,16 @@ static struct error *measure(const struct measurement *measurement, double *valu
     return error;
 }
 
-const struct measure_class measure_front = {.of_field = true, .unit = unit, .measure = measure};
+/* The distance of the front from the centre of the exact solution when the check is made. */
+static double expected(const struct measurement *measurement)
+{
+    const struct exact_class *exact = measurement->exact;
+    const double at = measurement->check->at;
+    return exact->front
+               ? exact->front(measurement->solved,
+                              isnan(at) ? measurement->simulation->problem->input->run.until : at)
+               : NAN;
+}
+
+const struct measure_class measure_front = {
+    .of_field = true, .unit = unit, .measure = measure, .expected = expected};

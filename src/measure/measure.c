@@ -72,6 +72,8 @@ const struct choice measure_choices[MEASURES] = {
      measure_shear_layer_table, sizeof(struct measure_shear_layer), &measure_shear_layer},
     {"recorded", "number from the record of a probe", measure_recorded_table,
      sizeof(struct measure_recorded), &measure_recorded},
+    {"blast", "peak, arrival, duration or impulse of a blast wave at a probe", measure_blast_table,
+     sizeof(struct measure_blast), &measure_blast},
     {"finite", "number of particles whose field is not a finite number", FIELD, &measure_finite},
 };
 
@@ -267,4 +269,14 @@ double exact_field(const struct exact_state *state, const char *field)
         if (!strcmp(fields[i].name, field))
             return fields[i].value;
     return NAN;
+}
+
+double exact_distance(const struct exact_class *exact, const void *solved,
+                      const struct vector_value *place)
+{
+    const struct vector_value none = {0}, *center = exact->center ? exact->center(solved) : &none;
+    double sum = 0.0;
+    for (int k = 0; k < place->count; k++)
+        sum += square(place->at[k] - (k < center->count ? center->at[k] : 0.0));
+    return sqrt(sum);
 }

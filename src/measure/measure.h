@@ -37,6 +37,9 @@ struct measure_class {
     bool of_bodies; /* of whole bodies: `between` has no meaning */
     /* What the measure wants to keep from time zero; may be NULL. */
     struct error *(*start)(const struct measurement *measurement, double *value);
+    /* What the exact solution says that the value is, for a check that has `within` and no `is`;
+     * NAN where it says nothing. May be NULL. */
+    double (*expected)(const struct measurement *measurement);
 };
 
 struct measure_field {
@@ -63,6 +66,12 @@ struct measure_recorded {
     struct quantity noise; /* NAN: a hundredth of the range */
 };
 enum front_end { FRONT_FROM_LOW, FRONT_FROM_HIGH };
+
+struct measure_blast {
+    char *probe;
+    int take;               /* enum blast_take of blast.c */
+    double ambient, before; /* Pa, NAN: the first recorded; s, NAN: the whole run */
+};
 
 struct measure_conserved {
     int total; /* enum conserved_total */
@@ -150,7 +159,7 @@ struct measure_shear_layer {
 double conserved_change(const struct simulation *simulation, const struct totals *start,
                         enum conserved_total total);
 
-enum { MEASURES = 28 };
+enum { MEASURES = 29 };
 extern const struct choice measure_choices[MEASURES];
 
 extern const struct parameter measure_field_table[];
@@ -160,14 +169,14 @@ extern const struct parameter measure_total_table[], measure_extent_table[], mea
     measure_pieces_table[], measure_asymmetry_table[], measure_radius_table[],
     measure_shear_layer_table[], measure_recorded_table[], measure_fragments_table[],
     measure_largest_fragment_table[], measure_length_table[], measure_hole_table[],
-    measure_crater_table[], measure_bulge_table[];
+    measure_crater_table[], measure_bulge_table[], measure_blast_table[];
 extern const struct measure_class measure_total, measure_decay, measure_spread, measure_extent,
     measure_turn, measure_pieces, measure_asymmetry, measure_radius, measure_shear_layer;
 extern const struct measure_class measure_fragments, measure_largest_fragment, measure_length,
     measure_hole, measure_crater, measure_bulge;
 extern const struct measure_class measure_mean, measure_minimum, measure_maximum, measure_l1,
     measure_rms, measure_max_error, measure_contact_max, measure_contact_rms, measure_front,
-    measure_width, measure_conserved, measure_finite, measure_recorded;
+    measure_width, measure_conserved, measure_finite, measure_recorded, measure_blast;
 
 /* One particle as a measure sees it. */
 struct sample {
@@ -231,6 +240,10 @@ enum exact_side measure_side(const struct measurement *measurement, const struct
 
 /* The member of STATE that a field of particles corresponds to; NAN when it has none. */
 double exact_field(const struct exact_state *state, const char *field);
+
+/* The distance of PLACE from the centre of an exact solution. */
+double exact_distance(const struct exact_class *exact, const void *solved,
+                      const struct vector_value *place);
 
 /* An ERROR_INPUT at the check in the case file. */
 struct error *measure_error(const struct measurement *measurement, const char *format, ...)

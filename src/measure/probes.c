@@ -57,6 +57,7 @@ void probes_free(struct probes *probes)
         free(probes->item[i].column);
         free(probes->item[i].fields);
         free(probes->item[i].value);
+        free(probes->item[i].solved);
         free(probes->item[i].text);
         free(probes->item[i].path);
     }
@@ -160,6 +161,13 @@ struct probe *probes_find(const struct probes *probes, const char *name)
         if (!strcmp(probes->item[i].name, name))
             return &probes->item[i];
     return NULL;
+}
+
+const struct vector_value *probe_place(const struct probe *probe)
+{
+    return class_of(probe) == &probe_gauge
+               ? &((const struct probe_gauge *)probe->input->probe.value)->at
+               : NULL;
 }
 
 /* The place of the row in the making, in memory that keeps all rows or just this one. */

@@ -28,7 +28,8 @@ struct probe {
     uint64_t id;       /* tracer: of its particle, known from the first row on */
     uint64_t order;    /* tracer: of the store, for which `index` holds */
     int32_t index;
-    bool kept; /* a check reads the rows */
+    void *solved; /* gauge: the exact solution that is recorded beside it; NULL: none */
+    bool kept;    /* a check reads the rows */
     double *value;
     int64_t room;
     bool writes; /* the rows that are not in the file yet: */
@@ -106,6 +107,13 @@ struct error *probes_check_loaded(const struct probes *probes, int64_t steps);
 
 /* The probe called NAME, NULL when there is none. */
 struct probe *probes_find(const struct probes *probes, const char *name);
+/* Where a gauge stands; NULL for other probes. */
+const struct vector_value *probe_place(const struct probe *probe);
+
+/* For measures: the probe NAME and the column WANTED of it; without an error the column is past the
+ * last where the probe has a mistake of its own, which is reported. */
+struct error *measure_find_record(const struct measurement *measurement, const char *name,
+                                  const char *wanted, struct probe **probe, int *column);
 
 /* The square of the distance between two places. */
 static inline double distance_square(const struct vector_value *place, const double at[3])

@@ -70,35 +70,39 @@ const struct parameter measure_recorded_table[] = {
     PARAMETER_END,
 };
 
-static struct error *find(const struct measurement *measurement, struct probe **probe, int *column)
+struct error *measure_find_record(const struct measurement *measurement, const char *name,
+                                  const char *wanted, struct probe **probe, int *column)
 {
-    const struct measure_recorded *recorded = measurement->check->measure.value;
     const struct named_map *probes = &measurement->simulation->problem->input->probes;
     const char *names[PROBE_COLUMNS];
-    *probe = measurement->probes ? probes_find(measurement->probes, recorded->probe) : NULL;
-    const char *near =
-        nearest_name(recorded->probe, (const char *const *)probes->names, probes->count);
+    *probe = measurement->probes ? probes_find(measurement->probes, name) : NULL;
+    const char *near = nearest_name(name, (const char *const *)probes->names, probes->count);
     if (!*probe)
-        return measure_error(measurement, "there is no probe \"%s\"%s%s%s", recorded->probe,
+        return measure_error(measurement, "there is no probe \"%s\"%s%s%s", name,
                              near ? " (did you mean \"" : "", near ? near : "", near ? "\"?)" : "");
     for (*column = 0; *column < (*probe)->columns; ++*column) {
         names[*column] = (*probe)->column[*column].name;
-        if (!strcmp(names[*column], recorded->column))
+        if (!strcmp(names[*column], wanted))
             return NULL;
     }
     /* A probe with a mistake of its own, which is told, has no columns behind the time. */
     if ((*probe)->columns < 2)
         return NULL;
-    near = nearest_name(recorded->column, names, (*probe)->columns);
+    near = nearest_name(wanted, names, (*probe)->columns);
     char known[1024] = "";
     for (int i = 0; i < (*probe)->columns && !near; i++) {
         size_t used = strlen(known);
         snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", names[i]);
     }
-    return measure_error(measurement, "the probe \"%s\" has no column \"%s\" (%s%s%s)",
-                         recorded->probe, recorded->column,
-                         near ? "did you mean \"" : "known: ", near ? near : known,
+    return measure_error(measurement, "the probe \"%s\" has no column \"%s\" (%s%s%s)", name,
+                         wanted, near ? "did you mean \"" : "known: ", near ? near : known,
                          near ? "\"?" : "");
+}
+
+static struct error *find(const struct measurement *measurement, struct probe **probe, int *column)
+{
+    const struct measure_recorded *recorded = measurement->check->measure.value;
+    return measure_find_record(measurement, recorded->probe, recorded->column, probe, column);
 }
 
 static struct error *check_keys(const struct measurement *measurement, const char *unit)
