@@ -103,8 +103,8 @@ static const struct answer answers[] = {
      "two mirror walls repeat a cell that is symmetric.",
      "case.md"},
     {" absorbing transmitting non.reflecting nonreflecting infinite ",
-     "With SPH: a few particles of the same material with `frozen: yes` at the end of a body\n"
-     "let waves leave. With MPM: `outflows`.",
+     "With SPH and MPM: a body of the same material with `frozen: yes`, a few particles thick,\n"
+     "lets waves leave. With MPM also `outflows`. With gas every face without a wall transmits.",
      "case.md"},
     {" unit.of.stress units.of.stress stress.unit unit.of.pressure units.of.pressure "
      "pressure.unit ",
@@ -126,10 +126,11 @@ static const struct answer answers[] = {
      "  checks: {impulse: {blast: {probe: near, take: impulse}}}\n"
      "`take` is overpressure, arrival, duration or impulse.",
      "blast.md"},
-    {" air.blast airblast blast.wave afterburn fireball ",
-     "`solver: gas` computes the blast of detonation products in air (two materials); checks\n"
-     "compare gauges with `exact: kingery-bulmash`. Without gas, `loads` are a pressure over\n"
-     "time on a surface (MPM). Explosive in contact: bolide help burn.",
+    {" blast air.blast airblast blast.wave afterburn fireball ",
+     "Start from the products of the charge: a body of `jwl` products in a body of `ideal-gas`\n"
+     "air, with `solver: gas`, as in examples/gas/tnt-in-air. The detonation and the afterburn\n"
+     "are not computed. Checks compare gauges with `exact: kingery-bulmash`. A pressure over\n"
+     "time on a surface: `loads`, with MPM. Explosive in contact with metal: bolide help burn.",
      "blast.md"},
     {" shock.tube sod gas.dynamics cfd euler wind.tunnel air grid cells fdm ",
      "`solver: gas` computes a gas in cells, with walls, inflow, outflow, periodic faces and "

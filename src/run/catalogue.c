@@ -19,7 +19,7 @@ static const struct choice solver_choices[] = {
      sizeof(struct sph_parameters), &sph_class},
     {"mpm", "the material point method: particles on a background grid that is reset each step",
      mpm_table, sizeof(struct mpm_parameters), &mpm_class},
-    {"gas", "a gas on a fixed grid: one fluid, no particles", gas_table,
+    {"gas", "a gas, or two gases, on a fixed grid, without particles", gas_table,
      sizeof(struct gas_parameters), &gas_class},
 };
 
