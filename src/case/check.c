@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "case/checking.h"
+#include "exact/exact.h"
 #include "material/material.h"
 #include "shape/lattice.h"
 
@@ -426,6 +427,25 @@ static void check_geometry(struct checking *checking)
                    (int)checking->input->dimension);
 }
 
+/* Gives the exact solution EXACT, at KEY with its dot, the material that it names. */
+static void take_material(struct checking *checking, const char *key, struct one_of *exact)
+{
+    const struct exact_class *class = exact->choice ? exact->choice->thing : NULL;
+    if (!class || !class->material_name || !exact->value || !class->material_name(exact->value))
+        return;
+    char path[PATH_TEXT];
+    snprintf(path, sizeof path, "%s%s.material", key, exact->choice->name);
+    const int index = case_find_name(checking, &checking->input->materials, "material",
+                                     class->material_name(exact->value), path);
+    if (index >= 0)
+        class->take_material(exact->value, case_material(checking->input, index)->material);
+}
+
+static void take_check_material(struct checking *checking, int index)
+{
+    take_material(checking, "against.", &case_check(checking->input, index)->against);
+}
+
 struct error *case_check_meaning(struct simulation_case *input)
 {
     struct checking checking = {.input = input};
@@ -455,6 +475,10 @@ struct error *case_check_meaning(struct simulation_case *input)
     case_check_interval(&checking, "history", input->output.history);
     check_map(&checking, "probes", &input->probes, check_probe);
     check_map(&checking, "profiles", &input->profiles, check_profile);
+    checking.map = "exact";
+    checking.name = NULL;
+    take_material(&checking, "", &input->exact);
+    check_map(&checking, "checks", &input->checks, take_check_material);
     check_map(&checking, "checks", &input->checks, case_check_check);
     check_map(&checking, "fits", &input->fits, case_check_fit);
     check_map(&checking, "expected_warnings", &input->expected, check_expected);

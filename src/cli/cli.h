@@ -65,6 +65,10 @@ int command_help(const struct cli_options *options);
 struct material;
 bool print_curves(const struct material *material);
 
+/* detonations.c: after BEFORE, the detonation that follows from the constants of MATERIAL, its
+ * states after BETWEEN; false where it is no explosive. */
+bool print_detonation(const char *before, const char *between, const struct material *material);
+
 /* convergence.c */
 
 /* Makes the convergence studies of the COUNT cases at PATHS, or with OF_ALL of those among them

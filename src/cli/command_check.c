@@ -95,6 +95,15 @@ static void print_mixture(const struct simulation_case *input, const struct esti
     printf("\n");
 }
 
+static void print_explosives(const struct simulation_case *input)
+{
+    for (int i = 0; i < input->materials.count; i++) {
+        char before[128];
+        snprintf(before, sizeof before, "  %s: ", input->materials.names[i]);
+        print_detonation(before, "; ", case_material(input, i)->material);
+    }
+}
+
 static void print_run(const struct simulation_case *input, const struct estimate *estimate,
                       int threads)
 {
@@ -158,6 +167,7 @@ static struct error *check_run(const char *path, const struct cli_options *optio
         for (int i = 0; i < estimate.bodies; i++)
             print_start(input->bodies.names[i], &estimate.body[i].summary);
         print_mixture(input, &estimate);
+        print_explosives(input);
         print_run(input, &estimate, threads);
         print_warnings(input, &estimate);
         estimate_free(&estimate);

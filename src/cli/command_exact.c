@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "case/library.h"
 #include "cli/cli.h"
 #include "exact/exact.h"
 
@@ -50,19 +51,22 @@ static bool profile_range(const struct exact_class *class, const struct exact_nu
 static void print_profile(const struct exact_class *class, const void *solved, double time,
                           double low, double high, int64_t points)
 {
-    printf(class->thermal ? "x [m],temperature [K]\n"
-           : class->known == EXACT_PRESSURE
-               ? "x [m],pressure [Pa]\n"
-               : "x [m],density [kg/m^3],velocity [m/s],pressure [Pa],energy [J/kg],"
-                 "stress.xx [Pa],deviator.xx [Pa]\n");
+    static const char plain[] = "x [m],density [kg/m^3],velocity [m/s],pressure [Pa],energy [J/kg],"
+                                "stress.xx [Pa],deviator.xx [Pa]";
+    const bool alone = class->thermal || class->known == EXACT_PRESSURE;
+    if (alone)
+        printf(class->thermal ? "x [m],temperature [K]\n" : "x [m],pressure [Pa]\n");
+    else
+        printf("%s%s\n", plain, class->burns ? ",temperature [K],burnt" : "");
     for (int64_t i = 0; i < points; i++) {
         double x = low + (high - low) * ((double)i + 0.5) / (double)points;
         enum exact_side side = exact_side_at(class, solved, x, time);
         struct exact_state s = class->sample(solved, side, x, time);
-        const double state[] = {s.density, s.velocity, s.pressure, s.energy, s.stress, s.deviator};
+        const double state[] = {s.density, s.velocity, s.pressure,    s.energy,
+                                s.stress,  s.deviator, s.temperature, s.burnt};
+        const int columns = alone ? 1 : class->burns ? 8 : 6;
         printf("%.9g", x);
-        const bool alone = class->thermal || class->known == EXACT_PRESSURE;
-        for (size_t k = 0; k < (alone ? 1 : COUNT_OF(state)); k++) {
+        for (int k = 0; k < columns; k++) {
             const double value = class->thermal ? s.temperature : alone ? s.pressure : state[k];
             if (isnan(value)) /* without a sign, as in every table */
                 printf(",nan");
@@ -137,6 +141,33 @@ static struct error *wants_values(const struct choice *choice)
     return error;
 }
 
+/* Gives VALUES the material of the library that they name, if they are of a kind that does. */
+static struct error *take_material(const struct exact_class *class, void *values)
+{
+    if (!class->material_name)
+        return NULL;
+    const char *const name = class->material_name(values);
+    char *folder = share_folder("materials");
+    const char *const folders[] = {folder};
+    char *path = folder ? library_file(folders, 1, name) : NULL;
+    struct material_input input;
+    struct error *error = NULL;
+    if (path) {
+        error = library_read(path, &bolide_catalogue, &input);
+        if (!error) {
+            class->take_material(values, input.material);
+            library_release(&input);
+        }
+    } else {
+        char *text = library_unknown(folders, folder != NULL, name);
+        error = error_new(ERROR_INPUT, "material: %s", text ? text : "out of memory");
+        free(text);
+    }
+    free(path);
+    free(folder);
+    return error;
+}
+
 static struct error *solve_choice(const struct choice *choice, const struct cli_options *options)
 {
     double time;
@@ -150,7 +181,9 @@ static struct error *solve_choice(const struct choice *choice, const struct cli_
     if (!error) {
         error = document_read(document, choice->table, &bolide_catalogue, values);
         if (!error) {
-            error = print_solution(choice, values, time, options->points);
+            error = take_material(choice->thing, values);
+            if (!error)
+                error = print_solution(choice, values, time, options->points);
             parameters_release(choice->table, values);
         } else if (!options->settings.count) {
             error_free(error);

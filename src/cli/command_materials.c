@@ -9,6 +9,7 @@
 #include "case/library.h"
 #include "cli/cli.h"
 #include "material/material.h"
+#include "run/estimate.h"
 
 static const char row_format[] = "%-26s %-21s %-15s %-16s %9s %8s %8s  %s\n";
 
@@ -91,11 +92,30 @@ static struct error *print_curves_of(const char *path, const char *name)
     return printed ? NULL : error_new(ERROR_INPUT, "%s: sound does not travel at rest", name);
 }
 
+/* What follows from the constants of an explosive, as a comment of YAML. */
+static struct error *print_explosive(const char *path)
+{
+    struct material_input input;
+    TRY(library_read(path, &bolide_catalogue, &input));
+    char *wrong = detonation_wrong(input.material);
+    if (print_detonation("# computed from these values:\n#   ", "\n#   ", input.material) && wrong)
+        printf("# warning: %s\n", wrong);
+    free(wrong);
+    library_release(&input);
+    return NULL;
+}
+
+static struct error *print_file_of(const char *path)
+{
+    TRY(print_file(path));
+    return print_explosive(path);
+}
+
 static struct error *print_material(const char *folder, const char *name, bool curves)
 {
     char *path = library_file(&folder, 1, name);
     if (path) {
-        struct error *error = curves ? print_curves_of(path, name) : print_file(path);
+        struct error *error = curves ? print_curves_of(path, name) : print_file_of(path);
         free(path);
         return error;
     }

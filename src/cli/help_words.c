@@ -142,6 +142,12 @@ static const struct answer answers[] = {
      "An explosive is a material with `burn` (bolide help burn; library: tnt), lit by\n"
      "`detonations`.",
      "materials.md"},
+    {" znd reaction.zone von.neumann spike chapman.jouguet cj ignition.and.growth lee.tarver "
+     "run.to.detonation ",
+     "`bolide materials NAME` prints the detonation of an explosive, and `bolide exact znd --set\n"
+     "material=NAME` its reaction zone. `burn: ignition-growth` with `eos: reactive-jwl` resolves\n"
+     "that zone in a run.",
+     "detonation.md"},
     {" stl cad mesh geometry.file image step.file ",
      "Not available: bodies are made of shapes (bolide help shape), or of a `template`, a map\n"
      "of letters. There is no mesh to make: particles are placed at the distance `resolution`.",

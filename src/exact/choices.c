@@ -13,6 +13,7 @@
 #include "exact/slab_detonation.h"
 #include "exact/temperature_jump.h"
 #include "exact/verney.h"
+#include "exact/znd.h"
 
 #define EXACT_CHOICE(identifier, name, help)                                    \
     {name, help, exact_##identifier##_table, sizeof(struct exact_##identifier), \

@@ -7,28 +7,29 @@
 
 /* X(identifier, name, help): struct exact_<identifier>, exact_<identifier>_table,
  * exact_<identifier>_class of exact/<identifier>.h. */
-#define EXACT_LIST(X)                                                                           \
-    X(gas_riemann, "gas-riemann",                                                               \
-      "two ideal gases that meet at a plane: shocks and expansion fans")                        \
-    X(elastic_plastic_riemann, "elastic-plastic-riemann",                                       \
-      "two perfectly plastic solids that meet at a plane: elastic and plastic waves")           \
-    X(elastic_plastic_impact, "elastic-plastic-impact",                                         \
-      "two perfectly plastic plates that collide: waves interact and reflect at free surfaces") \
-    X(impedance_match, "impedance-match",                                                       \
-      "planar impact of two materials with linear shock relations")                             \
-    X(sedov, "sedov", "a strong blast in a gas from a point, a line or a plane")                \
-    X(point_explosion, "point-explosion",                                                       \
-      "a blast in an ideal gas from a point, a line or a plane as it weakens: its front")       \
-    X(kingery_bulmash, "kingery-bulmash",                                                       \
-      "the blast of TNT in air, free or on the ground: curves through measurements")            \
-    X(gas_expansion, "gas-expansion",                                                           \
-      "homogeneous expansion of a slab, cylinder or ball of gas into a vacuum")                 \
-    X(slab_detonation, "slab-detonation",                                                       \
-      "a slab of explosive ignited at a rigid wall: the front and the rarefaction after it")    \
-    X(verney, "verney", "a thick plastic cylinder that collapses until it stops")               \
-    X(long_rod, "long-rod", "a long rod that erodes in a thick target, Alekseevskii-Tate")      \
-    X(temperature_jump, "temperature-jump",                                                     \
-      "heat conduction between two bodies of different temperature, in an infinite or an "      \
+#define EXACT_LIST(X)                                                                             \
+    X(gas_riemann, "gas-riemann",                                                                 \
+      "two ideal gases that meet at a plane: shocks and expansion fans")                          \
+    X(elastic_plastic_riemann, "elastic-plastic-riemann",                                         \
+      "two perfectly plastic solids that meet at a plane: elastic and plastic waves")             \
+    X(elastic_plastic_impact, "elastic-plastic-impact",                                           \
+      "two perfectly plastic plates that collide: waves interact and reflect at free surfaces")   \
+    X(impedance_match, "impedance-match",                                                         \
+      "planar impact of two materials with linear shock relations")                               \
+    X(sedov, "sedov", "a strong blast in a gas from a point, a line or a plane")                  \
+    X(point_explosion, "point-explosion",                                                         \
+      "a blast in an ideal gas from a point, a line or a plane as it weakens: its front")         \
+    X(kingery_bulmash, "kingery-bulmash",                                                         \
+      "the blast of TNT in air, free or on the ground: curves through measurements")              \
+    X(gas_expansion, "gas-expansion",                                                             \
+      "homogeneous expansion of a slab, cylinder or ball of gas into a vacuum")                   \
+    X(slab_detonation, "slab-detonation",                                                         \
+      "a slab of explosive ignited at a rigid wall: the front and the rarefaction after it")      \
+    X(znd, "znd", "a steady detonation with its reaction zone (Zeldovich, von Neumann, Doering)") \
+    X(verney, "verney", "a thick plastic cylinder that collapses until it stops")                 \
+    X(long_rod, "long-rod", "a long rod that erodes in a thick target, Alekseevskii-Tate")        \
+    X(temperature_jump, "temperature-jump",                                                       \
+      "heat conduction between two bodies of different temperature, in an infinite or an "        \
       "insulated rod")
 
 #define EXACT_COUNT_ONE(identifier, name, help) +1

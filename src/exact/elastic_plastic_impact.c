@@ -404,8 +404,8 @@ static struct exact_state mix(const struct front *a, const struct front *b, doub
 {
     const double wa = 0.5 * (1.0 - share), wb = 0.5 * share;
 #define MIX(of) (wa * (a->left.of + a->right.of) + wb * (b->left.of + b->right.of))
-    return (struct exact_state){
-        MIX(density), MIX(velocity), MIX(pressure), MIX(energy), MIX(stress), MIX(deviator), NAN};
+    return (struct exact_state){MIX(density), MIX(velocity), MIX(pressure), MIX(energy),
+                                MIX(stress),  MIX(deviator), NAN,           0.0};
 #undef MIX
 }
 
@@ -419,7 +419,7 @@ static struct exact_state impact_sample(const void *solved, enum exact_side side
                                         double time)
 {
     const struct impact *impact = solved;
-    const struct exact_state unknown = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    const struct exact_state unknown = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     if (time > impact->until * (1.0 + 1e-9))
         return unknown;
     const struct between at = find_between(impact, x, time);

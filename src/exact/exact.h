@@ -11,7 +11,7 @@
 /* The state of a one-dimensional solution at a place and time. SI units. Stress is positive in
  * tension along x; deviator is its S_xx part. */
 struct exact_state {
-    double density, velocity, pressure, energy, stress, deviator, temperature;
+    double density, velocity, pressure, energy, stress, deviator, temperature, burnt;
 };
 
 /* Which material a point belongs to: an exact solution keeps its contact between SIDE_LEFT and
@@ -29,10 +29,16 @@ enum { EXACT_NUMBERS = 40 };
 enum exact_known { EXACT_ALL, EXACT_PRESSURE, EXACT_NO_FIELD };
 
 struct vector_value;
+struct material;
 
 struct exact_class {
     size_t size;  /* of the solved problem */
     bool thermal; /* its states are of a body at rest: temperature alone; others have none */
+    bool burns;   /* its states have the fraction burnt, and a temperature */
+    /* Where PARAMETERS name a material: its name, NULL where it is missing, and what takes its
+     * models before `solve`. NULL: they name none. */
+    const char *(*material_name)(const void *parameters);
+    void (*take_material)(void *parameters, const struct material *material);
     /* Solves the problem of PARAMETERS (the choice's struct). ERROR_INPUT when it has no solution
      * of the kind (vacuum, say). */
     struct error *(*solve)(const void *parameters, void *solved);
@@ -44,7 +50,8 @@ struct exact_class {
     /* Fills at most EXACT_NUMBERS named numbers; returns how many. TIME > 0 adds the places of
      * fronts. */
     int (*numbers)(const void *solved, double time, struct exact_number *numbers);
-    /* Place of the contact at TIME; NULL: there is none, but a centre. */
+    /* Place of the contact, or of the front of a wave, at TIME; NULL: there is none, but a
+     * centre. */
     double (*contact)(const void *solved, double time);
     /* Blasts. Which fields the samples have: all unless it says less. */
     enum exact_known known;

@@ -88,7 +88,7 @@ static struct exact_state kingery_sample(const void *solved, enum exact_side sid
     (void)side;
     const struct exact_kingery_bulmash *k = solved;
     const struct blast_wave wave = kingery_blast(k, fabs(x));
-    return (struct exact_state){NAN, NAN, k->ambient + blast_wave_at(&wave, time), NAN, NAN,
+    return (struct exact_state){NAN, NAN, k->ambient + blast_wave_at(&wave, time), NAN, NAN, NAN,
                                 NAN, NAN};
 }
 

@@ -160,7 +160,7 @@ static struct exact_state explosion_sample(const void *solved, enum exact_side s
     (void)side;
     const struct explosion *e = solved;
     if (fabs(x) <= explosion_front(e, time))
-        return (struct exact_state){NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+        return (struct exact_state){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     return (struct exact_state){.density = e->density,
                                 .pressure = e->pressure,
                                 .energy = e->pressure / ((gamma_air - 1.0) * e->density),

@@ -228,20 +228,35 @@ BOLIDE_INLINE void material_fail(const struct material *material, const struct m
 /* The most that an explosive burns between two states of its mixture. */
 #define REACTION_MOST 0.02
 
-/* Burns POINT, at its new density, for DT. */
-BOLIDE_INLINE void material_react(const struct material *material, double dt, struct point *point)
+/* The pressure of an explosive that burns by itself, and the rate at which it does, 1/s. */
+struct reaction {
+    struct eos_value value;
+    double rate;
+};
+
+/* That at DENSITY and ENERGY; HISTORY gets the volume of the unburnt part. */
+BOLIDE_INLINE struct reaction material_reaction(const struct material *material, double density,
+                                                double energy, double *history)
 {
     const struct burn_ignition_growth *burn = &material->burn.of.ignition_growth;
     const struct eos_reactive_jwl *jwl = &material->eos.of.reactive_jwl;
+    const double burnt = history[HISTORY_burnt];
+    double *const explosive = &history[HISTORY_explosive_volume];
+    struct reaction reaction;
+    reaction.value = reactive_jwl_state(jwl, density, energy, burnt, explosive);
+    const double volume =
+        burn->compression == IGNITION_MIXTURE ? jwl->density / density : *explosive;
+    reaction.rate = ignition_growth_rate(burn, burnt, reaction.value.pressure, 1.0 / volume - 1.0);
+    return reaction;
+}
+
+/* Burns POINT, at its new density, for DT. */
+BOLIDE_INLINE void material_react(const struct material *material, double dt, struct point *point)
+{
     double *const burnt = &point->history[HISTORY_burnt];
-    double *const explosive = &point->history[HISTORY_explosive_volume];
-    const double volume = jwl->density / point->density;
     for (double left = dt; left > 0.0 && *burnt < 1.0;) {
-        const struct eos_value value =
-            reactive_jwl_state(jwl, point->density, point->energy, *burnt, explosive);
-        const double pressed =
-            1.0 / (burn->compression == IGNITION_MIXTURE ? volume : *explosive) - 1.0;
-        const double rate = ignition_growth_rate(burn, *burnt, value.pressure, pressed);
+        const double rate =
+            material_reaction(material, point->density, point->energy, point->history).rate;
         const double time = rate * left > REACTION_MOST ? REACTION_MOST / rate : left;
         *burnt = minimum(*burnt + rate * time, 1.0);
         left = time < left ? left - time : 0.0;

@@ -264,6 +264,7 @@ double exact_field(const struct exact_state *state, const char *field)
         {"speed", fabs(state->velocity)}, {"pressure", state->pressure},
         {"energy", state->energy},        {"stress.xx", state->stress},
         {"deviator.xx", state->deviator}, {"temperature", state->temperature},
+        {"burnt", state->burnt},
     };
     for (size_t i = 0; i < COUNT_OF(fields); i++)
         if (!strcmp(fields[i].name, field))

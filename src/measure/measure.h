@@ -62,6 +62,8 @@ struct measure_recorded {
     char *probe, *column;
     int take;             /* enum take of recorded.c */
     double after, before; /* s; NAN: the whole run */
+    char *when;           /* another column; NULL: any time */
+    struct quantity reaches;
     bool absolute;
     struct quantity noise; /* NAN: a hundredth of the range */
 };

@@ -56,6 +56,17 @@ const struct parameter measure_recorded_table[] = {
      .unit = "s",
      .standard = PARAMETER_OPTIONAL,
      .help = "end of the time window"},
+    {.key = "when",
+     .kind = PARAMETER_TEXT,
+     .offset = offsetof(struct measure_recorded, when),
+     .standard = PARAMETER_OPTIONAL,
+     .help = "another column of the table: the value at the time at which that first rises to "
+             "`reaches`; with `take: last`"},
+    {.key = "reaches",
+     .kind = PARAMETER_QUANTITY,
+     .offset = offsetof(struct measure_recorded, reaches),
+     .standard = PARAMETER_OPTIONAL,
+     .help = "the value that the column `when` rises to"},
     {.key = "absolute",
      .kind = PARAMETER_FLAG,
      .offset = offsetof(struct measure_recorded, absolute),
@@ -99,10 +110,11 @@ struct error *measure_find_record(const struct measurement *measurement, const c
                          near ? "\"?" : "");
 }
 
-static struct error *find(const struct measurement *measurement, struct probe **probe, int *column)
+static struct error *find(const struct measurement *measurement, const char *wanted,
+                          struct probe **probe, int *column)
 {
     const struct measure_recorded *recorded = measurement->check->measure.value;
-    return measure_find_record(measurement, recorded->probe, recorded->column, probe, column);
+    return measure_find_record(measurement, recorded->probe, wanted, probe, column);
 }
 
 static struct error *check_keys(const struct measurement *measurement, const char *unit)
@@ -126,17 +138,41 @@ static struct error *check_keys(const struct measurement *measurement, const cha
     return NULL;
 }
 
+/* What is wrong with `when` and `reaches`. */
+static struct error *check_when(const struct measurement *measurement)
+{
+    const struct measure_recorded *recorded = measurement->check->measure.value;
+    struct probe *probe;
+    struct unit parsed;
+    int column;
+    if (!recorded->when != isnan(recorded->reaches.value))
+        return measure_error(measurement, "`when` and `reaches` need each other");
+    if (!recorded->when)
+        return NULL;
+    if (recorded->take != TAKE_LAST)
+        return measure_error(measurement, "`when` has no meaning for `take: %s`",
+                             take_names[recorded->take]);
+    TRY(find(measurement, recorded->when, &probe, &column));
+    const char *const unit = probe->column[column].unit;
+    TRY(unit_parse(unit, &parsed));
+    if (!dimension_equal(parsed.dimension, recorded->reaches.dimension))
+        return measure_error(measurement, "`reaches` must be in %s, as %s is",
+                             *unit ? unit : "plain numbers", recorded->when);
+    return NULL;
+}
+
 static struct error *unit(const struct measurement *measurement, const char **unit)
 {
     const struct measure_recorded *recorded = measurement->check->measure.value;
     struct probe *probe;
     int column;
     *unit = NULL;
-    TRY(find(measurement, &probe, &column));
+    TRY(find(measurement, recorded->column, &probe, &column));
     if (column == probe->columns)
         return NULL;
     *unit = "";
     probe->kept = true;
+    TRY(check_when(measurement));
     switch ((enum take)recorded->take) {
     case TAKE_LAST:
     case TAKE_MINIMUM:
@@ -268,6 +304,28 @@ static struct peaks find_peaks(const struct curve *curve, double noise)
     return peaks;
 }
 
+/* The time in the window of RECORDED at which COLUMN of PROBE first rises to what it reaches; NAN
+ * where it does not. */
+static double time_when(const struct probe *probe, int column,
+                        const struct measure_recorded *recorded)
+{
+    double earlier = NAN, before = NAN;
+    for (int64_t row = next_number(probe, column, 0); row < probe->rows;
+         row = next_number(probe, column, row + 1)) {
+        const double time = probe->value[row * probe->columns];
+        const double value = probe->value[row * probe->columns + column];
+        const double wanted = recorded->reaches.value;
+        if (before < wanted && value >= wanted) {
+            const double at = earlier + (time - earlier) * (wanted - before) / (value - before);
+            if (!(at < recorded->after) && !(at > recorded->before))
+                return at;
+        }
+        earlier = time;
+        before = value;
+    }
+    return NAN;
+}
+
 static double take(const struct curve *curve, const struct measure_recorded *recorded)
 {
     int64_t lowest = extreme(curve, -1.0), highest = extreme(curve, 1.0);
@@ -303,16 +361,25 @@ static double take(const struct curve *curve, const struct measure_recorded *rec
 
 static struct error *measure(const struct measurement *measurement, double *value)
 {
+    struct measure_recorded recorded =
+        *(const struct measure_recorded *)measurement->check->measure.value;
     struct probe *probe;
     int column;
-    TRY(find(measurement, &probe, &column));
+    if (recorded.when) {
+        TRY(find(measurement, recorded.when, &probe, &column));
+        recorded.after = recorded.before = time_when(probe, column, &recorded);
+        *value = NAN;
+        if (isnan(recorded.after))
+            return NULL;
+    }
+    TRY(find(measurement, recorded.column, &probe, &column));
     assert(probe);
     size_t room = ((size_t)probe->rows + 2) * sizeof(double);
     struct curve curve = {0, memory_allocate(room), memory_allocate(room)};
     bool made = curve.time && curve.value;
     if (made) {
-        curve_fill(&curve, probe, column, measurement->check->measure.value);
-        *value = curve.count ? take(&curve, measurement->check->measure.value) : NAN;
+        curve_fill(&curve, probe, column, &recorded);
+        *value = curve.count ? take(&curve, &recorded) : NAN;
     }
     free(curve.time);
     free(curve.value);

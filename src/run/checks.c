@@ -112,14 +112,16 @@ static struct error *check_field(const struct measurement *m, const struct one_o
     if (isnan(exact_field(&some, parameters->field)))
         return measure_error(m,
                              "exact solutions have density, velocity.x, speed, pressure, energy, "
-                             "stress.xx, deviator.xx and temperature, not \"%s\"",
+                             "stress.xx, deviator.xx, temperature and burnt, not \"%s\"",
                              parameters->field);
     if (exact->known == EXACT_NO_FIELD)
         return measure_error(m, "%s has no fields: it has the front and the peak there",
                              against->choice->name);
     if (exact->known == EXACT_PRESSURE && strcmp(parameters->field, "pressure") != 0)
         return measure_error(m, "%s has pressure only", against->choice->name);
-    if (exact->thermal != !strcmp(parameters->field, "temperature"))
+    if (!exact->burns && !strcmp(parameters->field, "burnt"))
+        return measure_error(m, "%s has no `burnt`", against->choice->name);
+    if (!exact->burns && exact->thermal != !strcmp(parameters->field, "temperature"))
         return measure_error(m, "%s %s", against->choice->name,
                              exact->thermal ? "has temperature only" : "has no temperature");
     if (class_of(m->check)->needs_contact && !exact->star)

@@ -94,12 +94,29 @@ static void what_has_no_energy_to_give_does_not_detonate(void **state)
     assert_refused(&exact_slab_detonation_class, &inert);
 }
 
+/* Printed by ExactPack (2025) for Mader's problem: the Taylor wave of a gas of gamma 3. */
+static void a_gas_has_the_wave_of_mader(void **state)
+{
+    (void)state;
+    const struct exact_slab_detonation gas = {
+        {1875.0, 0.0, 0.0, 4.0, 1.0, 2.0, 7.5e9, EOS_EXTENDED}};
+    struct solution slab = solve(&exact_slab_detonation_class, &gas, 6.25e-6);
+    assert_near(number(&slab, "detonation speed"), 8000.0, 8000.0, 1e-9);
+    assert_near(number(&slab, "front pressure"), 30e9, 30e9, 1e-9);
+    const struct exact_state s = slab.class->sample(slab.solved, SIDE_LEFT, 0.05 - 0.007, 6.25e-6);
+    assert_printed("velocity", s.velocity, 1e3, "1.44000");
+    assert_near(s.pressure, 22.3599e9, 22.3599e9, 2e-5); /* 30 GPa (c/c_CJ)^3 is 22.3596 GPa */
+    assert_printed("density", s.density, 1e3, "2.2666667");
+    release(&slab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_front_is_that_of_chapman_and_jouguet),
         cmocka_unit_test(the_wave_behind_it_has_its_printed_values),
         cmocka_unit_test(it_holds_the_mass_the_impulse_of_the_wall_and_no_new_energy),
+        cmocka_unit_test(a_gas_has_the_wave_of_mader),
         cmocka_unit_test(what_has_no_energy_to_give_does_not_detonate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

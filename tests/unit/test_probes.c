@@ -462,7 +462,8 @@ static void a_recorded_column_gives_its_numbers(void **state)
     struct bench *b = make_bench(2);
     const double rows[][2] = {{0, NAN}, {1, 2}, {2, 4}, {4, -8}, {5, -7}};
     const struct dimension line = {-1, 1, 0, 0}, rate = {-1, 1, -1, 0}, second = {0, 0, 1, 0};
-    struct measure_recorded r = {.after = NAN, .before = NAN, .noise = {.value = NAN}};
+    struct measure_recorded r = {
+        .after = NAN, .before = NAN, .noise = {.value = NAN}, .reaches = {.value = NAN}};
     r.take = take("last");
     assert_float_equal(recorded(b, rows, 5, r, line), -7.0, 0.0);
     r.before = 3.0; /* between two rows */
@@ -490,6 +491,13 @@ static void a_recorded_column_gives_its_numbers(void **state)
     r.take = take("minimum");
     r.after = 9.0;
     assert_true(isnan(recorded(b, rows, 5, r, line)));
+    r.after = NAN;
+    r.take = take("last");
+    r.when = (char[]){"mass"}; /* from -8 at 4 to -7 at 5; never to 5 */
+    r.reaches = (struct quantity){-7.25, line};
+    assert_float_equal(recorded(b, rows, 5, r, line), -7.25, 1e-14);
+    r.reaches.value = 5.0;
+    assert_true(isnan(recorded(b, rows, 5, r, line)));
     drop_bench(b);
 }
 
@@ -504,7 +512,8 @@ static void peaks_count_when_they_rise_above_the_noise(void **state)
         rows[i][1] = sin(2.0 * 3.14159265358979 * rows[i][0]) + (i % 2 ? 0.004 : -0.004);
     }
     const struct dimension none = {0, 0, 0, 0}, line = {-1, 1, 0, 0}, second = {0, 0, 1, 0};
-    struct measure_recorded r = {.after = NAN, .before = NAN, .noise = {.value = NAN}};
+    struct measure_recorded r = {
+        .after = NAN, .before = NAN, .noise = {.value = NAN}, .reaches = {.value = NAN}};
     r.take = take("maxima");
     assert_float_equal(recorded(b, rows, ROWS, r, none), 4.0, 0.0);
     r.take = take("period");
@@ -522,7 +531,8 @@ static void a_check_of_a_probe_that_is_not_there_is_told(void **state)
     (void)state;
     struct bench *b = make_bench(2);
     struct probe_body body = {left};
-    struct measure_recorded r = {.after = NAN, .before = NAN, .noise = {.value = NAN}};
+    struct measure_recorded r = {
+        .after = NAN, .before = NAN, .noise = {.value = NAN}, .reaches = {.value = NAN}};
     struct checks *checks;
     ready(b, "body", &body);
     for (int i = 0; i < MEASURES; i++)

@@ -261,6 +261,21 @@ BOLIDE_INLINE struct eos_value reactive_jwl_state(const struct eos_reactive_jwl 
     return value;
 }
 
+/* The temperature of the state of DENSITY and PRESSURE that reactive_jwl_state() gives, K, from the
+ * phase of which there is more; EXPLOSIVE is the volume of the explosive that it gives. */
+BOLIDE_INLINE double reactive_jwl_temperature(const struct eos_reactive_jwl *jwl, double density,
+                                              double pressure, double burnt, double explosive)
+{
+    const bool few = burnt<0.5, pure = burnt> 1.0 - JWL_PURE;
+    const struct jwl_phase phase = few ? reactive_jwl_explosive(jwl) : reactive_jwl_products(jwl);
+    const double total = jwl->density / density;
+    const double volume = few    ? explosive
+                          : pure ? total
+                                 : (total - (1.0 - burnt) * explosive) / burnt;
+    const struct jwl_terms t = jwl_terms_of(&phase, volume);
+    return (pressure * volume / phase.omega - t.f - t.g) / phase.capacity;
+}
+
 BOLIDE_INLINE struct eos_value eos_reactive_jwl(const struct eos_reactive_jwl *jwl, double density,
                                                 double energy, const double *history)
 {
