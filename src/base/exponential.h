@@ -18,7 +18,7 @@ BOLIDE_INLINE double exponential(double x)
     x = maximum(minimum(x, 700.0), -700.0);
     double shifted = x * per_ln2 + rounding, k = shifted - rounding;
     double r = (x - k * ln2_high) - k * ln2_low;
-    /* In pairs, then pairs of pairs: a chain of products would be what a contact problem waits
+    /* In pairs, then pairs of pairs: a chain of products would be what a Riemann problem waits
      * for. */
     double r2 = r * r, r4 = r2 * r2;
     double t2 = 0.5 + r * (1.0 / 6.0), t4 = 1.0 / 24.0 + r * (1.0 / 120.0);

@@ -38,7 +38,7 @@ struct motion {
     double compaction;   /* rho/rho_0 lost to pores that closed in the step; the material sets it */
 };
 
-/* What the contact problem and the time step need of a point: longitudinal and shear sound speed
+/* What the Riemann problem and the time step need of a point: longitudinal and shear sound speed
  * (m/s), (dp/drho)_e, (dp/de)_rho, shear modulus and yield stress. */
 struct response {
     double dp_drho, dp_de, shear_modulus, yield, sound_long, sound_shear;

@@ -55,7 +55,7 @@ struct solver_class {
      * check`. */
     double (*step)(const void *parameters, int dimension, const struct material *material,
                    const struct point *point, double diameter);
-    /* The jump of velocity over the speed of sound up to which its contact problem holds; NULL
+    /* The jump of velocity over the speed of sound up to which its Riemann problem holds; NULL
      * where that has no bound. */
     double (*largest_jump)(const void *parameters);
     /* Why the total energy may drift, and what helps, as sentences; NULL, or NULL from it, where it

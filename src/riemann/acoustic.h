@@ -1,4 +1,4 @@
-/* The contact problem between two states in the acoustic approximation: waves carry jumps of
+/* The Riemann problem between two states in the acoustic approximation: waves carry jumps of
  * velocity and stress in the ratio of the impedance Z = rho c.
  *
  *   U* = (Z_l U_l + Z_r U_r + sigma_r - sigma_l) / (Z_l + Z_r)               (1.20), (1.32), (1.36)
@@ -11,7 +11,7 @@
 
 #include "riemann/side.h"
 
-/* What a contact problem is linear in:
+/* What a Riemann problem is linear in:
  *   U* = U_l + right (U_r - U_l) + compliance (sigma_r - sigma_l)
  *   sigma* = left sigma_r + right sigma_l + impedance (U_r - U_l) */
 struct contact_weights {

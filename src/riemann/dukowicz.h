@@ -1,4 +1,4 @@
-/* The contact problem of two shocks, each with a shock speed linear in the jump of velocity, U_s =
+/* The Riemann problem of two shocks, each with a shock speed linear in the jump of velocity, U_s =
  * c + A |u* - u|, solved without iteration. With u_0 = u -+ c/(2A) and P_0 = P - rho c^2/(4A) the
  * two curves are parabolas,
  *

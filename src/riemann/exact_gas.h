@@ -1,4 +1,4 @@
-/* The contact problem of two ideal gases, exactly: waves of gas_wave.h on both sides, p* by
+/* The Riemann problem of two ideal gases, exactly: waves of gas_wave.h on both sides, p* by
  * Newton's method. `shock_slope` of a side is its ratio of specific heats. Where the gases part
  * faster than both can expand, a vacuum opens: no stress, and each side moves at its own speed of
  * escape. */

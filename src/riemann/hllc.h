@@ -1,4 +1,4 @@
-/* The contact problem of two elastic, perfectly plastic solids in three steps, each side with an
+/* The Riemann problem of two elastic, perfectly plastic solids in three steps, each side with an
  * elastic and, where it yields, a plastic wave: elastic contact (7); deviator behind it (9), at
  * most at yield (10), (11), and the state at the elastic limit (12); contact of these by the waves
  * that follow (13)-(15). Along the axis from left to right, tension positive:

@@ -1,4 +1,4 @@
-/* The contact problem in the acoustic approximation, with the impedances of shocks where material
+/* The Riemann problem in the acoustic approximation, with the impedances of shocks where material
  * is compressed: the acoustic contact velocity tells by how much each side is, its wave then runs
  * at U_s = c + A |u* - u|, and the two waves meet once more with Z = rho U_s. Waves of expansion
  * keep Z = rho c. One step towards the two-shock solution (dukowicz.h) that never leaves the

@@ -1,4 +1,4 @@
-/* What a contact problem is posed between, and what it gives. */
+/* What a Riemann problem is posed between, and what it gives. */
 #ifndef BOLIDE_RIEMANN_SIDE_H
 #define BOLIDE_RIEMANN_SIDE_H
 

@@ -6,8 +6,8 @@
 #include "sph/standard/standard.h"
 
 const struct choice sph_scheme_choices[SPH_SCHEMES] = {
-    {"muscl", "second-order contact SPH: Riemann problems between limited slopes", muscl_table,
-     sizeof(struct muscl_options), &muscl_scheme},
+    {"muscl", "second-order contact SPH: Riemann problems between states with limited slopes",
+     muscl_table, sizeof(struct muscl_options), &muscl_scheme},
     {"contact", "first-order contact SPH: a Riemann problem between each pair of particles",
      contact_table, sizeof(struct contact_options), &contact_scheme},
     {"standard", "classical SPH with artificial viscosity", standard_table,

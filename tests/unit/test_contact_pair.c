@@ -1,4 +1,4 @@
-/* The contact of two particles against the contact problems that it is made of. */
+/* The contact of two particles against the Riemann problems that it is made of. */
 #include "dice.h"
 
 #include "riemann/contact_pair.h"

@@ -1,5 +1,5 @@
 /* The elastic-plastic HLLC contact against the tabulated states of the three tests of Wang et al.
- * (2024), and against what a contact problem must do. */
+ * (2024), and against what a Riemann problem must do. */
 #include "dice.h"
 
 #include "material/eos.h"

@@ -1,4 +1,4 @@
-/* The points of the second-order contact method: its contact problem against what waves must do and
+/* The points of the second-order contact method: its Riemann problem against what waves must do and
  * against a tabulated one, and the deformation of a step against rotations and strains that are
  * known. */
 #include "dice.h"

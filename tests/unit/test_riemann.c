@@ -1,4 +1,4 @@
-/* The acoustic contact problem against what waves must do, and against tabulated states. */
+/* The acoustic Riemann problem against what waves must do, and against tabulated states. */
 #include "dice.h"
 
 #include "riemann/dukowicz.h"

@@ -96,7 +96,7 @@ BOLIDE_INLINE struct between between_of(struct pair_kind kind, const double *own
     return b;
 }
 
-/* Contact problems that are not the usual ones, along the pairs of eight lanes, and how parts
+/* Riemann problems that are not the usual ones, along the pairs of eight lanes, and how parts
  * across them meet. */
 struct contacts {
     double u[LANES] ALIGNED, i[LANES] ALIGNED, j[LANES] ALIGNED;

@@ -1,4 +1,4 @@
-/* First-order contact SPH: every pair of particles solves a contact problem between their states.
+/* First-order contact SPH: every pair of particles solves a Riemann problem between their states.
  * Source: Parshikov (2013), sections 1.2 to 1.5. The classical scheme (../standard) is the same
  * with means in place of contacts, and uses the parts below. Private to SPH. */
 #ifndef BOLIDE_SPH_CONTACT_H

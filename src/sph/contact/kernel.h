@@ -1,4 +1,4 @@
-/* The pair loop: sums over neighbours of what the contact problems between particles give.
+/* The pair loop: sums over neighbours of what the Riemann problems between particles give.
  *
  * A neighbour is seen through its record alone, a few doubles packed once a stage:
  *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_shear]  [density shock_slope]

@@ -18,7 +18,7 @@ const struct parameter contact_table[] = {
      .standard = "faithful",
      .names = rotation_names,
      .help =
-         "velocities in the contact problem; faithful: those of the particles, which slows "
+         "velocities in the Riemann problem; faithful: those of the particles, which slows "
          "rotation as in the source; corrected: extrapolated to the contact point with their spin"},
     SPH_MOTION_ROW(struct contact_options),
     SPH_ENERGY_ROW(struct contact_options),

@@ -118,7 +118,7 @@ void contact_pack(struct sph *sph, const struct simulation *simulation,
         }
     }
     double *empty = sph_records_start(sph, simulation, &records);
-    /* The contact problem of the record that fills up lanes must have an answer. */
+    /* The Riemann problem of the record that fills up lanes must have an answer. */
     if (record_has_shock_slope(kind)) {
         const int dimension = kind.dimension,
                   shock_slope = record_shock_slope(dimension, kind.shear);

@@ -101,7 +101,7 @@ static struct error *find_slopes(struct sph *sph, const struct simulation *simul
     return NULL;
 }
 
-/* Spins correct what shear stress would brake, in the acoustic contact problem. */
+/* Spins correct what shear stress would brake, in the acoustic Riemann problem. */
 static struct error *choose_rotation(struct sph *sph, const struct simulation *simulation)
 {
     const struct contact_options *options = sph->parameters.method.value;

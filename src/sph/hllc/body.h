@@ -1,5 +1,5 @@
 /* What the pair loops with corrected gradients do with one particle and eight of its neighbours:
- * for the files that are compiled once an instruction set, and for a device. The contact problem
+ * for the files that are compiled once an instruction set, and for a device. The Riemann problem
  * along a pair is riemann/hllc.h. */
 #ifndef BOLIDE_SPH_HLLC_BODY_H
 #define BOLIDE_SPH_HLLC_BODY_H
@@ -188,7 +188,7 @@ struct star {
     double left, right, along, all, jump;
 };
 
-/* The contact problem of the components along a pair (20), by elastic waves alone unless
+/* The Riemann problem of the components along a pair (20), by elastic waves alone unless
  * WITH_YIELD. */
 BOLIDE_INLINE struct elastic_contact contact_of(const struct eight *eight, int k, struct pair pair,
                                                 bool with_yield)
@@ -224,7 +224,7 @@ BOLIDE_INLINE struct elastic_contact contact_of(const struct eight *eight, int k
     return contact;
 }
 
-/* Eight contact problems: the pairs, and u* - u_i and s* along them. */
+/* Eight Riemann problems: the pairs, and u* - u_i and s* along them. */
 struct contacts {
     double e[3][LANES] ALIGNED, weight[LANES] ALIGNED;
     double velocity[LANES] ALIGNED, stress[LANES] ALIGNED;

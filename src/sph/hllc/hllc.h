@@ -1,4 +1,4 @@
-/* SPH with corrected kernel gradients and Heun's step: pairs solve elastic-plastic contact problems
+/* SPH with corrected kernel gradients and Heun's step: pairs solve elastic-plastic Riemann problems
  * (`hllc`), or have artificial viscosity (`monaghan`, ../monaghan), which uses the parts below.
  * Source: Wang et al., Explosion and Shock Waves 44 (2024) 081431, section 2. Private to SPH. */
 #ifndef BOLIDE_SPH_HLLC_H

@@ -1,5 +1,5 @@
 /* The pair loops with corrected gradients for one instruction set, named by BOLIDE_ISA; see
- * kernel.h. The contact problem along a pair is riemann/hllc.h; how rows become lanes is lanes.h.
+ * kernel.h. The Riemann problem along a pair is riemann/hllc.h; how rows become lanes is lanes.h.
  */
 #include "sph/hllc/kernel.h"
 

@@ -1,4 +1,4 @@
-/* The pair loops of SPH with corrected kernel gradients, by elastic-plastic contact problems
+/* The pair loops of SPH with corrected kernel gradients, by elastic-plastic Riemann problems
  * (`hllc`) or with artificial viscosity (`monaghan`). Two passes over the rows a stage: gradients
  * with L_i = [sum V_j x_ij (x) grad W]^-1, then forces, each with records of its own:
  *
@@ -20,7 +20,7 @@
 struct hllc_kind {
     int dimension;
     bool depth;         /* axisymmetry: rings of radius r, -r behind the axis */
-    bool viscous;       /* artificial viscosity in place of contact problems */
+    bool viscous;       /* artificial viscosity in place of Riemann problems */
     bool reconstructed; /* contacts between linear reconstructions */
 };
 
@@ -75,7 +75,7 @@ struct hllc_rates {
 struct hllc_selection {
     double others_share;  /* of L_j in the gradient of forces: 0 or 1/2 */
     double scalars_share; /* of the reconstruction of density, pressure, deviator: 0 or 1 */
-    double parting;       /* contact problems below this speed of parting: 0 or infinite */
+    double parting;       /* Riemann problems below this speed of parting: 0 or infinite */
     double squares;       /* 1: stress over squares of density, 0: over their product */
     double alpha, beta;   /* of the viscosity (17) */
 };

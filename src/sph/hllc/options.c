@@ -17,7 +17,7 @@ const struct parameter hllc_table[] = {
      .kind = PARAMETER_FLAG,
      .offset = offsetof(struct hllc_options, approach_switch),
      .standard = "yes",
-     .help = "whether pairs that separate use means instead of contact problems"},
+     .help = "whether pairs that separate use means instead of Riemann problems"},
     HLLC_CONTINUITY_ROW(struct hllc_options),
     HLLC_CORRECTION_ROW(struct hllc_options),
     PARAMETER_END};

@@ -128,7 +128,7 @@ void hllc_pack(struct sph *sph, const struct simulation *simulation, const struc
             pack_for_gradients(simulation, f, i, record);
     }
     double *empty = sph_records_start(sph, simulation, &records);
-    if (forces) { /* the record that fills up lanes must have a solvable contact problem */
+    if (forces) { /* the record that fills up lanes must have a solvable Riemann problem */
         empty[hllc_density(kind.dimension)] = 1.0;
         empty[hllc_response(kind.dimension) + (kind.viscous ? 0 : 1)] = 1.0;
     }

@@ -309,7 +309,7 @@ BOLIDE_INLINE void add_volume(struct muscl_kind kind, const struct pairs *pairs,
     sums[at.exchange][k] += 0.5 * (1.0 + pair->compression) * weight * lead;
 }
 
-/* Solves the contact problem of lane K and adds it to the sums. */
+/* Solves the Riemann problem of lane K and adds it to the sums. */
 BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const double *own,
                                const struct lanes *lanes, const struct pairs *pairs,
                                double (*sums)[LANES], int k)

@@ -10,7 +10,7 @@
 struct muscl_options {
     int motion;     /* enum sph_motion; -1: contact in 1-D, else particle */
     int energy;     /* enum sph_energy */
-    double support; /* the largest ratio of support to diameter */
+    double support; /* the largest factor by which supports grow */
 };
 
 /* A particle next to a transmitting body, and what the body adds to it: force and power, N and W.

@@ -18,6 +18,6 @@ const struct parameter muscl_table[] = {
      .above = 1.0,
      .below = 3.0,
      .closed = true,
-     .help = "largest ratio of support to diameter in 2-D and 3-D, to which supports grow where "
-             "plastic flow separates neighbours; 1: no growth"},
+     .help = "largest factor by which supports grow in 2-D and 3-D where plastic flow separates "
+             "neighbours; 1: no growth"},
     PARAMETER_END};
