@@ -9,6 +9,28 @@
 #include "model/particles/population.h"
 #include "model/solver.h"
 
+static void print_topics(void)
+{
+    int column = 22;
+    printf("bolide help TOPIC explains\n"
+           "  a command           run, verify, ...\n"
+           "  case, units, fields the keys of a case file; the units; the fields of particles and "
+           "cells\n"
+           "  a kind of thing    ");
+    for (const struct choice_list *list = bolide_catalogue.lists; list->kind_of_thing; list++) {
+        const char *kind = list->kind_of_thing, *comma = list[1].kind_of_thing ? "," : "";
+        column += 2 + (int)strlen(kind);
+        printf("%s %s%s", column > 100 ? "\n                     " : "", kind, comma);
+        if (column > 100)
+            column = 24 + (int)strlen(kind);
+    }
+    printf("\n"
+           "  a thing             johnson-cook, muscl, box, ...\n"
+           "  a key of a case     bodies, run.until, bodies.flyer.velocity, ...\n"
+           "  a word              spall, crater, restart, film, ParaView, MPI, units of stress, "
+           "...\n");
+}
+
 static void print_commands(void)
 {
     printf("bolide %s: shocks in solids, liquids and gases, with SPH, the material point method or "
@@ -16,17 +38,11 @@ static void print_commands(void)
            BOLIDE_VERSION);
     for (int i = 0; i < command_count; i++)
         printf("  bolide %-9s %-16s %s\n", commands[i].name, commands[i].usage, commands[i].help);
-    printf("\nbolide help TOPIC explains a command, `case` (the keys of a case file), `units`, "
-           "`fields`\n"
-           "(of the particles), a kind of thing:");
-    for (const struct choice_list *list = bolide_catalogue.lists; list->kind_of_thing; list++)
-        printf(" %s", list->kind_of_thing);
-    printf(",\na thing by its name, a key of a case by its path: bodies, run.until,\n"
-           "bodies.flyer.velocity, or a word that you look for: spall, crater, restart, film,\n"
-           "ParaView, MPI, units of stress.\n");
+    printf("\n");
+    print_topics();
 }
 
-/* What a value may be. */
+/* What a value may be; TEXT has room for the longest list of choices. */
 static void kind_text(const struct parameter *p, char *text, size_t size)
 {
     static const char *const words[] = {
@@ -69,12 +85,16 @@ static void kind_text(const struct parameter *p, char *text, size_t size)
 
 static void print_parameter(const struct parameter *p, int indent)
 {
-    char kind[96], key[96];
+    enum { WIDTH = 22 };
+    char kind[512], key[96];
     kind_text(p, kind, sizeof kind);
-    snprintf(key, sizeof key, "%s", p->key ? p->key : kind);
+    snprintf(key, sizeof key, "%.*s", (int)sizeof key - 1, p->key ? p->key : kind);
     if (!p->key)
         snprintf(kind, sizeof kind, "by its name");
-    printf("%*s%-*s  %-22s  %s", indent, "", 22 - indent, key, kind, p->help ? p->help : "");
+    printf("%*s%-*s  %-*s", indent, "", WIDTH - indent, key, WIDTH, kind);
+    if (strlen(kind) > WIDTH)
+        printf("\n%*s", 2 * WIDTH + 2, "");
+    printf("  %s", p->help ? p->help : "");
     if (!p->standard)
         printf(" (required)\n");
     else if (p->standard[0])
@@ -234,6 +254,8 @@ static bool help_command(const char *topic)
             printf("bolide %s %s [options]\n%s\n", commands[i].name, commands[i].usage,
                    commands[i].help);
             options_print(&commands[i]);
+            if (commands[i].bit == COMMAND_HELP)
+                print_topics();
             return true;
         }
     return false;
@@ -340,6 +362,36 @@ static bool help_key(const struct parameter *table, const char *path)
     return false;
 }
 
+static bool is_top_key(const struct parameter *table, const char *name)
+{
+    for (const struct parameter *p = table; !PARAMETER_IS_END(p); p++)
+        if (p->key && !strcmp(p->key, name))
+            return true;
+    return false;
+}
+
+/* All that TOPIC names: a word, a command, things, and a key of a case. */
+static bool help_topic(const char *topic)
+{
+    bool found = help_word(topic);
+    found = help_command(topic) || found;
+    found = help_thing(topic) || found;
+    if (found && (is_top_key(case_table, topic) || is_top_key(case_shaping_table, topic)))
+        printf("\nas a key of a case:\n");
+    return help_key(case_table, topic) || help_key(case_shaping_table, topic) || found;
+}
+
+/* The same with hyphens for blanks: johnson cook. */
+static bool help_hyphenated(const char *topic)
+{
+    char name[128];
+    snprintf(name, sizeof name, "%s", topic);
+    for (char *c = name; *c; c++)
+        if (*c == ' ')
+            *c = '-';
+    return strcmp(name, topic) != 0 && help_topic(name);
+}
+
 /* The nearest of all topics, or what mentions TOPIC. */
 static int unknown_topic(const char *topic)
 {
@@ -392,11 +444,7 @@ int command_help(const struct cli_options *options)
             topic += 6;
         else if (!strncmp(topic, "long.", 5))
             topic += 5;
-        bool found = help_word(topic);
-        found = help_command(topic) || found;
-        found = help_thing(topic) || found;
-        found = help_key(case_table, topic) || help_key(case_shaping_table, topic) || found;
-        if (!found)
+        if (!help_topic(topic) && !help_hyphenated(topic))
             return unknown_topic(topic);
     }
     return EXIT_OK;

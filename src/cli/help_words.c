@@ -44,7 +44,7 @@ static const struct answer answers[] = {
      "The field `damage` is that of a failure model (`bolide help failure`) or of crushed\n"
      "concrete (strength: hjc), 1: failed. Concrete has `tensile_damage` too.",
      "failure.md"},
-    {" whipple whipple.shield shield bumper debris debris.cloud hypervelocity ",
+    {" whipple whipple.shield shield bumper debris debris.cloud hypervelocity hvi ",
      "A sphere through a bumper and its cloud on a wall: a worked case is on the page below.\n"
      "Checks measure `hole`, `bulge` and `fragments`; `bolide search` finds a ballistic limit.",
      "tasks/whipple-shield.md"},
@@ -163,6 +163,28 @@ static const struct answer answers[] = {
     {" ceramic glass jh2 jh.2 johnson.holmquist ",
      "Not available with failure: alumina, boron carbide and glass of the library are elastic\n"
      "up to their limit. Concrete is available (strength: hjc).",
+     "materials.md"},
+    {" time.step timestep time.step.size cfl courant.number ",
+     "The solver chooses the step: the time that a wave takes to cross a particle or a cell, "
+     "times\n"
+     "a Courant number. Change that number with `courant` of the solver:\n"
+     "  solver: {mpm: {courant: 0.2}}\n"
+     "Its default is in `bolide help sph`, `mpm` or `gas`.",
+     NULL},
+    {" hourglass hourglassing hourglass.control zero.energy.mode ",
+     "Not needed: particles and cells are no finite elements and have no hourglass modes.",
+     "choosing.md"},
+    {" eulerian lagrangian ale ",
+     "`solver: gas` is Eulerian: gases flow through a fixed grid. SPH and MPM are Lagrangian: "
+     "their\n"
+     "particles carry the material, through empty space (SPH) or through a grid that is reset "
+     "each\n"
+     "step (MPM), and deform without limit. An Eulerian grid for solids is not available.",
+     "choosing.md"},
+    {" equation.of.state ",
+     "Every material has one: `eos` of the material. `bolide help eos` lists them with their "
+     "keys,\n"
+     "`bolide materials` the materials whose constants are known.",
      "materials.md"},
     {" convergence mesh.independence grid.convergence ",
      "bolide verify --convergence CASE runs a case on several resolutions and gives errors and\n"

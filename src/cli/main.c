@@ -23,10 +23,11 @@ const struct command commands[] = {
      command_new},
     {COMMAND_SCHEMA, "schema", "", "print the JSON Schema of a case, for editors", 0, 0,
      command_schema},
-    {COMMAND_MATERIALS, "materials", "[NAME] [options]",
+    {COMMAND_MATERIALS, "materials", "[NAME]",
      "list the material library, or print one material with its sources", 0, 1, command_materials},
-    {COMMAND_HELP, "help", "[TOPIC]", "explain a command, a key of a case, or anything it can name",
-     0, 6, command_help},
+    {COMMAND_HELP, "help", "[TOPIC]",
+     "explain a command, a key of a case, a model, or a word that you look for", 0, 6,
+     command_help},
 };
 const int command_count = COUNT_OF(commands);
 

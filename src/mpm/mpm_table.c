@@ -116,10 +116,10 @@ const struct parameter mpm_table[] = {
      .above = 0.0,
      .below = 10.0,
      .closed = true,
-     .help = "b3 of the artificial viscosity -b3 rho h c w in solids, w the part of the "
-             "volumetric strain rate that nodes do not resolve; it then changes no volumes; 0: it "
-             "does; "
-             "default: 2 with another viscosity, `scheme: musl` and conserved energy, else 0"},
+     .help = "b3 of the viscous pressure -b3 rho h c w in solids, where w is the part of the "
+             "volumetric strain rate that the nodes do not resolve. That part then does not change "
+             "the density; with b3 = 0 it does. Default: 2 with `scheme: musl`, energy that is "
+             "conserved and a b1 or b2 that is not zero, else 0"},
     {.key = "shock_mixing",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, shock_mixing),

@@ -54,7 +54,8 @@ expect 2 "no help on \"qwertyuiop\"" "$BOLIDE" help qwertyuiop
 # Words of users that are no names of the program have an answer, which names a page that exists.
 for word in spall failure fracture whipple craters penetration Hugoniot foam calibration restart \
     checkpoint symmetry film ParaView h5py MPI slurm threads GPU periodic "units of stress" blast \
-    stl mesh erosion adaptive melting ceramic "long rod" plate-impact; do
+    stl mesh erosion adaptive melting ceramic "long rod" plate-impact hvi "time step" cfl \
+    hourglass eulerian "equation of state"; do
     expect 0 "" "$BOLIDE" help $word
     page=$("$BOLIDE" help $word | sed -n 's/^More: //p')
     [ -z "$page" ] || [ -f "$BOLIDE_SOURCE_DIR/$page" ] ||
@@ -62,6 +63,10 @@ for word in spall failure fracture whipple craters penetration Hugoniot foam cal
 done
 expect 0 "Give the material a failure model" "$BOLIDE" help spall
 expect 0 "GPa" "$BOLIDE" help units of stress
+expect 0 "johnson-cook (strength)" "$BOLIDE" help johnson cook
+expect 0 "| maxima | period" "$BOLIDE" help recorded
+expect 0 "as a key of a case:" "$BOLIDE" help run
+expect 0 "ParaView" "$BOLIDE" help --help
 expect 0 "--resume" "$BOLIDE" help restart
 [ "$("$BOLIDE" help fields | grep -c '^  sound_long ')" = 1 ] ||
     { echo "FAILED: help fields lists a field of every solver twice"; status=1; }

@@ -27,15 +27,15 @@ struct eos_jwl {
     {                                                                   \
         1630.0, 371.2e9, 3.21e9, 4.15, 0.95, 0.3, 6.993e9, EOS_EXTENDED \
     } /* products of TNT */
-#define EOS_jwl_PARAMETERS(T)                                                                 \
-    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density of the explosive")              \
-    NUMBER(T, a, "Pa", REQUIRED, ANY, "A: factor of exp(-R_1 V), V = rho_0/rho")              \
-    NUMBER(T, b, "Pa", REQUIRED, ANY, "B: factor of exp(-R_2 V)")                             \
-    NUMBER(T, r1, "", REQUIRED, POSITIVE, "R_1: exponent of A")                               \
-    NUMBER(T, r2, "", REQUIRED, POSITIVE, "R_2: exponent of B")                               \
-    NUMBER(T, omega, "", REQUIRED, POSITIVE, "Grueneisen coefficient")                        \
-    NUMBER(T, energy, "J/m^3", REQUIRED, ANY,                                                 \
-           "E_0: energy per initial volume where e = 0; for products the heat of detonation") \
+#define EOS_jwl_PARAMETERS(T)                                                              \
+    NUMBER(T, density, "kg/m^3", REQUIRED, POSITIVE, "density of the explosive")           \
+    NUMBER(T, a, "Pa", REQUIRED, ANY, "A: factor of exp(-R_1 V), V = rho_0/rho")           \
+    NUMBER(T, b, "Pa", REQUIRED, ANY, "B: factor of exp(-R_2 V)")                          \
+    NUMBER(T, r1, "", REQUIRED, POSITIVE, "R_1: exponent of A")                            \
+    NUMBER(T, r2, "", REQUIRED, POSITIVE, "R_2: exponent of B")                            \
+    NUMBER(T, omega, "", REQUIRED, POSITIVE, "Grueneisen coefficient")                     \
+    NUMBER(T, energy, "J/m^3", REQUIRED, ANY,                                              \
+           "E_0: energy per initial volume at e = 0; for products the heat of detonation") \
     EOS_FORM_PARAMETER(T)
 
 BOLIDE_INLINE struct eos_value eos_jwl(const struct eos_jwl *jwl, double density, double energy,

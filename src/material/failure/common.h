@@ -31,14 +31,15 @@ struct failing {
     NUMBER(T, friction, "", "0.3", NOT_NEGATIVE,                                                \
            "of failed material: its largest Mises stress over its pressure; that stress is at " \
            "most the yield stress")
-#define FAILURE_SCATTER(T)                                                                        \
-    NUMBER(T, weibull_modulus, "", OPTIONAL, POSITIVE,                                            \
-           "of the scatter from particle to particle of the strength, or of strain or work at "   \
-           "failure, of which the one given is then the characteristic one; default: no scatter") \
-    NUMBER(T, weibull_volume, "m^3", OPTIONAL, POSITIVE,                                          \
-           "of a specimen with the characteristic strength; smaller ones are stronger; "          \
-           "default: the volume of each particle")                                                \
-    COUNT(T, seed, "1", "of the scatter: another one gives another specimen")
+#define FAILURE_SCATTER(T)                                                                      \
+    NUMBER(T, weibull_modulus, "", OPTIONAL, POSITIVE,                                          \
+           "Weibull modulus of the strength (or of the strain or work at failure), which then " \
+           "varies from particle to particle; the given value is the characteristic one; "      \
+           "default: no variation")                                                             \
+    NUMBER(T, weibull_volume, "m^3", OPTIONAL, POSITIVE,                                        \
+           "volume for which the given strength is the characteristic one; larger particles "   \
+           "are weaker; default: the volume of each particle")                                  \
+    COUNT(T, seed, "1", "seed of the random strengths: another seed is another specimen")
 
 #define FAILURE_COMMON(T) FAILURE_FRICTION(T) FAILURE_SCATTER(T)
 
