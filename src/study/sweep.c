@@ -197,11 +197,12 @@ static int make_series(const struct dot *dots, int count, double *x, double *y,
     }
     x[2 * count] = y[2 * count] = NAN; /* the line breaks between low and high */
     if (one_group)
-        series[used++] = (struct series){"limits", 2 * count + 1, x + count, y + count, LINE_PLAIN};
+        series[used++] =
+            (struct series){"limits of the check", 2 * count + 1, x + count, y + count, LINE_PLAIN};
     for (int first = 0, end; first < count; first = end) {
         for (end = first; end < count && dots[end].group == dots[first].group;)
             end++;
-        series[used++] = (struct series){one_group ? "measured" : dots[first].label, end - first,
+        series[used++] = (struct series){one_group ? "computed" : dots[first].label, end - first,
                                          x + first, y + first, LINE_NONE};
     }
     return used;
