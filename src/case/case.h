@@ -101,9 +101,18 @@ struct obstacle_input {
     struct one_of shape; /* "shape", inline */
 };
 
+/* {mass: 5 kg, at: [0 m, 1 m]}: a charge whose blast pushes. */
+struct blast_input {
+    double mass;            /* kg of TNT; NAN: not given */
+    int charge;             /* enum kingery_charge */
+    struct vector_value at; /* count 0: not given */
+    double time;            /* s, of the detonation */
+};
+
 /* loads: NAME: {on: bar, pressure: 1 MPa}: what pushes on the surface of a body. */
 struct load_input {
     char *on;
+    struct blast_input blast;
     struct field_value pressure; /* of the time */
     /* of the time, on the surface that looks to `side` of `axis`; count 0: not given */
     struct field_list traction;

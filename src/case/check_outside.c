@@ -1,6 +1,8 @@
 /* What the tables cannot say of what acts on a case from outside: walls, outflows, loads, driven
  * bodies, gravity. */
 #include "case/checking.h"
+#include "exact/kingery_curves.h"
+#include "shape/shape.h"
 
 void case_check_wall(struct checking *checking, int index)
 {
@@ -63,6 +65,55 @@ void case_check_outflow(struct checking *checking, int index)
     }
 }
 
+/* The nearest and the farthest distance of BOUNDS from PLACE, in the dimensions of the case. */
+static void distances(const struct bounds *bounds, const struct vector_value *place,
+                      double *nearest, double *farthest)
+{
+    const double low[3] = {bounds->low.x, bounds->low.y, bounds->low.z},
+                 high[3] = {bounds->high.x, bounds->high.y, bounds->high.z};
+    double near = 0.0, far = 0.0;
+    for (int k = 0; k < place->count; k++) {
+        const double before = low[k] - place->at[k], behind = place->at[k] - high[k];
+        near += square(maximum(0.0, maximum(before, behind)));
+        far += square(maximum(fabs(before), fabs(behind)));
+    }
+    *nearest = sqrt(near);
+    *farthest = sqrt(far);
+}
+
+static void check_blast(struct checking *checking, const struct load_input *load)
+{
+    const struct simulation_case *input = checking->input;
+    const struct blast_input *blast = &load->blast;
+    const enum kingery_charge charge = (enum kingery_charge)blast->charge;
+    if (isnan(blast->mass) || blast->at.count == 0) {
+        case_wrong(checking, "blast", "this needs the `mass` of the charge and where it is, `at`");
+        return;
+    }
+    if (!case_dimension_known(checking))
+        return;
+    if (blast->at.count != input->dimension) {
+        case_wrong(checking, "blast.at", "expected %d component%s, one per dimension; found %d",
+                   (int)input->dimension, input->dimension == 1 ? "" : "s", blast->at.count);
+        return;
+    }
+    if (input->geometry == GEOMETRY_AXISYMMETRIC && load->between.count == 0)
+        case_wrong(checking, "blast",
+                   "about an axis this needs the flat surface: `axis`, `side` and `between`");
+    if (load->body < 0 || !case_body(input, load->body)->shape.choice)
+        return;
+    const struct bounds bounds = shape_bounds(&case_body(input, load->body)->shape);
+    const double size = cbrt(blast->mass), low = kingery_nearest(charge) * size,
+                 high = kingery_farthest(charge) * size;
+    double nearest, farthest;
+    distances(&bounds, &blast->at, &nearest, &farthest);
+    if (nearest < low || (isfinite(farthest) && farthest > high))
+        case_wrong(checking, "blast",
+                   "the curves for this mass go from %.3g to %.3g m; the body is %.3g to %.3g m "
+                   "from the charge",
+                   low, high, nearest, farthest);
+}
+
 void case_check_load(struct checking *checking, int index)
 {
     const struct simulation_case *input = checking->input;
@@ -82,8 +133,11 @@ void case_check_load(struct checking *checking, int index)
     case_check_between(checking, &load->between);
     if (case_is_wrong(checking, ""))
         return;
-    if (field_is_given(&load->pressure) == (load->traction.count > 0))
-        case_wrong(checking, "", "give either `pressure` or `traction`");
+    const bool blast = !isnan(load->blast.mass) || load->blast.at.count > 0;
+    if (field_is_given(&load->pressure) + (load->traction.count > 0) + blast != 1)
+        case_wrong(checking, "", "give one of `pressure`, `traction` and `blast`");
+    else if (blast)
+        check_blast(checking, load);
     else if (load->traction.count && load->between.count == 0)
         case_wrong(
             checking, "traction",

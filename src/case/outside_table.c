@@ -33,6 +33,37 @@ const struct parameter case_outflow_table[] = {
     PARAMETER_END,
 };
 
+static const char *const charge_names[] = {"free-air", "surface", NULL};
+
+static const struct parameter blast_table[] = {
+    {.key = "mass",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct blast_input, mass),
+     .unit = "kg",
+     .standard = PARAMETER_OPTIONAL,
+     .below = INFINITY,
+     .help = "mass of the charge, TNT"},
+    {.key = "at",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct blast_input, at),
+     .unit = "m",
+     .standard = PARAMETER_OPTIONAL,
+     .help = "position of the charge"},
+    {.key = "charge",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct blast_input, charge),
+     .standard = "free-air",
+     .names = charge_names,
+     .help = "free-air: a sphere far from the ground; surface: a hemisphere on the ground"},
+    {.key = "time",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct blast_input, time),
+     .unit = "s",
+     .standard = "0 s",
+     .help = "time of the detonation; below zero to begin shortly before the blast arrives"},
+    PARAMETER_END,
+};
+
 const struct parameter case_load_table[] = {
     {.key = "on",
      .kind = PARAMETER_TEXT,
@@ -46,7 +77,16 @@ const struct parameter case_load_table[] = {
      .unit = "Pa",
      .standard = PARAMETER_OPTIONAL,
      .help =
-         "pressure on its surface, a number or an expression of the time; give this or a traction"},
+         "pressure on its surface, a number or an expression of the time; give this, a traction or "
+         "a blast"},
+    {.key = "blast",
+     .kind = PARAMETER_TABLE,
+     .offset = offsetof(struct load_input, blast),
+     .standard = PARAMETER_OPTIONAL,
+     .table = blast_table,
+     .help =
+         "overpressure by the curves of Kingery and Bulmash on the surface that faces a charge, "
+         "in the positive phase; with `between`, on the flat surface that faces `side`"},
     {.key = "traction",
      .kind = PARAMETER_FIELDS,
      .offset = offsetof(struct load_input, traction),
@@ -66,8 +106,9 @@ const struct parameter case_load_table[] = {
      .offset = offsetof(struct load_input, side),
      .standard = "high",
      .names = side_names,
-     .help =
-         "which way the surface with the traction faces: to the low or the high end of the axis"},
+     .help = "which way the surface faces: to the low or the high end of the axis; of a traction, "
+             "and of a "
+             "blast with `between`"},
     {.key = "between",
      .kind = PARAMETER_VECTOR,
      .offset = offsetof(struct load_input, between),

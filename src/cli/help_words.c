@@ -129,8 +129,9 @@ static const struct answer answers[] = {
     {" blast air.blast airblast blast.wave afterburn fireball ",
      "Start from the products of the charge: a body of `jwl` products in a body of `ideal-gas`\n"
      "air, with `solver: gas`, as in examples/gas/tnt-in-air. The detonation and the afterburn\n"
-     "are not computed. Checks compare gauges with `exact: kingery-bulmash`. A pressure over\n"
-     "time on a surface: `loads`, with MPM. Explosive in contact with metal: bolide help burn.",
+     "are not computed. Checks compare gauges with `exact: kingery-bulmash`. A blast on a body\n"
+     "without gas, with MPM: `loads: {NAME: {on: plate, blast: {mass: 1 kg, at: [0 m, 2 m]}}}`.\n"
+     "Explosive in contact with metal: bolide help burn.",
      "blast.md"},
     {" shock.tube sod gas.dynamics cfd euler wind.tunnel air grid cells fdm ",
      "`solver: gas` computes a gas in cells, with walls, inflow, outflow, periodic faces and "

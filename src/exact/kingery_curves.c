@@ -244,3 +244,26 @@ struct blast_wave kingery_wave(enum kingery_charge charge, double mass, double d
                                         reflected ? KINGERY_REFLECTED_IMPULSE : KINGERY_IMPULSE, z),
     };
 }
+
+/* The positive phase of a wave; where its duration is unknown all of it. */
+static double positive(const struct blast_wave *wave, double time)
+{
+    const double over = blast_wave_at(wave, time);
+    return time < wave->arrival + wave->duration || isnan(wave->duration) ? over : 0.0;
+}
+
+double kingery_load(enum kingery_charge charge, double mass, double distance, double cosine,
+                    double time)
+{
+    const double size = cube_root(mass), low = kingery_nearest(charge) * size * (1.0 + 1e-12),
+                 high = kingery_farthest(charge) * size * (1.0 - 1e-12);
+    const double at = minimum(maximum(distance, low), high);
+    if (!(cosine > 0.0) || time < 1e-3 * size * kingery_curve(charge, KINGERY_ARRIVAL, at / size))
+        return 0.0;
+    const struct blast_wave incident = kingery_wave(charge, mass, at, false),
+                            reflected = kingery_wave(charge, mass, at, true);
+    if (time >= incident.arrival + incident.duration)
+        return 0.0;
+    return positive(&incident, time) * (1.0 + square(cosine) - 2.0 * cosine) +
+           positive(&reflected, time) * square(cosine);
+}

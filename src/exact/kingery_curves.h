@@ -30,4 +30,15 @@ double kingery_farthest(enum kingery_charge charge);
 struct blast_wave kingery_wave(enum kingery_charge charge, double mass, double distance,
                                bool reflected);
 
+/* The overpressure on a rigid surface at TIME since the detonation, in the positive phase, zero
+ * before and after. COSINE is that of the angle of incidence theta between the normal and the way
+ * to the charge; a surface that faces away has none. With the incident p_i and the reflected p_r,
+ *
+ *   p = p_i (1 + cos^2 theta - 2 cos theta) + p_r cos^2 theta
+ *
+ * G. Randers-Pehrson and K. A. Bannister, Airblast loading model for DYNA2D and DYNA3D, ARL-TR-1310
+ * (1997). Mach stems are not in it. Outside the range the value at its end. */
+double kingery_load(enum kingery_charge charge, double mass, double distance, double cosine,
+                    double time);
+
 #endif

@@ -8,6 +8,8 @@
 #include <assert.h>
 #include <string.h>
 
+#include "exact/kingery_curves.h"
+#include "material/material.h"
 #include "mpm/mpm_internal.h"
 
 /* The contributions of a particle to the values of its nodes: value n gets the sum over axes k of
@@ -95,6 +97,7 @@ struct surface {
                        int32_t i);
     const struct load_input *load;
     double pressure, traction[3]; /* of the load in the middle of the step */
+    double time, density;         /* of a blast: that middle; of the body at the start */
     const struct outflow_input *outflow;
 };
 
@@ -113,6 +116,22 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
             given.filled[k] = -1;
         } else
             given.by_slope[k][k] = -volume * surface->pressure;
+    return given;
+}
+
+/* The area vector of the whole surface, or of the flat one that faces the side of the axis. */
+static struct given by_blast(const struct mpm *mpm, const struct simulation *simulation,
+                             const struct surface *surface, int32_t i)
+{
+    const struct particles *p = mpm->particles;
+    const double volume = p->mass[i] / p->density[i];
+    struct given given = {{{0.0}}, {0, 1, 2}};
+    const bool flat = surface->load->between.count > 0;
+    for (int k = 0; k < simulation->problem->dimension; k++)
+        if (!flat || k == surface->axis)
+            given.by_slope[k][k] = volume;
+    if (flat)
+        given.filled[surface->axis] = -1;
     return given;
 }
 
@@ -241,6 +260,67 @@ static void push_face(struct layer *layer, const struct surface *surface, double
         }
 }
 
+/* The pressure of a blast at a node with AREA, of which the images are a part: inside the body the
+ * area is zero but for the disorder of particles, which counts for nothing. */
+static double blast_pressure(const struct mpm *mpm, const struct surface *surface,
+                             const int64_t at[3], const double *area, double mass)
+{
+    enum { NOISE = 50 }; /* area of a cell's face over that */
+    const struct blast_input *blast = &surface->load->blast;
+    const bool flat = surface->load->between.count > 0;
+    const double sign = surface->load->side == WALL_HIGH ? 1.0 : -1.0;
+    const double size = sqrt(square(area[0]) + square(area[1]) + square(area[2]));
+    if (size == 0.0 || (!flat && size * mpm->edge * surface->density * NOISE < mass))
+        return 0.0;
+    double way = 0.0, along = 0.0;
+    for (int axis = 0; axis < blast->at.count; axis++) {
+        int64_t place = at[axis];
+        for (int side = 0; side < 2; side++)
+            if (mpm->has_plane[axis][side] &&
+                (side == 0 ? place < mpm->plane[axis][side] : place > mpm->plane[axis][side]))
+                place = 2 * mpm->plane[axis][side] - place;
+        const double to = blast->at.at[axis] - mpm->edge * (double)place;
+        const double normal = flat ? (axis == surface->axis ? sign : 0.0) : area[axis] / size;
+        way += square(to);
+        along += to * (place == at[axis] ? normal : -normal);
+    }
+    way = sqrt(way);
+    return kingery_load((enum kingery_charge)blast->charge, blast->mass, way, along / way,
+                        surface->time - blast->time);
+}
+
+/* Converts areas to forces. The normals of nodes near walls include the images; what is pushed there
+ * are the particles alone. */
+static void push_blast(const struct mpm *mpm, struct layer *layer, const struct surface *surface,
+                       int threads)
+{
+    for (int32_t w = 0; w < layer->walls; w++)
+        memcpy(layer->wall[w].pushed, layer->wall[w].back, sizeof layer->wall[w].pushed);
+    mpm_fold_vectors(mpm, layer, &layer->back);
+    for (int32_t w = 0; w < layer->walls; w++) {
+        struct wall_node *wall = &layer->wall[w];
+        const double pressure =
+            blast_pressure(mpm, surface, wall->at, wall->back, wall->node[NODE_MASS]);
+        for (int c = 0; c < 3; c++)
+            wall->pushed[c] *= -pressure;
+    }
+#pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
+    for (int32_t n = 0; n < layer->grid.blocks; n++) {
+        int64_t corner[3], at[3];
+        grid_corner(&layer->grid, n, corner);
+        for (int k = 0; k < BLOCK_CELLS; k++) {
+            double *area = grid_node(&layer->back, n, k);
+            mpm_node_index(layer->grid.dimension, corner, k, at);
+            const double pressure =
+                blast_pressure(mpm, surface, at, area, grid_node(&layer->main, n, k)[NODE_MASS]);
+            for (int c = 0; c < 3; c++)
+                area[c] *= -pressure;
+        }
+    }
+    for (int32_t w = 0; w < layer->walls; w++)
+        memcpy(layer->wall[w].back, layer->wall[w].pushed, sizeof layer->wall[w].pushed);
+}
+
 /* Sets the force to zero at nodes of a block that are not on the surface. */
 static void keep_surface(const struct layer *layer, const struct surface *surface, int32_t block)
 {
@@ -327,6 +407,8 @@ static void push_surface(struct mpm *mpm, struct simulation *simulation,
             continue;
         if (surface->outflow)
             push_face(layer, surface, dt, simulation->threads);
+        if (surface->of == by_blast)
+            push_blast(mpm, layer, surface, simulation->threads);
         push_nodes(mpm, simulation, layer, surface, dt);
     }
 }
@@ -338,6 +420,9 @@ static struct error *find_load(const struct simulation *simulation, const char *
     static const char *const keys[] = {"traction.1", "traction.2", "traction.3"};
     const struct load_input *load = surface->load;
     assert(load->traction.count <= 3);
+    surface->time = time;
+    if (surface->of == by_blast)
+        return NULL;
     for (int k = 0; k < load->traction.count; k++)
         TRY(simulation_value_at(simulation, time, &load->traction.at[k], name, keys[k],
                                 &surface->traction[k]));
@@ -355,12 +440,15 @@ struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, 
     for (int i = 0; i < input->loads.count; i++) {
         const struct load_input *load = case_load(input, i);
         const bool part = load->between.count > 0;
-        struct surface surface = {.body = load->body,
-                                  .low = part ? load->between.at[0] / mpm->edge : -(double)INFINITY,
-                                  .high = part ? load->between.at[1] / mpm->edge : (double)INFINITY,
-                                  .axis = load->axis,
-                                  .of = by_load,
-                                  .load = load};
+        struct surface surface = {
+            .body = load->body,
+            .low = part ? load->between.at[0] / mpm->edge : -(double)INFINITY,
+            .high = part ? load->between.at[1] / mpm->edge : (double)INFINITY,
+            .axis = load->axis,
+            .of = load->blast.at.count > 0 ? by_blast : by_load,
+            .load = load,
+            .density = material_density(
+                &simulation->problem->material[case_body(input, load->body)->material_index])};
         if (simulation->time < load->after || simulation->time >= load->before)
             continue;
         TRY(find_load(simulation, input->loads.names[i], simulation->time + 0.5 * dt, &surface));

@@ -157,6 +157,27 @@ static void the_friedlander_curve_has_the_impulse(void **state)
     }
 }
 
+/* Face-on it is the reflected wave, edge-on the incident one, and in between of either a part. */
+static void a_load_goes_with_the_angle(void **state)
+{
+    (void)state;
+    const struct blast_wave passing = kingery_wave(KINGERY_FREE_AIR, 8.0, 4.0, false),
+                            wall = kingery_wave(KINGERY_FREE_AIR, 8.0, 4.0, true);
+    for (double part = 0.0; part < 1.2; part += 0.1) {
+        const double time = passing.arrival + part * passing.duration + 1e-9;
+        const double incident = part < 0.99 ? blast_wave_at(&passing, time) : 0.0,
+                     reflected = part < 0.99 ? blast_wave_at(&wall, time) : 0.0;
+        assert_near(kingery_load(KINGERY_FREE_AIR, 8.0, 4.0, 1.0, time), reflected,
+                    wall.overpressure, 1e-12);
+        assert_near(kingery_load(KINGERY_FREE_AIR, 8.0, 4.0, 1e-9, time), incident,
+                    passing.overpressure, 1e-8);
+        assert_near(kingery_load(KINGERY_FREE_AIR, 8.0, 4.0, 0.5, time),
+                    0.25 * incident + 0.25 * reflected, wall.overpressure, 1e-12);
+        assert_true(kingery_load(KINGERY_FREE_AIR, 8.0, 4.0, -0.5, time) == 0.0);
+    }
+    assert_true(kingery_load(KINGERY_FREE_AIR, 8.0, 4.0, 1.0, 0.999 * passing.arrival) == 0.0);
+}
+
 static struct exact_kingery_bulmash charge_of(double mass)
 {
     return (struct exact_kingery_bulmash){.mass = mass, .ambient = 101325.0, .distance = NAN};
@@ -272,6 +293,7 @@ int main(void)
         cmocka_unit_test(curves_are_sane_over_their_range),
         cmocka_unit_test(the_wave_scales_with_the_cube_root_of_the_mass),
         cmocka_unit_test(the_friedlander_curve_has_the_impulse),
+        cmocka_unit_test(a_load_goes_with_the_angle),
         cmocka_unit_test(the_front_arrives_when_it_is_there),
         cmocka_unit_test(an_explosion_begins_as_a_strong_blast),
         cmocka_unit_test(the_front_moves_as_its_jump_says),
