@@ -3,7 +3,7 @@
 
 /* In the order of enum warning_kind. */
 static const char *const warning_names[] = {
-    "tension", "speed", "temperature", "density", "tensile-instability", "energy", NULL};
+    "tension", "speed", "temperature", "density", "tensile-instability", "energy", "tracer", NULL};
 
 const struct parameter case_expected_table[] = {
     {.key = "warning",
@@ -14,7 +14,7 @@ const struct parameter case_expected_table[] = {
      .help = "what is expected: tension above the strength of a material; a speed above three "
              "times what the case can cause; a temperature below 0 K; a density outside the range "
              "of the equation of state; tension for longer than SPH is reliable; a drift of the "
-             "total energy"},
+             "total energy; a tracer whose particle has failed"},
     {.key = "of",
      .kind = PARAMETER_NAMES,
      .offset = offsetof(struct expected_warning_input, of),

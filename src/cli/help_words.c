@@ -37,8 +37,9 @@ static const struct answer answers[] = {
     {" warning tensile.instability expected.warning ",
      "A run warns by name when something happens that its models do not cover: `tension`,\n"
      "`speed`, `temperature`, `density`, `tensile-instability` (SPH in lasting tension: use\n"
-     "`solver: mpm`) and `energy`. The run goes on. `bolide verify` fails, unless the case\n"
-     "lists the warning in `expected_warnings` with the reason why its checks hold.",
+     "`solver: mpm`), `energy` and `tracer` (its particle has failed). The run goes on.\n"
+     "`bolide verify` fails, unless the case lists the warning in `expected_warnings` with the\n"
+     "reason why its checks hold.",
      "case.md"},
     {" damage ",
      "The field `damage` is that of a failure model (`bolide help failure`) or of crushed\n"

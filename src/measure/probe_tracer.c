@@ -1,4 +1,7 @@
 /* tracer: follows one particle, the nearest to a place at the start, by its id. */
+#include <string.h>
+
+#include "material/material.h"
 #include "measure/probes.h"
 
 const struct parameter probe_tracer_table[] = {
@@ -67,6 +70,26 @@ static int32_t find_particle(struct probe *probe, const struct population *popul
     return probe->index;
 }
 
+/* Notes when the particle fails, which may then come off and fly alone, unless the case asks for
+ * its damage by name. INDEX: -1 on ranks that do not have it. Collective. */
+static void watch_damage(struct probe *probe, const struct simulation *simulation,
+                         const struct population *population, int32_t index)
+{
+    int component;
+    const struct column *column = column_find(population, "damage", &component);
+    const struct name_list *asked = &probe->input->fields;
+    bool wanted = column && probe->failed < 0.0;
+    for (int i = 0; i < asked->count; i++)
+        wanted = wanted && strcmp(asked->names[i], "damage");
+    if (!wanted)
+        return;
+    double damage = 0.0;
+    if (index >= 0 && material_fails(&simulation->problem->material[population->material[index]]))
+        column_read_component(population, column, 0, index, index + 1, &damage);
+    if (ranks_maximum(simulation->ranks, damage) >= 1.0)
+        probe->failed = simulation->time;
+}
+
 /* The rank that has the particle gives the numbers, the others zeros: the sum of all is exact. */
 static struct error *sample(struct probe *probe, const struct simulation *simulation,
                             const struct population *population, double *row)
@@ -82,6 +105,8 @@ static struct error *sample(struct probe *probe, const struct simulation *simula
         ranks_sum_exact(simulation->ranks, &sum, 1);
         row[i] = anywhere ? exact_sum_value(&sum) : NAN;
     }
+    if (simulation->step > 0)
+        watch_damage(probe, simulation, population, index);
     return NULL;
 }
 

@@ -45,6 +45,7 @@ struct error *probes_create(const struct simulation_case *input, struct probes *
         probe->column = memory_allocate(PROBE_COLUMNS * sizeof *probe->column);
         probe->fields = memory_allocate(sizeof *probe->fields);
         probe->step = -1;
+        probe->failed = -1.0;
         if (!probe->column || !probe->fields)
             return out_of_memory();
     }
@@ -334,7 +335,8 @@ struct error *probes_check_loaded(const struct probes *probes, int64_t steps)
 {
     for (int i = 0; i < probes->count; i++) {
         const struct probe *probe = &probes->item[i];
-        if (probe->rows < 0 || probe->rows > steps + 1 || probe->due < 0 || probe->step > steps)
+        if (probe->rows < 0 || probe->rows > steps + 1 || probe->due < 0 || probe->step > steps ||
+            !(probe->failed >= -1.0 && isfinite(probe->failed)))
             return error_new(ERROR_SYSTEM, "a number of probe \"%s\" does not fit step %lld",
                              probe->name, (long long)steps);
     }
@@ -351,6 +353,8 @@ struct error *probes_visit(struct probes *probes, struct visitor *visitor)
         TRY(visitor->visit(visitor, name, NUMBER_INT64, numbers, 3, 1));
         snprintf(name, sizeof name, "probes/%d/id", i);
         TRY(visitor->visit(visitor, name, NUMBER_UINT64, &probe->id, 1, 1));
+        snprintf(name, sizeof name, "probes/%d/failed", i);
+        TRY(visitor->visit(visitor, name, NUMBER_DOUBLE, &probe->failed, 1, 1));
         snprintf(name, sizeof name, "probes/%d/file", i);
         TRY(csv_visit_mark(&probe->mark, name, visitor));
         probe->rows = numbers[0];

@@ -28,8 +28,9 @@ struct probe {
     uint64_t id;       /* tracer: of its particle, known from the first row on */
     uint64_t order;    /* tracer: of the store, for which `index` holds */
     int32_t index;
-    void *solved; /* gauge: the exact solution that is recorded beside it; NULL: none */
-    bool kept;    /* a check reads the rows */
+    void *solved;  /* gauge: the exact solution that is recorded beside it; NULL: none */
+    double failed; /* tracer: when its particle failed, s; -1: it has not, or it had at the start */
+    bool kept;     /* a check reads the rows */
     double *value;
     int64_t room;
     bool writes; /* the rows that are not in the file yet: */

@@ -86,6 +86,8 @@ void run_progress(struct run *run);
 
 /* Collective, at a row of the history: warnings, and the error of an energy that drifts too far. */
 struct error *run_watch_physics(struct run *run);
+/* Then too, after the probes: warnings of tracers. */
+struct error *run_watch_tracers(struct run *run);
 
 /* checkpoint.h5 now, and whether its wall-clock time has come. */
 struct error *run_checkpoint(struct run *run);

@@ -416,6 +416,8 @@ struct error *run_watch(struct run *run, bool last)
         run->history_rows = history_rows(run->history);
     if (!error)
         error = probes_watch(&run->probes, &run->simulation, &run->population, last);
+    if (!error && row)
+        error = run_watch_tracers(run);
     if (!error && snapshot)
         error = write_snapshot(run);
     run->watching += clock_seconds() - clock;

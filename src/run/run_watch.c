@@ -27,6 +27,12 @@ static struct error *watch_energy(struct run *run, const struct totals *now)
 
 static void report_warning(void *context, const char *text) { run_say(context, "%s", text); }
 
+struct error *run_watch_tracers(struct run *run)
+{
+    return warnings_watch_tracers(run->warnings, &run->simulation, &run->probes, report_warning,
+                                  run);
+}
+
 struct error *run_watch_physics(struct run *run)
 {
     const struct totals now =

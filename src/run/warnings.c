@@ -71,7 +71,8 @@ struct warnings *warnings_create(const struct simulation *simulation)
     if (!w)
         return NULL;
     w->materials = materials;
-    w->memories = materials * WARNING_ENERGY + 1;
+    w->of_energy = materials * WARNING_ENERGY;
+    w->memories = w->of_energy + 1 + simulation->problem->input->probes.count;
     w->watch = memory_allocate((size_t)materials * sizeof *w->watch);
     w->memory = memory_allocate((size_t)w->memories * sizeof *w->memory);
     w->prescribed = memory_allocate((size_t)simulation->problem->input->bodies.count);
@@ -316,14 +317,14 @@ static struct error *take_found(struct warnings *w, const struct simulation *sim
                                 const struct population *p, struct found *found,
                                 const struct tell *tell)
 {
-    int64_t *counts = calloc((size_t)w->memories, sizeof *counts);
+    int64_t *counts = calloc((size_t)w->of_energy, sizeof *counts);
     TRY(ranks_agree(simulation->ranks,
                     counts ? NULL : error_new(ERROR_SYSTEM, "out of memory for warnings")));
-    for (int k = 0; k < w->memories - 1; k++)
+    for (int k = 0; k < w->of_energy; k++)
         counts[k] = found[k].count;
-    ranks_sum_of(simulation->ranks, counts, w->memories);
+    ranks_sum_of(simulation->ranks, counts, w->of_energy);
     struct error *error = NULL;
-    for (int k = 0; k < w->memories - 1; k++) {
+    for (int k = 0; k < w->of_energy; k++) {
         double place[4];
         if (!counts[k])
             continue;
@@ -347,18 +348,34 @@ struct error *warnings_watch(struct warnings *w, const struct simulation *simula
     const struct population population = simulation_population(simulation), *p = &population;
     const struct tell teller = {tell, context};
     follow_speed(w, simulation, p, now);
-    struct found *found = calloc((size_t)w->memories, sizeof *found);
+    struct found *found = calloc((size_t)w->of_energy, sizeof *found);
     const bool followed = tension_follow(w, simulation, p);
-    const bool done = found && followed && search(w, simulation, p, found, w->memories - 1);
+    const bool done = found && followed && search(w, simulation, p, found, w->of_energy);
     struct error *error = ranks_agree(
         simulation->ranks, done ? NULL : error_new(ERROR_SYSTEM, "out of memory for warnings"));
     if (!error)
         error = take_found(w, simulation, p, found, &teller);
     free(found);
-    const int last = w->memories - 1;
     if (!error && drift > DRIFT_TO_WARN_OF &&
-        remember(&w->memory[last], simulation, drift, DRIFT_TO_WARN_OF, 1.0))
-        error = report_new(w, simulation, last, &teller);
+        remember(&w->memory[w->of_energy], simulation, drift, DRIFT_TO_WARN_OF, 1.0))
+        error = report_new(w, simulation, w->of_energy, &teller);
+    return error;
+}
+
+struct error *warnings_watch_tracers(struct warnings *w, const struct simulation *simulation,
+                                     const struct probes *probes,
+                                     void (*tell)(void *context, const char *text), void *context)
+{
+    const struct tell teller = {tell, context};
+    struct error *error = NULL;
+    for (int k = 0; k < probes->count; k++) {
+        const int index = w->of_energy + 1 + k;
+        const double failed = probes->item[k].failed;
+        if (failed < 0.0 || !remember(&w->memory[index], simulation, 1.0, 1.0, 1.0))
+            continue;
+        w->memory[index].time = failed;
+        error = error_join(error, report_new(w, simulation, index, &teller));
+    }
     return error;
 }
 

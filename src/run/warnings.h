@@ -9,6 +9,7 @@
 #define BOLIDE_RUN_WARNINGS_H
 
 #include "base/visitor.h"
+#include "measure/probes.h"
 #include "model/simulation.h"
 
 /* The kinds before WARNING_ENERGY are of members and are counted by material. */
@@ -19,6 +20,7 @@ enum warning_kind {
     WARNING_DENSITY,     /* beyond the range of the equation of state */
     WARNING_INSTABILITY, /* tension that lasts longer than the method holds a body in it */
     WARNING_ENERGY,      /* of all members together: it is not conserved */
+    WARNING_TRACER,      /* of a tracer: its particle has failed */
     WARNING_KINDS
 };
 
@@ -62,6 +64,12 @@ void warnings_start(struct warnings *warnings, const struct simulation *simulati
 struct error *warnings_watch(struct warnings *warnings, const struct simulation *simulation,
                              const struct totals *now, double drift,
                              void (*tell)(void *context, const char *text), void *context);
+
+/* Collective: notes the tracers among PROBES whose particle has failed, after they took their rows;
+ * TELL as above. */
+struct error *warnings_watch_tracers(struct warnings *warnings, const struct simulation *simulation,
+                                     const struct probes *probes,
+                                     void (*tell)(void *context, const char *text), void *context);
 
 /* All that happened so far. ERROR_SYSTEM when memory is out. */
 struct error *warnings_conclude(const struct warnings *warnings,

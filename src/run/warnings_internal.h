@@ -31,9 +31,10 @@ struct tension_watch {
     double creep;   /* the rate of small strains, of WAVE */
 };
 
-/* Memory M * WARNING_ENERGY + KIND is that of KIND in material M, the last that of the energy. */
+/* Memory M * WARNING_ENERGY + KIND is that of KIND in material M; that of the energy follows, and
+ * then one a probe. */
 struct warnings {
-    int materials, memories;
+    int materials, of_energy, memories; /* the index of that of the energy; how many */
     struct material_watch *watch;
     struct warning_memory *memory;
     bool *prescribed;   /* by body: it has a prescribed motion */

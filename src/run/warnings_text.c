@@ -24,6 +24,7 @@ static const struct {
          "conserved: use `solver: mpm`",
          1.0},
     [WARNING_ENERGY] = {"energy", "", NULL, NULL, 1.0},
+    [WARNING_TRACER] = {"tracer", "", NULL, NULL, 1.0},
 };
 
 const char *warning_kind_name(enum warning_kind kind)
@@ -33,8 +34,9 @@ const char *warning_kind_name(enum warning_kind kind)
 
 static enum warning_kind kind_of(const struct warnings *warnings, int index)
 {
-    return index == warnings->memories - 1 ? WARNING_ENERGY
-                                           : (enum warning_kind)(index % WARNING_ENERGY);
+    return index > warnings->of_energy    ? WARNING_TRACER
+           : index == warnings->of_energy ? WARNING_ENERGY
+                                          : (enum warning_kind)(index % WARNING_ENERGY);
 }
 
 char *warning_name(const struct warnings *warnings, const struct simulation *simulation, int index)
@@ -42,6 +44,10 @@ char *warning_name(const struct warnings *warnings, const struct simulation *sim
     const enum warning_kind kind = kind_of(warnings, index);
     if (kind == WARNING_ENERGY)
         return text_copy(kinds[kind].name);
+    if (kind == WARNING_TRACER)
+        return text_format(
+            "tracer \"%s\"",
+            simulation->problem->input->probes.names[index - warnings->of_energy - 1]);
     return text_format("%s in %s", kinds[kind].name,
                        simulation->problem->input->materials.names[index / WARNING_ENERGY]);
 }
@@ -129,6 +135,20 @@ static char *energy_text(const struct warning_memory *memory, const struct simul
         memory->value, memory->step, memory->time, later, why ? "; " : "", why ? why : "");
 }
 
+static char *tracer_text(const struct warnings *warnings, const struct simulation *simulation,
+                         int index)
+{
+    char time[48], *name = warning_name(warnings, simulation, index), *text = NULL;
+    readable(warnings->memory[index].time, "s", time, sizeof time);
+    if (name)
+        text = text_format("%s follows a particle that failed at t = %s: it may have come off and "
+                           "fly alone; the outermost particle does so most easily: start the "
+                           "tracer two resolutions inside the body",
+                           name, time);
+    free(name);
+    return text;
+}
+
 char *warning_text(const struct warnings *warnings, const struct simulation *simulation, int index)
 {
     const struct warning_memory *memory = &warnings->memory[index];
@@ -136,6 +156,8 @@ char *warning_text(const struct warnings *warnings, const struct simulation *sim
     char value[48], worst[48], time[48], later[128] = "", limit[160], advice[256];
     if (kind == WARNING_ENERGY)
         return energy_text(memory, simulation->problem->input);
+    if (kind == WARNING_TRACER)
+        return tracer_text(warnings, simulation, index);
     readable(kinds[kind].sign * memory->value, kinds[kind].unit, value, sizeof value);
     put_limit(warnings, simulation, index, memory->limit, limit, sizeof limit);
     if (memory->worst > memory->value) {
@@ -178,7 +200,7 @@ char *warning_line(const struct warnings *warnings, const struct simulation *sim
 {
     const enum warning_kind kind = kind_of(warnings, index);
     const struct warning_memory *memory = &warnings->memory[index];
-    const int material = kind == WARNING_ENERGY ? -1 : index / WARNING_ENERGY;
+    const int material = kind < WARNING_ENERGY ? index / WARNING_ENERGY : -1;
     const bool is_expected = expected(simulation->problem->input, kind, material) != NULL;
     char time[48], *line = NULL;
     char *text = is_expected ? warning_name(warnings, simulation, index)
@@ -198,7 +220,7 @@ static bool add(const struct warnings *warnings, const struct simulation *simula
 {
     const enum warning_kind kind = kind_of(warnings, index);
     const char *reason = expected(simulation->problem->input, kind,
-                                  kind == WARNING_ENERGY ? -1 : index / WARNING_ENERGY);
+                                  kind < WARNING_ENERGY ? index / WARNING_ENERGY : -1);
     struct warning *warning = &results->item[results->count++];
     *warning = (struct warning){.kind = kind,
                                 .name = warning_name(warnings, simulation, index),

@@ -22,7 +22,7 @@
 
 /* NAN: stays. */
 struct nonsense_parameters {
-    double velocity, pressure, density, energy;
+    double velocity, pressure, density, energy, damage;
     int64_t from, to, many; /* its first and last step, and how many particles of a body have it */
     int64_t only;           /* the body; -1: all */
 };
@@ -39,6 +39,7 @@ static const struct parameter nonsense_table[] = {
     NONSENSE(pressure, "Pa"),
     NONSENSE(density, "kg/m^3"),
     NONSENSE(energy, "J/kg"),
+    NONSENSE(damage, ""),
     {.key = "from",
      .kind = PARAMETER_INTEGER,
      .offset = offsetof(struct nonsense_parameters, from),
@@ -68,7 +69,9 @@ static struct error *nonsense_create(void *solver, struct simulation *simulation
 {
     struct nonsense *nonsense = solver;
     nonsense->parameters = *(const struct nonsense_parameters *)parameters;
-    return particles_add(simulation, 1.0, NULL, 0, &nonsense->particles);
+    struct field_declaration fields[POINT_HISTORY];
+    const int count = problem_history(simulation->problem, fields);
+    return particles_add(simulation, 1.0, fields, count, &nonsense->particles);
 }
 
 static struct error *nonsense_fill(void *solver, struct simulation *simulation)
@@ -116,6 +119,8 @@ static struct error *nonsense_advance(void *solver, struct simulation *simulatio
         put(&p->pressure[i], more * nonsense->pressure);
         put(&p->density[i], more * nonsense->density);
         put(&p->energy[i], more * nonsense->energy);
+        if (p->history[HISTORY_damage])
+            put(&p->history[HISTORY_damage][i], nonsense->damage);
     }
     return NULL;
 }
@@ -389,6 +394,30 @@ static void a_density_beyond_the_equation_of_state_is_named(void **state)
         "bodies.slab={material: metal, velocity: [2 m/s, 0 m/s], box: {from: [0 m, 0 m], " \
         "to: [1 km, 1 km]}}"
 
+#define BREAKS                                                                             \
+    "materials.metal.strength={perfect-plastic: {shear_modulus: 40 GPa, yield: 0.3 GPa}}", \
+        "materials.metal.failure={spall: {strength: 1 GPa}}", "solver={nonsense: {damage: 1}}"
+
+static void a_tracer_is_named_when_its_particle_fails(void **state)
+{
+    (void)state;
+    const char *const settings[] = {BREAKS, "probes={face: {tracer: [0 m], fields: [velocity]}}",
+                                    NULL};
+    const char *const words[] = {"tracer \"face\" follows a particle that failed at t = 300 ms",
+                                 NULL};
+    expect_warning(settings, "tracer \"face\"", words);
+}
+
+static void a_tracer_of_another_particle_is_not_named(void **state)
+{
+    (void)state;
+    const char *const settings[] = {BREAKS, "probes={deep: {tracer: [0.1 m], fields: [velocity]}}",
+                                    NULL};
+    struct run_result result = run(settings, &(struct run_options){.threads = 1});
+    assert_int_equal(result.warnings.count, 0);
+    run_result_free(&result);
+}
+
 static void tension_that_lasts_is_named_for_its_body(void **state)
 {
     (void)state;
@@ -485,6 +514,9 @@ static void warnings_survive_a_resume(void **state)
     const char *const lasting[] = {LARGE, "solver={nonsense: {pressure: -12.8 GPa, many: 256}}",
                                    NULL};
     expect_the_same_after_a_resume(lasting);
+    const char *const failed[] = {BREAKS, "probes={face: {tracer: [0 m], fields: [velocity]}}",
+                                  NULL};
+    expect_the_same_after_a_resume(failed);
 }
 
 /* Verifies the case under SETTINGS; the messages are to be freed. */
@@ -537,6 +569,8 @@ int main(void)
         cmocka_unit_test(a_prescribed_motion_may_move_others),
         cmocka_unit_test(a_temperature_below_zero_is_named),
         cmocka_unit_test(a_density_beyond_the_equation_of_state_is_named),
+        cmocka_unit_test(a_tracer_is_named_when_its_particle_fails),
+        cmocka_unit_test(a_tracer_of_another_particle_is_not_named),
         cmocka_unit_test(tension_that_lasts_is_named_for_its_body),
         cmocka_unit_test(surfaces_that_cut_the_lattice_creep_in_small_tension_that_lasts),
         cmocka_unit_test(tension_that_passes_or_cannot_last_has_no_warning),

@@ -5,9 +5,10 @@
  *
  * s is the mean stress over the Mises stress, positive in tension. The source's tests end at s =
  * 1.5: eps_f keeps its value of there beyond. It is never less than a least strain, since D1 + D2
- * exp(D3 s) of some published sets falls below zero. T* is that of the strength model. A mean
- * tension of `spall`, where given, fails the point at once. Source: Johnson and Cook, Eng. Fract.
- * Mech. 21 (1985) 31; the least strain is ours. */
+ * exp(D3 s) of some published sets falls below zero. Its default exceeds the plastic strain of the
+ * outermost SPH particle in its short tension while a shock of a few GPa reflects at a free face. T*
+ * is that of the strength model. A mean tension of `spall`, where given, fails the point at once.
+ * Source: Johnson and Cook, Eng. Fract. Mech. 21 (1985) 31; the least strain is ours. */
 #ifndef BOLIDE_FAILURE_JOHNSON_COOK_H
 #define BOLIDE_FAILURE_JOHNSON_COOK_H
 
@@ -31,7 +32,7 @@ struct failure_johnson_cook {
     NUMBER(T, d4, "", "0", ANY, "D4: factor of the logarithm of the strain rate")               \
     NUMBER(T, d5, "", "0", ANY, "D5: factor of T* of the strength model")                       \
     NUMBER(T, rate, "1/s", "1 1/s", POSITIVE, "strain rate below which the rate has no effect") \
-    NUMBER(T, least_strain, "", "0.001", POSITIVE,                                              \
+    NUMBER(T, least_strain, "", "0.01", POSITIVE,                                               \
            "least failure strain, where the formula gives less")                                \
     NUMBER(T, spall, "Pa", OPTIONAL, POSITIVE,                                                  \
            "mean tension at which it fails at once; default: none")                             \
