@@ -308,7 +308,7 @@ BOLIDE_INLINE const char *material_failure_wrong(const struct material *material
     if (!material_fails(material))
         return NULL;
     if (!material_has_strength(material))
-        return "only a material with strength fails: a fluid needs none";
+        return "only a material with strength fails: set `failure: none` too";
     if (strength_takes_pressure(&material->strength))
         return "this strength model has a failure of its own";
     return NULL;
