@@ -3,6 +3,7 @@
 
 #include "material/material.h"
 #include "measure/probes.h"
+#include "model/generate.h"
 
 const struct parameter probe_tracer_table[] = {
     {.key = "at",
@@ -10,10 +11,44 @@ const struct parameter probe_tracer_table[] = {
      .offset = offsetof(struct probe_tracer, at),
      .unit = "m",
      .standard = PARAMETER_REQUIRED,
-     .help = "position at the start, whose nearest particle is followed; of equally near ones the "
-             "first created"},
+     .help = "position at the start, whose nearest particle is followed, of equally near ones the "
+             "first created; at most one resolution outside the body"},
     PARAMETER_END,
 };
+
+/* How far AT lies outside the bounds of BODY, along the axis where it is farthest, less its
+ * resolution, m. */
+static double outside_body(const struct simulation_case *input, int body,
+                           const struct vector_value *at)
+{
+    const struct body_input *of = case_body(input, body);
+    const struct bounds bounds = body_bounds(input, body);
+    const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z};
+    const double high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
+    double farthest = 0.0;
+    for (int i = 0; i < at->count; i++)
+        farthest = maximum(farthest, maximum(low[i] - at->at[i], at->at[i] - high[i]));
+    return farthest - (isnan(of->resolution) ? input->resolution : of->resolution);
+}
+
+/* The nearest particle of a place outside all bodies is none that its user means. */
+static struct error *check_inside(const struct probe *probe, const struct simulation *simulation,
+                                  const struct vector_value *at)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    const int only = probe->selection.body;
+    double outside = INFINITY;
+    for (int b = 0; b < input->bodies.count; b++)
+        if (only < 0 || b == only)
+            outside = minimum(outside, outside_body(input, b, at));
+    if (!(outside > 0.0 && isfinite(outside)))
+        return NULL;
+    return probe_error(probe, simulation, "tracer",
+                       "it starts more than a resolution outside %s%s%s, so that no particle is "
+                       "near: move it into the body",
+                       only < 0 ? "all bodies" : "body \"",
+                       only < 0 ? "" : input->bodies.names[only], only < 0 ? "" : "\"");
+}
 
 /* The place comes first, whatever fields are named. */
 static struct error *prepare(struct probe *probe, const struct simulation *simulation,
@@ -23,6 +58,8 @@ static struct error *prepare(struct probe *probe, const struct simulation *simul
     char position[] = "position", *name = position;
     const struct name_list place = {1, &name};
     TRY(probe_check_place(probe, simulation, "tracer", &tracer->at));
+    if (population->kind == POPULATION_OF_PARTICLES)
+        TRY(check_inside(probe, simulation, &tracer->at));
     TRY(fields_choose(population, &place, simulation->problem->dimension, probe->fields));
     return probe_add_fields(probe, simulation, population);
 }

@@ -37,7 +37,8 @@ struct error *generate_count(const struct simulation_case *input, const struct r
                              int64_t *particles);
 
 /* What is no mistake but may be none of the user's wishes: a body so thin that others get through
- * it, or that it becomes one particles thickness; a start below 0 K. NULL, or messages to show,
+ * it, or that it becomes one particles thickness; a start below 0 K; a body that an axis or mirror
+ * cuts, unless in half. NULL, or messages to show,
  * each located as an error would be. */
 struct error *generate_warnings(const struct simulation_case *input);
 

@@ -70,12 +70,39 @@ static struct error *warn_of_cold(const struct simulation_case *input, int body)
                        material_density(material));
 }
 
+/* A body across the axis of symmetry, or a mirror across it, loses what is outside. That is meant
+ * where it is the half of a symmetric body; a mesostructure may end at two mirrors. */
+static struct error *warn_of_cut(const struct simulation_case *input, int body)
+{
+    const struct bounds shape = shape_bounds(&case_body(input, body)->shape);
+    const struct bounds kept = body_bounds(input, body);
+    const struct vec3 spacing = body_lattice(input, body).spacing;
+    const double from[2] = {shape.low.x, shape.low.y}, to[2] = {shape.high.x, shape.high.y};
+    const double low[2] = {kept.low.x, kept.low.y}, high[2] = {kept.high.x, kept.high.y};
+    for (int axis = 0; axis < 2 && axis < input->dimension; axis++) {
+        const double below = low[axis] - from[axis], above = to[axis] - high[axis];
+        const double cut = below + above, left = high[axis] - low[axis];
+        const double margin = axis == 0 ? spacing.x : spacing.y;
+        if (!isfinite(cut) || cut <= margin || (below > 0.0 && above > 0.0) ||
+            fabs(cut - left) <= margin)
+            continue;
+        return input_error(input, "bodies", input->bodies.names[body],
+                           "%.0f %% of its extent along %c is left out: it is from %.6g m to %.6g "
+                           "m and ends at %s, %c = %.6g m",
+                           100.0 * cut / (cut + left), "xy"[axis], from[axis], to[axis],
+                           axis == 0 ? "the axis" : "the wall", "xy"[axis],
+                           below > 0.0 ? low[axis] : high[axis]);
+    }
+    return NULL;
+}
+
 struct error *generate_warnings(const struct simulation_case *input)
 {
     struct error *warnings = NULL;
     for (int body = 0; body < input->bodies.count; body++) {
         warnings = error_join(warnings, warn_of_thin(input, body));
         warnings = error_join(warnings, warn_of_cold(input, body));
+        warnings = error_join(warnings, warn_of_cut(input, body));
     }
     for (int body = 0; body < input->bodies.count; body++) {
         const struct body_input *of = case_body(input, body);

@@ -207,6 +207,30 @@ static void expect_warning(const char *more, const char *words)
     case_free(input);
 }
 
+static void a_body_that_is_cut_unless_in_half_is_a_warning(void **state)
+{
+    (void)state;
+    static const char axis[] = "geometry: axisymmetric\nsolver: mpm\n";
+    static const char wall[] = "walls: {rear: {mirror: y, at: 10 mm, side: high}}\n";
+    static const char bodies[] =
+        "bodies: {plate: {material: metal, box: {from: [%d mm, 0 mm], to: [10 mm, %d mm]}}}\n";
+    char text[512], box[256];
+    snprintf(box, sizeof box, bodies, -20, 10);
+    snprintf(text, sizeof text, "%s%s", axis, box);
+    expect_warning(text, "67 % of its extent along x is left out: it is from -0.02 m to 0.01 m "
+                         "and ends at the axis");
+    snprintf(box, sizeof box, bodies, -10, 10);
+    snprintf(text, sizeof text, "%s%s", axis, box);
+    expect_warning(text, NULL);
+    snprintf(box, sizeof box, bodies, 0, 40);
+    snprintf(text, sizeof text, "%s%s%s", axis, wall, box);
+    expect_warning(text, "75 % of its extent along y is left out: it is from 0 m to 0.04 m and "
+                         "ends at the wall, y = 0.01 m");
+    snprintf(box, sizeof box, bodies, 0, 20);
+    snprintf(text, sizeof text, "%s%s%s", axis, wall, box);
+    expect_warning(text, NULL);
+}
+
 static void a_plate_of_less_than_three_particles_is_a_warning(void **state)
 {
     (void)state;
@@ -266,6 +290,7 @@ int main(void)
         cmocka_unit_test(two_walls_bound_the_mean_density_of_their_axis),
         cmocka_unit_test(estimated_bytes_match_allocated_ones),
         cmocka_unit_test(a_shape_or_lattice_that_cannot_be_is_told_in_its_place),
+        cmocka_unit_test(a_body_that_is_cut_unless_in_half_is_a_warning),
         cmocka_unit_test(a_plate_of_less_than_three_particles_is_a_warning),
         cmocka_unit_test(a_start_below_0_k_is_a_warning),
         cmocka_unit_test(particles_on_nodes_of_linear_functions_are_a_warning),

@@ -229,6 +229,7 @@ static void a_tracer_of_a_body_and_a_gauge_see_that_body_alone(void **state)
     (void)state;
     struct bench *b = make_bench(2);
     struct probe_tracer tracer = {{2, {0.0, 0.0}}};
+    b->body[1].resolution = 1.0; /* the place is no farther outside */
     b->given.of = right;
     b->given.fields = (struct name_list){1, (char *[]){pressure}};
     struct probe *probe = ready(b, "tracer", &tracer);
@@ -298,7 +299,16 @@ static void mistakes_are_told_where_they_stand(void **state)
     struct probe_tracer tracer = {{1, {0.0}}};
     expect_mistake(b, "tracer", &tracer,
                    "probes.it.tracer: expected 2 components, one per dimension; found 1");
-    tracer.at.count = 2;
+    tracer.at = (struct vector_value){2, {0.0, 0.5}};
+    expect_mistake(b, "tracer", &tracer,
+                   "probes.it.tracer: it starts more than a resolution outside all bodies, so that "
+                   "no particle is near: move it into the body");
+    b->given.of = right;
+    tracer.at.at[1] = 0.1;
+    expect_mistake(b, "tracer", &tracer,
+                   "probes.it.tracer: it starts more than a resolution outside body \"right\", so "
+                   "that no particle is near: move it into the body");
+    b->given.of = NULL;
     b->given.axis = 0;
     expect_mistake(b, "tracer", &tracer,
                    "probes.it.axis: this has no meaning for the probe `tracer`");
