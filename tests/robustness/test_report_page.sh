@@ -13,7 +13,7 @@ says() { grep -qF "$2" "$1/report.html" || fail "$1/report.html does not say \"$
 rm -rf whole profile stopped failed killed copied
 "$BOLIDE" run "$cases/porous-aluminium/demo/case.yaml" --short --output whole >whole.log 2>&1 ||
     fail "the demo: $(cat whole.log)"
-says whole "Porous aluminium against a wall at 1000 m/s"
+says whole "Porous aluminium hits a wall at 1000 m/s"
 says whole "Passed: 8 of 9 checks.</strong> <strong>1 known deviation:"
 "$BOLIDE" run "$cases/riemann/gas/case.yaml" --set 'title="<b>&\"quoted\" ends"' --output profile \
     >profile.log 2>&1 || fail "the shock tube: $(cat profile.log)"
