@@ -211,6 +211,13 @@ static struct error *draw_field(const struct measurement *measurement, const cha
     return ranks_agree(m.simulation->ranks, error);
 }
 
+/* Whether M compares a field with the exact solution. */
+static bool is_drawn(const struct measurement *m)
+{
+    const struct measure_class *class = m->check->measure.choice->thing;
+    return m->exact && class->needs_exact;
+}
+
 /* True when an earlier check has drawn this one's field. */
 static bool drawn_before(const struct checks *checks, int index)
 {
@@ -218,7 +225,7 @@ static bool drawn_before(const struct checks *checks, int index)
     for (int i = 0; i < index; i++) {
         const struct measurement *m = &checks->item[i].measurement;
         const struct measure_field *other = m->check->measure.value;
-        if (m->exact && !strcmp(other->field, field->field))
+        if (is_drawn(m) && !strcmp(other->field, field->field))
             return true;
     }
     return false;
@@ -227,7 +234,7 @@ static bool drawn_before(const struct checks *checks, int index)
 char *checks_picture(const struct checks *checks, int index)
 {
     const struct measurement *m = &checks->item[index].measurement;
-    if (!m->exact || drawn_before(checks, index))
+    if (!is_drawn(m) || drawn_before(checks, index))
         return NULL;
     const struct measure_field *parameters = m->check->measure.value;
     return text_format("check-%s.png", parameters->field);
@@ -240,7 +247,7 @@ struct error *checks_draw(const struct checks *checks, const struct simulation *
         struct measurement m = checks->item[i].measurement;
         m.simulation = simulation;
         m.population = population;
-        if (!m.exact || drawn_before(checks, i))
+        if (!is_drawn(&m) || drawn_before(checks, i))
             continue;
         char *name = checks_picture(checks, i);
         struct error *error =
