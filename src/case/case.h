@@ -5,6 +5,7 @@
 
 #include "base/parameter.h"
 #include "document/document.h"
+#include "material/burn/afterburn.h"
 #include "material/eos/common.h"
 
 /* material/material.h, which few of those who read a case need: it has every model */
@@ -19,6 +20,7 @@ struct material_input {
     struct one_of strength;     /* "strength"; not given: a fluid */
     struct one_of failure;      /* "failure"; not given: never */
     struct one_of burn;         /* "burn"; not given: instant */
+    struct afterburn afterburn; /* "afterburn" */
     struct heat heat;           /* "heat" */
     double tensile_strength;    /* Pa; NAN: not known */
     struct material *material;  /* filled by case_read from the above; owned */

@@ -83,6 +83,11 @@ struct error *case_fill_material(struct material_input *material)
         return error_new(ERROR_SYSTEM, "out of memory");
     material->material = plain;
     plain->heat = material->heat;
+    plain->afterburn = material->afterburn;
+    if (isnan(plain->afterburn.energy))
+        plain->afterburn.energy = 0.0;
+    if (isnan(plain->afterburn.rate))
+        plain->afterburn.rate = 0.0;
     if (material->eos.value) {
         plain->eos.kind = (enum eos_kind)material->eos.index;
         memcpy(&plain->eos.of, material->eos.value, material->eos.choice->size);
@@ -125,6 +130,11 @@ static void check_material(struct checking *checking, int index)
     }
     if ((text = material_failure_wrong(material->material)))
         case_wrong(checking, "failure", "%s", text);
+    const struct afterburn *afterburn = &material->material->afterburn;
+    if (afterburn->rate > 0.0 && isnan(material->afterburn.energy))
+        case_wrong(checking, "afterburn", "without `energy` it heats nothing: give it");
+    if (afterburn->energy > 0.0 && afterburn->rate == 0.0)
+        case_wrong(checking, "afterburn", "without `rate` nothing burns: give it");
     if ((text = material_burn_wrong(material->material)))
         case_wrong(checking, "burn", "%s", text);
 }

@@ -128,10 +128,10 @@ static const struct answer answers[] = {
      "`take` is overpressure, arrival, duration or impulse.",
      "blast.md"},
     {" blast air.blast airblast blast.wave afterburn fireball ",
-     "Start from the products of the charge: a body of `jwl` products in a body of `ideal-gas`\n"
-     "air, with `solver: gas`, as in examples/gas/tnt-in-air. The detonation and the afterburn\n"
-     "are not computed. Checks compare gauges with `exact: kingery-bulmash`. A blast on a body\n"
-     "without gas, with MPM: `loads: {NAME: {on: plate, blast: {mass: 1 kg, at: [0 m, 2 m]}}}`.\n"
+     "A charge in air, with `solver: gas`: see examples/blast/tnt-free-air. The library's tnt is\n"
+     "lit by `detonations`; `afterburn` of the material lets its products burn in the air. Checks\n"
+     "compare gauges with `exact: kingery-bulmash`. A blast on a body without gas, with MPM:\n"
+     "`loads: {NAME: {on: plate, blast: {mass: 1 kg, at: [0 m, 2 m]}}}`.\n"
      "Explosive in contact with metal: bolide help burn.",
      "blast.md"},
     {" shock.tube sod gas.dynamics cfd euler wind.tunnel air grid cells fdm ",

@@ -129,10 +129,10 @@ static int kingery_numbers(const void *solved, double time, struct exact_number 
     number_add(&list, "scaled distance", "m/kg^(1/3)", z);
     number_add(&list, "arrival", "s", passing.arrival);
     number_add(&list, "incident overpressure", "Pa", passing.overpressure);
-    number_add(&list, "incident impulse", "Pa s", passing.impulse);
+    number_add(&list, "incident impulse", "Pa*s", passing.impulse);
     number_add(&list, "positive duration", "s", passing.duration);
     number_add(&list, "reflected overpressure", "Pa", wall.overpressure);
-    number_add(&list, "reflected impulse", "Pa s", wall.impulse);
+    number_add(&list, "reflected impulse", "Pa*s", wall.impulse);
     number_add(&list, "front speed", "m/s", 1e3 * kingery_curve(charge, KINGERY_SPEED, z));
     if (time + k->age > 0.0)
         number_add(&list, "front radius", "m", kingery_front(k, time));

@@ -230,7 +230,10 @@ static struct error *fill_plane(const struct gas *gas, const struct simulation *
     for (int j = 0; j < block->count[second]; j++)
         for (int i = 0; i < rows; i++) {
             double at[3] = {0.0, 0.0, 0.0}, number[GAS_FIELDS] = {0.0};
-            number[gas->written] = 1.0; /* open */
+            if (gas->layout.open >= 0)
+                number[gas->layout.open] = 1.0;
+            if (gas->layout.burnt >= 0)
+                number[gas->layout.burnt] = 1.0;
             row_place(cells, block, first, second, i + j * rows, at);
             at[axis] = (double)(filled->side ? cells->high : cells->low)[axis] * edge;
             const int b = boundary_at(input, axis, filled->side, vec3_make(at[0], at[1], at[2]));

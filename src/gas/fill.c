@@ -24,6 +24,7 @@ struct filling {
     struct bounds *bounds; /* of each body */
     int *near, nears;      /* bodies that meet the block */
     int *here, heres;      /* bodies among them that meet the cell */
+    double around; /* the pressure at which an explosive that is lit rests: that of the gas, Pa */
     struct error *error;
 };
 
@@ -87,6 +88,7 @@ static void add_state(struct filling *f, int body, struct vec3 place, double wei
     const struct body_input *of = case_body(input, body);
     struct point point;
     double velocity[3] = {0.0}, kinetic = 0.0;
+    const double none[POINT_HISTORY] = {0.0};
     const char *key = "";
     const char *wrong = body_start_at(of, &f->simulation->problem->material[of->material_index],
                                       place, &point, velocity, &key);
@@ -94,13 +96,17 @@ static void add_state(struct filling *f, int body, struct vec3 place, double wei
         f->error = tell(f, body, key, place, wrong);
     if (wrong)
         return;
+    if (f->gas->layout.lit && of->material_index == f->gas->material[f->gas->layout.explosive])
+        point.energy +=
+            f->around /
+            eos_evaluate(&f->gas->eos[f->gas->layout.explosive], point.density, 0.0, none).dp_de;
     sum[GAS_DENSITY] += weight * point.density;
     for (int axis = 0; axis < 3; axis++) {
         sum[GAS_MOMENTUM + axis] += weight * point.density * velocity[axis];
         kinetic += 0.5 * square(velocity[axis]);
     }
     sum[GAS_ENERGY] += weight * point.density * (point.energy + kinetic);
-    const bool second = f->gas->two && of->material_index == f->gas->material[1];
+    const bool second = f->gas->layout.two && of->material_index == f->gas->material[1];
     sum[FILL_ENERGY + second] += weight * point.density * point.energy;
     if (second) {
         sum[GAS_SECOND] += weight * point.density;
@@ -216,7 +222,7 @@ static void fill_cell(struct filling *f, int32_t i)
     cells->body[i] = (uint16_t)(body < 0 ? 0 : body);
     cells->material[i] = (uint16_t)gas->material[0];
     gas->u[GAS_SHOCK][i] = 0.0;
-    if (gas->blocked) {
+    if (gas->layout.blocked) {
         gas->open[i] = gas_in_obstacle(f->simulation->problem->input, place) ? 0.0 : 1.0;
         if (gas->open[i] == 0.0)
             return;
@@ -227,11 +233,15 @@ static void fill_cell(struct filling *f, int32_t i)
         fill_parts(f, centre, sum);
     if (sum[GAS_FRACTION] > 0.0 && sum[GAS_FRACTION] < 1.0) {
         const double mass[2] = {sum[GAS_DENSITY] - sum[GAS_SECOND], sum[GAS_SECOND]};
-        sum[GAS_FRACTION] = gas_relax(gas->eos, mass, sum + FILL_ENERGY, sum[GAS_FRACTION]);
+        if (!gas->layout.lit)
+            sum[GAS_FRACTION] =
+                gas_relax(gas->eos, mass, sum + FILL_ENERGY, sum[GAS_FRACTION], 1.0);
     }
+    if (gas->layout.lit)
+        gas->u[gas->layout.burnt][i] = gas->layout.two && sum[GAS_FRACTION] == 0.0 ? 1.0 : 0.0;
     for (int n = 0; n < GAS_NUMBERS; n++)
         gas->u[n][i] = sum[n];
-    for (int n = GAS_SECOND; n < gas->written; n++)
+    for (int n = GAS_SECOND; n < gas->layout.written; n++)
         gas->u[n][i] = sum[n];
 }
 
@@ -252,6 +262,28 @@ static void fill_block(struct filling *f, const struct cell_block *block)
         fill_cell(f, i);
 }
 
+/* The pressure of the gas around an explosive that is lit, at the middle of the first body of gas; that of
+ * the atmosphere where there is none. */
+static double pressure_around(const struct filling *f)
+{
+    const struct simulation_case *input = f->simulation->problem->input;
+    const struct gas *gas = f->gas;
+    for (int b = 0; b < input->bodies.count && gas->layout.two; b++) {
+        const struct body_input *body = case_body(input, b);
+        const struct bounds bounds = shape_bounds(&body->shape);
+        const struct vec3 middle = vec3_scale(0.5, vec3_add(bounds.low, bounds.high));
+        const double none[POINT_HISTORY] = {0.0};
+        const char *key = "";
+        double velocity[3];
+        struct point point;
+        if (body->material_index == gas->material[0] &&
+            !body_start_at(body, &f->simulation->problem->material[gas->material[0]], middle,
+                           &point, velocity, &key))
+            return eos_evaluate(&gas->eos[0], point.density, point.energy, none).pressure;
+    }
+    return 101325.0;
+}
+
 struct error *gas_fill(void *solver, struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->problem->input;
@@ -261,6 +293,7 @@ struct error *gas_fill(void *solver, struct simulation *simulation)
     struct filling f = {.simulation = simulation, .gas = gas};
     TRY(ranks_agree(simulation->ranks, cell_blocks_fill(cells)));
     gas_bind(f.gas, cells);
+    f.around = pressure_around(&f);
     struct error *error = case_replacements(input, &f.replacements);
     f.bounds = memory_allocate(bodies * sizeof *f.bounds);
     f.near = memory_allocate(bodies * sizeof *f.near);

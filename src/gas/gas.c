@@ -79,19 +79,35 @@ static const struct field_row field_rows[] = {
                NUMBER_DOUBLE, 1, FIELD_STATE}},
     {.field = {"fraction", "1", "fraction of the volume that the second material fills",
                NUMBER_DOUBLE, 1, FIELD_STATE}},
+    {.field = {"afterburnt", "kg/m^3",
+               "mass of the second material per volume of the cell that has burnt in the air",
+               NUMBER_DOUBLE, 1, FIELD_STATE}},
+    {.field = {"burnt", "1", "burnt fraction of the explosive", NUMBER_DOUBLE, 1, FIELD_STATE}},
     {.field = {"open", NULL, "1, or 0 where an obstacle blocks the cell", NUMBER_DOUBLE, 1,
                FIELD_STATE}},
     FIELD_ROWS_END,
 };
-enum { OWN_FIELDS = COUNT_OF(field_rows) - 1 };
+enum { FIELD_SECOND = 6, FIELD_AFTERBURNT = 8, FIELD_BURNT, FIELD_OPEN, OWN_FIELDS };
 
-/* The last row counts where obstacles have BLOCKED cells, the two before it with TWO materials. */
-static struct error *make_store(struct cell_blocks *cells, bool two, bool blocked)
+void gas_lay_out(struct gas_layout *layout)
+{
+    layout->written = layout->afterburns ? GAS_AFTERBURNT + 1
+                      : layout->two      ? GAS_FRACTION + 1
+                                         : GAS_SHOCK + 1;
+    layout->fields = layout->written;
+    layout->burnt = layout->lit ? layout->fields++ : -1;
+    layout->open = layout->blocked ? layout->fields++ : -1;
+}
+
+static struct error *make_store(struct cell_blocks *cells, const struct gas_layout *layout)
 {
     struct field_declaration own[OWN_FIELDS];
     int count = 0;
     for (int k = 0; k < OWN_FIELDS; k++)
-        if (k < OWN_FIELDS - 3 || (k < OWN_FIELDS - 1 ? two : blocked))
+        if (k < FIELD_SECOND || (k < FIELD_AFTERBURNT    ? layout->two
+                                 : k == FIELD_AFTERBURNT ? layout->afterburns
+                                 : k == FIELD_BURNT      ? layout->lit
+                                                         : layout->blocked))
             own[count++] = field_rows[k].field;
     return cell_blocks_create(cells, own, count);
 }
@@ -124,11 +140,22 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     choose_scheme(gas);
     TRY(gas_refuse(simulation, &gas->parameters));
     gas_find_materials(simulation, gas->material);
-    gas->two = gas->material[1] != gas->material[0];
-    gas->written = gas_written(gas->two);
-    for (int k = 0; k < 2; k++)
-        gas->eos[k] = simulation->problem->material[gas->material[k]].eos;
-    gas->blocked = input->obstacles.count > 0;
+    for (int k = 0; k < 2; k++) {
+        const struct material *material = &simulation->problem->material[gas->material[k]];
+        gas->eos[k] = material->eos;
+        if (material_is_lit(material)) {
+            gas->layout.lit = true;
+            gas->layout.explosive = k;
+            gas->detonation = material_detonation_speed(material);
+        }
+    }
+    gas->unburnt = gas->layout.lit;
+    gas->layout.two = gas->material[1] != gas->material[0];
+    gas->layout.blocked = input->obstacles.count > 0;
+    gas->afterburn = simulation->problem->material[gas->material[1]].afterburn;
+    gas->layout.afterburns = gas->layout.two && gas->afterburn.energy > 0.0;
+    gas->layout.explosive = gas->layout.two ? gas->layout.explosive : 0;
+    gas_lay_out(&gas->layout);
     gas->round = geometry_power(simulation->problem->geometry);
     gas->sleepless = problem_has_gravity(simulation->problem);
     struct cell_blocks *cells = gas->cells = memory_allocate(sizeof *cells);
@@ -144,8 +171,8 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     TRY(gas_check_shapes(simulation, cells));
     gas_find_faces(simulation, cells, &gas->halo);
     gas->halo.depth = gas->second_order ? 2 : CELL_GHOSTS;
-    gas->halo.numbers = gas->written + gas->blocked;
-    TRY(make_store(cells, gas->two, gas->blocked));
+    gas->halo.numbers = gas->layout.fields;
+    TRY(make_store(cells, &gas->layout));
     simulation_add_population(simulation, "gas", &cell_population, cells);
     return NULL;
 }
@@ -158,12 +185,17 @@ void gas_bind(struct gas *gas, const struct cell_blocks *cells)
     gas->u[GAS_MOMENTUM + 2] = cell_blocks_field(cells, "momentum_z");
     gas->u[GAS_ENERGY] = cell_blocks_field(cells, "total_energy");
     gas->u[GAS_SHOCK] = cell_blocks_field(cells, "shock");
-    if (gas->two) {
+    if (gas->layout.two) {
         gas->u[GAS_SECOND] = cell_blocks_field(cells, "second");
         gas->u[GAS_FRACTION] = cell_blocks_field(cells, "fraction");
     }
-    gas->open = gas->blocked ? cell_blocks_field(cells, "open") : NULL;
-    gas->u[gas->written] = gas->open;
+    if (gas->layout.afterburns)
+        gas->u[GAS_AFTERBURNT] = cell_blocks_field(cells, "afterburnt");
+    if (gas->layout.lit)
+        gas->u[gas->layout.burnt] = cell_blocks_field(cells, "burnt");
+    gas->open = gas->layout.blocked ? cell_blocks_field(cells, "open") : NULL;
+    if (gas->open)
+        gas->u[gas->layout.open] = gas->open;
     gas->sound = cell_blocks_field(cells, "sound_long");
 }
 
@@ -173,10 +205,11 @@ static struct error *look(struct gas *gas, const struct simulation *simulation)
     const struct cell_blocks *cells = gas->cells;
     struct gas_look look = {.cells = cells,
                             .eos = &gas->eos[0],
-                            .other = gas->two ? &gas->eos[1] : NULL,
+                            .other = gas->layout.two ? &gas->eos[1] : NULL,
                             .material = {(uint16_t)gas->material[0], (uint16_t)gas->material[1]},
                             .open = gas->open,
-                            .written = gas->written,
+                            .layout = &gas->layout,
+                            .unburnt = gas->unburnt,
                             .sound = gas->sound,
                             .round = gas->round};
     struct ranked first = {INFINITY, UINT64_MAX, 0};
@@ -189,7 +222,7 @@ static struct error *look(struct gas *gas, const struct simulation *simulation)
             struct gas_block *block = &gas->block[b];
             if (block->awake)
                 block->fastest = gas_look_at_block(&look, b);
-            block->awake = gas->sleepless || !block->fastest.still;
+            block->awake = gas->sleepless || !block->fastest.still || block->burns;
             const struct gas_fastest fastest = block->fastest;
             const struct ranked found = {-fastest.speed, cells->id[fastest.cell], fastest.cell};
             if (ranked_before(&found, &own))
@@ -208,7 +241,7 @@ struct error *gas_plan(struct gas *gas, struct simulation *simulation)
 {
     struct cell_blocks *cells = gas->cells;
     struct error *error = NULL;
-    for (int n = 0; n < gas->written && cells->count > gas->room; n++) {
+    for (int n = 0; n < gas->layout.written && cells->count > gas->room; n++) {
         free(gas->other[n]);
         gas->other[n] = memory_allocate(((size_t)cells->count + 1) * sizeof(double));
         if (!gas->other[n])
@@ -236,6 +269,7 @@ static struct error *gas_start(void *solver, struct simulation *simulation)
     struct gas *gas = solver;
     gas->cells->threads = simulation->threads;
     TRY(gas_plan(gas, simulation));
+    TRY(gas_burn(gas, simulation, simulation->time));
     return look(gas, simulation);
 }
 
@@ -261,7 +295,7 @@ static struct error *balance(struct gas *gas, struct simulation *simulation)
  * are soon faster than any wave before. */
 static double start_part(const struct gas *gas, int64_t step)
 {
-    double part = gas->two ? 0.1 : 1.0;
+    double part = gas->layout.two ? 0.1 : 1.0;
     for (int64_t k = 0; k < step && part < 1.0; k++)
         part *= 1.15;
     return minimum(part, 1.0);
@@ -273,6 +307,8 @@ static struct error *gas_prepare(void *solver, struct simulation *simulation, st
     struct gas *gas = solver;
     TRY(balance(gas, simulation));
     const double edge = gas->cells->edge;
+    if (gas->unburnt)
+        gas->fastest = maximum(gas->fastest, gas->detonation);
     const struct ranked own = {start_part(gas, simulation->step) * gas->parameters.courant * edge /
                                    gas->fastest,
                                gas->fastest_id, 0};
@@ -293,7 +329,7 @@ static void pull(const struct gas *gas, struct simulation *simulation, double dt
 #pragma omp for schedule(static)
         for (int32_t i = 0; i < cells->count; i++) {
             double work = 0.0, impulse[3];
-            if (gas->blocked && gas->open[i] == 0.0)
+            if (gas->open && gas->open[i] == 0.0)
                 continue;
             for (int axis = 0; axis < 3; axis++) {
                 double *momentum = &gas->u[GAS_MOMENTUM + axis][i];
@@ -328,7 +364,9 @@ static struct error *gas_advance(void *solver, struct simulation *simulation, do
         TRY(gas_sweep(gas, simulation, k < 0 ? -k : k, k == 0 ? dt : 0.5 * dt));
     if (heavy)
         pull(gas, simulation, 0.5 * dt);
+    gas_afterburn(gas, simulation, dt);
     simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
+    TRY(gas_burn(gas, simulation, simulation->time + dt));
     struct error *error = look(gas, simulation);
     simulation_end_phase(simulation, PHASE_BLOCKS, "states");
     return error;
@@ -360,10 +398,12 @@ static double gas_bytes(const void *parameters, int dimension)
 {
     (void)parameters;
     struct cell_blocks store = {.dimension = dimension};
-    error_free(make_store(&store, false, false));
+    struct gas_layout layout = {0};
+    gas_lay_out(&layout);
+    error_free(make_store(&store, &layout));
     const double bytes = (double)cell_blocks_bytes(&store);
     cell_blocks_destroy(&store);
-    return bytes + gas_written(false) * sizeof(double);
+    return bytes + layout.written * (double)sizeof(double);
 }
 
 static double gas_step(const void *parameters, int dimension, const struct material *material,

@@ -21,6 +21,7 @@ struct gas_strips {
 /* What is known of a block, so that gas at rest costs nothing. */
 struct gas_block {
     struct gas_fastest fastest;
+    bool burns; /* what has burnt of its explosive has just changed */
     bool awake; /* a sweep of this step took it, or it was not still at its start */
     bool shocked,
         stale; /* strong shocks are in it, in what sweeps wrote before it became its state */
@@ -34,10 +35,11 @@ struct gas {
     struct lax_wendroff scheme;
     struct eos eos[2];
     int material[2]; /* the same twice: there is one */
-    bool two;        /* materials */
-    int written;     /* fields that sweeps write */
-    bool blocked;    /* some cells are */
-    int round;       /* the power of x in a volume: 0 unless x is a radius */
+    struct gas_layout layout;
+    struct afterburn afterburn;
+    double detonation; /* its speed, m/s, of an explosive that is lit */
+    bool unburnt;      /* some of it is, on some rank */
+    int round;         /* the power of x in a volume: 0 unless x is a radius */
     struct cell_halo halo;
     uint64_t order; /* of the blocks when the strips were made */
     int32_t room;   /* cells for which `other` has room */
@@ -88,10 +90,18 @@ struct error *gas_fill_planes(const struct gas *gas, const struct simulation *si
                               double time);
 
 /* The fraction of volume of the second material of a cell, FRACTION, when both have come to one pressure:
- * the first without heat, the second with the rest of the energy. Masses and energies, those of the
- * materials at rest, are per volume of the cell. */
+ * the first without heat, the second, BURNT to this fraction, with the rest of the energy. Masses and
+ * energies, those of the materials at rest, are per volume of the cell. */
 double gas_relax(const struct eos eos[2], const double mass[2], const double energy[2],
-                 double fraction);
+                 double fraction, double burnt);
+
+/* Lays out what cells have; `written` and `fields` count it. */
+void gas_lay_out(struct gas_layout *layout);
+
+/* Explosives that are lit, and products that burn in the air (burn.c). The first, collective: how much has
+ * burnt at TIME, and whether some has not. The second adds the heat of afterburning over DT. */
+struct error *gas_burn(struct gas *gas, const struct simulation *simulation, double time);
+void gas_afterburn(struct gas *gas, struct simulation *simulation, double dt);
 
 /* Collective: what the bodies of the case put into the cells. */
 struct error *gas_fill(void *solver, struct simulation *simulation);

@@ -6,7 +6,8 @@
  *   rho e = sum alpha_k xi_k (p - p_0k)    xi rho c^2 = sum alpha_k xi_k rho_k c_k^2
  *   xi = sum alpha_k xi_k
  *
- * without iteration. The fractions follow the flow, d alpha/dt + u . grad alpha = 0. */
+ * without iteration. The fractions follow the flow, d alpha/dt + u . grad alpha = 0. Of an explosive p_0
+ * counts as much as has burnt of it (row_unburn). */
 #ifndef BOLIDE_GAS_MIXTURE_H
 #define BOLIDE_GAS_MIXTURE_H
 
@@ -41,7 +42,7 @@ BOLIDE_INLINE double mixture_density(const struct eos *eos, double mass, double 
 }
 
 static inline struct mixture_part mixture_part_of(const struct eos *eos, double density,
-                                                  double fraction)
+                                                  double fraction, double burnt)
 {
     static const double energy = 1e6;
     const double none[POINT_HISTORY] = {0.0};
@@ -61,19 +62,20 @@ static inline struct mixture_part mixture_part_of(const struct eos *eos, double 
     part.density = density;
     part.ratio = cold.dp_de;
     part.weight = fraction * density / cold.dp_de;
-    part.cold = cold.pressure;
-    part.slope = cold.dp_drho;
+    part.cold = burnt * cold.pressure;
+    part.slope = burnt * cold.dp_drho;
     part.rise = (warm.dp_drho - cold.dp_drho) / energy;
     return part;
 }
 
-/* A mixture of EOS at DENSITY; FRACTION is that of the second. */
+/* A mixture of EOS at DENSITY; FRACTION is that of the second, and BURNT what has of each: 1 unless it is
+ * an explosive. */
 BOLIDE_INLINE struct mixture mixture_of(const struct eos *const eos[2], const double density[2],
-                                        double fraction)
+                                        double fraction, const double burnt[2])
 {
     struct mixture mixture;
-    mixture.part[0] = mixture_part_of(eos[0], density[0], 1.0 - fraction);
-    mixture.part[1] = mixture_part_of(eos[1], density[1], fraction);
+    mixture.part[0] = mixture_part_of(eos[0], density[0], 1.0 - fraction, burnt[0]);
+    mixture.part[1] = mixture_part_of(eos[1], density[1], fraction, burnt[1]);
     mixture.density = (1.0 - fraction) * density[0] + fraction * density[1];
     return mixture;
 }

@@ -60,6 +60,9 @@ BOLIDE_INLINE void row_states(const struct gas_row *row, int first, int last,
         states->energy[k] = u->of[GAS_ENERGY][k] / density - kinetic;
     }
     row_evaluate(row->eos, w->of[PRIMITIVE_DENSITY], states->energy, first, last, &values);
+    if (row->lit == row->eos)
+        row_unburn(row->eos, w->of[PRIMITIVE_DENSITY], states->energy, row->burnt, first, last,
+                   &values);
     FOR_ROW (k, first, last) {
         const double density = w->of[PRIMITIVE_DENSITY][k], gamma = values.dp_de[k] / density;
         const double square_of_sound =
@@ -128,6 +131,9 @@ BOLIDE_INLINE void row_close_faces(const struct gas_row *row, const struct row_s
     struct row_values values;
     row_evaluate(row->eos, face->of.of[PRIMITIVE_DENSITY], cell->energy + offset, 0, row->cells,
                  &values);
+    if (row->lit == row->eos)
+        row_unburn(row->eos, face->of.of[PRIMITIVE_DENSITY], cell->energy + offset,
+                   row->burnt + offset, 0, row->cells, &values);
     FOR_ROW (k, 0, row->cells) {
         const double density = face->of.of[PRIMITIVE_DENSITY][k],
                      pressure = face->of.of[PRIMITIVE_PRESSURE][k],

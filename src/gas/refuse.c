@@ -44,18 +44,6 @@ void gas_find_materials(const struct simulation *simulation, int material[2])
     }
 }
 
-/* A fluid whose pressure follows from its density and energy alone. */
-static const char *refuse_material(const struct material *material)
-{
-    if (material_has_strength(material))
-        return "the solver gas computes fluids: leave the strength out";
-    if (material_burns(material))
-        return "the solver gas does not burn explosives: leave `burn` out and begin with products";
-    if (material_history(material))
-        return "the solver gas keeps no history of a material: choose another equation of state";
-    return NULL;
-}
-
 /* Whether pressures grow in proportion to the energy at each density. */
 static bool is_linear(const struct eos *eos)
 {
@@ -74,6 +62,22 @@ static bool is_linear(const struct eos *eos)
         }
     }
     return true;
+}
+
+/* A fluid whose pressure follows from its density and energy alone. */
+static const char *refuse_material(const struct material *material)
+{
+    if (material_has_strength(material))
+        return "the solver gas computes fluids: leave the strength out";
+    if (material_burns(material) && material->burn.kind != BURN_programmed)
+        return "the solver gas burns explosives as programmed: choose `burn: programmed`, or leave "
+               "`burn` out and begin with products";
+    if (material_burns(material) && !is_linear(&material->eos))
+        return "the solver gas burns explosives whose products have a pressure that grows in "
+               "proportion to the energy: choose `eos: jwl`";
+    if (material_history(material) && !material_is_lit(material))
+        return "the solver gas keeps no history of a material: choose another equation of state";
+    return NULL;
 }
 
 /* Two materials at most. */
@@ -107,6 +111,26 @@ static struct error *refuse_materials(const struct simulation *simulation,
             error = error_join(error, input_error(input, "materials",
                                                   input->materials.names[material[k]], "%s", text));
     }
+    const bool lit[2] = {material_is_lit(&of[material[0]]), material_is_lit(&of[material[1]])};
+    if (two && lit[0])
+        error =
+            error_join(error, input_error(input, "materials", input->materials.names[material[0]],
+                                          "the solver gas burns one explosive, the denser of "
+                                          "two materials: leave `burn` out"));
+    if (two && of[material[0]].afterburn.energy > 0.0)
+        error =
+            error_join(error, input_error(input, "materials", input->materials.names[material[0]],
+                                          "the denser of two materials burns in the other: "
+                                          "leave `afterburn` out"));
+    if (!two && of[material[0]].afterburn.energy > 0.0)
+        error =
+            error_join(error, input_error(input, "materials", input->materials.names[material[0]],
+                                          "products burn in a second material, the air: leave "
+                                          "`afterburn` out, or fill the space around them"));
+    if (!two && lit[0] && parameters->method.index != GAS_MUSCL_HANCOCK)
+        error = error_join(error, input_error(input, "solver", NULL,
+                                              "lax-wendroff does not burn explosives: leave the "
+                                              "method out"));
     if (two && parameters->method.index != GAS_MUSCL_HANCOCK)
         error =
             error_join(error, input_error(input, "solver", NULL,
@@ -136,8 +160,6 @@ struct error *gas_refuse(const struct simulation *simulation,
     error = error_join(error, refuse_map(input, "outflows", &input->outflows,
                                          "outflows are for particles: use a boundary of kind "
                                          "transmitting"));
-    error = error_join(error, refuse_map(input, "detonations", &input->detonations,
-                                         "the solver gas does not burn explosives"));
     for (int b = 0; b < input->bodies.count; b++)
         error = error_join(error, refuse_body(input, b));
     return error_join(error, refuse_materials(simulation, parameters));

@@ -39,6 +39,10 @@ struct gas_row {
     bool crossed; /* some of `shock` may not be zero; else it is zero in cells -2 .. cells + 1 */
     bool shocked; /* found by a sweep: a strong shock runs along the row */
     double part[PARTS][ROW_ROOM]; /* of the second material, where there are two */
+    bool afterburns;              /* it burns in the first */
+    double afterburnt[ROW_ROOM];  /* its mass per volume of the cell that has */
+    const struct eos *lit;        /* that of an explosive of which some is unburnt, NULL: none is */
+    double burnt[ROW_ROOM];       /* the fraction of it that is not */
     double
         push[ROW_ROOM]; /* found along a radius: mean pressures in a sweep, Pa, times s r^(s-1) */
 };
@@ -83,6 +87,31 @@ static inline void row_evaluate(const struct eos *eos, const double *density, co
                 values->dp_drho[k] = value.dp_drho;
                 values->dp_de[k] = value.dp_de;
             }
+}
+
+/* What values at FIRST to LAST become where only the fraction BURNT of the explosive EOS is. Its ENERGY
+ * counts from the explosive at rest, whose pressure vanishes: with the pressure P(rho, e) = P_0(rho) +
+ * b(rho) e of the products
+ *
+ *   p = F P_0 + b e
+ *
+ * Unburnt it is a gas without pressure but that of its heat, so that nothing runs ahead of a detonation
+ * and energy is conserved whatever F is. Products that have done work may flow into it and take that
+ * away: fluxes take some pressure then, until F grows by as much as they need (burn.c). */
+static const double UNBURNT_LEAST = 1e4; /* Pa */
+
+static inline void row_unburn(const struct eos *eos, const double *density, const double *energy,
+                              const double *burnt, int first, int last, struct row_values *values)
+{
+    double none[ROW_ROOM] = {0.0};
+    struct row_values rest;
+    row_evaluate(eos, density, none, first, last, &rest);
+    FOR_ROW (k, first, last) {
+        const double pressure = burnt[k] * rest.pressure[k] + values->dp_de[k] * energy[k],
+                     slope = values->dp_drho[k] - (1.0 - burnt[k]) * rest.dp_drho[k];
+        values->pressure[k] = maximum(pressure, UNBURNT_LEAST);
+        values->dp_drho[k] = maximum(slope, 0.0);
+    }
 }
 
 /* The specific energies of the cells FIRST to LAST, whose numbers are U, less that of their motion. */

@@ -115,8 +115,8 @@ static bool is_alike(const struct gas *gas, int32_t a, int32_t b)
     const int32_t i = gas->cells->block[a].first, j = gas->cells->block[b].first;
     return !gas->block[b].awake && gas->u[GAS_DENSITY][i] == gas->u[GAS_DENSITY][j] &&
            gas->u[GAS_ENERGY][i] == gas->u[GAS_ENERGY][j] &&
-           (!gas->two || (gas->u[GAS_SECOND][i] == gas->u[GAS_SECOND][j] &&
-                          gas->u[GAS_FRACTION][i] == gas->u[GAS_FRACTION][j]));
+           (!gas->layout.two || (gas->u[GAS_SECOND][i] == gas->u[GAS_SECOND][j] &&
+                                 gas->u[GAS_FRACTION][i] == gas->u[GAS_FRACTION][j]));
 }
 
 /* A sweep leaves one gas at rest as it is, to the bit, whatever the step is: fluxes are its pressure
@@ -141,7 +141,7 @@ static void copy_block(struct gas *gas, int32_t b)
 {
     const struct cell_block *block = &gas->cells->block[b];
     const size_t cells = (size_t)(block->count[0] * block->count[1] * block->count[2]);
-    for (int n = 0; n < gas->written; n++)
+    for (int n = 0; n < gas->layout.written; n++)
         memcpy(gas->other[n] + block->first, gas->u[n] + block->first, cells * sizeof(double));
     gas->block[b].same = true;
 }
@@ -206,7 +206,7 @@ static void sweep_strips(const struct gas *gas, struct simulation *simulation,
 /* What sweeps have written becomes the state. */
 static void take_written(struct gas *gas, struct cell_blocks *cells)
 {
-    for (int n = 0; n < gas->written; n++) {
+    for (int n = 0; n < gas->layout.written; n++) {
         for (int k = 0; k < cells->fields; k++)
             if (cells->field[k].data == (void *)gas->u[n])
                 cells->field[k].data = gas->other[n];
@@ -228,9 +228,9 @@ struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis
     struct gas_sweep sweep = {.cells = cells,
                               .halo = &gas->halo,
                               .eos = &gas->eos[0],
-                              .other = gas->two ? &gas->eos[1] : NULL,
-                              .written = gas->written,
-                              .blocked = gas->blocked,
+                              .other = gas->layout.two ? &gas->eos[1] : NULL,
+                              .layout = &gas->layout,
+                              .unburnt = gas->unburnt,
                               .axis = axis,
                               .r = dt / cells->edge,
                               .round = axis == 0 ? gas->round : 0,

@@ -7,12 +7,28 @@
 #include "grid/cell_halo.h"
 
 /* Conserved numbers of a cell, and behind them the axes of strong shocks in it, as sweeps left them;
- * with two materials the mass per volume and the fraction of volume of the second; and, where a case
- * has obstacles, whether the cell is open, 1, or blocked, 0. */
-enum { GAS_SHOCK = GAS_NUMBERS, GAS_SECOND, GAS_FRACTION, GAS_FIELDS = GAS_FRACTION + 2 };
+ * with two materials the mass per volume and the fraction of volume of the second, and the mass per
+ * volume that has burnt in the air where it does. Sweeps write these. Behind them, where a case has
+ * them: the fraction burnt of the explosive here, and whether the cell is open, 1, or blocked, 0. */
+enum {
+    GAS_SHOCK = GAS_NUMBERS,
+    GAS_SECOND,
+    GAS_FRACTION,
+    GAS_AFTERBURNT,
+    GAS_FIELDS = GAS_AFTERBURNT + 3
+};
 
-/* How many of them sweeps write, which is where `open` is. */
-BOLIDE_INLINE int gas_written(bool two) { return two ? GAS_FRACTION + 1 : GAS_SHOCK + 1; }
+/* What cells have, and where. */
+struct gas_layout {
+    bool two;        /* materials */
+    bool afterburns; /* the second burns in the first */
+    bool lit;        /* one is an explosive that is lit */
+    bool blocked;    /* some cells are */
+    int explosive;   /* which of the materials is lit */
+    int written;     /* fields that sweeps write */
+    int burnt, open; /* where these fields are, -1: nowhere */
+    int fields;      /* all of them */
+};
 
 /* A sweep along an axis: what all strips share. */
 struct gas_sweep {
@@ -21,8 +37,8 @@ struct gas_sweep {
     const struct eos *eos, *other; /* of the second material, NULL: there is one */
     const double *from[GAS_FIELDS];
     double *to[GAS_FIELDS];
-    int written;  /* fields that sweeps write */
-    bool blocked; /* some cells are: from[written] is `open` */
+    const struct gas_layout *layout;
+    bool unburnt; /* some explosive is */
     int axis;
     double r;          /* dt/h */
     int round;         /* the power of the radius in a volume: 0 unless the axis is one */
@@ -66,7 +82,8 @@ struct gas_look {
     const struct eos *eos, *other; /* of the second material, NULL: there is one */
     uint16_t material[2];
     const double *u[GAS_FIELDS], *open; /* NULL: all cells are open */
-    int written;
+    const struct gas_layout *layout;
+    bool unburnt;  /* some explosive is */
     double *sound; /* m/s */
     int round;     /* the power of x in a volume */
 };

@@ -108,6 +108,8 @@ static void store_row(const struct gather *g, const struct gas_row *row, int fir
         }
         for (int n = 0; n < PARTS && row->other; n++)
             store_cells(row->part[n] + in, sweep->to[GAS_SECOND + n] + at, stride, begin, end);
+        if (row->afterburns)
+            store_cells(row->afterburnt + in, sweep->to[GAS_AFTERBURNT] + at, stride, begin, end);
         k += count;
     }
 }
@@ -153,13 +155,18 @@ static void note_obstacle(const struct gas_numbers *flux, int face, int row, int
     through->obstacles++;
 }
 
-/* Copies cell FROM of ALL to place TO of a row, turned where it is an image. */
-static void copy_cell(double (*all)[ROW_ROOM], int from, bool turned, int axis, struct gas_row *to,
-                      int k)
+/* Copies cell FROM of ALL, in LAYOUT, to place K of a row, turned where it is an image. */
+static void copy_cell(double (*all)[ROW_ROOM], const struct gas_layout *layout, int from,
+                      bool turned, struct gas_row *to, int k)
 {
+    const int axis = to->axis;
     to->shock[k] = all[GAS_SHOCK][from];
     for (int n = 0; n < PARTS && to->other; n++)
         to->part[n][k] = all[GAS_SECOND + n][from];
+    if (to->afterburns)
+        to->afterburnt[k] = all[GAS_AFTERBURNT][from];
+    if (to->lit)
+        to->burnt[k] = all[layout->burnt][from];
     for (int n = 0; n < GAS_NUMBERS; n++)
         to->u.of[n][k] = turned && n == GAS_MOMENTUM + axis ? -all[n][from] : all[n][from];
 }
@@ -181,16 +188,17 @@ static int reflected(int k, int low, int high, bool *turned)
 static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cells, int number,
                        struct gas_row *row, struct gas_through *through)
 {
-    const int depth = g->sweep->halo->depth, axis = g->sweep->axis;
+    const struct gas_layout *layout = g->sweep->layout;
+    const int depth = g->sweep->halo->depth;
     const int begin = ROW_GHOSTS, end = ROW_GHOSTS + cells; /* of the row's own cells */
-    const double *open = all[g->sweep->written], first = row->first;
+    const double *open = all[layout->open], first = row->first;
     double push[ROW_ROOM] = {0.0};
     struct gas_numbers flux;
     for (int k = begin - depth; k < end + depth;) {
         if (open[k] == 0.0) {
             if (k >= begin && k < end) { /* as it was */
                 row->cells = 1;
-                copy_cell(all, k, false, axis, row, ROW_GHOSTS);
+                copy_cell(all, layout, k, false, row, ROW_GHOSTS);
                 store_row(g, row, k - begin);
             }
             k++;
@@ -210,7 +218,7 @@ static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cell
                 if ((closed_low && at < k) || (closed_high && at > last))
                     source =
                         reflected(at, closed_low ? k : -1000, closed_high ? last : 1000, &turned);
-                copy_cell(all, source, turned, axis, row, at - from + ROW_GHOSTS);
+                copy_cell(all, layout, source, turned, row, at - from + ROW_GHOSTS);
             }
             sweep_row(g->sweep, row, &flux);
             store_row(g, row, from - begin);
@@ -242,12 +250,15 @@ static bool any_blocked(const double *open, int cells, int depth)
 ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct gas_strip *strip,
            struct gas_through *through)
 {
+    const struct gas_layout *layout = sweep->layout;
     const struct cell_block *block = &sweep->cells->block[strip->block[0]];
     const struct across across = across_of(sweep->axis);
     const int rows = block->count[across.first], columns = block->count[across.second];
     struct gas_row row;
     row.eos = sweep->eos;
     row.other = sweep->other;
+    row.afterburns = layout->afterburns;
+    row.lit = !sweep->unburnt ? NULL : layout->explosive ? sweep->other : sweep->eos;
     row.axis = sweep->axis;
     row.round = sweep->round;
     row.shocked = true;
@@ -267,32 +278,30 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
             const int number = i + j * rows;
             double all[GAS_FIELDS][ROW_ROOM];
             struct gas_numbers flux;
-            const int cells = sweep->blocked ? load_row(&g, 0, sweep->written + 1, all)
-                                             : load_row(&g, 0, GAS_NUMBERS, row.u.of);
+            const int cells = layout->blocked ? load_row(&g, 0, layout->fields, all)
+                                              : load_row(&g, 0, GAS_NUMBERS, row.u.of);
             row.cells = cells;
             row.crossed = !strip->calm;
-            if (!sweep->blocked && !strip->calm)
+            if (!layout->blocked && !strip->calm)
                 load_row(&g, GAS_SHOCK, GAS_SHOCK + 1, &row.shock);
             else if (row.shocked)
                 memset(row.shock, 0, sizeof row.shock);
             row.shocked = false;
-            if (!sweep->blocked && row.other)
+            if (!layout->blocked && row.other)
                 load_row(&g, GAS_SECOND, GAS_SECOND + PARTS, row.part);
-            if (sweep->blocked) {
-                if (any_blocked(all[sweep->written], cells, sweep->halo->depth)) {
+            if (!layout->blocked && row.afterburns)
+                load_row(&g, GAS_AFTERBURNT, GAS_AFTERBURNT + 1, &row.afterburnt);
+            if (!layout->blocked && row.lit)
+                load_row(&g, layout->burnt, layout->burnt + 1, &row.burnt);
+            if (layout->blocked) {
+                if (any_blocked(all[layout->open], cells, sweep->halo->depth)) {
                     for (int n = 0; n < GAS_NUMBERS; n++)
                         through->end[0][number][n] = through->end[1][number][n] = 0.0;
                     sweep_runs(&g, all, cells, number, &row, through);
                     continue;
                 }
-                for (int n = 0; n < GAS_NUMBERS; n++)
-                    FOR_ROW (k, -sweep->halo->depth, cells - 1 + sweep->halo->depth)
-                        row.u.of[n][k] = all[n][k];
                 FOR_ROW (k, -sweep->halo->depth, cells - 1 + sweep->halo->depth)
-                    row.shock[k] = all[GAS_SHOCK][k];
-                for (int n = 0; n < PARTS && row.other; n++)
-                    FOR_ROW (k, -sweep->halo->depth, cells - 1 + sweep->halo->depth)
-                        row.part[n][k] = all[GAS_SECOND + n][k];
+                    copy_cell(all, layout, k, false, &row, k);
             }
             sweep_row(sweep, &row, &flux);
             store_row(&g, &row, 0);
@@ -314,7 +323,13 @@ static void evaluate_run(const struct gas_look *look, const struct run *run,
                          struct row_values *values)
 {
     const int last = run->count - 1;
+    const struct gas_layout *layout = look->layout;
+    double burnt[ROW_ROOM];
     row_evaluate(look->eos, run->density, run->energy, 0, last, values);
+    FOR_ROW (k, 0, last)
+        burnt[k] = look->unburnt ? look->u[layout->burnt][run->first + k - ROW_GHOSTS] : 1.0;
+    if (look->unburnt && layout->explosive == 0)
+        row_unburn(look->eos, run->density, run->energy, burnt, 0, last, values);
     if (!look->other)
         return;
     const struct eos *const eos[2] = {look->eos, look->other};
@@ -322,6 +337,8 @@ static void evaluate_run(const struct gas_look *look, const struct run *run,
                  *fractions = look->u[GAS_FRACTION] + run->first;
     struct row_values of_second;
     row_evaluate(look->other, run->density, run->energy, 0, last, &of_second);
+    if (look->unburnt && layout->explosive == 1)
+        row_unburn(look->other, run->density, run->energy, burnt, 0, last, &of_second);
     FOR_ROW (k, 0, last) {
         const double fraction = fractions[k - ROW_GHOSTS], mass = second[k - ROW_GHOSTS];
         if (fraction >= 1.0) {
@@ -332,7 +349,9 @@ static void evaluate_run(const struct gas_look *look, const struct run *run,
             const double density[2] = {
                 mixture_density(eos[0], run->density[k] - mass, 1.0 - fraction),
                 mixture_density(eos[1], mass, fraction)};
-            const struct mixture mixture = mixture_of(eos, density, fraction);
+            const double of[2] = {layout->explosive == 0 ? burnt[k] : 1.0,
+                                  layout->explosive == 1 ? burnt[k] : 1.0};
+            const struct mixture mixture = mixture_of(eos, density, fraction, of);
             values->pressure[k] = mixture_pressure(&mixture, run->density[k] * run->energy[k]);
             values->dp_drho[k] = mixture_sound_square(&mixture, values->pressure[k]);
             values->dp_de[k] = 0.0;
@@ -418,7 +437,7 @@ static void find_fastest(const struct gas_look *look, const struct run *run,
 /* Whether the cells FIRST .. END - 1 are open and hold one gas at rest. */
 static bool is_still(const struct gas_look *look, int32_t first, int32_t end)
 {
-    bool still = true;
+    bool still = !look->layout->afterburns || look->u[GAS_FRACTION][first] == 0.0;
     for (int32_t i = first; i < end && look->open; i++)
         still &= !is_closed(look, i);
     for (int n = 0; n < GAS_NUMBERS && still; n++) {
@@ -427,7 +446,7 @@ static bool is_still(const struct gas_look *look, int32_t first, int32_t end)
         for (int32_t i = first; i < end; i++)
             still &= u[i] == value;
     }
-    for (int n = GAS_SHOCK; n < look->written && still; n++) {
+    for (int n = GAS_SHOCK; n < look->layout->written && still; n++) {
         const double *u = look->u[n], value = n == GAS_SHOCK ? 0.0 : u[first];
         for (int32_t i = first; i < end; i++)
             still &= u[i] == value;

@@ -33,6 +33,12 @@ struct row_parts {
     double inner[2][2][ROW_ROOM], fraction_at[2][ROW_ROOM]; /* of cells of both at their faces */
 };
 
+/* What has burnt of material M in cell K. */
+BOLIDE_INLINE double parts_burnt(const struct gas_row *row, int m, int k)
+{
+    return row->lit && row->lit == (m ? row->other : row->eos) ? row->burnt[k] : 1.0;
+}
+
 BOLIDE_INLINE void parts_find(const struct gas_row *row, struct row_parts *parts)
 {
     FOR_ROW (k, -2, row->cells + 1) {
@@ -79,12 +85,15 @@ static inline void parts_states(struct gas_row *row, const struct row_parts *par
             fall[k] = fall_of_other[k];
         if (parts->kind[k] != PART_BOTH)
             continue;
-        const double density[2] = {parts->density[0][k], parts->density[1][k]};
-        const struct mixture mixture = mixture_of(eos, density, row->part[PART_FRACTION][k]);
-        const double pressure =
+        const double density[2] = {parts->density[0][k], parts->density[1][k]},
+                     burnt[2] = {parts_burnt(row, 0, k), parts_burnt(row, 1, k)};
+        const struct mixture mixture = mixture_of(eos, density, row->part[PART_FRACTION][k], burnt);
+        const double pressure = maximum(
                          mixture_pressure(&mixture, row->u.of[GAS_DENSITY][k] * states->energy[k]),
+                         row->lit ? UNBURNT_LEAST : -(double)INFINITY),
                      gamma = mixture_gamma(&mixture);
-        const double square_of_sound = maximum(mixture_sound_square(&mixture, pressure), 0.0);
+        const double square_of_sound = maximum(mixture_sound_square(&mixture, pressure),
+                                               row->lit ? pressure / mixture.density : 0.0);
         states->of.of[PRIMITIVE_PRESSURE][k] = pressure;
         states->sound[k] = sqrt(square_of_sound);
         fall[k] = (1.0 - GAS_LEAST) * square_of_sound / (gamma * (gamma + 1.0));
@@ -185,10 +194,11 @@ static inline void parts_close_faces(struct gas_row *row, const struct row_parts
         const int c = k + offset;
         if (parts->kind[c] != PART_BOTH)
             continue;
-        const double density[2] = {parts->inner[0][side][c], parts->inner[1][side][c]};
+        const double density[2] = {parts->inner[0][side][c], parts->inner[1][side][c]},
+                     burnt[2] = {parts_burnt(row, 0, c), parts_burnt(row, 1, c)};
         const double fraction =
             side ? parts->below[PART_FRACTION][k] : parts->above[PART_FRACTION][k];
-        const struct mixture mixture = mixture_of(eos, density, fraction);
+        const struct mixture mixture = mixture_of(eos, density, fraction, burnt);
         const double pressure = face->of.of[PRIMITIVE_PRESSURE][k];
         face->energy[k] = mixture_energy(&mixture, pressure) / mixture.density;
         face->sound[k] = cell->sound[c];
@@ -324,6 +334,24 @@ BOLIDE_INLINE void parts_clean(struct gas_row *row)
     }
 }
 
+/* What has burnt in the air flows with its material, of which MASS flows through the faces; OWN is its mass
+ * per volume in the cells. */
+static inline void row_carry_afterburnt(struct gas_row *row, const double *mass, const double *own,
+                                        double r)
+{
+    double flow[ROW_ROOM];
+    FOR_ROW (k, 0, row->cells) {
+        const int from = mass[k] >= 0.0 ? k - 1 : k;
+        flow[k] = own[from] > 0.0 ? mass[k] * minimum(row->afterburnt[from] / own[from], 1.0) : 0.0;
+    }
+    FOR_ROW (k, 0, row->cells - 1)
+        row->afterburnt[k] =
+            maximum(row->afterburnt[k] -
+                        r * (row_area(row, k + 1) * flow[k + 1] - row_area(row, k) * flow[k]) /
+                            row_size(row, k),
+                    0.0);
+}
+
 /* Marks in LOST the faces 0 .. cells whose FLUX would take too much out of half of a cell of both materials,
  * as row_mark_lost: mass, either material's mass, or pressure. */
 static inline void parts_mark_lost(const struct gas_row *row, const struct row_parts *parts,
@@ -356,8 +384,9 @@ static inline void parts_mark_lost(const struct gas_row *row, const struct row_p
         bool stays = half[GAS_DENSITY] > GAS_LEAST * row->u.of[GAS_DENSITY][c];
         if (stays && fraction[0] > 0.0 && fraction[1] > 0.0) {
             const double density[2] = {mixture_density(eos[0], mass[0], fraction[0]),
-                                       mixture_density(eos[1], mass[1], fraction[1])};
-            const struct mixture mixture = mixture_of(eos, density, fraction[1]);
+                                       mixture_density(eos[1], mass[1], fraction[1])},
+                         burnt[2] = {parts_burnt(row, 0, c), parts_burnt(row, 1, c)};
+            const struct mixture mixture = mixture_of(eos, density, fraction[1], burnt);
             stays = mixture_pressure(&mixture, half[GAS_ENERGY] - kinetic) > GAS_LEAST * pressure;
         }
         lost[k] = stays ? 0.0 : 1.0;
@@ -409,6 +438,8 @@ static inline void parts_sweep(struct gas_row *row, struct row_parts *parts, dou
     for (int n = 0; n < GAS_NUMBERS; n++)
         FOR_ROW (k, 0, row->cells - 1)
             row->u.of[n][k] = to.of[n][k];
+    if (row->afterburns)
+        row_carry_afterburnt(row, parts->flux[PART_MASS], row->part[PART_MASS], r);
     parts_advance(row, parts, r);
     parts_clean(row);
 }
@@ -431,6 +462,8 @@ static inline void row_two_materials(struct gas_row *row, double r, struct gas_n
     row->eos = most > 0.0 ? row->other : first;
     row_muscl_hancock(row, r, flux);
     row->eos = first;
+    if (row->afterburns && most > 0.0)
+        row_carry_afterburnt(row, flux->of[GAS_DENSITY], row->part[PART_MASS], r);
     FOR_ROW (k, 0, row->cells - 1)
         row->part[PART_MASS][k] = most > 0.0 ? row->u.of[GAS_DENSITY][k] : 0.0;
 }

@@ -7,6 +7,7 @@
 #ifndef BOLIDE_BURN_H
 #define BOLIDE_BURN_H
 
+#include "material/burn/afterburn.h"
 #include "material/burn/beta.h"
 #include "material/burn/ignition_growth.h"
 #include "material/burn/programmed.h"

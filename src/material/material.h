@@ -21,6 +21,7 @@ struct material {
     struct strength strength;
     struct failure failure;
     struct burn burn;
+    struct afterburn afterburn;
     struct heat heat;
 };
 

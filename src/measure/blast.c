@@ -8,7 +8,7 @@
 
 enum blast_take { BLAST_OVERPRESSURE, BLAST_ARRIVAL, BLAST_DURATION, BLAST_IMPULSE };
 static const char *const take_names[] = {"overpressure", "arrival", "duration", "impulse", NULL};
-static const char *const take_units[] = {"Pa", "s", "s", "Pa s"};
+static const char *const take_units[] = {"Pa", "s", "s", "Pa*s"};
 
 const struct parameter measure_blast_table[] = {
     {.key = "probe",

@@ -10,7 +10,8 @@
 #include "parallel/ranks.h"
 
 /* Walls that push; the axis of symmetry, whose hoop stress does; what holds bodies (`driven`,
- * `stop`); gravity; what pushes on surfaces; faces that particles leave through. */
+ * `stop`); gravity; what pushes on surfaces; faces that particles leave through; products that burn in
+ * air. */
 enum ledger_cause {
     LEDGER_WALLS,
     LEDGER_AXIS,
@@ -18,6 +19,7 @@ enum ledger_cause {
     LEDGER_GRAVITY,
     LEDGER_LOADS,
     LEDGER_OUTFLOWS,
+    LEDGER_AFTERBURN,
     LEDGER_CAUSES
 };
 

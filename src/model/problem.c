@@ -297,3 +297,23 @@ int problem_history(const struct problem *problem, struct field_declaration *fie
                                                          FIELD_STATE};
     return count;
 }
+
+bool problem_afterburns(const struct problem *problem)
+{
+    bool any = false;
+    for (int m = 0; m < problem->materials; m++)
+        any |= problem->material[m].afterburn.energy > 0.0;
+    return any;
+}
+
+struct error *problem_refuse_afterburn(const struct problem *problem)
+{
+    struct error *error = NULL;
+    for (int m = 0; m < problem->materials; m++)
+        if (problem->material[m].afterburn.energy > 0.0)
+            error = error_join(error, input_error(problem->input, "materials",
+                                                  problem->input->materials.names[m],
+                                                  "the solver gas alone burns products in air: "
+                                                  "leave `afterburn` out"));
+    return error;
+}

@@ -56,6 +56,12 @@ struct error *refuse_broken_contacts(const struct problem *problem);
 int problem_history(const struct problem *problem, struct field_declaration *fields);
 
 /* True when the case has gravity. */
+/* Whether products burn in the air. */
+bool problem_afterburns(const struct problem *problem);
+
+/* What solvers of particles say of such products. */
+struct error *problem_refuse_afterburn(const struct problem *problem);
+
 BOLIDE_INLINE bool problem_has_gravity(const struct problem *problem)
 {
     const double *g = problem->gravity;

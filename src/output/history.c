@@ -173,11 +173,14 @@ static void write_line(FILE *file, bool head, const struct row *row)
     column(&line, "kinetic_energy", "", joule, row->now.kinetic);
     column(&line, "internal_energy", "", joule, row->now.internal);
     column(&line, "energy_drift", "", "", row->drift);
-    for (int i = 0; i < LEDGER_CAUSES; i++) {
+    for (int i = 0; i < LEDGER_AFTERBURN; i++) {
         char prefix[32];
         snprintf(prefix, sizeof prefix, "%s.", ledger_cause_name((enum ledger_cause)i));
         totals_columns(&line, prefix, &row->booked[i], simulation);
     }
+    if (problem_afterburns(simulation->problem))
+        column(&line, "afterburn.energy", "", joule,
+               row->booked[LEDGER_AFTERBURN].entry[LEDGER_ENERGY]);
     range_columns(&line, "density", "kg/m^3", row->density);
     range_columns(&line, "pressure", "Pa", row->pressure);
     range_columns(&line, "speed", "m/s", row->speed);

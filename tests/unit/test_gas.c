@@ -83,6 +83,22 @@ static const char sphere[] =
     "  air: {material: air, box: {from: [0 m], to: [0.9 m]}, pressure: 0.1 MPa}\n"
     "  hot: {material: products, ball: {center: [0 m], radius: 0.05 m}, energy: 0 J/kg, "
     "replaces: air}\n" END;
+static const char charge[] =
+    "format: 1\ndimension: 2\nresolution: 4 mm\nsolver: gas\n"
+    "materials:\n"
+    "  air: {eos: {ideal-gas: {density: 1.2 kg/m^3, gamma: 1.4}}}\n"
+    "  tnt:\n"
+    "    eos: {jwl: {density: 1630 kg/m^3, a: 371.2 GPa, b: 3.231 GPa, r1: 4.15, r2: 0.95, omega: "
+    "0.3, "
+    "energy: 6.993 GPa}}\n"
+    "    burn: {programmed: {speed: 6930 m/s}}\n"
+    "    afterburn: {energy: 3 MJ/kg, rate: 1e5 1/s, depletion: 1, power: 0.1}\n"
+    "bodies:\n"
+    "  air: {material: air, box: {from: [0 m, 0 m], to: [0.9 m, 0.6 m]}, pressure: 0.1 MPa, "
+    "density: 1.2 kg/m^3}\n"
+    "  hot: {material: tnt, box: {from: [0.2 m, 0.2 m], to: [0.33 m, 0.29 m]}, replaces: air}\n"
+    "detonations: {end: {at: [0.21 m, 0.22 m]}}\n"
+    "obstacles: {block: {box: {from: [0.36 m, 0.1 m], to: [0.5 m, 0.3 m]}}}\n" END;
 static const char cylinder[] =
     "format: 1\ndimension: 1\ngeometry: cylindrical\nresolution: 1 mm\nsolver: gas\n" AIR
     "bodies:\n"
@@ -102,6 +118,7 @@ static const struct {
              {"two in a ring", two_ring, STEPS},
              {"sphere", sphere, STEPS},
              {"cylinder", cylinder, STEPS},
+             {"charge", charge, STEPS},
              {"heavy", heavy, STEPS}};
 
 static const struct variant plain = {"plain", 1, 1.0, NULL, false};
@@ -157,13 +174,15 @@ static void a_gas_at_rest_stays_at_rest(void **state)
         const char *other = eos[k % COUNT_OF(eos)];
         if (other && strstr(other, "stiffened") && strstr(cases[c].text, "products"))
             continue; /* no gas, and refused beside products */
+        if (strstr(cases[c].text, "detonations"))
+            continue; /* it does not rest */
         const struct variant variant = {"at rest", 1, 1.0, other, false};
         struct running *run = begin_fresh(cases[c].text, &variant);
         const int32_t last = run->gas.cells->count - 1;
         run->gas.sleepless = true;
-        for (int n = 0; n < run->gas.written; n++)
+        for (int n = 0; n < run->gas.layout.written; n++)
             for (int32_t i = 0; i < last; i++)
-                if (!run->gas.blocked || run->gas.open[i] != 0.0)
+                if (!run->gas.layout.blocked || run->gas.open[i] != 0.0)
                     run->gas.u[n][i] = run->gas.u[n][last];
         for (int32_t i = 0; i < last; i++)
             run->gas.cells->material[i] = run->gas.cells->material[last];
