@@ -63,6 +63,14 @@ const struct parameter gas_table[] = {
      .above = 1e-6, /* a smaller step adds less than rounding takes, and no run of it ends */
      .below = 1.0,
      .help = "K of dt = min K h/(|u_i| + c); default: 0.8, with lax-wendroff 0.2"},
+    {.key = "ambient",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct gas_parameters, ambient),
+     .unit = "Pa",
+     .standard = PARAMETER_OPTIONAL,
+     .below = INFINITY,
+     .help = "pressure of the air before a blast, for the fields `peak_overpressure` and "
+             "`peak_impulse`; default: without these fields"},
     PARAMETER_END,
 };
 
@@ -85,9 +93,22 @@ static const struct field_row field_rows[] = {
     {.field = {"burnt", "1", "burnt fraction of the explosive", NUMBER_DOUBLE, 1, FIELD_STATE}},
     {.field = {"open", NULL, "1, or 0 where an obstacle blocks the cell", NUMBER_DOUBLE, 1,
                FIELD_STATE}},
+    {.field = {"peak_overpressure", "Pa",
+               "largest overpressure over the `ambient` pressure of the solver until now",
+               NUMBER_DOUBLE, 1, FIELD_STATE}},
+    {.field = {"peak_impulse", "Pa*s", "largest impulse of the overpressure until now",
+               NUMBER_DOUBLE, 1, FIELD_STATE}},
+    {.field = {"impulse_now", NULL, "impulse of the overpressure", NUMBER_DOUBLE, 1, FIELD_STATE}},
     FIELD_ROWS_END,
 };
-enum { FIELD_SECOND = 6, FIELD_AFTERBURNT = 8, FIELD_BURNT, FIELD_OPEN, OWN_FIELDS };
+enum {
+    FIELD_SECOND = 6,
+    FIELD_AFTERBURNT = 8,
+    FIELD_BURNT,
+    FIELD_OPEN,
+    FIELD_MAPS,
+    OWN_FIELDS = FIELD_MAPS + 3
+};
 
 void gas_lay_out(struct gas_layout *layout)
 {
@@ -107,7 +128,8 @@ static struct error *make_store(struct cell_blocks *cells, const struct gas_layo
         if (k < FIELD_SECOND || (k < FIELD_AFTERBURNT    ? layout->two
                                  : k == FIELD_AFTERBURNT ? layout->afterburns
                                  : k == FIELD_BURNT      ? layout->lit
-                                                         : layout->blocked))
+                                 : k == FIELD_OPEN       ? layout->blocked
+                                                         : layout->maps))
             own[count++] = field_rows[k].field;
     return cell_blocks_create(cells, own, count);
 }
@@ -155,6 +177,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     gas->afterburn = simulation->problem->material[gas->material[1]].afterburn;
     gas->layout.afterburns = gas->layout.two && gas->afterburn.energy > 0.0;
     gas->layout.explosive = gas->layout.two ? gas->layout.explosive : 0;
+    gas->layout.maps = !isnan(gas->parameters.ambient);
     gas_lay_out(&gas->layout);
     gas->round = geometry_power(simulation->problem->geometry);
     gas->sleepless = problem_has_gravity(simulation->problem);
@@ -197,6 +220,11 @@ void gas_bind(struct gas *gas, const struct cell_blocks *cells)
     if (gas->open)
         gas->u[gas->layout.open] = gas->open;
     gas->sound = cell_blocks_field(cells, "sound_long");
+    if (gas->layout.maps) {
+        gas->map.overpressure = cell_blocks_field(cells, "peak_overpressure");
+        gas->map.impulse = cell_blocks_field(cells, "peak_impulse");
+        gas->map.sum = cell_blocks_field(cells, "impulse_now");
+    }
 }
 
 /* Derived fields of the blocks that are awake, which of them are still, and the fastest cell. */
@@ -368,6 +396,7 @@ static struct error *gas_advance(void *solver, struct simulation *simulation, do
     simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
     TRY(gas_burn(gas, simulation, simulation->time + dt));
     struct error *error = look(gas, simulation);
+    gas_map(gas, simulation, dt);
     simulation_end_phase(simulation, PHASE_BLOCKS, "states");
     return error;
 }

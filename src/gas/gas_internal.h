@@ -54,9 +54,15 @@ struct gas {
     double *other[GAS_FIELDS]; /* where sweeps write */
     double *open;              /* NULL: all cells are */
     double *sound;
+    struct {
+        double *overpressure, *impulse, *sum; /* see maps.c; NULL: there are none */
+    } map;
     double fastest; /* |u_i| + c of all of this rank's cells, m/s */
     uint64_t fastest_id;
 };
+
+/* Keeps the maps of a blast after a step of DT. */
+void gas_map(const struct gas *gas, const struct simulation *simulation, double dt);
 
 /* The materials of the bodies, the one of lower reference density first; the same twice where there
  * is one. */

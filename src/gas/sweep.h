@@ -24,6 +24,7 @@ struct gas_layout {
     bool afterburns; /* the second burns in the first */
     bool lit;        /* one is an explosive that is lit */
     bool blocked;    /* some cells are */
+    bool maps;       /* of a blast are kept, see maps.c */
     int explosive;   /* which of the materials is lit */
     int written;     /* fields that sweeps write */
     int burnt, open; /* where these fields are, -1: nowhere */
