@@ -116,15 +116,20 @@ static void draw_colour_bar(const struct canvas *canvas, const struct page *page
     field_text(around->field, name, sizeof name);
     double middle = 0.5 * (page->x.start + page->x.end);
     double half = 0.5 * minimum(maximum(0.7 * (page->x.end - page->x.start), 300.0), 480.0);
-    struct axis bar = {.range = colours->range, .start = middle - half, .end = middle + half};
+    struct axis bar = {.range = colours->range,
+                       .logarithmic = colours->logarithmic,
+                       .start = middle - half,
+                       .end = middle + half};
     axis_name(&bar, name, around->shown->column->unit, range_reach(bar.range));
     axis_ticks(&bar, canvas);
     cairo_pattern_t *shades = cairo_pattern_create_linear(bar.start, 0.0, bar.end, 0.0);
     enum { shade_count = 96 };
     for (int i = 0; i <= shade_count; ++i) {
         double part = (double)i / shade_count;
-        struct colour colour =
-            colour_of(colours, bar.range.low + part * (bar.range.high - bar.range.low));
+        const double value = bar.logarithmic
+                                 ? bar.range.low * pow(bar.range.high / bar.range.low, part)
+                                 : bar.range.low + part * (bar.range.high - bar.range.low);
+        struct colour colour = colour_of(colours, value);
         cairo_pattern_add_color_stop_rgb(shades, part, colour.red, colour.green, colour.blue);
     }
     cairo_set_source(canvas->pen, shades);
@@ -288,6 +293,13 @@ static struct error *find_page(const struct surroundings *around, struct page *p
     return NULL;
 }
 
+/* Peaks of a blast fall by decades. */
+static bool is_map_of_peaks(const char *field)
+{
+    static const char start[] = "peak_";
+    return !strncmp(field, start, sizeof start - 1);
+}
+
 static struct error *draw_plane(const char *path, struct surroundings *around, struct dots *dots,
                                 struct range fixed)
 {
@@ -306,7 +318,8 @@ static struct error *draw_plane(const char *path, struct surroundings *around, s
         range = (struct range){fixed.low, maximum(range.high, fixed.low)};
     if (!isnan(fixed.high))
         range = (struct range){minimum(range.low, fixed.high), fixed.high};
-    around->colours = colour_scale_make(range);
+    around->colours =
+        is_map_of_peaks(around->field) ? colour_scale_logarithmic(range) : colour_scale_make(range);
     struct viewport viewport =
         viewport_of(&page, around->plane, shown->column ? &around->colours : NULL);
     TRY(dots_paint(ranks, dots, &viewport, &image));

@@ -232,10 +232,18 @@ static struct colour colour_between(struct colour a, struct colour b, double par
 
 struct colour_scale colour_scale_make(struct range range)
 {
-    struct colour_scale scale = {range_drawable(range, false), false};
+    struct colour_scale scale = {range_drawable(range, false), false, false};
     double negative = -scale.range.low, positive = scale.range.high;
     scale.diverging = minimum(negative, positive) > 0.15 * maximum(negative, positive);
     return scale;
+}
+
+struct colour_scale colour_scale_logarithmic(struct range range)
+{
+    if (!(range.high > 0.0))
+        return colour_scale_make(range);
+    const struct range decades = {maximum(range.low, 1e-4 * range.high), range.high};
+    return (struct colour_scale){range_drawable(decades, true), false, true};
 }
 
 struct colour colour_of(const struct colour_scale *scale, double value)
@@ -248,6 +256,11 @@ struct colour colour_of(const struct colour_scale *scale, double value)
     if (scale->diverging) {
         high = range_reach(scale->range); /* zero is the middle colour */
         low = -high;
+    }
+    if (scale->logarithmic) {
+        value = log(maximum(value, low));
+        low = log(low);
+        high = log(high);
     }
     double place = minimum(maximum((value - low) / (high - low), 0.0), 1.0) * last;
     int below = (int)minimum(place, last - 1);

@@ -76,14 +76,16 @@ struct colour {
     double red, green, blue;
 };
 
-/* How a field's values become colours: viridis from low to high; where both signs matter, blue over
- * grey (zero) to red. */
+/* How a field's values become colours: viridis from low to high, by their logarithms where it is
+ * LOGARITHMIC; where both signs matter, blue over grey (zero) to red. */
 struct colour_scale {
     struct range range;
-    bool diverging;
+    bool diverging, logarithmic;
 };
 
 struct colour_scale colour_scale_make(struct range range);
+/* By logarithms over the last four decades of RANGE; as above where nothing is above zero. */
+struct colour_scale colour_scale_logarithmic(struct range range);
 
 /* The colour of VALUE; beyond the range the end's colour, dark grey for NaN. */
 struct colour colour_of(const struct colour_scale *scale, double value);
