@@ -343,7 +343,24 @@ static void plot_probe(const struct page *page, const struct table *table, const
     }
 }
 
-static struct error *plot_probes(const struct page *page)
+/* A line or two of the table of waves, after its head, if the probe has a wave. */
+static void list_wave(const struct page *page, const struct table *table, const char *name,
+                      bool *listed)
+{
+    const struct column *gauge = find(table, "particles"), *pressure = find(table, "pressure"),
+                        *exact = find(table, "exact");
+    if (!gauge || !pressure || !page_is_wave(pressure->value, table->rows))
+        return;
+    if (!*listed)
+        page_waves_head(page->file);
+    *listed = true;
+    const struct page_wave wave = {table->rows, table->column[0].value, pressure->value,
+                                   exact ? exact->value : NULL};
+    page_wave(page->file, name, &wave);
+}
+
+/* Plots every probe, or lists those that have a wave. */
+static struct error *each_probe(const struct page *page, bool plots, bool *listed)
 {
     char **names = NULL;
     int count = 0;
@@ -359,8 +376,10 @@ static struct error *plot_probes(const struct page *page)
         if (!error)
             error = table_make(&csv, &table);
         names[i][strlen(names[i]) - 4] = '\0';
-        if (!error)
+        if (!error && plots)
             plot_probe(page, &table, names[i]);
+        else if (!error)
+            list_wave(page, &table, names[i], listed);
         table_free(&table);
         csv_free(&csv);
     }
@@ -385,8 +404,14 @@ struct error *page_history(const struct page *page)
     } else
         fputs("<p>There is no history: history.csv has no row.</p>\n<div class=\"plots\">\n",
               page->file);
-    struct error *error = plot_probes(page);
-    fputs("</div></section>\n", page->file);
+    bool listed = false;
+    struct error *error = each_probe(page, true, &listed);
+    fputs("</div>\n", page->file);
+    if (!error)
+        error = each_probe(page, false, &listed);
+    if (listed)
+        page_waves_foot(page->file);
+    fputs("</section>\n", page->file);
     table_free(&table);
     return error;
 }

@@ -58,6 +58,19 @@ void page_sweep(const struct page *page);
 /* history.c */
 struct error *page_history(const struct page *page);
 
+/* waves.c */
+struct page_wave {
+    int64_t count;
+    const double *time, *pressure, *exact; /* exact: NULL: none */
+};
+
+/* Whether PRESSURE is of gas that a wave passes. */
+bool page_is_wave(const double *pressure, int64_t count);
+/* A table, whose lines are between its head and its foot. */
+void page_waves_head(FILE *file);
+void page_wave(FILE *file, const char *name, const struct page_wave *wave);
+void page_waves_foot(FILE *file);
+
 /* profiles.c */
 struct error *page_profiles(const struct page *page);
 
