@@ -145,10 +145,10 @@ static const struct answer answers[] = {
      "`detonations`.",
      "materials.md"},
     {" znd reaction.zone von.neumann spike chapman.jouguet cj ignition.and.growth lee.tarver "
-     "run.to.detonation ",
+     "run.to.detonation rate.stick jwl++ jwlpp critical.diameter ",
      "`bolide materials NAME` prints the detonation of an explosive, and `bolide exact znd --set\n"
      "material=NAME` its reaction zone. `burn: ignition-growth` with `eos: reactive-jwl` resolves\n"
-     "that zone in a run.",
+     "that zone in a run, and so does `burn: pressure-power` with `eos: blended-jwl`, JWL++.",
      "detonation.md"},
     {" stl cad mesh geometry.file image step.file ",
      "Not available: bodies are made of shapes (bolide help shape), or of a `template`, a map\n"

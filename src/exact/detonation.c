@@ -62,7 +62,7 @@ static struct detonation_state state_at(const struct material *material, double 
     s.sound = sqrt(maximum(eos_sound_square(s.pressure, value.dp_drho, value.dp_de, density), 0.0));
     double history[POINT_HISTORY];
     set_burnt(burnt, history);
-    if (burn_is_kinetic(&material->burn))
+    if (burn_has_rate(&material->burn))
         (void)material_reaction(material, density, s.energy, history);
     s.temperature = detonation_temperature(material, density, s.pressure, burnt,
                                            history[HISTORY_explosive_volume]);
@@ -168,7 +168,7 @@ struct detonation_state detonation_zone(const struct material *material,
                        root_find(line_excess, &zone, low, high, low + burnt * (high - low) * 0.5),
                        burnt);
     *rate = NAN;
-    if (burn_is_kinetic(&material->burn)) {
+    if (burn_has_rate(&material->burn)) {
         double history[POINT_HISTORY];
         set_burnt(burnt, history);
         *rate = material_reaction(material, s.density, s.energy, history).rate;

@@ -116,7 +116,7 @@ static struct error *znd_solve(const void *parameters, void *solved)
     z->at = given->at;
     z->velocity = given->velocity;
     z->count = 0;
-    if (!burn_is_kinetic(&material->burn))
+    if (!burn_has_rate(&material->burn))
         return error_new(ERROR_INPUT,
                          "%s does not burn at a rate, as with `burn: ignition-growth`; "
                          "slab-detonation has the wave of explosives that are lit",

@@ -9,16 +9,20 @@
 
 #include "material/burn/afterburn.h"
 #include "material/burn/beta.h"
+#include "material/burn/cj_threshold.h"
 #include "material/burn/ignition_growth.h"
+#include "material/burn/pressure_power.h"
 #include "material/burn/programmed.h"
 
 /* X(identifier): in burn/<identifier>.h struct burn_<identifier>, whose first member is the speed
  * of the detonation, burn_<identifier>(), which gives F, and its name, help and parameters (see
  * choices.c). */
-#define BURN_LIST(X) \
-    X(programmed)    \
-    X(beta)          \
-    X(ignition_growth)
+#define BURN_LIST(X)   \
+    X(programmed)      \
+    X(beta)            \
+    X(ignition_growth) \
+    X(cj_threshold)    \
+    X(pressure_power)
 
 #define BURN_ENUM(name) BURN_##name,
 enum burn_kind { BURN_INSTANT, BURN_LIST(BURN_ENUM) BURN_KINDS };
@@ -34,10 +38,16 @@ struct burn {
 };
 #undef BURN_MEMBER
 
+/* Whether it burns at a rate, which its state decides. */
+BOLIDE_INLINE bool burn_has_rate(const struct burn *burn)
+{
+    return burn->kind == BURN_ignition_growth || burn->kind == BURN_pressure_power;
+}
+
 /* Whether it burns by itself, where it is compressed; the others are lit. */
 BOLIDE_INLINE bool burn_is_kinetic(const struct burn *burn)
 {
-    return burn->kind == BURN_ignition_growth;
+    return burn->kind == BURN_cj_threshold || burn_has_rate(burn);
 }
 
 /* The fraction burnt of POINT after a step; BEFORE: after the step before. */

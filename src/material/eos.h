@@ -8,6 +8,7 @@
 #define BOLIDE_EOS_H
 
 #include "material/eos/barotropic.h"
+#include "material/eos/blended_jwl.h"
 #include "material/eos/grueneisen_eta.h"
 #include "material/eos/grueneisen_polynomial.h"
 #include "material/eos/hjc.h"
@@ -28,7 +29,8 @@
 #define EOS_LIST(X)  \
     EOS_STATELESS(X) \
     X(hjc)           \
-    X(reactive_jwl)
+    X(reactive_jwl)  \
+    X(blended_jwl)
 
 /* Those that need no history, of density and energy alone: loops over many points know no others. */
 #define EOS_STATELESS(X)     \

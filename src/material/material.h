@@ -51,8 +51,11 @@ BOLIDE_INLINE bool material_is_lit(const struct material *material)
  * products with a ratio of specific heats of 3. Zero where there is none. */
 BOLIDE_INLINE double material_detonation_speed(const struct material *material)
 {
+    const struct eos *eos = &material->eos;
     if (burn_is_kinetic(&material->burn))
-        return 4.0 * sqrt(material->eos.of.reactive_jwl.energy / material_density(material));
+        return 4.0 * sqrt((eos->kind == EOS_blended_jwl ? eos->of.blended_jwl.energy
+                                                        : eos->of.reactive_jwl.energy) /
+                          material_density(material));
     return material_burns(material) ? material->burn.of.speed : 0.0;
 }
 
@@ -235,19 +238,31 @@ struct reaction {
     double rate;
 };
 
-/* That at DENSITY and ENERGY; HISTORY gets the volume of the unburnt part. */
+/* That at DENSITY and ENERGY; HISTORY gets the volume of the unburnt part where the phases have
+ * volumes of their own. */
 BOLIDE_INLINE struct reaction material_reaction(const struct material *material, double density,
                                                 double energy, double *history)
 {
-    const struct burn_ignition_growth *burn = &material->burn.of.ignition_growth;
-    const struct eos_reactive_jwl *jwl = &material->eos.of.reactive_jwl;
-    const double burnt = history[HISTORY_burnt];
+    const struct burn *burn = &material->burn;
+    const double burnt = history[HISTORY_burnt], volume = material_density(material) / density;
     double *const explosive = &history[HISTORY_explosive_volume];
     struct reaction reaction;
-    reaction.value = reactive_jwl_state(jwl, density, energy, burnt, explosive);
-    const double volume =
-        burn->compression == IGNITION_MIXTURE ? jwl->density / density : *explosive;
-    reaction.rate = ignition_growth_rate(burn, burnt, reaction.value.pressure, 1.0 / volume - 1.0);
+    if (material->eos.kind == EOS_reactive_jwl) {
+        reaction.value =
+            reactive_jwl_state(&material->eos.of.reactive_jwl, density, energy, burnt, explosive);
+    } else {
+        reaction.value = eos_evaluate(&material->eos, density, energy, history);
+        *explosive = volume;
+    }
+    if (burn->kind == BURN_pressure_power) {
+        reaction.rate =
+            pressure_power_rate(&burn->of.pressure_power, burnt, reaction.value.pressure);
+        return reaction;
+    }
+    const struct burn_ignition_growth *growth = &burn->of.ignition_growth;
+    const double pressed =
+        1.0 / (growth->compression == IGNITION_MIXTURE ? volume : *explosive) - 1.0;
+    reaction.rate = ignition_growth_rate(growth, burnt, reaction.value.pressure, pressed);
     return reaction;
 }
 
@@ -255,6 +270,12 @@ BOLIDE_INLINE struct reaction material_reaction(const struct material *material,
 BOLIDE_INLINE void material_react(const struct material *material, double dt, struct point *point)
 {
     double *const burnt = &point->history[HISTORY_burnt];
+    if (!burn_has_rate(&material->burn)) {
+        if (cj_threshold_burns(&material->burn.of.cj_threshold,
+                               material_density(material) / point->density))
+            *burnt = 1.0;
+        return;
+    }
     for (double left = dt; left > 0.0 && *burnt < 1.0;) {
         const double rate =
             material_reaction(material, point->density, point->energy, point->history).rate;
@@ -318,12 +339,19 @@ BOLIDE_INLINE const char *material_failure_wrong(const struct material *material
 /* Why equation of state and burning do not go together; NULL when they do. */
 BOLIDE_INLINE const char *material_burn_wrong(const struct material *material)
 {
-    const bool both = material->eos.kind == EOS_reactive_jwl;
+    const enum eos_kind eos = material->eos.kind;
+    const bool phases = eos == EOS_reactive_jwl, both = phases || eos == EOS_blended_jwl;
     if (both && !burn_is_kinetic(&material->burn))
-        return "`eos: reactive-jwl` needs `burn: ignition-growth`, which tells how much has burnt";
-    if (!both && burn_is_kinetic(&material->burn))
+        return phases ? "`eos: reactive-jwl` needs `burn: ignition-growth` or `pressure-power`, "
+                        "which tells how much has burnt"
+                      : "`eos: blended-jwl` needs `burn: cj-threshold` or `pressure-power`, which "
+                        "tells how much has burnt";
+    if (material->burn.kind == BURN_ignition_growth && !phases)
         return "ignition-growth needs an equation of state of explosive and products: "
                "`eos: reactive-jwl`";
+    if (!both && burn_is_kinetic(&material->burn))
+        return "this burning needs an equation of state of explosive and products: "
+               "`eos: blended-jwl`";
     return NULL;
 }
 

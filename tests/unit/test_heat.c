@@ -76,7 +76,7 @@ static void shocked_aluminium_has_its_temperature(void **state)
 }
 
 /* A mixture of two phases has none: its temperature depends on what has burnt. */
-static bool has_curve(int kind) { return kind != EOS_reactive_jwl; }
+static bool has_curve(int kind) { return kind != EOS_reactive_jwl && kind != EOS_blended_jwl; }
 
 static void energy_and_temperature_are_inverse(void **state)
 {
@@ -98,7 +98,7 @@ static void what_rests_without_energy_has_its_temperature(void **state)
     for (int k = 0; k < EOS_KINDS; k++) {
         const double density = eos_reference_density(&all[k]);
         const struct eos_value rest = eos_evaluate(&all[k], density, 0.0, none);
-        if (rest.pressure == 0.0 && rest.dp_drho > 0.0)
+        if (rest.pressure == 0.0 && rest.dp_drho > 0.0 && has_curve(k))
             assert_close(heat_temperature(&aluminium_heat, &all[k], density, 0.0), 293.0, 1e-14);
     }
 }
