@@ -76,13 +76,14 @@ static struct error *copy_file(FILE *from, const char *path)
     return error;
 }
 
-static struct error *write_case(FILE *from, const char *folder)
+static struct error *write_case(FILE *from, const char *folder, const char *name)
 {
     TRY(folder_make(folder));
     char *path = path_join(folder, "case.yaml");
     struct error *error = path ? copy_file(from, path) : error_new(ERROR_SYSTEM, "out of memory");
     if (!error)
-        printf("%s: change it, then `bolide check %s` and `bolide run %s`\n", path, path, path);
+        printf("%s, from the template %s: change it, then `bolide check %s` and `bolide run %s`\n",
+               path, name, path, path);
     free(path);
     return error;
 }
@@ -95,7 +96,7 @@ static struct error *new_case(const char *folder, const char *name)
                                       "holds templates/");
     char *path = strchr(name, '/') ? NULL : text_format("%s/%s.yaml", templates, name);
     FILE *from = path ? fopen(path, "re") : NULL;
-    struct error *error = from ? write_case(from, folder) : unknown_template(templates, name);
+    struct error *error = from ? write_case(from, folder, name) : unknown_template(templates, name);
     if (from)
         fclose(from);
     free(path);
@@ -103,11 +104,28 @@ static struct error *new_case(const char *folder, const char *name)
     return error;
 }
 
+/* The template with the name of FOLDER, else the usual one. */
+static const char *template_of(const char *folder)
+{
+    const char *slash = strrchr(folder, '/'), *name = slash ? slash + 1 : folder;
+    char *templates = share_folder("templates"), *names[TEMPLATES];
+    const char *chosen = usual_template;
+    int count = templates ? template_names(templates, names) : 0;
+    for (int i = 0; i < count; i++) {
+        if (!strcmp(names[i], name))
+            chosen = name;
+        free(names[i]);
+    }
+    free(templates);
+    return chosen;
+}
+
 int command_new(const struct cli_options *options)
 {
     const char *folder = options->names.text[0];
     struct error *error = own_folder_check("new", folder);
     if (!error)
-        error = new_case(folder, options->template_name ? options->template_name : usual_template);
+        error =
+            new_case(folder, options->template_name ? options->template_name : template_of(folder));
     return error ? report_error(error) : EXIT_OK;
 }

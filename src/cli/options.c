@@ -73,8 +73,9 @@ static const struct option option_table[] = {
      "width of the interval at which to stop: 5m/s, or 1% (default: 1% of the first interval)",
      OPTION_TEXT, AT(within), COMMAND_SEARCH},
     {"--template", "NAME",
-     "what to start from: impact (default), riemann, plate-2d, block-3d, bar-mpm", OPTION_TEXT,
-     AT(template_name), COMMAND_NEW},
+     "what to start from: impact, riemann, plate-2d, block-3d, bar-mpm, long-rod (default: the one "
+     "of the name NAME, else impact)",
+     OPTION_TEXT, AT(template_name), COMMAND_NEW},
 };
 
 #undef AT

@@ -20,6 +20,11 @@ done
 "$BOLIDE" new usual/of/mine >said || fail "new ended with $?"
 cmp "$BOLIDE_SOURCE_DIR/templates/impact.yaml" usual/of/mine/case.yaml || fail "impact is not the usual template"
 
+rm -r long-rod
+"$BOLIDE" new long-rod >said || fail "new long-rod ended with $?"
+cmp "$BOLIDE_SOURCE_DIR/templates/long-rod.yaml" long-rod/case.yaml || fail "its name chooses no template"
+grep -q "from the template long-rod" said || fail "new does not say which template: $(cat said)"
+
 echo "format: 1 # mine" >usual/of/mine/case.yaml
 "$BOLIDE" new usual/of/mine >said 2>&1
 [ $? = 2 ] || fail "new over a case does not end with 2"
