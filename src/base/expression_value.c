@@ -18,7 +18,8 @@ static struct error *syntax_error(const struct expression_reading *reading, muPa
     enum { UNEXPECTED_COMMA = 4, MISSING_PARENTHESIS = 11, TOO_MANY = 14, TOO_FEW = 15 };
     switch (mupGetErrorCode(parser)) {
     case UNEXPECTED_COMMA:
-        return error_new(ERROR_INPUT, "there is a comma outside a function");
+        return error_new(ERROR_INPUT,
+                         "there is a comma outside a function (a decimal point is \".\")");
     case MISSING_PARENTHESIS:
         return error_new(ERROR_INPUT, "a \")\" is missing");
     case TOO_MANY:
@@ -148,7 +149,8 @@ struct error *expression_try(const struct expression_reading *reading, muParserH
     if (mupError(parser) || !values)
         return syntax_error(reading, parser);
     if (count != 1)
-        return error_new(ERROR_INPUT, "there is a comma outside a function");
+        return error_new(ERROR_INPUT,
+                         "there is a comma outside a function (a decimal point is \".\")");
     *value = values[0];
     return NULL;
 }

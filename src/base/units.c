@@ -130,7 +130,7 @@ static struct error *unknown_symbol(const char *word, size_t length)
     const char *nearest = nearest_name(copy, names, (int)COUNT_OF(names));
     if (nearest)
         return error_new(ERROR_INPUT, "unknown unit \"%s\" (did you mean \"%s\"?)", copy, nearest);
-    return error_new(ERROR_INPUT, "unknown unit \"%s\"", copy);
+    return error_new(ERROR_INPUT, "unknown unit \"%s\" (bolide help units lists them)", copy);
 }
 
 static void skip_blanks(struct cursor *cursor)

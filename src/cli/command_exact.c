@@ -8,6 +8,7 @@
 #include "case/library.h"
 #include "cli/cli.h"
 #include "exact/exact.h"
+#include "output/report.h"
 
 static struct error *read_time(const char *text, double *time)
 {
@@ -25,9 +26,11 @@ static struct error *read_time(const char *text, double *time)
 
 static void print_numbers(const struct exact_number *numbers, int count)
 {
-    for (int i = 0; i < count; i++)
-        printf("%-36s %.12g%s%s\n", numbers[i].name, numbers[i].value,
-               numbers[i].unit[0] ? " " : "", numbers[i].unit);
+    char value[64];
+    for (int i = 0; i < count; i++) {
+        readable_digits(numbers[i].value, numbers[i].unit, 6, value, sizeof value);
+        printf("%-36s %s\n", numbers[i].name, value);
+    }
 }
 
 /* The places among the numbers, a fifth of their range wider on either side; from the centre of a

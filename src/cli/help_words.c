@@ -14,10 +14,12 @@ struct answer {
 };
 
 static const struct answer answers[] = {
-    {" spall spalling spallation pull.back pullback scabbing visar pdv free.surface.velocity ",
+    {" spall spalling spallation pull.back pullback scabbing visar pdv fsv free.surface "
+     "free.surface.velocity free.surface.history free.face rear.face ",
      "Give the material a failure model with a spall strength (bolide help failure):\n"
      "  failure: {spall: {strength: 1.3 GPa, stress: mean}}\n"
-     "and put a tracer on the free face, as a VISAR does. A worked case is on the page below.",
+     "and put a tracer two resolutions inside the free face, where a VISAR looks. A worked case\n"
+     "is on the page below.",
      "tasks/spall.md"},
     {" fracture fragmentation fragment crack failure ",
      "Give the material a failure model; `bolide help failure` lists them:\n"
@@ -59,7 +61,7 @@ static const struct answer answers[] = {
      "tasks/ballistic-limit.md"},
     {" rod long.rod penetration penetrator depth.of.penetration armour armor ",
      "A long rod into a thick target, beside the theory (bolide help long-rod): see the page\n"
-     "below.",
+     "below. `bolide new long-rod` writes a case of it.",
      "tasks/long-rod.md"},
     {" hugoniot plate.impact flyer shock.adiabat shock.speed us.up ",
      "Two plates at several speeds, with U_s over U_p: see the page below. `bolide exact\n"
@@ -188,6 +190,16 @@ static const struct answer answers[] = {
      "keys,\n"
      "`bolide materials` the materials whose constants are known.",
      "materials.md"},
+    {" accuracy uncertainty error.bar trust validation how.accurate ",
+     "Measured deviations of every case from theory or experiment are on the page below and in\n"
+     "the README of each example. For a case of your own run two or three resolutions:\n"
+     "bolide verify --convergence CASE gives the errors and an extrapolated value.",
+     "accuracy.md"},
+    {" residual residual.velocity residual.length residual.rod ",
+     "Residual velocity: {mean: velocity.y, of: BODY} at the end of the run; `bolide search`\n"
+     "finds the ballistic limit. Length left of a rod: depth of the hole less the last position\n"
+     "of a tracer at its tail; the measure `length` also counts what lines the hole.",
+     "tasks/long-rod.md"},
     {" convergence mesh.independence grid.convergence ",
      "bolide verify --convergence CASE runs a case on several resolutions and gives errors and\n"
      "orders.",

@@ -100,6 +100,50 @@ static struct error *open_source(struct source *source, FILE **file)
     return NULL;
 }
 
+/* Whether TEXT is a whole number, of which the digits before a decimal comma are. */
+static bool is_whole(const char *text)
+{
+    const size_t sign = text[0] == '-' || text[0] == '+';
+    const size_t digits = strspn(text + sign, "0123456789");
+    return digits > 0 && text[sign + digits] == '\0';
+}
+
+/* What stands after the comma of a decimal number that begins with BEFORE: the key of an entry
+ * without a value in a map, or the next item of a list, with a unit and without a blank before it;
+ * NULL where there is no such number. */
+static const char *after_comma(enum node_kind kind, const struct node *before,
+                               const struct node *after)
+{
+    if (before->kind != NODE_SCALAR || after->kind != NODE_SCALAR || !before->plain ||
+        !is_whole(before->text))
+        return NULL;
+    const char *text = kind == NODE_MAP ? after->key : after->text;
+    const bool found =
+        kind == NODE_MAP
+            ? node_is_empty(after)
+            : after->plain && !is_whole(text) && after->place.line == before->place.line &&
+                  after->place.column == before->place.column + (int)strlen(before->text) + 1;
+    return found && text[0] >= '0' && text[0] <= '9' ? text : NULL;
+}
+
+/* Numbers with a decimal comma, which YAML takes for two entries. All other mistakes would follow
+ * from them. */
+static struct error *refuse_commas(const struct node *node)
+{
+    struct error *error = NULL;
+    for (int i = 0; i < node->count; i++) {
+        const struct node *child = node->child[i];
+        const char *rest =
+            i + 1 < node->count ? after_comma(node->kind, child, node->child[i + 1]) : NULL;
+        if (rest)
+            error = error_join(error, place_error(child->place, child->key ? child->key : "",
+                                                  "\"%s,%s\": write a decimal point, %s.%s",
+                                                  child->text, rest, child->text, rest));
+        error = error_join(error, refuse_commas(child));
+    }
+    return error;
+}
+
 static struct error *read_source(struct loading *loading, struct source *source, struct node **root)
 {
     FILE *file = NULL;
@@ -118,6 +162,8 @@ static struct error *read_source(struct loading *loading, struct source *source,
     assert(error || *root);
     if (!error && (*root)->kind != NODE_MAP)
         error = place_error((*root)->place, "", "expected a map of keys and values");
+    if (!error)
+        error = refuse_commas(*root);
     return error;
 }
 

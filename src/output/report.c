@@ -95,6 +95,11 @@ static bool takes_prefix(const char *unit)
 
 void readable(double value, const char *unit, char *buffer, size_t size)
 {
+    readable_digits(value, unit, 4, buffer, size);
+}
+
+void readable_digits(double value, const char *unit, int digits, char *buffer, size_t size)
+{
     double scale = 1.0;
     const char *prefix = "";
     if (takes_prefix(unit) && value != 0.0 && isfinite(value))
@@ -103,7 +108,7 @@ void readable(double value, const char *unit, char *buffer, size_t size)
         prefix = "";
         scale = 1.0;
     }
-    snprintf(buffer, size, "%.4g%s%s%s", value / scale, *unit ? " " : "", prefix, unit);
+    snprintf(buffer, size, "%.*g%s%s%s", digits, value / scale, *unit ? " " : "", prefix, unit);
 }
 
 /* The same with a steady number of digits, for a line that is drawn over and over. */

@@ -31,4 +31,7 @@ void progress_text(const struct simulation *simulation, const struct limit *limi
 /* A number with a readable unit multiple of the SI unit: 3.1e-6, "s" gives "3.1 us". */
 void readable(double value, const char *unit, char *buffer, size_t size);
 
+/* The same with DIGITS significant digits; `readable` gives four. */
+void readable_digits(double value, const char *unit, int digits, char *buffer, size_t size);
+
 #endif

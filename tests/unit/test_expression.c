@@ -199,9 +199,9 @@ static void unknown_units_and_names_are_told_with_the_nearest(void **state)
     (void)state;
     assert_refused("300 Mpa", "unknown unit \"Mpa\" (did you mean \"MPa\"?)");
     assert_refused("7850 kg/m3", "unknown unit \"m3\" (did you mean \"m^3\"?)");
-    assert_refused("3 furlong", "unknown unit \"furlong\"");
-    assert_refused("3 m/furlong", "unknown unit \"furlong\"");
-    assert_refused("2e", "unknown unit \"e\"");
+    assert_refused("3 furlong", "unknown unit \"furlong\" (bolide help units lists them)");
+    assert_refused("3 m/furlong", "unknown unit \"furlong\" (bolide help units lists them)");
+    assert_refused("2e", "unknown unit \"e\" (bolide help units lists them)");
     assert_refused("2*plat", "unknown name \"plat\" (did you mean \"plate\"?)");
     assert_refused("3 m*Plate", "unknown name \"Plate\" (did you mean \"plate\"?)");
     assert_refused("squrt(2)", "unknown name \"squrt\" (did you mean \"sqrt\"?)");
@@ -289,8 +289,8 @@ static void slips_of_syntax_are_told_where_they_stand(void **state)
     assert_refused("U0(2)", "cannot be read at \"(2)\"");
     assert_refused("2**3", "cannot be read at \"*3\"");
     assert_refused("5 1/2", "cannot be read at \"1/2\"");
-    assert_refused("1, 2", "there is a comma outside a function");
-    assert_refused("(1, 2)", "there is a comma outside a function");
+    assert_refused("1, 2", "there is a comma outside a function (a decimal point is \".\")");
+    assert_refused("(1, 2)", "there is a comma outside a function (a decimal point is \".\")");
     assert_refused("sqrt(1, 2)", "a function has the wrong number of arguments");
     assert_refused("atan2(1)", "a function has the wrong number of arguments");
     assert_refused("max()", "a function has the wrong number of arguments");

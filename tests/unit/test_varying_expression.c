@@ -107,7 +107,7 @@ static void mistakes_are_told_as_in_any_expression(void **state)
     assert_refused("z*1 m", "\"z\" is the position here: call the name of let something else");
     assert_refused("(x > 1 m", "a \")\" is missing");
     assert_refused("x = 1 m", "unexpected \"=\"");
-    assert_refused("x, y", "there is a comma outside a function");
+    assert_refused("x, y", "there is a comma outside a function (a decimal point is \".\")");
     assert_refused("2 x", "\"x\" after a number is not a unit: put \"*\" between them");
     struct quantity result;
     struct error *error = expression_evaluate("2*y", NULL, &result);
