@@ -257,6 +257,10 @@ BOLIDE_INLINE struct eos_value reactive_jwl_state(const struct eos_reactive_jwl 
     value.dp_drho = -(m.p_volume[1] / fraction[1] + along * by_volume) * total / density;
     value.dp_de = (m.p_energy + along * by_energy) * jwl->density;
     value.status = found ? 0 : POINT_OUT_OF_RANGE;
+    /* Beyond the tension that the explosive bears its pressure falls with density, and with a little
+     * of hot products so does that of both. */
+    eos_hold_sound(&value, density,
+                   0.01 * jwl->energy / jwl->density * minimum(density / jwl->density, 1.0));
     *last = few ? volume[1] : volume[0];
     return value;
 }
