@@ -437,18 +437,19 @@ static void check_geometry(struct checking *checking)
                    (int)checking->input->dimension);
 }
 
-/* Gives the exact solution EXACT, at KEY with its dot, the material that it names. */
+/* Gives the exact solution EXACT, at KEY with its dot, the materials that it names. */
 static void take_material(struct checking *checking, const char *key, struct one_of *exact)
 {
     const struct exact_class *class = exact->choice ? exact->choice->thing : NULL;
-    if (!class || !class->material_name || !exact->value || !class->material_name(exact->value))
-        return;
-    char path[PATH_TEXT];
-    snprintf(path, sizeof path, "%s%s.material", key, exact->choice->name);
-    const int index = case_find_name(checking, &checking->input->materials, "material",
-                                     class->material_name(exact->value), path);
-    if (index >= 0)
-        class->take_material(exact->value, case_material(checking->input, index)->material);
+    for (int k = 0; class && class->material_name && exact->value && k < EXACT_MATERIALS; k++) {
+        char path[PATH_TEXT];
+        const char *own, *name = class->material_name(exact->value, k, &own);
+        snprintf(path, sizeof path, "%s%s.%s", key, exact->choice->name, own);
+        struct named_map *materials = &checking->input->materials;
+        const int index = name ? case_find_name(checking, materials, "material", name, path) : -1;
+        if (index >= 0)
+            class->take_material(exact->value, k, case_material(checking->input, index)->material);
+    }
 }
 
 static void take_check_material(struct checking *checking, int index)

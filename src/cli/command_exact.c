@@ -144,12 +144,12 @@ static struct error *wants_values(const struct choice *choice)
     return error;
 }
 
-/* Gives VALUES the material of the library that they name, if they are of a kind that does. */
-static struct error *take_material(const struct exact_class *class, void *values)
+/* Gives VALUES the material of the library that they name at INDEX, if any. */
+static struct error *take_material(const struct exact_class *class, void *values, int index)
 {
-    if (!class->material_name)
+    const char *key, *const name = class->material_name(values, index, &key);
+    if (!name)
         return NULL;
-    const char *const name = class->material_name(values);
     char *folder = share_folder("materials");
     const char *const folders[] = {folder};
     char *path = folder ? library_file(folders, 1, name) : NULL;
@@ -158,12 +158,12 @@ static struct error *take_material(const struct exact_class *class, void *values
     if (path) {
         error = library_read(path, &bolide_catalogue, &input);
         if (!error) {
-            class->take_material(values, input.material);
+            class->take_material(values, index, input.material);
             library_release(&input);
         }
     } else {
         char *text = library_unknown(folders, folder != NULL, name);
-        error = error_new(ERROR_INPUT, "material: %s", text ? text : "out of memory");
+        error = error_new(ERROR_INPUT, "%s: %s", key, text ? text : "out of memory");
         free(text);
     }
     free(path);
@@ -184,7 +184,9 @@ static struct error *solve_choice(const struct choice *choice, const struct cli_
     if (!error) {
         error = document_read(document, choice->table, &bolide_catalogue, values);
         if (!error) {
-            error = take_material(choice->thing, values);
+            const struct exact_class *class = choice->thing;
+            for (int k = 0; class->material_name && k < EXACT_MATERIALS && !error; k++)
+                error = take_material(class, values, k);
             if (!error)
                 error = print_solution(choice, values, time, options->points);
             parameters_release(choice->table, values);

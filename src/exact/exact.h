@@ -28,6 +28,8 @@ enum { EXACT_NUMBERS = 40 };
 
 enum exact_known { EXACT_ALL, EXACT_PRESSURE, EXACT_NO_FIELD };
 
+enum { EXACT_MATERIALS = 2 };
+
 struct vector_value;
 struct material;
 
@@ -35,10 +37,11 @@ struct exact_class {
     size_t size;  /* of the solved problem */
     bool thermal; /* its states are of a body at rest: temperature alone; others have none */
     bool burns;   /* its states have the fraction burnt, and a temperature */
-    /* Where PARAMETERS name a material: its name, NULL where it is missing, and what takes its
-     * models before `solve`. NULL: they name none. */
-    const char *(*material_name)(const void *parameters);
-    void (*take_material)(void *parameters, const struct material *material);
+    /* Where PARAMETERS may name materials, EXACT_MATERIALS at most: the name of that at INDEX and
+     * the path of its KEY, NULL where none is named, and what takes its models before `solve`.
+     * NULL: they name none. */
+    const char *(*material_name)(const void *parameters, int index, const char **key);
+    void (*take_material)(void *parameters, int index, const struct material *material);
     /* Solves the problem of PARAMETERS (the choice's struct). ERROR_INPUT when it has no solution
      * of the kind (vacuum, say). */
     struct error *(*solve)(const void *parameters, void *solved);

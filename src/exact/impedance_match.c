@@ -8,6 +8,7 @@
 #include "exact/impedance_match.h"
 
 #include "exact/waves.h"
+#include "material/material.h"
 
 struct impact_problem {
     struct waves waves;    /* first: waves.h */
@@ -15,15 +16,19 @@ struct impact_problem {
 };
 
 static const struct parameter material_table[] = {
+    {"material", PARAMETER_TEXT, offsetof(struct exact_shock_material, name),
+     .standard = PARAMETER_OPTIONAL,
+     .help = "a material with `eos: mie-grueneisen`, of the case or, in `bolide exact`, of the "
+             "library; gives density, sound and slope"},
     {"density", PARAMETER_NUMBER, offsetof(struct exact_shock_material, density), "kg/m^3",
-     PARAMETER_REQUIRED, .above = 0.0, .below = INFINITY,
-     .help = "density at the start, at zero pressure"},
+     PARAMETER_OPTIONAL, .above = 0.0, .below = INFINITY,
+     .help = "density at the start, at zero pressure; default: that of the material"},
     {"sound", PARAMETER_NUMBER, offsetof(struct exact_shock_material, sound), "m/s",
-     PARAMETER_REQUIRED, .above = 0.0, .below = INFINITY,
-     .help = "C of the shock relation U_s = C + S U_p"},
+     PARAMETER_OPTIONAL, .above = 0.0, .below = INFINITY,
+     .help = "C of the shock relation U_s = C + S U_p; default: that of the material"},
     {"slope", PARAMETER_NUMBER, offsetof(struct exact_shock_material, slope), "",
-     PARAMETER_REQUIRED, .above = 0.0, .below = INFINITY, .closed = true,
-     .help = "S of the shock relation U_s = C + S U_p"},
+     PARAMETER_OPTIONAL, .above = 0.0, .below = INFINITY, .closed = true,
+     .help = "S of the shock relation U_s = C + S U_p; default: that of the material"},
     {"velocity", PARAMETER_NUMBER, offsetof(struct exact_shock_material, velocity), "m/s", "0 m/s",
      .help = "velocity at the start, positive to the right"},
     PARAMETER_END,
@@ -40,6 +45,23 @@ const struct parameter exact_impedance_match_table[] = {
      .help = "position of the contact at the start"},
     PARAMETER_END,
 };
+
+static const char *impact_material_name(const void *parameters, int index, const char **key)
+{
+    *key = index == SIDE_LEFT ? "left.material" : "right.material";
+    return ((const struct exact_impedance_match *)parameters)->material[index].name;
+}
+
+/* What is given goes before what the material says. */
+static void impact_take_material(void *parameters, int index, const struct material *material)
+{
+    struct exact_shock_material *own =
+        &((struct exact_impedance_match *)parameters)->material[index];
+    const struct eos_traits traits = eos_traits(&material->eos);
+    own->density = isnan(own->density) ? material_density(material) : own->density;
+    own->sound = isnan(own->sound) ? traits.shock_sound : own->sound;
+    own->slope = isnan(own->slope) ? traits.shock_slope : own->slope;
+}
 
 /* Of the closing speed CLOSING the part w that the shock of the left material takes up. */
 static double left_share(const struct exact_shock_material *left,
@@ -60,6 +82,14 @@ static struct error *impact_solve(const void *parameters, void *solved)
     struct impact_problem *problem = solved;
     const struct exact_shock_material *left = &input->material[SIDE_LEFT];
     const struct exact_shock_material *right = &input->material[SIDE_RIGHT];
+    for (int side = SIDE_LEFT; side <= SIDE_RIGHT; side++) {
+        const struct exact_shock_material *one = &input->material[side];
+        if (isnan(one->density) || isnan(one->sound) || isnan(one->slope))
+            return error_new(ERROR_INPUT,
+                             "%s: give a `material` with `eos: mie-grueneisen`, or `density`, "
+                             "`sound` and `slope`",
+                             side == SIDE_LEFT ? "left" : "right");
+    }
     double closing = left->velocity - right->velocity;
     if (!(closing >= 0.0))
         return error_new(ERROR_INPUT, "the bodies separate at %g m/s: there is no impact",
@@ -118,6 +148,8 @@ static int impact_numbers(const void *solved, double time, struct exact_number *
 
 const struct exact_class exact_impedance_match_class = {
     .size = sizeof(struct impact_problem),
+    .material_name = impact_material_name,
+    .take_material = impact_take_material,
     .solve = impact_solve,
     .sample = waves_sample,
     .star = waves_star,

@@ -8,7 +8,8 @@
 #include "exact/exact.h"
 
 struct exact_shock_material {
-    double density, sound, slope, velocity;
+    double density, sound, slope, velocity; /* the first three NAN: those of the material */
+    char *name;                             /* of that material; NULL: none */
 };
 
 struct exact_impedance_match {

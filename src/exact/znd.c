@@ -51,13 +51,15 @@ const struct parameter exact_znd_table[] = {
     PARAMETER_END,
 };
 
-static const char *znd_material_name(const void *parameters)
+static const char *znd_material_name(const void *parameters, int index, const char **key)
 {
-    return ((const struct exact_znd *)parameters)->material;
+    *key = "material";
+    return index ? NULL : ((const struct exact_znd *)parameters)->material;
 }
 
-static void znd_take_material(void *parameters, const struct material *material)
+static void znd_take_material(void *parameters, int index, const struct material *material)
 {
+    (void)index;
     ((struct exact_znd *)parameters)->models = *material;
 }
 

@@ -6,6 +6,7 @@
 #include "exact/choices.h"
 #include "exact/gas_riemann.h"
 #include "exact/impedance_match.h"
+#include "material/material.h"
 
 static struct solution mirrored_gas(const struct exact_gas_riemann *problem)
 {
@@ -168,7 +169,8 @@ static void porous_slab_on_a_wall_follows_its_line(void **state)
     } rows[] = {{1000.0, "3820"}, {1500.0, "4805"}, {2000.0, "5790"}, {2500.0, "6775"},
                 {3000.0, "7760"}, {3500.0, "8745"}, {4000.0, "9730"}};
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        struct exact_shock_material slab = {2025.0, 1850.0, 1.97, rows[i].speed}, image = slab;
+        struct exact_shock_material slab = {2025.0, 1850.0, 1.97, rows[i].speed, NULL},
+                                    image = slab;
         image.velocity = -rows[i].speed;
         struct exact_impedance_match problem = {{slab, image}, 0.0};
         struct solution solution = solve(&exact_impedance_match_class, &problem, 0.0);
@@ -183,8 +185,8 @@ static void porous_slab_on_a_wall_follows_its_line(void **state)
 static void impact_of_two_materials_balances(void **state)
 {
     (void)state;
-    struct exact_shock_material copper = {8930.0, 3940.0, 1.489, 1200.0};
-    struct exact_shock_material light = {2700.0, 5350.0, 1.34, -300.0};
+    struct exact_shock_material copper = {8930.0, 3940.0, 1.489, 1200.0, NULL};
+    struct exact_shock_material light = {2700.0, 5350.0, 1.34, -300.0, NULL};
     struct exact_impedance_match problem = {{copper, light}, 0.01};
     struct solution solution = solve(&exact_impedance_match_class, &problem, 1e-6);
     struct exact_state left = solution.class->star(solution.solved, SIDE_LEFT);
@@ -208,10 +210,38 @@ static void impact_of_two_materials_balances(void **state)
     release(&solution);
 }
 
+static void a_material_gives_what_is_left_out(void **state)
+{
+    (void)state;
+    const struct material copper = {
+        .eos = {.kind = EOS_mie_grueneisen,
+                .of.mie_grueneisen = {.density = 8930.0, .sound = 3940.0, .slope = 1.489}}};
+    const struct material gas = {.eos = {.kind = EOS_ideal_gas}};
+    struct exact_shock_material given = {8930.0, 3940.0, 1.489, 500.0, NULL};
+    struct exact_shock_material left = {NAN, NAN, NAN, 500.0, "copper"};
+    struct exact_shock_material right = {9000.0, 3940.0, 1.5, 0.0, NULL};
+    struct exact_impedance_match problem = {{left, right}, 0.0}, whole = {{given, right}, 0.0};
+    const char *key;
+    const struct exact_class *class = &exact_impedance_match_class;
+    assert_string_equal(class->material_name(&problem, SIDE_LEFT, &key), "copper");
+    assert_string_equal(key, "left.material");
+    assert_null(class->material_name(&problem, SIDE_RIGHT, &key));
+    assert_refused(class, &problem);
+    class->take_material(&problem, SIDE_RIGHT, &copper); /* what is given stays */
+    class->take_material(&problem, SIDE_LEFT, &copper);
+    struct solution solution = solve(class, &problem, 0.0), other = solve(class, &whole, 0.0);
+    assert_true(number(&solution, "star pressure") == number(&other, "star pressure"));
+    release(&solution);
+    release(&other);
+    problem.material[SIDE_LEFT] = left;
+    class->take_material(&problem, SIDE_LEFT, &gas); /* its adiabat is no straight line */
+    assert_refused(class, &problem);
+}
+
 static void bodies_that_part_are_refused(void **state)
 {
     (void)state;
-    struct exact_shock_material copper = {8930.0, 3940.0, 1.489, 0.0};
+    struct exact_shock_material copper = {8930.0, 3940.0, 1.489, 0.0, NULL};
     struct exact_impedance_match problem = {{copper, copper}, 0.0};
     struct solution solution = solve(&exact_impedance_match_class, &problem, 0.0);
     struct exact_state star = solution.class->star(solution.solved, SIDE_LEFT);
@@ -220,7 +250,7 @@ static void bodies_that_part_are_refused(void **state)
     problem.material[SIDE_RIGHT].velocity = 1.0;
     assert_refused(&exact_impedance_match_class, &problem);
     /* A slope below one and more speed than the shock relation can bear. */
-    problem.material[SIDE_LEFT] = (struct exact_shock_material){1000.0, 100.0, 0.5, 1000.0};
+    problem.material[SIDE_LEFT] = (struct exact_shock_material){1000.0, 100.0, 0.5, 1000.0, NULL};
     problem.material[SIDE_RIGHT].velocity = -1000.0;
     assert_refused(&exact_impedance_match_class, &problem);
 }
@@ -247,6 +277,7 @@ int main(void)
         cmocka_unit_test(a_thousand_random_gas_problems_are_solved_and_conserve),
         cmocka_unit_test(porous_slab_on_a_wall_follows_its_line),
         cmocka_unit_test(impact_of_two_materials_balances),
+        cmocka_unit_test(a_material_gives_what_is_left_out),
         cmocka_unit_test(bodies_that_part_are_refused),
         cmocka_unit_test(every_choice_has_a_table_and_a_class),
     };

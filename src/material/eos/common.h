@@ -11,6 +11,8 @@ struct eos_traits {
     /* A of the shock adiabat U_s = c + A u from rest; NAN: that of a weak shock (see
      * riemann/shock_slope.h). */
     double shock_slope;
+    /* C of U_s = C + S U_p with this slope S, where that is the shock adiabat; else NAN. */
+    double shock_sound;
     /* gamma where waves are those of an ideal gas, for exact solutions of them; NAN: they are not.
      * */
     double ratio_of_heats;
@@ -30,7 +32,7 @@ struct eos_traits {
 /* The traits of a model that says no more. */
 BOLIDE_INLINE struct eos_traits eos_default_traits(void)
 {
-    struct eos_traits traits = {NAN, NAN, false, 4.0, false, 0, NULL, NULL};
+    struct eos_traits traits = {NAN, NAN, NAN, false, 4.0, false, 0, NULL, NULL};
     return traits;
 }
 

@@ -123,6 +123,7 @@ BOLIDE_INLINE struct eos_traits eos_mie_grueneisen_traits(const struct eos_mie_g
 {
     struct eos_traits traits = eos_default_traits();
     traits.shock_slope = solid->slope;
+    traits.shock_sound = solid->sound;
     return traits;
 }
 
