@@ -156,6 +156,7 @@ static struct error *read_all(struct simulation_case *input, const char *path,
                               const struct case_options *options)
 {
     TRY(read_document(input, options));
+    TRY(case_read_start(input, path, options));
     return options->recording || options->convergence ? NULL : case_take_record(input, path);
 }
 
@@ -190,6 +191,7 @@ void case_free(struct simulation_case *input)
     for (int i = 0; i < input->materials.count; i++)
         free(case_material(input, i)->material);
     parameters_release(case_table, input);
+    case_free(input->start.input);
     sweep_values_free(input->sweep, input->sweep_values);
     document_free(input->document);
     free(input->name);

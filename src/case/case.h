@@ -81,6 +81,17 @@ struct domain_input {
     struct vector_value low, high; /* count 0: where walls are, else the bounds of all bodies */
 };
 
+/* start: {from: FILE}: a blast that another case has computed in 1-D takes the place of what the bodies
+ * say within its reach. */
+struct start_input {
+    char *from;                    /* that case, or its folder; NULL: none */
+    double at;                     /* s, how far it is computed; NAN: to its end */
+    struct vector_value center;    /* of the blast; count 0: the origin */
+    char *material;                /* that of its denser material, which no body has; may be NULL */
+    int material_index;            /* filled by case_read; -1: none */
+    struct simulation_case *input; /* filled by case_read; owned */
+};
+
 /* boundaries: NAME: {axis: x, side: low, kind: inflow, density: ...}: what is outside a face of the
  * domain. A face with a wall is reflecting; one that nothing names is transmitting. */
 enum boundary_kind {
@@ -276,6 +287,7 @@ struct simulation_case {
     struct named_map walls;     /* struct wall_input */
     struct named_map outflows;  /* struct outflow_input */
     struct domain_input domain;
+    struct start_input start;
     struct named_map boundaries;  /* struct boundary_input */
     struct named_map obstacles;   /* struct obstacle_input */
     struct named_map loads;       /* struct load_input */

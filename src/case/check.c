@@ -477,6 +477,7 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "bodies", &input->bodies, check_lit);
     check_map(&checking, "outflows", &input->outflows, case_check_outflow);
     case_check_domain(&checking);
+    case_check_start(&checking);
     check_map(&checking, "boundaries", &input->boundaries, case_check_boundary);
     check_map(&checking, "obstacles", &input->obstacles, case_check_obstacle);
     check_map(&checking, "loads", &input->loads, case_check_load);

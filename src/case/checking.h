@@ -47,6 +47,7 @@ void case_check_study(struct checking *checking);
 void case_check_wall(struct checking *checking, int index);
 void case_check_outflow(struct checking *checking, int index);
 void case_check_domain(struct checking *checking);
+void case_check_start(struct checking *checking);
 void case_check_obstacle(struct checking *checking, int index);
 void case_check_boundary(struct checking *checking, int index);
 void case_check_load(struct checking *checking, int index);

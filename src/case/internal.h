@@ -9,10 +9,12 @@ enum { CASE_FORMAT = 1 };
 
 /* An entry of `materials`, and a file of the library. */
 extern const struct parameter case_material_table[];
-extern const struct parameter case_detonation_table[];  /* struct detonation_input */
-extern const struct parameter case_contact_table[];     /* struct contact_input */
-extern const struct parameter case_outflow_table[];     /* struct outflow_input */
+extern const struct parameter case_detonation_table[]; /* struct detonation_input */
+extern const struct parameter case_contact_table[];    /* struct contact_input */
+extern const struct parameter case_outflow_table[];    /* struct outflow_input */
+extern const struct parameter case_start_table[];
 extern const struct parameter case_domain_table[];      /* struct domain_input */
+extern const struct parameter case_start_table[];       /* struct start_input */
 extern const struct parameter case_boundary_table[];    /* struct boundary_input */
 extern const struct parameter case_obstacle_table[];    /* struct obstacle_input */
 extern const struct parameter case_load_table[];        /* struct load_input */
@@ -136,5 +138,9 @@ struct error *case_take_record(struct simulation_case *input, const char *path);
                 "Without either, by how much the value may change. It detects changes only, and "  \
                 "is counted separately"                                                            \
     }
+
+/* Reads the case that `start` names, if any, from the folder of the case at PATH. */
+struct error *case_read_start(struct simulation_case *input, const char *path,
+                              const struct case_options *options);
 
 #endif

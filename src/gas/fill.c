@@ -308,5 +308,6 @@ struct error *gas_fill(void *solver, struct simulation *simulation)
     free(f.bounds);
     free(f.near);
     free(f.here);
-    return ranks_agree(simulation->ranks, error ? error : f.error);
+    TRY(ranks_agree(simulation->ranks, error ? error : f.error));
+    return gas_start_from(gas, simulation);
 }

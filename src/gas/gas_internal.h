@@ -112,6 +112,12 @@ void gas_afterburn(struct gas *gas, struct simulation *simulation, double dt);
 /* Collective: what the bodies of the case put into the cells. */
 struct error *gas_fill(void *solver, struct simulation *simulation);
 
+/* What the case that `start` names must be. */
+struct error *gas_check_start(const struct simulation *simulation);
+
+/* Collective: the blast of `start`, if any, in the place of what the bodies say. */
+struct error *gas_start_from(struct gas *gas, struct simulation *simulation);
+
 /* The sweeps' pointers to the fields of the store. */
 void gas_bind(struct gas *gas, const struct cell_blocks *cells);
 

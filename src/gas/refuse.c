@@ -31,6 +31,8 @@ void gas_find_materials(const struct simulation *simulation, int material[2])
 {
     const struct simulation_case *input = simulation->problem->input;
     material[0] = material[1] = case_body(input, 0)->material_index;
+    if (input->start.input && input->start.material_index >= 0)
+        material[1] = input->start.material_index;
     for (int b = 1; b < input->bodies.count && material[1] == material[0]; b++)
         if (case_body(input, b)->material_index != material[0])
             material[1] = case_body(input, b)->material_index;
@@ -160,6 +162,7 @@ struct error *gas_refuse(const struct simulation *simulation,
     error = error_join(error, refuse_map(input, "outflows", &input->outflows,
                                          "outflows are for particles: use a boundary of kind "
                                          "transmitting"));
+    error = error_join(error, gas_check_start(simulation));
     for (int b = 0; b < input->bodies.count; b++)
         error = error_join(error, refuse_body(input, b));
     return error_join(error, refuse_materials(simulation, parameters));

@@ -438,8 +438,12 @@ static inline void parts_sweep(struct gas_row *row, struct row_parts *parts, dou
     for (int n = 0; n < GAS_NUMBERS; n++)
         FOR_ROW (k, 0, row->cells - 1)
             row->u.of[n][k] = to.of[n][k];
-    if (row->afterburns)
+    if (row->afterburns) {
+        FOR_ROW (k, 0, row->cells) /* as in a row of the second alone, to the bit */
+            if (parts->kind[k - 1] == PART_SECOND && parts->kind[k] == PART_SECOND)
+                parts->flux[PART_MASS][k] = flux->of[GAS_DENSITY][k];
         row_carry_afterburnt(row, parts->flux[PART_MASS], row->part[PART_MASS], r);
+    }
     parts_advance(row, parts, r);
     parts_clean(row);
 }

@@ -1,0 +1,366 @@
+/* A blast that a case of one dimension has computed as the start of this one. It runs on every rank alike.
+ * What a shell of it holds goes to the cells by points: each takes the state of the shell at its radius,
+ * times the factor that gives all points of a shell together the shell's mass of either material and its
+ * energy. Velocities are along the radius. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "gas/gas_internal.h"
+#include "material/material.h"
+
+/* What a shell's cells have in common with ours, per volume. */
+enum { SHELL_FIRST, SHELL_SECOND, SHELL_ENERGY, SHELL_AFTERBURNT, SHELLS };
+
+/* Of the other case: its solver and what its cells hold, by radius. */
+struct blast {
+    const struct simulation_case *input;
+    struct simulation simulation;
+    struct gas gas;
+    int cells, last; /* all of them; those that the blast has reached */
+    double *number[SHELLS], *speed, *fraction;
+    double low, edge; /* radius of the first cell's low face, width of a cell */
+    int bins, cells_a_bin;
+    double *factor[SHELLS]; /* of each bin */
+};
+
+/* Our cells, and the points in them. */
+struct filling {
+    struct gas *gas;
+    const struct simulation *simulation;
+    double center[3], reach; /* radius up to which cells take from the blast */
+    double share;            /* of the ball that the domain holds between its planes of symmetry */
+    int points;              /* along an axis of a cell */
+    struct exact_sum *sum;   /* [bin * SHELLS + number] over all points */
+};
+
+static struct error *wrong(const struct simulation *simulation, const char *key, const char *text)
+{
+    return input_error(simulation->problem->input, "start", key, "%s", text);
+}
+
+/* What the other case must be. */
+struct error *gas_check_start(const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->problem->input, *other = input->start.input;
+    if (!other)
+        return NULL;
+    const bool ball = input->dimension == 3 || input->geometry == GEOMETRY_AXISYMMETRIC;
+    if (other->solver.choice->thing != &gas_class || other->dimension != 1)
+        return wrong(simulation, "from",
+                     "that case must be one of one dimension with the solver gas");
+    if (input->dimension == 1)
+        return wrong(simulation, "from", "this case has one dimension itself: resume that run");
+    if (other->geometry != (ball ? GEOMETRY_SPHERICAL : GEOMETRY_CYLINDRICAL))
+        return wrong(simulation, "from",
+                     ball ? "a start in 3-D or axisymmetry needs `geometry: spherical` in that case"
+                          : "a start in a plane needs `geometry: cylindrical` in that case");
+    if (input->geometry == GEOMETRY_AXISYMMETRIC && input->start.center.count &&
+        input->start.center.at[0] != 0.0)
+        return wrong(simulation, "center", "in axisymmetry the centre lies on the axis, x = 0");
+    return NULL;
+}
+
+/* Runs the other case. */
+static struct error *compute(const struct simulation *simulation, struct blast *blast)
+{
+    const struct start_input *start = &simulation->problem->input->start;
+    const double until = isnan(start->at) ? blast->input->run.until : start->at;
+    struct simulation *other = &blast->simulation;
+    TRY(gas_class.fill(&blast->gas, other));
+    TRY(gas_class.start(&blast->gas, other));
+    while (other->time < until) {
+        struct limit limit = limit_of_nothing();
+        TRY(gas_class.prepare(&blast->gas, other, &limit));
+        const double left = until - other->time, dt = limit.dt < left ? limit.dt : left;
+        TRY(gas_class.advance(&blast->gas, other, dt));
+        other->time = dt < left ? other->time + dt : until;
+        other->step++;
+    }
+    return NULL;
+}
+
+static bool differs(double a, double b) { return fabs(a - b) > 1e-9 * maximum(fabs(a), fabs(b)); }
+
+/* What the cells of the other case hold, in the order of their radius. */
+static struct error *take(struct blast *blast)
+{
+    const struct cell_blocks *cells = blast->gas.cells;
+    const struct gas *gas = &blast->gas;
+    const int count = blast->cells = cells->count;
+    blast->edge = cells->edge;
+    blast->low = (double)cells->low[0] * cells->edge;
+    for (int n = 0; n < SHELLS; n++)
+        blast->number[n] = memory_allocate((size_t)count * sizeof(double));
+    blast->speed = memory_allocate((size_t)count * sizeof(double));
+    blast->fraction = memory_allocate((size_t)count * sizeof(double));
+    for (int n = 0; n < SHELLS; n++)
+        if (!blast->number[n] || !blast->speed || !blast->fraction)
+            return error_new(ERROR_SYSTEM, "out of memory for a start");
+    for (int32_t i = 0; i < count; i++) {
+        const int k = (int)((cells->position[i][0] - blast->low) / blast->edge);
+        const double density = gas->u[GAS_DENSITY][i],
+                     second = gas->layout.two ? gas->u[GAS_SECOND][i] : 0.0;
+        blast->number[SHELL_FIRST][k] = density - second;
+        blast->number[SHELL_SECOND][k] = second;
+        blast->number[SHELL_ENERGY][k] = gas->u[GAS_ENERGY][i];
+        blast->number[SHELL_AFTERBURNT][k] =
+            gas->layout.afterburns ? gas->u[GAS_AFTERBURNT][i] : 0.0;
+        blast->fraction[k] = gas->layout.two ? gas->u[GAS_FRACTION][i] : 0.0;
+        blast->speed[k] = gas->u[GAS_MOMENTUM][i] / density;
+    }
+    blast->last = count;
+    while (blast->last > 0 && fabs(blast->speed[blast->last - 1]) < 1e-6 &&
+           !differs(blast->number[SHELL_FIRST][blast->last - 1],
+                    blast->number[SHELL_FIRST][count - 1]) &&
+           !differs(blast->number[SHELL_ENERGY][blast->last - 1],
+                    blast->number[SHELL_ENERGY][count - 1]))
+        blast->last--;
+    return NULL;
+}
+
+/* The shell at RADIUS, -1 for none. */
+static int shell_at(const struct blast *blast, double radius)
+{
+    const double at = (radius - blast->low) / blast->edge;
+    return at < 0.0 || at >= blast->last ? -1 : (int)at;
+}
+
+/* Volume of shell K per steradian, or per radian and length. */
+static double shell_volume(const struct blast *blast, int k)
+{
+    const double center = blast->low + (k + 0.5) * blast->edge;
+    return gas_cell_volume(blast->edge, blast->edge, center, blast->gas.round);
+}
+
+/* Calls ACT for each point of cell I within reach: the shell there, the direction from the centre and the
+ * weight of the point. Returns the weight of all points. */
+typedef void (*act_on_point)(void *context, int shell, const double direction[3], double weight);
+
+static double each_point(const struct filling *f, const struct blast *blast, int32_t i,
+                         act_on_point act, void *context)
+{
+    const struct cell_blocks *cells = f->gas->cells;
+    const int dimension = cells->dimension, n = f->points;
+    const int64_t all = dimension == 3 ? (int64_t)n * n * n : (int64_t)n * n;
+    double total = 0.0;
+    for (int64_t p = 0; p < all; p++) {
+        double direction[3] = {0.0}, radius = 0.0, weight = 1.0;
+        int64_t rest = p;
+        for (int axis = 0; axis < dimension; axis++) {
+            const double at =
+                cells->position[i][axis] + (((double)(rest % n) + 0.5) / n - 0.5) * cells->edge;
+            direction[axis] = at - f->center[axis];
+            radius += square(direction[axis]);
+            if (axis == 0 && f->gas->round == 1)
+                weight = at;
+            rest /= n;
+        }
+        radius = sqrt(radius);
+        total += weight;
+        const int shell = shell_at(blast, radius);
+        if (shell < 0)
+            continue;
+        for (int axis = 0; axis < dimension; axis++)
+            direction[axis] /= radius;
+        act(context, shell, direction, weight);
+    }
+    return total;
+}
+
+struct summing {
+    const struct filling *f;
+    const struct blast *blast;
+};
+
+static void sum_point(void *context, int shell, const double direction[3], double weight)
+{
+    const struct summing *s = context;
+    const int bin = shell / s->blast->cells_a_bin;
+    (void)direction;
+    for (int n = 0; n < SHELLS; n++)
+        exact_sum_add(&s->f->sum[bin * SHELLS + n], weight * s->blast->number[n][shell]);
+}
+
+struct mixing {
+    const struct blast *blast;
+    double sum[SHELLS], momentum[3], fraction, weight;
+};
+
+static void mix_point(void *context, int shell, const double direction[3], double weight)
+{
+    struct mixing *m = context;
+    const struct blast *blast = m->blast;
+    const int bin = shell / blast->cells_a_bin;
+    double value[SHELLS];
+    for (int n = 0; n < SHELLS; n++) {
+        value[n] = weight * blast->factor[n][bin] * blast->number[n][shell];
+        m->sum[n] += value[n];
+    }
+    for (int axis = 0; axis < 3; axis++)
+        m->momentum[axis] +=
+            (value[SHELL_FIRST] + value[SHELL_SECOND]) * blast->speed[shell] * direction[axis];
+    m->fraction += weight * blast->fraction[shell];
+    m->weight += weight;
+}
+
+/* How much of the ball the domain holds, and whether it holds that much. */
+static struct error *find_share(struct filling *f, const struct blast *blast)
+{
+    const struct cell_blocks *cells = f->gas->cells;
+    const double near = 1e-6 * cells->edge;
+    f->share = 1.0;
+    f->reach = blast->low + blast->last * blast->edge;
+    for (int axis = 0; axis < cells->dimension; axis++) {
+        const double low = (double)cells->low[axis] * cells->edge - f->center[axis],
+                     high = (double)cells->high[axis] * cells->edge - f->center[axis];
+        const bool half_low = fabs(low) < near, half_high = fabs(high) < near;
+        if (axis == 0 && f->gas->round == 1) {
+            if (!half_low)
+                return wrong(f->simulation, "center", "the domain must begin at the axis, x = 0");
+        } else
+            f->share *= half_low || half_high ? 0.5 : 1.0;
+        if ((!half_low && low > -f->reach) || (!half_high && high < f->reach)) {
+            char text[160];
+            snprintf(text, sizeof text,
+                     "the blast has a radius of %.4g m by then, which the domain does not hold: "
+                     "give an earlier `at`",
+                     f->reach);
+            return wrong(f->simulation, "from", text);
+        }
+    }
+    return NULL;
+}
+
+/* The factors of each bin: what its shells hold over what the points have of it. */
+static void find_factors(const struct filling *f, struct blast *blast)
+{
+    const double angle = f->gas->cells->dimension == 3 ? 4.0 * M_PI
+                         : f->gas->round == 1          ? 2.0
+                                                       : 2.0 * M_PI;
+    const double point = pow(f->gas->cells->edge / f->points, f->gas->cells->dimension);
+    for (int bin = 0; bin < blast->bins; bin++)
+        for (int n = 0; n < SHELLS; n++) {
+            const double sampled = point * exact_sum_value(&f->sum[bin * SHELLS + n]);
+            double held = 0.0;
+            for (int k = bin * blast->cells_a_bin;
+                 k < (bin + 1) * blast->cells_a_bin && k < blast->last; k++)
+                held += blast->number[n][k] * shell_volume(blast, k);
+            blast->factor[n][bin] = sampled != 0.0 ? f->share * angle * held / sampled : 1.0;
+        }
+}
+
+static struct error *fill_cell(const struct filling *f, const struct blast *blast, int32_t i)
+{
+    struct gas *gas = f->gas;
+    struct mixing m = {.blast = blast};
+    const double all = each_point(f, blast, i, mix_point, &m);
+    if (m.weight == 0.0)
+        return NULL;
+    if (gas->open && gas->open[i] == 0.0)
+        return wrong(f->simulation, "from",
+                     "an obstacle lies within the blast by then: give an earlier `at`");
+    const double own = (all - m.weight) / all;
+    for (int n = 0; n < gas->layout.written; n++)
+        gas->u[n][i] *= own;
+    gas->u[GAS_DENSITY][i] += (m.sum[SHELL_FIRST] + m.sum[SHELL_SECOND]) / all;
+    for (int axis = 0; axis < gas->cells->dimension; axis++)
+        gas->u[GAS_MOMENTUM + axis][i] += m.momentum[axis] / all;
+    gas->u[GAS_ENERGY][i] += m.sum[SHELL_ENERGY] / all;
+    gas->u[GAS_SHOCK][i] = 0.0;
+    if (gas->layout.two) {
+        const double fraction = gas->u[GAS_FRACTION][i] + m.fraction / all;
+        gas->u[GAS_SECOND][i] += m.sum[SHELL_SECOND] / all;
+        gas->u[GAS_FRACTION][i] = m.sum[SHELL_FIRST] <= 0.0 && own == 0.0 ? 1.0 : fraction;
+    }
+    if (gas->layout.afterburns)
+        gas->u[GAS_AFTERBURNT][i] += m.sum[SHELL_AFTERBURNT] / all;
+    if (gas->layout.lit)
+        gas->u[gas->layout.burnt][i] = 1.0;
+    return NULL;
+}
+
+/* The materials of both cases, which must be alike. */
+static struct error *check_materials(const struct simulation *simulation, const struct gas *gas,
+                                     const struct blast *blast)
+{
+    const int materials = blast->gas.layout.two ? 2 : 1;
+    if (blast->gas.unburnt)
+        return wrong(simulation, "from",
+                     "the explosive has not burnt by then: compute that case further");
+    if (materials == 2 && !gas->layout.two)
+        return wrong(simulation, "material",
+                     "that case has two materials: give the one here that "
+                     "its denser one is");
+    for (int k = 0; k < materials; k++)
+        if (memcmp(&gas->eos[k], &blast->gas.eos[k], sizeof gas->eos[k]) != 0)
+            return wrong(
+                simulation, "from",
+                k ? "the equations of state of the denser materials differ"
+                  : "the equations of state differ: that case needs the materials of this");
+    return NULL;
+}
+
+static struct error *transfer(struct filling *f, struct blast *blast)
+{
+    const struct cell_blocks *cells = f->gas->cells;
+    struct summing summing = {f, blast};
+    struct error *error = NULL;
+    blast->cells_a_bin = (int)ceil(0.5 * cells->edge / blast->edge);
+    blast->bins = (blast->last + blast->cells_a_bin - 1) / blast->cells_a_bin;
+    f->sum = memory_allocate(((size_t)blast->bins * SHELLS + 1) * sizeof *f->sum);
+    for (int n = 0; n < SHELLS; n++)
+        blast->factor[n] = memory_allocate(((size_t)blast->bins + 1) * sizeof(double));
+    if (!f->sum || !blast->factor[SHELLS - 1])
+        error = error_new(ERROR_SYSTEM, "out of memory for a start");
+    for (int32_t i = 0; i < cells->count && !error; i++)
+        each_point(f, blast, i, sum_point, &summing);
+    TRY(ranks_agree(f->simulation->ranks, error));
+    ranks_sum_exact(f->simulation->ranks, f->sum, blast->bins * SHELLS);
+    find_factors(f, blast);
+    for (int32_t i = 0; i < cells->count && !error; i++)
+        error = fill_cell(f, blast, i);
+    return error;
+}
+
+struct error *gas_start_from(struct gas *gas, struct simulation *simulation)
+{
+    const struct start_input *start = &simulation->problem->input->start;
+    const struct ranks alone = ranks_alone();
+    struct filling f = {
+        .gas = gas, .simulation = simulation, .points = gas->cells->dimension == 3 ? 4 : 8};
+    struct blast *blast;
+    if (!start->input)
+        return NULL;
+    for (int axis = 0; axis < start->center.count; axis++)
+        f.center[axis] = start->center.at[axis];
+    blast = memory_allocate(sizeof *blast);
+    if (!blast)
+        return error_new(ERROR_SYSTEM, "out of memory for a start");
+    blast->input = start->input;
+    struct error *error = simulation_create(start->input, &alone, 1, &blast->simulation);
+    if (!error)
+        error = gas_class.create(&blast->gas, &blast->simulation, start->input->solver.value);
+    if (!error)
+        error = compute(simulation, blast);
+    if (!error)
+        error = take(blast);
+    if (!error)
+        error = check_materials(simulation, gas, blast);
+    if (!error)
+        error = find_share(&f, blast);
+    if (!error)
+        error = transfer(&f, blast);
+    gas_class.destroy(&blast->gas);
+    simulation_destroy(&blast->simulation);
+    for (int n = 0; n < SHELLS; n++) {
+        free(blast->number[n]);
+        free(blast->factor[n]);
+    }
+    free(blast->speed);
+    free(blast->fraction);
+    free(blast);
+    free(f.sum);
+    return ranks_agree(simulation->ranks, error);
+}
