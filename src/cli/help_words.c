@@ -18,7 +18,8 @@ static const struct answer answers[] = {
      "free.surface.velocity free.surface.history free.face rear.face ",
      "Give the material a failure model with a spall strength (bolide help failure):\n"
      "  failure: {spall: {strength: 1.3 GPa, stress: mean}}\n"
-     "and put a tracer two resolutions inside the free face, where a VISAR looks. A worked case\n"
+     "and put a tracer at the free face, where a VISAR looks (two resolutions inside it where\n"
+     "the shock is stronger than five times the spall strength). A worked case\n"
      "is on the page below.",
      "tasks/spall.md"},
     {" fracture fragmentation fragment crack failure ",
