@@ -121,7 +121,8 @@ static const struct answer answers[] = {
      "scaled.distance ",
      "`exact: {kingery-bulmash: {mass: 5 kg, charge: surface}}` has the curves of Kingery and\n"
      "Bulmash: checks (bolide help blast) compare gauges with them. Without a case:\n"
-     "  bolide exact kingery-bulmash --set \"mass=5 kg\" --set \"distance=10 m\"",
+     "  bolide exact kingery-bulmash --set \"mass=5 kg\" --set \"distance=10 m\"\n"
+     "A worked case: bolide help charge.",
      "blast.md"},
     {" overpressure incident.pressure peak.pressure impulse arrival arrival.time "
      "positive.phase.duration positive.phase positive.duration gauge.of.blast ",
@@ -130,22 +131,24 @@ static const struct answer answers[] = {
      "  checks: {impulse: {blast: {probe: near, take: impulse}}}\n"
      "`take` is overpressure, arrival, duration or impulse.",
      "blast.md"},
-    {" blast air.blast airblast blast.wave afterburn fireball ",
-     "A charge in air, with `solver: gas`: see examples/blast/tnt-free-air. The library's tnt is\n"
-     "lit by `detonations`; `afterburn` of the material lets its products burn in the air. Checks\n"
-     "compare gauges with `exact: kingery-bulmash`. A blast on a body without gas, with MPM:\n"
-     "`loads: {NAME: {on: plate, blast: {mass: 1 kg, at: [0 m, 2 m]}}}`.\n"
-     "Explosive in contact with metal: bolide help burn.",
-     "blast.md"},
+    {" blast air.blast airblast blast.wave afterburn fireball charge tnt.charge bare.charge "
+     "height.of.burst reflected.pressure reflected.impulse ",
+     "A charge in air, with `solver: gas`, in free air and above ground: a worked case is on the\n"
+     "page below. The library's tnt is lit by `detonations`; `afterburn` of the material lets its\n"
+     "products burn in the air. Checks compare gauges with `exact: kingery-bulmash`. A blast on a\n"
+     "body without gas, with MPM: `loads: {NAME: {on: plate, blast: {mass: 1 kg, at: [0 m, 2 "
+     "m]}}}`\n"
+     "(docs/blast.md). Explosive in contact with metal: bolide help burn.",
+     "tasks/charge-in-air.md"},
     {" shock.tube sod gas.dynamics cfd euler wind.tunnel air grid cells fdm ",
      "`solver: gas` computes a gas in cells, with walls, inflow, outflow, periodic faces and "
      "rigid\n"
      "obstacles. A shock tube beside its exact solution: see the page below; docs/gas.md has\n"
      "the method.",
      "tasks/shock-tube.md"},
-    {" explosive detonation tnt charge detonate ",
+    {" explosive detonation tnt detonate ",
      "An explosive is a material with `burn` (bolide help burn; library: tnt), lit by\n"
-     "`detonations`.",
+     "`detonations`. A charge in air: bolide help blast.",
      "materials.md"},
     {" znd reaction.zone von.neumann spike chapman.jouguet cj ignition.and.growth lee.tarver "
      "run.to.detonation rate.stick jwl++ jwlpp critical.diameter ",

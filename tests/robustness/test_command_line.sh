@@ -55,7 +55,7 @@ expect 2 "no help on \"qwertyuiop\"" "$BOLIDE" help qwertyuiop
 for word in spall failure fracture whipple craters penetration Hugoniot foam calibration restart \
     checkpoint symmetry film ParaView h5py MPI slurm threads GPU periodic "units of stress" blast \
     stl mesh erosion adaptive melting ceramic "long rod" plate-impact hvi "time step" cfl \
-    hourglass eulerian "equation of state"; do
+    hourglass eulerian "equation of state" charge tnt conwep "height of burst"; do
     expect 0 "" "$BOLIDE" help $word
     page=$("$BOLIDE" help $word | sed -n 's/^More: //p')
     [ -z "$page" ] || [ -f "$BOLIDE_SOURCE_DIR/$page" ] ||
