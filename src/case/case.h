@@ -81,8 +81,8 @@ struct domain_input {
     struct vector_value low, high; /* count 0: where walls are, else the bounds of all bodies */
 };
 
-/* start: {from: FILE}: a blast that another case has computed in 1-D takes the place of what the bodies
- * say within its reach. */
+/* start: {from: FILE}: a blast that another case has computed in 1-D takes the place of what the
+ * bodies say within its reach. */
 struct start_input {
     char *from;                    /* that case, or its folder; NULL: none */
     double at;                     /* s, how far it is computed; NAN: to its end */

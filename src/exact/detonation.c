@@ -141,7 +141,8 @@ struct zone {
     double burnt;
 };
 
-/* By how much the pressure of the Rayleigh line exceeds that of the equation of state, at VOLUME. */
+/* By how much the pressure of the Rayleigh line exceeds that of the equation of state, at
+ * VOLUME. */
 static struct root_value line_excess(const void *context, double volume)
 {
     const struct zone *zone = context;

@@ -5,7 +5,8 @@
  *
  *   p = D^2 (v_0 - v)/v_0^2,   u = D (v_0 - v)/v_0,   e = p (v_0 - v)/2
  *
- * Source: Fickett and Davis, Detonation (1979), chapters 2 and 4; Parshikov (2013), (5.13), (5.14). */
+ * Source: Fickett and Davis, Detonation (1979), chapters 2 and 4; Parshikov (2013), (5.13),
+ * (5.14). */
 #ifndef BOLIDE_EXACT_DETONATION_H
 #define BOLIDE_EXACT_DETONATION_H
 

@@ -1,6 +1,7 @@
 /* The even expansion of a gas into a vacuum; see gas_expansion.h.
  *
- *   rho = rho_c (R_0/R)^nu (1 - r^2/R^2)^(1/(gamma - 1)),   p = p_c (R_0/R)^(nu gamma) (1 - r^2/R^2)^(gamma/(gamma - 1))
+ *   rho = rho_c (R_0/R)^nu (1 - r^2/R^2)^(1/(gamma - 1))
+ *   p = p_c (R_0/R)^(nu gamma) (1 - r^2/R^2)^(gamma/(gamma - 1))
  *
  * obey continuity and p/rho^gamma = const for any R(t), and momentum when, with X = R/R_0, n = nu
  * (gamma - 1) and T = R_0/c sqrt((gamma - 1)/2), c the sound speed at the centre at the start,

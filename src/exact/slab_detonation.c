@@ -6,8 +6,8 @@
  *   isentrope   p_s = A e^(-R_1 V) + B e^(-R_2 V) + C V^(-1-w),   c^2 = -(V^2/rho_0) dp_s/dV
  *   fan         x/t = u + c,   u = u_CJ - int c dV/V from V_CJ on,   down to u = 0
  *
- * Source: Cui, dissertation (2014), section 3.4.1; Fickett and Davis, Detonation (1979), chapter
- * 2. */
+ * Source: Cui, dissertation (2014), section 3.4.1; Fickett and Davis, Detonation (1979),
+ * chapter 2. */
 #include "exact/slab_detonation.h"
 
 #include "exact/radial.h"

@@ -2,7 +2,8 @@
  * sqrt(lambda rho C_V) and x from the contact, an infinite rod has
  *
  *   T* = (e_1 T_1 + e_2 T_2)/(e_1 + e_2)                                                   (1.51)
- *  T = T* + (T* - T_1) erf(x/(2 sqrt(a_1 t))) left, T* + (T_2 - T*) erf(x/(2 sqrt(a_2 t))) right  (1.50)
+ * T = T* + (T* - T_1) erf(x/(2 sqrt(a_1 t))) left, T* + (T_2 - T*) erf(x/(2 sqrt(a_2 t))) right
+ * (1.50)
  *
  * A rod of insulated ends is the series T = mean + sum c_n X_n(x) exp(-mu_n^2 t), where X_n is A
  * cos(mu (x + l_1)/sqrt(a_1)) left and B cos(mu (l_2 - x)/sqrt(a_2)) right. With theta = mu

@@ -1,6 +1,7 @@
-/* Explosives in cells. What is lit burns as programmed: its burnt fraction follows from the time since the
- * detonation has arrived at the centre of the cell. Its energy is there from the start and counts as much
- * as has burnt (row_unburn). Products that have burnt may burn on in the air around them. */
+/* Explosives in cells. What is lit burns as programmed: its burnt fraction follows from the time
+ * since the detonation has arrived at the centre of the cell. Its energy is there from the start
+ * and counts as much as has burnt (row_unburn). Products that have burnt may burn on in the air
+ * around them. */
 #include "gas/gas_internal.h"
 #include "gas/mixture.h"
 #include "material/material.h"
@@ -18,8 +19,8 @@ static double arrival(const struct gas *gas, const struct simulation_case *input
     return first;
 }
 
-/* The volumes in cell I of both materials, which have one pressure, become those of one pressure when the
- * second has burnt to the fraction AFTER: products compress the air beside them. */
+/* The volumes in cell I of both materials, which have one pressure, become those of one pressure
+ * when the second has burnt to the fraction AFTER: products compress the air beside them. */
 static void relax(struct gas *gas, int32_t i, double before, double after)
 {
     const struct eos *const eos[2] = {&gas->eos[0], &gas->eos[1]};
@@ -40,8 +41,8 @@ static void relax(struct gas *gas, int32_t i, double before, double after)
     gas->u[GAS_FRACTION][i] = gas_relax(gas->eos, mass, energy, fraction, after);
 }
 
-/* The fraction of the explosive in cell I that must have burnt, at least BURNT, for its pressure to be one.
- * Products that have done work flow into cells that the detonation has yet to reach. */
+/* The fraction of the explosive in cell I that must have burnt, at least BURNT, for its pressure to
+ * be one. Products that have done work flow into cells that the detonation has yet to reach. */
 static double least_burnt(const struct gas *gas, int32_t i, double burnt)
 {
     const double least = UNBURNT_LEAST;

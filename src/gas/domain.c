@@ -1,5 +1,5 @@
-/* The box that the gas solver computes, in cells, what is outside its faces, the planes there that no
- * rule of the halo fills, and what leaves through faces. */
+/* The box that the gas solver computes, in cells, what is outside its faces, the planes there that
+ * no rule of the halo fills, and what leaves through faces. */
 #include <stdio.h>
 
 #include "case/internal.h"

@@ -1,5 +1,6 @@
-/* What the bodies of a case put into cells: means over cells of mass, momentum and energy. A cell that
- * lies in one body has those of its Gauss points, one that more bodies share those of its parts. */
+/* What the bodies of a case put into cells: means over cells of mass, momentum and energy. A cell
+ * that lies in one body has those of its Gauss points, one that more bodies share those of its
+ * parts. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,8 +14,8 @@
 /* Points along an axis of a cell that bodies share: some thousand of a cell. */
 static int parts_of(int dimension) { return dimension == 1 ? 1024 : dimension == 2 ? 32 : 10; }
 
-/* What is summed over a cell: the fields that sweeps write, and the energies of both materials at rest,
- * J/m^3. */
+/* What is summed over a cell: the fields that sweeps write, and the energies of both materials at
+ * rest, J/m^3. */
 enum { FILL_ENERGY = GAS_FIELDS, FILLS = FILL_ENERGY + 2 };
 
 struct filling {
@@ -141,8 +142,8 @@ static double weight_of(const struct filling *f, struct vec3 place)
     return round == 0 ? 1.0 : round == 1 ? place.x : square(place.x);
 }
 
-/* Whether BODY, that of the centre, has the whole cell: its corners lie in it, and no body is so small
- * that it might lie between them. */
+/* Whether BODY, that of the centre, has the whole cell: its corners lie in it, and no body is so
+ * small that it might lie between them. */
 static bool has_all(struct filling *f, int body, const double centre[3])
 {
     static const double corner[2] = {-0.5 + 1e-6, 0.5 - 1e-6};
@@ -262,8 +263,8 @@ static void fill_block(struct filling *f, const struct cell_block *block)
         fill_cell(f, i);
 }
 
-/* The pressure of the gas around an explosive that is lit, at the middle of the first body of gas; that of
- * the atmosphere where there is none. */
+/* The pressure of the gas around an explosive that is lit, at the middle of the first body of gas;
+ * that of the atmosphere where there is none. */
 static double pressure_around(const struct filling *f)
 {
     const struct simulation_case *input = f->simulation->problem->input;

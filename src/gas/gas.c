@@ -319,8 +319,8 @@ static struct error *balance(struct gas *gas, struct simulation *simulation)
     return ranks_agree(simulation->ranks, look(gas, simulation));
 }
 
-/* The part of the step that the first steps of two materials take: products that begin to expand into air
- * are soon faster than any wave before. */
+/* The part of the step that the first steps of two materials take: products that begin to expand
+ * into air are soon faster than any wave before. */
 static double start_part(const struct gas *gas, int64_t step)
 {
     double part = gas->layout.two ? 0.1 : 1.0;
@@ -377,8 +377,8 @@ static void pull(const struct gas *gas, struct simulation *simulation, double dt
     }
 }
 
-/* MUSCL-Hancock sweeps along the axes in one order and in the next step back (Strang, SIAM J. Numer.
- * Anal. 5 (1968) 506); Lax-Wendroff in both halves of each step (2-52). */
+/* MUSCL-Hancock sweeps along the axes in one order and in the next step back (Strang, SIAM J.
+ * Numer. Anal. 5 (1968) 506); Lax-Wendroff in both halves of each step (2-52). */
 static struct error *gas_advance(void *solver, struct simulation *simulation, double dt)
 {
     struct gas *gas = solver;

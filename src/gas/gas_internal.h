@@ -72,14 +72,14 @@ void gas_find_materials(const struct simulation *simulation, int material[2]);
 struct error *gas_refuse(const struct simulation *simulation,
                          const struct gas_parameters *parameters);
 
-/* The domain of a case in CELLS of an edge: as it says, else where its walls are, else the bounds of its
- * bodies. ERROR_INPUT: a face does not lie on a plane of the grid. */
+/* The domain of a case in CELLS of an edge: as it says, else where its walls are, else the bounds
+ * of its bodies. ERROR_INPUT: a face does not lie on a plane of the grid. */
 struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells);
 
 bool gas_in_obstacle(const struct simulation_case *input, struct vec3 place);
 
-/* Obstacles that leave no cell of the domain of CELLS open, and boundaries whose part holds no place of their
- * face. */
+/* Obstacles that leave no cell of the domain of CELLS open, and boundaries whose part holds no
+ * place of their face. */
 struct error *gas_check_shapes(const struct simulation *simulation,
                                const struct cell_blocks *cells);
 
@@ -90,22 +90,23 @@ struct error *gas_check_inflows(const struct simulation *simulation, int materia
 void gas_find_faces(const struct simulation *simulation, const struct cell_blocks *cells,
                     struct cell_halo *halo);
 
-/* Fills the planes of AXIS outside faces with parts or inflow, as they are at TIME. ERROR_STATE: what
- * flows in has no state. */
+/* Fills the planes of AXIS outside faces with parts or inflow, as they are at TIME. ERROR_STATE:
+ * what flows in has no state. */
 struct error *gas_fill_planes(const struct gas *gas, const struct simulation *simulation, int axis,
                               double time);
 
-/* The fraction of volume of the second material of a cell, FRACTION, when both have come to one pressure:
- * the first without heat, the second, BURNT to this fraction, with the rest of the energy. Masses and
- * energies, those of the materials at rest, are per volume of the cell. */
+/* The fraction of volume of the second material of a cell, FRACTION, when both have come to one
+ * pressure: the first without heat, the second, BURNT to this fraction, with the rest of the
+ * energy. Masses and energies, those of the materials at rest, are per volume of the cell. */
 double gas_relax(const struct eos eos[2], const double mass[2], const double energy[2],
                  double fraction, double burnt);
 
 /* Lays out what cells have; `written` and `fields` count it. */
 void gas_lay_out(struct gas_layout *layout);
 
-/* Explosives that are lit, and products that burn in the air (burn.c). The first, collective: how much has
- * burnt at TIME, and whether some has not. The second adds the heat of afterburning over DT. */
+/* Explosives that are lit, and products that burn in the air (burn.c). The first, collective: how
+ * much has burnt at TIME, and whether some has not. The second adds the heat of afterburning over
+ * DT. */
 struct error *gas_burn(struct gas *gas, const struct simulation *simulation, double time);
 void gas_afterburn(struct gas *gas, struct simulation *simulation, double dt);
 

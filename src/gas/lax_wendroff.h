@@ -9,10 +9,10 @@
  *     U := U - r (f(U_h) - f(U_h of the face below))
  *
  * with r = dt/h. As printed the viscosity has theta of the cell at both faces, which does not
- * conserve, and the scheme r^2/2 (f_next - 2 f + f_last) for its second order, which lacks the
- * Jacobian. A cell that a sweep would leave without density or energy has the fluxes of Lax and
- * Friedrichs, f = (f + f_next)/2 - s/2 (U_next - U) with s the fastest |u| + c, at both its
- * faces. */
+ * conserve, and the scheme r^2/2 (f_next - 2 f + f_last) for its second order, which lacks
+ * the Jacobian. A cell that a sweep would leave without density or energy has the fluxes of
+ * Lax and Friedrichs, f = (f + f_next)/2 - s/2 (U_next - U) with s the fastest |u| + c, at
+ * both its faces. */
 #ifndef BOLIDE_GAS_LAX_WENDROFF_H
 #define BOLIDE_GAS_LAX_WENDROFF_H
 

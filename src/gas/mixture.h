@@ -1,27 +1,30 @@
-/* Two materials in one cell: one velocity and one pressure, each with the fraction alpha_k of the volume
- * and the density rho_k of its own (Allaire, Clerc and Kokh, J. Comput. Phys. 181 (2002) 577, with the
- * isobaric closure). Each equation of state is linear in the specific energy, p = p_0(rho) + b(rho) e,
- * so that rho_k e_k = xi_k (p - p_0k) with xi_k = rho_k/b_k, and the mixture has
+/* Two materials in one cell: one velocity and one pressure, each with the fraction alpha_k of the
+ * volume and the density rho_k of its own (Allaire, Clerc and Kokh, J. Comput. Phys. 181 (2002)
+ * 577, with the isobaric closure). Each equation of state is linear in the specific energy, p =
+ * p_0(rho) + b(rho) e, so that rho_k e_k = xi_k (p - p_0k) with xi_k = rho_k/b_k, and the mixture
+ * has
  *
  *   rho e = sum alpha_k xi_k (p - p_0k)    xi rho c^2 = sum alpha_k xi_k rho_k c_k^2
  *   xi = sum alpha_k xi_k
  *
- * without iteration. The fractions follow the flow, d alpha/dt + u . grad alpha = 0. Of an explosive p_0
- * counts as much as has burnt of it (row_unburn). */
+ * without iteration. The fractions follow the flow, d alpha/dt + u . grad alpha = 0. Of an
+ * explosive p_0 counts as much as has burnt of it (row_unburn). */
 #ifndef BOLIDE_GAS_MIXTURE_H
 #define BOLIDE_GAS_MIXTURE_H
 
 #include "material/eos.h"
 
-/* Below a fraction of volume a material is not there, and its mass goes to the other one: of the second,
- * which is the denser one, so little that the mass of the first stays too; of the first, whose fraction
- * is the rest, what rounding leaves. */
+/* Below a fraction of volume a material is not there, and its mass goes to the other one: of the
+ * second, which is the denser one, so little that the mass of the first stays too; of the first,
+ * whose fraction is the rest, what rounding leaves. */
 static const double MIXTURE_NONE[2] = {1e-14, 1e-18};
 
-/* Below this one the density of a material may be rounding, and bounds of its reference density hold. */
+/* Below this one the density of a material may be rounding, and bounds of its reference density
+ * hold. */
 static const double MIXTURE_TRACE = 1e-8;
 
-/* A material of a mixture at a density: its weight alpha xi, p_0 and what its sound speed follows from. */
+/* A material of a mixture at a density: its weight alpha xi, p_0 and what its sound speed follows
+ * from. */
 struct mixture_part {
     double density, weight, cold, slope, rise;
     double ratio; /* b */
@@ -68,8 +71,8 @@ static inline struct mixture_part mixture_part_of(const struct eos *eos, double 
     return part;
 }
 
-/* A mixture of EOS at DENSITY; FRACTION is that of the second, and BURNT what has of each: 1 unless it is
- * an explosive. */
+/* A mixture of EOS at DENSITY; FRACTION is that of the second, and BURNT what has of each: 1 unless
+ * it is an explosive. */
 BOLIDE_INLINE struct mixture mixture_of(const struct eos *const eos[2], const double density[2],
                                         double fraction, const double burnt[2])
 {

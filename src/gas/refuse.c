@@ -176,8 +176,8 @@ bool gas_in_obstacle(const struct simulation_case *input, struct vec3 place)
     return false;
 }
 
-/* The centre of cell K of the COUNT of a box that begins at LOW; along an axis across which the box is a
- * face, -1 for none, the place of the face at PLANE. */
+/* The centre of cell K of the COUNT of a box that begins at LOW; along an axis across which the box
+ * is a face, -1 for none, the place of the face at PLANE. */
 static struct vec3 centre_of(const int64_t low[3], const int64_t count[3], int64_t k, int face,
                              int64_t plane, double edge, int dimension)
 {

@@ -1,6 +1,6 @@
-/* Cells at the start that bodies of two materials share, at pressures of their own: the material of the
- * higher pressure compresses the other one before the run begins. With the volumes as they are the
- * energy of a charge would heat the air of such a cell to what no shock can. */
+/* Cells at the start that bodies of two materials share, at pressures of their own: the material of
+ * the higher pressure compresses the other one before the run begins. With the volumes as they are
+ * the energy of a charge would heat the air of such a cell to what no shock can. */
 #include <math.h>
 
 #include "gas/gas_internal.h"

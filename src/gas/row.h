@@ -20,8 +20,8 @@ enum { GAS_DENSITY, GAS_MOMENTUM, GAS_ENERGY = 4, GAS_NUMBERS = 5 };
 /* Cells of a row at most, and those known beyond either end of it. */
 enum { ROW_CELLS = 64, ROW_GHOSTS = 4, ROW_ROOM = ROW_CELLS + 2 * ROW_GHOSTS };
 
-/* What cells have of a second material: its mass per volume of the cell, kg/m^3, and the fraction of the
- * volume that it fills. */
+/* What cells have of a second material: its mass per volume of the cell, kg/m^3, and the fraction
+ * of the volume that it fills. */
 enum { PART_MASS, PART_FRACTION, PARTS };
 
 /* Numbers of a row: cell c is at [c + ROW_GHOSTS], the face below it too. */
@@ -89,15 +89,16 @@ static inline void row_evaluate(const struct eos *eos, const double *density, co
             }
 }
 
-/* What values at FIRST to LAST become where only the fraction BURNT of the explosive EOS is. Its ENERGY
- * counts from the explosive at rest, whose pressure vanishes: with the pressure P(rho, e) = P_0(rho) +
- * b(rho) e of the products
+/* What values at FIRST to LAST become where only the fraction BURNT of the explosive EOS is. Its
+ * ENERGY counts from the explosive at rest, whose pressure vanishes: with the pressure P(rho, e) =
+ * P_0(rho) + b(rho) e of the products
  *
  *   p = F P_0 + b e
  *
- * Unburnt it is a gas without pressure but that of its heat, so that nothing runs ahead of a detonation
- * and energy is conserved whatever F is. Products that have done work may flow into it and take that
- * away: fluxes take some pressure then, until F grows by as much as they need (burn.c). */
+ * Unburnt it is a gas without pressure but that of its heat, so that nothing runs ahead of a
+ * detonation and energy is conserved whatever F is. Products that have done work may flow into it
+ * and take that away: fluxes take some pressure then, until F grows by as much as they need
+ * (burn.c). */
 static const double UNBURNT_LEAST = 1e4; /* Pa */
 
 static inline void row_unburn(const struct eos *eos, const double *density, const double *energy,
@@ -114,7 +115,8 @@ static inline void row_unburn(const struct eos *eos, const double *density, cons
     }
 }
 
-/* The specific energies of the cells FIRST to LAST, whose numbers are U, less that of their motion. */
+/* The specific energies of the cells FIRST to LAST, whose numbers are U, less that of their
+ * motion. */
 BOLIDE_INLINE void row_energies(const struct gas_numbers *u, int first, int last, double *energy)
 {
     FOR_ROW (k, first, last)
@@ -144,7 +146,8 @@ BOLIDE_INLINE double row_radius(const struct gas_row *row, int k)
     return row->first + (double)(k - ROW_GHOSTS);
 }
 
-/* The area of the face below cell k and the volume of the cell, in cells; of a radian or steradian. */
+/* The area of the face below cell k and the volume of the cell, in cells; of a radian or
+ * steradian. */
 BOLIDE_INLINE double row_area(const struct gas_row *row, int k)
 {
     const double low = row_radius(row, k);
@@ -157,21 +160,22 @@ BOLIDE_INLINE double row_size(const struct gas_row *row, int k)
     return row->round == 0 ? 1.0 : row->round == 1 ? low + 0.5 : low * (low + 1.0) + 1.0 / 3.0;
 }
 
-/* By how much the gas in cell k, which flows at SPEED along the radius, widens per time and cell. */
+/* By how much the gas in cell k, which flows at SPEED along the radius, widens per time and
+ * cell. */
 BOLIDE_INLINE double row_widening(const struct gas_row *row, double speed, int k)
 {
     return speed * (row_area(row, k + 1) - row_area(row, k)) / row_size(row, k);
 }
 
-/* dt/h with which both faces of a cell, by their areas, take no more of it than those of a plane cell: at
- * a centre (1 + 0)/(2/3). */
+/* dt/h with which both faces of a cell, by their areas, take no more of it than those of a plane
+ * cell: at a centre (1 + 0)/(2/3). */
 BOLIDE_INLINE double row_strict(const struct gas_row *row, double r)
 {
     return row->round == 2 ? 1.5 * r : r;
 }
 
-/* The volume of a cell whose centre is at the radius X, per radian or steradian; VOLUME where its power
- * ROUND is 0. */
+/* The volume of a cell whose centre is at the radius X, per radian or steradian; VOLUME where its
+ * power ROUND is 0. */
 static inline double gas_cell_volume(double volume, double edge, double x, int round)
 {
     return round == 0   ? volume
@@ -179,8 +183,8 @@ static inline double gas_cell_volume(double volume, double edge, double x, int r
                         : volume * (square(x) + square(edge) / 12.0);
 }
 
-/* What FROM become where FLUX leaves through the faces of cells FIRST to LAST in a step of R = dt/h.
- * PUSH, the mean pressures of cells, counts along the radius alone. */
+/* What FROM become where FLUX leaves through the faces of cells FIRST to LAST in a step of R =
+ * dt/h. PUSH, the mean pressures of cells, counts along the radius alone. */
 BOLIDE_INLINE void row_advance(const struct gas_row *row, const struct gas_numbers *from,
                                const struct gas_numbers *flux, const double *push, double r,
                                int first, int last, struct gas_numbers *to)

@@ -1,7 +1,7 @@
-/* A blast that a case of one dimension has computed as the start of this one. It runs on every rank alike.
- * What a shell of it holds goes to the cells by points: each takes the state of the shell at its radius,
- * times the factor that gives all points of a shell together the shell's mass of either material and its
- * energy. Velocities are along the radius. */
+/* A blast that a case of one dimension has computed as the start of this one. It runs on every rank
+ * alike. What a shell of it holds goes to the cells by points: each takes the state of the shell at
+ * its radius, times the factor that gives all points of a shell together the shell's mass of either
+ * material and its energy. Velocities are along the radius. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -134,8 +134,8 @@ static double shell_volume(const struct blast *blast, int k)
     return gas_cell_volume(blast->edge, blast->edge, center, blast->gas.round);
 }
 
-/* Calls ACT for each point of cell I within reach: the shell there, the direction from the centre and the
- * weight of the point. Returns the weight of all points. */
+/* Calls ACT for each point of cell I within reach: the shell there, the direction from the centre
+ * and the weight of the point. Returns the weight of all points. */
 typedef void (*act_on_point)(void *context, int shell, const double direction[3], double weight);
 
 static double each_point(const struct filling *f, const struct blast *blast, int32_t i,

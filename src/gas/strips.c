@@ -1,5 +1,5 @@
-/* Strips of blocks, and a sweep over all of them: those that need nothing of other ranks while planes
- * of these are under way, then the others. */
+/* Strips of blocks, and a sweep over all of them: those that need nothing of other ranks while
+ * planes of these are under way, then the others. */
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -46,7 +46,8 @@ static bool is_continued(const struct cell_blocks *cells, const struct cell_bloc
     return cell_block_find(cells, cell_block_key(cells->dimension, at)) != NULL;
 }
 
-/* Strips begin at multiples of the longest row, where the domain does, and after blocks of others. */
+/* Strips begin at multiples of the longest row, where the domain does, and after blocks of
+ * others. */
 static void make_strips(const struct cell_blocks *cells, const struct cell_halo_axis *halo,
                         int axis, bool round, struct gas_strips *strips)
 {
@@ -119,8 +120,8 @@ static bool is_alike(const struct gas *gas, int32_t a, int32_t b)
                                  gas->u[GAS_FRACTION][i] == gas->u[GAS_FRACTION][j]));
 }
 
-/* A sweep leaves one gas at rest as it is, to the bit, whatever the step is: fluxes are its pressure
- * everywhere. What it knows of the blocks is as they are before the sweep. */
+/* A sweep leaves one gas at rest as it is, to the bit, whatever the step is: fluxes are its
+ * pressure everywhere. What it knows of the blocks is as they are before the sweep. */
 static bool may_sleep(const struct gas *gas, const struct gas_strip *strip, int axis)
 {
     const struct cell_halo_axis *halo = &gas->halo.axis[axis];
@@ -146,7 +147,8 @@ static void copy_block(struct gas *gas, int32_t b)
     gas->block[b].same = true;
 }
 
-/* Whether no shock is in a strip, in the cells beyond its ends, and in what was written there last. */
+/* Whether no shock is in a strip, in the cells beyond its ends, and in what was written there
+ * last. */
 static bool is_calm(const struct gas *gas, const struct gas_strip *strip, int axis)
 {
     const struct cell_halo_axis *halo = &gas->halo.axis[axis];
@@ -160,7 +162,8 @@ static bool is_calm(const struct gas *gas, const struct gas_strip *strip, int ax
     return calm;
 }
 
-/* Which strips of a sweep along AXIS sleep; blocks of the others are awake for the rest of the step. */
+/* Which strips of a sweep along AXIS sleep; blocks of the others are awake for the rest of the
+ * step. */
 static void choose_strips(struct gas *gas, const struct simulation *simulation, int axis)
 {
     struct gas_strips *strips = &gas->strips[axis];

@@ -1,15 +1,16 @@
-/* Sweeps over strips: blocks that follow one another along an axis, whose cells make rows. For files
- * that are compiled once an instruction set, and for those that call them. */
+/* Sweeps over strips: blocks that follow one another along an axis, whose cells make rows. For
+ * files that are compiled once an instruction set, and for those that call them. */
 #ifndef BOLIDE_GAS_SWEEP_H
 #define BOLIDE_GAS_SWEEP_H
 
 #include "gas/lax_wendroff.h"
 #include "grid/cell_halo.h"
 
-/* Conserved numbers of a cell, and behind them the axes of strong shocks in it, as sweeps left them;
- * with two materials the mass per volume and the fraction of volume of the second, and the mass per
- * volume that has burnt in the air where it does. Sweeps write these. Behind them, where a case has
- * them: the fraction burnt of the explosive here, and whether the cell is open, 1, or blocked, 0. */
+/* Conserved numbers of a cell, and behind them the axes of strong shocks in it, as sweeps left
+ * them; with two materials the mass per volume and the fraction of volume of the second, and the
+ * mass per volume that has burnt in the air where it does. Sweeps write these. Behind them, where a
+ * case has them: the fraction burnt of the explosive here, and whether the cell is open, 1, or
+ * blocked, 0. */
 enum {
     GAS_SHOCK = GAS_NUMBERS,
     GAS_SECOND,
@@ -60,9 +61,10 @@ struct gas_strip {
 
 enum { STRIP_ROWS = 64, STRIP_BLOCKS = 8, STRIP_OBSTACLES = STRIP_ROWS * (ROW_CELLS + 2) };
 
-/* What leaves a strip through its ends, per area and time: of each row, the lower of the two other axes
- * first; and through the faces of blocked cells, whose cell is the one on its low side, counted from
- * the strip's first, and whose flux counts for the gas on its SIDE, -1 below, 1 above. */
+/* What leaves a strip through its ends, per area and time: of each row, the lower of the two
+ * other axes first; and through the faces of blocked cells, whose cell is the one on its low
+ * side, counted from the strip's first, and whose flux counts for the gas on its SIDE, -1
+ * below, 1 above. */
 struct gas_through {
     double end[2][STRIP_ROWS][GAS_NUMBERS];
     double push[STRIP_ROWS][STRIP_BLOCKS]; /* along a radius: mean pressures, summed over a block */
@@ -89,8 +91,8 @@ struct gas_look {
     int round;     /* the power of x in a volume */
 };
 
-/* The fastest |u_i| + c of a block, and the cell with it; a cell whose state is impossible comes before
- * all others, with a speed that is not a number. */
+/* The fastest |u_i| + c of a block, and the cell with it; a cell whose state is impossible comes
+ * before all others, with a speed that is not a number. */
 struct gas_fastest {
     double speed;
     int32_t cell;

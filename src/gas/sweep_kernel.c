@@ -53,8 +53,8 @@ static void load_ghost(const struct gather *g, const struct cell_source *source,
         out[GAS_MOMENTUM + sweep->axis][k] = -out[GAS_MOMENTUM + sweep->axis][k];
 }
 
-/* The fields FIRST to END - 1, all conserved numbers or none, of the cells of a row and those beyond its
- * ends. Returns the number of its cells. */
+/* The fields FIRST to END - 1, all conserved numbers or none, of the cells of a row and those
+ * beyond its ends. Returns the number of its cells. */
 static int load_row(const struct gather *g, int first, int end, double (*out)[ROW_ROOM])
 {
     const struct gas_sweep *sweep = g->sweep;
@@ -183,8 +183,8 @@ static int reflected(int k, int low, int high, bool *turned)
     return k;
 }
 
-/* A row of CELLS cells some of which, or of their ghosts, are blocked: each run of open cells between
- * blocked ones is a row of its own, whose ghosts beyond a blocked cell are images. */
+/* A row of CELLS cells some of which, or of their ghosts, are blocked: each run of open cells
+ * between blocked ones is a row of its own, whose ghosts beyond a blocked cell are images. */
 static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cells, int number,
                        struct gas_row *row, struct gas_through *through)
 {
@@ -364,7 +364,8 @@ static bool is_closed(const struct gas_look *look, int32_t i)
     return look->open && look->open[i] == 0.0;
 }
 
-/* Velocities and specific energies of the cells; closed ones get a density that can be divided by. */
+/* Velocities and specific energies of the cells; closed ones get a density that can be
+ * divided by. */
 static void take_run(const struct gas_look *look, struct run *run)
 {
     const double *const *u = look->u;

@@ -2,13 +2,13 @@
  * treated as in muscl_hancock.h, to the bit. In cells of both
  *
  * - the fraction of volume has the steepest slope that brings no new extremes, twice the smaller
- *   difference to the neighbours (Overbee: Chiapolino, Saurel and Nkonga, J. Comput. Phys. 340 (2017)
- *   389), which keeps a contact two to three cells wide;
- * - each material's own density is reconstructed, so that a contact between two uniform materials keeps
- *   its pressure, velocity and densities.
+ *   difference to the neighbours (Overbee: Chiapolino, Saurel and Nkonga, J. Comput. Phys. 340
+ *   (2017) 389), which keeps a contact two to three cells wide;
+ * - each material's own density is reconstructed, so that a contact between two uniform materials
+ *   keeps its pressure, velocity and densities.
  *
- * A face moves the volume that HLLC's mass flux has at the density of the side that it comes from, and
- * the masses and fractions of that side with it. */
+ * A face moves the volume that HLLC's mass flux has at the density of the side that it comes from,
+ * and the masses and fractions of that side with it. */
 #ifndef BOLIDE_GAS_TWO_MATERIALS_H
 #define BOLIDE_GAS_TWO_MATERIALS_H
 
@@ -54,8 +54,8 @@ BOLIDE_INLINE void parts_find(const struct gas_row *row, struct row_parts *parts
     }
 }
 
-/* Takes the states of cells or faces FIRST to LAST from OTHER where the cell, OFFSET from them, has the
- * second material alone. */
+/* Takes the states of cells or faces FIRST to LAST from OTHER where the cell, OFFSET from them, has
+ * the second material alone. */
 BOLIDE_INLINE void parts_choose(const struct row_parts *parts, int first, int last, int offset,
                                 const struct row_states *other, struct row_states *states)
 {
@@ -120,8 +120,9 @@ BOLIDE_INLINE void parts_reconstruct(const struct gas_row *row, const struct row
     face[1] = middle + 0.5 * slope;
 }
 
-/* The fraction AT the low and high face of cell K of both materials, which the flow crosses in 1/|MOVES|
- * steps. What is next to nothing of a material waits for more to come, or leaves at once where more is. */
+/* The fraction AT the low and high face of cell K of both materials, which the flow crosses in
+ * 1/|MOVES| steps. What is next to nothing of a material waits for more to come, or leaves at once
+ * where more is. */
 BOLIDE_INLINE void parts_fractions(const double *fraction, int k, double moves, double at[2])
 {
     const double here = fraction[k], past = here - fraction[k - 1], next = fraction[k + 1] - here;
@@ -138,8 +139,8 @@ BOLIDE_INLINE void parts_fractions(const double *fraction, int k, double moves, 
         at[side] = minimum(maximum(at[side], 0.0), 1.0);
 }
 
-/* Reconstructs densities and fractions of cells of both materials and of those next to another material;
- * the rest of BELOW and ABOVE is known. */
+/* Reconstructs densities and fractions of cells of both materials and of those next to another
+ * material; the rest of BELOW and ABOVE is known. */
 APART void parts_faces(const struct gas_row *row, const struct row_states *cell, double r,
                        struct row_parts *parts, struct row_states *below, struct row_states *above)
 {
@@ -177,8 +178,8 @@ APART void parts_faces(const struct gas_row *row, const struct row_states *cell,
     }
 }
 
-/* Energies and sound speeds of the states FACE on SIDE, 0 low and 1 high, of the cells that are OFFSET from
- * the faces. */
+/* Energies and sound speeds of the states FACE on SIDE, 0 low and 1 high, of the cells that are
+ * OFFSET from the faces. */
 static inline void parts_close_faces(struct gas_row *row, const struct row_parts *parts,
                                      const struct row_states *cell, int offset, int side,
                                      struct row_states *face)
@@ -205,9 +206,9 @@ static inline void parts_close_faces(struct gas_row *row, const struct row_parts
     }
 }
 
-/* HLLC between gases whose waves are those of the densities OF_LOW and OF_HIGH, not of what they carry
- * through the face. Where a cell of both materials has the light one alone at its face, waves there would
- * follow its pressure too fast: the cell is as stiff and heavy as all of it. */
+/* HLLC between gases whose waves are those of the densities OF_LOW and OF_HIGH, not of what they
+ * carry through the face. Where a cell of both materials has the light one alone at its face, waves
+ * there would follow its pressure too fast: the cell is as stiff and heavy as all of it. */
 static inline struct gas_flow parts_hllc(struct gas_side low, struct gas_side high, double of_low,
                                          double of_high)
 {
@@ -270,8 +271,8 @@ APART void parts_fluxes(const struct gas_row *row, const struct row_parts *parts
     }
 }
 
-/* What flows of the second material through face K, where LOW and HIGH, at K + OFFSET and K, are the states
- * of both sides and of_low and of_high, likewise, their second material. */
+/* What flows of the second material through face K, where LOW and HIGH, at K + OFFSET and K, are
+ * the states of both sides and of_low and of_high, likewise, their second material. */
 BOLIDE_INLINE void parts_flow(const struct gas_numbers *flux, const struct row_states *low,
                               double (*of_low)[ROW_ROOM], int offset, const struct row_states *high,
                               double (*of_high)[ROW_ROOM], int k, struct row_parts *parts)
@@ -306,7 +307,8 @@ static inline void parts_damp(const struct gas_row *row, const struct row_states
     }
 }
 
-/* The second material after the step: its mass as other numbers, its fraction less what only widens. */
+/* The second material after the step: its mass as other numbers, its fraction less what only
+ * widens. */
 static inline void parts_advance(struct gas_row *row, const struct row_parts *parts, double r)
 {
     double *mass = row->part[PART_MASS], *fraction = row->part[PART_FRACTION];
@@ -334,8 +336,8 @@ BOLIDE_INLINE void parts_clean(struct gas_row *row)
     }
 }
 
-/* What has burnt in the air flows with its material, of which MASS flows through the faces; OWN is its mass
- * per volume in the cells. */
+/* What has burnt in the air flows with its material, of which MASS flows through the faces; OWN is
+ * its mass per volume in the cells. */
 static inline void row_carry_afterburnt(struct gas_row *row, const double *mass, const double *own,
                                         double r)
 {
@@ -352,8 +354,8 @@ static inline void row_carry_afterburnt(struct gas_row *row, const double *mass,
                     0.0);
 }
 
-/* Marks in LOST the faces 0 .. cells whose FLUX would take too much out of half of a cell of both materials,
- * as row_mark_lost: mass, either material's mass, or pressure. */
+/* Marks in LOST the faces 0 .. cells whose FLUX would take too much out of half of a cell of both
+ * materials, as row_mark_lost: mass, either material's mass, or pressure. */
 static inline void parts_mark_lost(const struct gas_row *row, const struct row_parts *parts,
                                    const struct row_states *cell, int offset, double side, double r,
                                    const struct gas_numbers *flux, double *lost)
@@ -405,7 +407,8 @@ APART void parts_replace_lost(const struct gas_row *row, const struct row_states
         }
 }
 
-/* row_muscl_hancock where cells of both materials, or of the one beside the other, are in the row. */
+/* row_muscl_hancock where cells of both materials, or of the one beside the other, are in the
+ * row. */
 static inline void parts_sweep(struct gas_row *row, struct row_parts *parts, double r,
                                struct gas_numbers *flux)
 {

@@ -1,6 +1,7 @@
-/* A step of many points of one material at once, in lanes: material_step_by_work point by point, to the last bit, for the
- * materials of which there are many. For files that are compiled once an instruction set: a loop here is one over the
- * points of a batch, and has no branch that a point decides. */
+/* A step of many points of one material at once, in lanes: material_step_by_work point by point, to
+ * the last bit, for the materials of which there are many. For files that are compiled once an
+ * instruction set: a loop here is one over the points of a batch, and has no branch that a point
+ * decides. */
 #ifndef BOLIDE_BATCH_H
 #define BOLIDE_BATCH_H
 

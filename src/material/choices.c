@@ -1,5 +1,5 @@
-/* The parameter tables of equations of state, strength, failure and burn models, made of the rows in their
- * headers:
+/* The parameter tables of equations of state, strength, failure and burn models, made of the rows
+ * in their headers:
  *
  *   NUMBER(T, member, unit, default, range, help)
  *   CHOICE(T, member, default, help, names...)      an int, the index of the name

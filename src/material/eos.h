@@ -32,7 +32,8 @@
     X(reactive_jwl)  \
     X(blended_jwl)
 
-/* Those that need no history, of density and energy alone: loops over many points know no others. */
+/* Those that need no history, of density and energy alone: loops over many points know no
+ * others. */
 #define EOS_STATELESS(X)     \
     X(ideal_gas)             \
     X(stiffened_gas)         \

@@ -1,9 +1,11 @@
-/* What a point remembers beyond density, energy and deviator. A slot means the same in every material; a store has
- * fields for the slots that the materials of its case need. All begin at zero. */
+/* What a point remembers beyond density, energy and deviator. A slot means the same in every
+ * material; a store has fields for the slots that the materials of its case need. All begin at
+ * zero. */
 #ifndef BOLIDE_MATERIAL_HISTORY_H
 #define BOLIDE_MATERIAL_HISTORY_H
 
-/* X(slot, unit, help): HISTORY_<slot> is its index, <slot> the name of its field. The first is in every store. */
+/* X(slot, unit, help): HISTORY_<slot> is its index, <slot> the name of its field. The first is in
+ * every store. */
 #define HISTORY_LIST(X)                                                                  \
     X(plastic_strain, "", "equivalent plastic strain")                                   \
     X(dilation, "", "volume gained by flow and tearing, relative to the elastic volume") \

@@ -1,10 +1,10 @@
-/* The physics of one point: a material owns the order of burning, strength, failure and
- * equation of state.
+/* The physics of one point: a material owns the order of burning, strength, failure and equation of
+ * state.
  *
- * Every function here is pure, takes small structs by value or pointer and touches nothing else, so that
- * particle methods, exact solutions, unit tests and a GPU call the same code. SI units throughout;
- * pressure is positive in compression, stress and its deviator in tension: sigma = -p I + S.
- * Source: Parshikov (2013), chapter 1, equation numbers at the functions. */
+ * Every function here is pure, takes small structs by value or pointer and touches nothing else, so
+ * that particle methods, exact solutions, unit tests and a GPU call the same code. SI units
+ * throughout; pressure is positive in compression, stress and its deviator in tension: sigma = -p I
+ * + S. Source: Parshikov (2013), chapter 1, equation numbers at the functions. */
 #ifndef BOLIDE_MATERIAL_H
 #define BOLIDE_MATERIAL_H
 
@@ -70,8 +70,8 @@ BOLIDE_INLINE bool material_failed(const struct material *material, const double
     return material_fails(material) && history[HISTORY_damage] >= 1.0;
 }
 
-/* The density that the equation of state is to see: soil that has gained volume by flow and tearing is dense again once
- * that volume is gone. rho_e = rho (1 + dilation). */
+/* The density that the equation of state is to see: soil that has gained volume by flow and tearing
+ * is dense again once that volume is gone. rho_e = rho (1 + dilation). */
 BOLIDE_INLINE double material_elastic_share(const struct material *material,
                                             const struct point *point)
 {
@@ -96,9 +96,9 @@ BOLIDE_INLINE struct eos_value material_pressure(const struct material *material
     return value;
 }
 
-/* Sound speeds of a point from its equation of state and shear modulus:
- * c_b^2 = (dp/drho)_e + (dp/de)_rho p/rho^2,  C_l^2 = c_b^2 + 4G/(3 rho),  C_t^2 = G/rho (1.29), (1.30)
- * with the local bulk modulus in place of a constant one. */
+/* Sound speeds of a point from its equation of state and shear modulus: c_b^2 = (dp/drho)_e +
+ * (dp/de)_rho p/rho^2,  C_l^2 = c_b^2 + 4G/(3 rho),  C_t^2 = G/rho (1.29), (1.30) with the local
+ * bulk modulus in place of a constant one. */
 BOLIDE_INLINE struct response material_response(const struct eos_value *eos, double density,
                                                 double shear_modulus, double yield)
 {
@@ -126,7 +126,8 @@ BOLIDE_INLINE struct response material_evaluate(const struct material *material,
                              strength_yield(&material->strength, point));
 }
 
-/* Finds the dilation at which the equation of state gives the pressure that POINT has, by Newton's method. */
+/* Finds the dilation at which the equation of state gives the pressure that POINT has, by Newton's
+ * method. */
 BOLIDE_INLINE void material_dilate(const struct material *material, struct point *point)
 {
     for (int round = 0; round < 20; round++) {
@@ -285,8 +286,8 @@ BOLIDE_INLINE void material_react(const struct material *material, double dt, st
     }
 }
 
-/* Takes deviator and history of a point to its new density: burning, compaction, then elastic trial, rotation and plastic
- * return, with the damage that they do. */
+/* Takes deviator and history of a point to its new density: burning, compaction, then elastic
+ * trial, rotation and plastic return, with the damage that they do. */
 BOLIDE_INLINE void material_flow(const struct material *material, struct point *point,
                                  const struct motion *motion)
 {
@@ -355,7 +356,8 @@ BOLIDE_INLINE const char *material_burn_wrong(const struct material *material)
     return NULL;
 }
 
-/* Advances a point by one step after which its energy is MOTION->energy (section 7.3 of the source, steps 4 to 7). */
+/* Advances a point by one step after which its energy is MOTION->energy (section 7.3 of the source,
+ * steps 4 to 7). */
 BOLIDE_INLINE struct response material_step(const struct material *material, struct point *point,
                                             const struct motion *motion)
 {
@@ -364,14 +366,16 @@ BOLIDE_INLINE struct response material_step(const struct material *material, str
     return material_evaluate(material, point);
 }
 
-/* Advances a point by one step whose energy comes from the power of its stress; MOTION->energy is not used:
+/* Advances a point by one step whose energy comes from the power of its stress; MOTION->energy is
+ * not used:
  *
  *   e' = e + (v + v')/2 (S + S')/2 : d eps - (v' - v) [(p + p')/2 + q],   p' = p(rho', e')
  *
- * with v = 1/rho and q the mean viscous pressure. It is solved for a pressure that is linear in energy, as nearly all
- * are; others are taken along their slope. Source: the energy bookkeeping of MPM3D, Zhang, Chen and Liu, The material
- * point method (2017), with p = A + B e. The first function is what does not depend on p', the second the rest, where
- * VALUE is at the density and energy that are known then. */
+ * with v = 1/rho and q the mean viscous pressure. It is solved for a pressure that is linear in
+ * energy, as nearly all are; others are taken along their slope. Source: the energy bookkeeping of
+ * MPM3D, Zhang, Chen and Liu, The material point method (2017), with p = A + B e. The first
+ * function is what does not depend on p', the second the rest, where VALUE is at the density and
+ * energy that are known then. */
 BOLIDE_INLINE double material_work(const struct point *point, const struct motion *motion,
                                    struct sym3 new_deviator)
 {
@@ -403,8 +407,8 @@ BOLIDE_INLINE struct response material_step_by_work(const struct material *mater
     return material_evaluate(material, point);
 }
 
-/* How much hotter POINT starts than the material at rest, K: to a strength that softens by heat this is as if
- * plastic work had heated it. Zero where the material has no temperature. */
+/* How much hotter POINT starts than the material at rest, K: to a strength that softens by heat
+ * this is as if plastic work had heated it. Zero where the material has no temperature. */
 BOLIDE_INLINE double material_start_heating(const struct material *material,
                                             const struct point *point)
 {

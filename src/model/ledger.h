@@ -10,8 +10,8 @@
 #include "parallel/ranks.h"
 
 /* Walls that push; the axis of symmetry, whose hoop stress does; what holds bodies (`driven`,
- * `stop`); gravity; what pushes on surfaces; faces that particles leave through; products that burn in
- * air. */
+ * `stop`); gravity; what pushes on surfaces; faces that particles leave through; products that burn
+ * in air. */
 enum ledger_cause {
     LEDGER_WALLS,
     LEDGER_AXIS,

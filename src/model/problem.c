@@ -1,5 +1,5 @@
-/* What a run knows before it has members: materials, mirror walls and the contact laws between groups
- * of bodies, checked against the case. */
+/* What a run knows before it has members: materials, mirror walls and the contact laws between
+ * groups of bodies, checked against the case. */
 #include "model/problem.h"
 
 #include <stdlib.h>
@@ -77,8 +77,8 @@ static int law_of(const struct law_table *table, int first, int second)
     return entry ? entry - 1 : 0;
 }
 
-/* The number of the surface with these values, which becomes one if there is none yet; CONTACT_SURFACES when there are too
- * many. */
+/* The number of the surface with these values, which becomes one if there is none yet;
+ * CONTACT_SURFACES when there are too many. */
 static int surface_of(struct problem *problem, struct contact_surface surface)
 {
     int k = 0;
@@ -92,7 +92,8 @@ static int surface_of(struct problem *problem, struct contact_surface surface)
     return k;
 }
 
-/* The laws of a contact, of its first body towards the second and the other way; false when there are too many. */
+/* The laws of a contact, of its first body towards the second and the other way; false when there
+ * are too many. */
 static bool laws_of(struct problem *problem, const struct contact_input *contact, int law[2])
 {
     static const int turned[] = {[NORMAL_MEAN] = NORMAL_MEAN,

@@ -289,8 +289,8 @@ static double blast_pressure(const struct mpm *mpm, const struct surface *surfac
                         surface->time - blast->time);
 }
 
-/* Converts areas to forces. The normals of nodes near walls include the images; what is pushed there
- * are the particles alone. */
+/* Converts areas to forces. The normals of nodes near walls include the images; what is pushed
+ * there are the particles alone. */
 static void push_blast(const struct mpm *mpm, struct layer *layer, const struct surface *surface,
                        int threads)
 {

@@ -4,11 +4,13 @@
 #include "mpm/mpm_internal.h"
 #include "shape/shape.h"
 
-/* Particles that keep a gradient keep the velocities of their nodes. A node that a single particle reaches, w cells beyond
- * another, has the mass w m and the stiffness m (c/h)^2, so that steps of more than 2 sqrt(w) h/c are unstable, in all of
- * its motion: sooner or later there is such a particle at a free surface. Other functions have less slope where they are
- * small. See M. Steffen, R. M. Kirby, M. Berzins, IJNME 76 (2008) 922, on functions whose slopes jump, and the choice of
- * C. Jiang et al., The material point method for simulating continuum materials, SIGGRAPH 2016 Courses. */
+/* Particles that keep a gradient keep the velocities of their nodes. A node that a single particle
+ * reaches, w cells beyond another, has the mass w m and the stiffness m (c/h)^2, so that steps of
+ * more than 2 sqrt(w) h/c are unstable, in all of its motion: sooner or later there is such a
+ * particle at a free surface. Other functions have less slope where they are small. See M. Steffen,
+ * R. M. Kirby, M. Berzins, IJNME 76 (2008) 922, on functions whose slopes jump, and the choice of
+ * C. Jiang et al., The material point method for simulating continuum materials, SIGGRAPH 2016
+ * Courses. */
 static struct error *refuse_transfer(const struct mpm_parameters *given,
                                      const struct simulation_case *input)
 {
@@ -161,8 +163,8 @@ static bool lies_on_nodes(double first, double spacing, double edge)
     return fabs(place - round(place)) < 1e-6 && fabs(step - round(step)) < 1e-6;
 }
 
-/* The slope of a linear function jumps at a node: a particle there, which moves by rounding, feels a
- * strain of no body. The first particles of a body stand at its low end plus half a spacing. */
+/* The slope of a linear function jumps at a node: a particle there, which moves by rounding, feels
+ * a strain of no body. The first particles of a body stand at its low end plus half a spacing. */
 struct error *mpm_warnings(const void *parameters, const struct simulation_case *input)
 {
     const struct mpm_parameters *given = parameters;

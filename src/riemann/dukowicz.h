@@ -2,7 +2,8 @@
  * c + A |u* - u|, solved without iteration. With u_0 = u -+ c/(2A) and P_0 = P - rho c^2/(4A) the
  * two curves are parabolas,
  *
- *   right: P* = P_0r + a |u - u_0r| (u - u_0r),   left: P* = P_0l - b |u - u_0l| (u - u_0l),   a, b = rho A,
+ *   right: P* = P_0r + a |u - u_0r| (u - u_0r),   left: P* = P_0l - b |u - u_0l| (u - u_0l)
+ *   a, b = rho A,
  *
  * whose one meeting point is u*. Source: Dukowicz, J. Comput. Phys. 61 (1985) 119, in the form of
  * Parshikov (2013), section 2.3. For a gas A = (gamma + 1)/2, the limit of strong shocks; for

@@ -31,8 +31,9 @@ struct error *estimate_run(const struct simulation_case *input, int threads,
  * freed), else NULL. */
 char *detonation_wrong(const struct material *material);
 /* What is no mistake but may not be what the user wants: that of generate_warnings and of the
- * solver, detonation speeds that do not fit the products, and contacts of bodies that are stronger than the Riemann problem of the solver is made
- * for. NULL, or messages, each located as an error would be. */
+ * solver, detonation speeds that do not fit the products, and contacts of bodies that are stronger
+ * than the Riemann problem of the solver is made for. NULL, or messages, each located as an error
+ * would be. */
 struct error *estimate_warnings(const struct simulation_case *input);
 void estimate_free(struct estimate *estimate);
 

@@ -106,7 +106,8 @@ static double speed_of(const struct population *p, int32_t i)
 }
 
 /* What the state of member I at the start can set in motion: the particle velocity of a wave that
- * relieves its stress, all its energy as motion, as of a gas that expands without end, its detonation. */
+ * relieves its stress, all its energy as motion, as of a gas that expands without end, its
+ * detonation. */
 static double released_speed(const struct simulation *simulation, const struct population *p,
                              int32_t i)
 {

@@ -1,6 +1,6 @@
-/* The pair sums written straight from the formulas, slowly: rotation into the axes R, S, T of each pair,
- * contact values component by component, and rotation back. It judges the fast loop.
- * Source: Parshikov (2013), (1.5), (1.19), (1.31)-(1.40), (1.56), (1.58), (1.72)-(1.78), (2.52)-(2.54);
+/* The pair sums written straight from the formulas, slowly: rotation into the axes R, S, T of each
+ * pair, contact values component by component, and rotation back. It judges the fast loop. Source:
+ * Parshikov (2013), (1.5), (1.19), (1.31)-(1.40), (1.56), (1.58), (1.72)-(1.78), (2.52)-(2.54);
  * depths and spins: docs/sph.md. */
 #ifndef BOLIDE_TEST_NAIVE_PAIRS_H
 #define BOLIDE_TEST_NAIVE_PAIRS_H

@@ -1,5 +1,5 @@
-/* A step of many points at once against the step of each alone, to the last bit; and the logarithm and powers of lanes
- * against the library's. */
+/* A step of many points at once against the step of each alone, to the last bit; and the logarithm
+ * and powers of lanes against the library's. */
 #include "dice.h"
 
 #include "material/batch.h"

@@ -77,8 +77,8 @@ static void slopes_are_those_of_differences(void **state)
     }
 }
 
-/* Table 5.3 of Parshikov (2013): 8300 m/s and 33.5 GPa. For ANFO Guilkey's constant of the isentrope
- * belongs to 5899 m/s. */
+/* Table 5.3 of Parshikov (2013): 8300 m/s and 33.5 GPa. For ANFO Guilkey's constant of the
+ * isentrope belongs to 5899 m/s. */
 static void they_detonate_as_their_sources_say(void **state)
 {
     (void)state;

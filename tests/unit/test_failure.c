@@ -113,7 +113,8 @@ static void johnson_cook_failure_strains(void **state)
     assert_true(johnson_cook_failure_strain(&aluminium, 1.5, 1.0, 0.0) == 1e-3);
 }
 
-/* In pure shear at constant volume the mean stress is zero and every plastic strain counts alike. */
+/* In pure shear at constant volume the mean stress is zero and every plastic strain counts
+ * alike. */
 static void johnson_cook_damage_adds_up(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* The fast pair loop: against the naive one, against itself on other instruction sets, and what it must keep. */
+/* The fast pair loop: against the naive one, against itself on other instruction sets, and what it
+ * must keep. */
 #include "trial.h"
 
 #include "base/isa.h"

@@ -8,7 +8,8 @@ static const struct eos_reactive_jwl petn = EOS_reactive_jwl_SAMPLE;
 static const struct eos_reactive_jwl c4 = {1601.0,   77810e9, -5.031e9, 11.3, 1.13, 0.8938, 2.505e6,
                                            609.77e9, 12.95e9, 4.5,      1.4,  0.38, 1e6,    10.2e9};
 
-/* The energy of a volume of the explosive at rest, J/m^3, of one phase at VOLUME and TEMPERATURE. */
+/* The energy of a volume of the explosive at rest, J/m^3, of one phase at VOLUME and
+ * TEMPERATURE. */
 static double energy_of(const struct jwl_phase *phase, double volume, double temperature,
                         double *pressure)
 {

@@ -1,5 +1,5 @@
-/* Sweeps along rows of cells of two materials: a block of detonation products that air carries round a
- * ring, cut into rows whose ghosts are the cells of the next ones. */
+/* Sweeps along rows of cells of two materials: a block of detonation products that air carries
+ * round a ring, cut into rows whose ghosts are the cells of the next ones. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

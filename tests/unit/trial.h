@@ -1,5 +1,5 @@
-/* A scene with random states of matter, its records and the pair loop over it, packed apart from the
- * solver; and the comparison of its sums with the naive ones. */
+/* A scene with random states of matter, its records and the pair loop over it, packed apart from
+ * the solver; and the comparison of its sums with the naive ones. */
 #ifndef BOLIDE_TEST_TRIAL_H
 #define BOLIDE_TEST_TRIAL_H
 
@@ -7,8 +7,8 @@
 
 #include "naive_pairs.h"
 
-/* A scene whose store keeps the stress in `deviator`, the longitudinal and the shear impedance in `energy`
- * and `plastic_strain`; and the loop over it. */
+/* A scene whose store keeps the stress in `deviator`, the longitudinal and the shear impedance in
+ * `energy` and `plastic_strain`; and the loop over it. */
 struct trial {
     struct scene scene;
     struct pair_loop loop;

@@ -1,10 +1,10 @@
-/* Afterburn: products that lack oxygen burn on in the air that they meet. Of their mass the fraction l has,
- * which grows as
+/* Afterburn: products that lack oxygen burn on in the air that they meet. Of their mass the
+ * fraction l has, which grows as
  *
  *   dl/dt = a (1 - l)^m (p/p_0)^n,   p_0 = 0.1 MPa
  *
- * and each kg of it gives the heat Q to the products. With m = n = 0 the rate is constant. Source: P. J.
- * Miller, Mater. Res. Soc. Symp. Proc. 418 (1996) 413. */
+ * and each kg of it gives the heat Q to the products. With m = n = 0 the rate is constant. Source:
+ * P. J. Miller, Mater. Res. Soc. Symp. Proc. 418 (1996) 413. */
 #ifndef BOLIDE_BURN_AFTERBURN_H
 #define BOLIDE_BURN_AFTERBURN_H
 

@@ -3,9 +3,10 @@
  *
  *   (V_0 - V)/(V_0 - V_CJ) >= f
  *
- * There are no kinetics: the width of the zone is that of a shock of the method. Source: Parshikov
- * (2013), (5.19), with f = 1/2, and heat that is free in the next step, not in the same. The foot of
- * a numerical shock reaches 1/2 before the front is there, and the detonation is 10 % too fast. */
+ * There are no kinetics: the width of the zone is that of a shock of the method. Source:
+ * Parshikov (2013), (5.19), with f = 1/2, and heat that is free in the next step, not in the
+ * same. The foot of a numerical shock reaches 1/2 before the front is there, and the
+ * detonation is 10 % too fast. */
 #ifndef BOLIDE_BURN_CJ_THRESHOLD_H
 #define BOLIDE_BURN_CJ_THRESHOLD_H
 

@@ -1,4 +1,5 @@
-/* Burning at a rate that grows with a power of the pressure, of the mass fraction l of the products:
+/* Burning at a rate that grows with a power of the pressure, of the mass fraction l of the
+ * products:
  *
  *   dl/dt = G (p/100 GPa)^b (1 - l)^c   where p > p_i
  *

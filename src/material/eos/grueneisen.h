@@ -11,8 +11,8 @@
  *   like 1/(rho/rho_0 - 1). States on the adiabat stay as they are. c^2 > 0 follows for h_b <= 1/2;
  * - near the largest compression of the adiabat, from 0.95 of rho/rho_0 = s/(s - 1) in terms of x
  *   on: p_H is continued linearly in rho;
- * - in tension at rho_1 = 0.9 rho_0. The curves of the sources have no cohesive energy: below, either
- *   tension grows without bound, or hot material never becomes a gas. With t = rho/rho_1:
+ * - in tension at rho_1 = 0.9 rho_0. The curves of the sources have no cohesive energy: below,
+ *   either tension grows without bound, or hot material never becomes a gas. With t = rho/rho_1:
  *
  *     p = p_c + G (e - e_c),   p_c = b_1 t^2 + b_2 t^4,   de_c/dt = p_c/(rho_1 t^2)
  *     G = rho_1 (a t + b t^2 + c t^3),   a = min(max(gamma, 3/2), 3 gamma)

@@ -9,8 +9,8 @@
  *
  * One unknown is left, the volume of the rarer phase, at which the temperatures are equal: Newton's
  * method finds it, from the last volume of the explosive. Where that leads to no state with P, T >
- * 0, the range is searched for the nearest one. Source: Lee and Tarver, Phys. Fluids 23 (1980) 2362, in the form of Parshikov (2013),
- * (5.4)-(5.11); the choice of the unknown is ours. */
+ * 0, the range is searched for the nearest one. Source: Lee and Tarver, Phys. Fluids 23 (1980)
+ * 2362, in the form of Parshikov (2013), (5.4)-(5.11); the choice of the unknown is ours. */
 #ifndef BOLIDE_EOS_REACTIVE_JWL_H
 #define BOLIDE_EOS_REACTIVE_JWL_H
 
@@ -257,8 +257,8 @@ BOLIDE_INLINE struct eos_value reactive_jwl_state(const struct eos_reactive_jwl 
     value.dp_drho = -(m.p_volume[1] / fraction[1] + along * by_volume) * total / density;
     value.dp_de = (m.p_energy + along * by_energy) * jwl->density;
     value.status = found ? 0 : POINT_OUT_OF_RANGE;
-    /* Beyond the tension that the explosive bears its pressure falls with density, and with a little
-     * of hot products so does that of both. */
+    /* Beyond the tension that the explosive bears its pressure falls with density, and with a
+     * little of hot products so does that of both. */
     eos_hold_sound(&value, density,
                    0.01 * jwl->energy / jwl->density * minimum(density / jwl->density, 1.0));
     *last = few ? volume[1] : volume[0];

@@ -6,9 +6,9 @@
  * s is the mean stress over the Mises stress, positive in tension. The source's tests end at s =
  * 1.5: eps_f keeps its value of there beyond. It is never less than a least strain, since D1 + D2
  * exp(D3 s) of some published sets falls below zero. Its default exceeds the plastic strain of the
- * outermost SPH particle in its short tension while a shock of a few GPa reflects at a free face. T*
- * is that of the strength model. A mean tension of `spall`, where given, fails the point at once.
- * Source: Johnson and Cook, Eng. Fract. Mech. 21 (1985) 31; the least strain is ours. */
+ * outermost SPH particle in its short tension while a shock of a few GPa reflects at a free face.
+ * T* is that of the strength model. A mean tension of `spall`, where given, fails the point at
+ * once. Source: Johnson and Cook, Eng. Fract. Mech. 21 (1985) 31; the least strain is ours. */
 #ifndef BOLIDE_FAILURE_JOHNSON_COOK_H
 #define BOLIDE_FAILURE_JOHNSON_COOK_H
 

@@ -1,6 +1,7 @@
 /* Johnson and Cook's yield stress, with isotropic hardening, rate and heat:
  *
- *  Y = (A + B eps^n)(1 + C ln max(rate/rate_0, 1))(1 - T*^m),  T* = (T - T_room)/(T_melt - T_room)  (2-64)
+ * Y = (A + B eps^n)(1 + C ln max(rate/rate_0, 1))(1 - T*^m),  T* = (T - T_room)/(T_melt - T_room)
+ * (2-64)
  *
  * T is T_room plus the excess temperature of the body at the start plus the heat of the plastic
  * work, dT = Y d eps/(rho c_v); it has no heat of compression or conduction. Radial return solves

@@ -8,7 +8,8 @@
 #include "model/walk.h"
 #include "particle/particles.h"
 
-/* What the strength of a particle of MATERIAL and VOLUME is beyond the characteristic one, over it. */
+/* What the strength of a particle of MATERIAL and VOLUME is beyond the characteristic one,
+ * over it. */
 static double strength_scatter(const struct material *material, uint64_t id, double volume)
 {
     if (!failure_scatters(&material->failure))
