@@ -307,9 +307,16 @@ bool problem_afterburns(const struct problem *problem)
     return any;
 }
 
-struct error *problem_refuse_afterburn(const struct problem *problem)
+struct error *problem_refuse_gas_keys(const struct problem *problem)
 {
+    const struct simulation_case *input = problem->input;
     struct error *error = NULL;
+    if (geometry_power(input->geometry) > 0 && input->dimension == 1)
+        error = input_error(input, "geometry", NULL,
+                            "the solver gas alone computes cylinders and spheres in 1-D");
+    if (input->start.input)
+        error = error_join(error, input_error(input, "start", NULL,
+                                              "the solver gas alone begins from another case"));
     for (int m = 0; m < problem->materials; m++)
         if (problem->material[m].afterburn.energy > 0.0)
             error = error_join(error, input_error(problem->input, "materials",

@@ -55,13 +55,13 @@ struct error *refuse_broken_contacts(const struct problem *problem);
  * most, which the solver adds to its store. Returns their number. */
 int problem_history(const struct problem *problem, struct field_declaration *fields);
 
-/* True when the case has gravity. */
 /* Whether products burn in the air. */
 bool problem_afterburns(const struct problem *problem);
 
-/* What solvers of particles say of such products. */
-struct error *problem_refuse_afterburn(const struct problem *problem);
+/* What of a case the solver gas alone computes, for the solvers of particles. */
+struct error *problem_refuse_gas_keys(const struct problem *problem);
 
+/* True when the case has gravity. */
 BOLIDE_INLINE bool problem_has_gravity(const struct problem *problem)
 {
     const double *g = problem->gravity;

@@ -138,14 +138,7 @@ struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
     if (simulation->problem->geometry == GEOMETRY_PLANE_STRESS)
         error =
             input_error(input, "geometry", NULL, "the solver mpm does not support plane stress");
-    if (geometry_power(input->geometry) > 0 && input->dimension == 1)
-        error = input_error(input, "geometry", NULL,
-                            "the solver gas alone computes cylinders and spheres in 1-D");
-    if (input->start.input)
-        error = error_join(error, input_error(input, "start", NULL,
-                                              "the solver gas alone begins from another case"));
-    if (problem_afterburns(simulation->problem))
-        error = error_join(error, problem_refuse_afterburn(simulation->problem));
+    error = error_join(error, problem_refuse_gas_keys(simulation->problem));
     error = error_join(error, refuse_transfer(given, input));
     error = error_join(error, refuse_filter(given, input));
     error = error_join(error, refuse_order(given, simulation));

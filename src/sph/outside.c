@@ -27,15 +27,7 @@ struct error *sph_refuse(const struct simulation *simulation)
 {
     static const char text[] = "the solver sph has none: use mpm";
     const struct simulation_case *input = simulation->problem->input;
-    struct error *error = NULL;
-    if (geometry_power(input->geometry) > 0 && input->dimension == 1)
-        error = input_error(input, "geometry", NULL,
-                            "the solver gas alone computes cylinders and spheres in 1-D");
-    if (input->start.input)
-        error = error_join(error, input_error(input, "start", NULL,
-                                              "the solver gas alone begins from another case"));
-    if (problem_afterburns(simulation->problem))
-        error = error_join(error, problem_refuse_afterburn(simulation->problem));
+    struct error *error = problem_refuse_gas_keys(simulation->problem);
     for (int c = 0; c < input->contacts.count; c++)
         error = error_join(error, refuse_contact(input, c));
     if (input->loads.count)
