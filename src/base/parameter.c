@@ -115,6 +115,12 @@ static void value_release(const struct parameter *parameter, void *value)
 
 void parameters_release(const struct parameter *table, void *values)
 {
-    for (const struct parameter *parameter = table; !PARAMETER_IS_END(parameter); parameter++)
+    for (const struct parameter *parameter = table; !PARAMETER_IS_END(parameter); parameter++) {
         value_release(parameter, (char *)values + parameter->offset);
+        if (parameter->owned) {
+            void **memory = (void **)((char *)values + parameter->owned);
+            free(*memory);
+            *memory = NULL;
+        }
+    }
 }

@@ -70,6 +70,8 @@ struct parameter {
     size_t size;               /* MAP: bytes of one item's struct */
     const char *const *names;  /* CHOICE: the names, ended by NULL */
     const char *kind_of_thing; /* ONE_OF, LIST: a kind of the catalogue: "eos", "shape", ... */
+    size_t owned;              /* offset of a pointer to memory that is computed from the values of
+                                * the table and freed with them; 0: none */
     unsigned arguments;        /* FIELD(S): what it may name, a sum of enum expression_arguments */
 };
 

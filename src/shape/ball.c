@@ -57,4 +57,4 @@ static bool radii(const void *shape, struct radii *radii)
     return true;
 }
 
-const struct shape_class shape_ball_class = {inside, bounds, wrong, radii, NULL};
+const struct shape_class shape_ball_class = {inside, bounds, wrong, radii, NULL, NULL};

@@ -42,4 +42,4 @@ static const char *wrong(const void *shape, int dimension)
     return NULL;
 }
 
-const struct shape_class shape_box_class = {inside, bounds, wrong, NULL, NULL};
+const struct shape_class shape_box_class = {inside, bounds, wrong, NULL, NULL, NULL};

@@ -45,4 +45,4 @@ static double work(const void *shape)
     return shapes_work(&((const struct shape_difference *)shape)->shapes);
 }
 
-const struct shape_class shape_difference_class = {inside, bounds, wrong, radii, work};
+const struct shape_class shape_difference_class = {inside, bounds, wrong, radii, work, NULL};

@@ -52,4 +52,4 @@ static double work(const void *shape)
     return shapes_work(&((const struct shape_intersection *)shape)->shapes);
 }
 
-const struct shape_class shape_intersection_class = {inside, bounds, wrong, radii, work};
+const struct shape_class shape_intersection_class = {inside, bounds, wrong, radii, work, NULL};

@@ -47,6 +47,15 @@ struct shape_template {
     struct vector_value from;
 };
 
+/* Discs or spheres at random places in a box. */
+struct shape_packing {
+    struct vector_value from, to;
+    double fraction, radius, largest, gap; /* largest: NAN when not given */
+    struct name_list periodic;
+    int64_t seed;
+    struct grains *grains; /* computed from these; one block of memory */
+};
+
 struct shape_union {
     struct one_of_list shapes;
 };
@@ -87,6 +96,7 @@ struct shape_rotate {
     X(polygon, "the area within straight edges; 2-D only")                  \
     X(half_space, "one side of a plane, to cut other shapes with")          \
     X(template, "the sites of a map with a given letter; 2-D only")         \
+    X(packing, "discs or spheres at random places in a box; 2-D and 3-D")   \
     X(union, "all points that lie in at least one of a list of shapes")     \
     X(intersection, "all points that lie in every one of a list of shapes") \
     X(difference, "the first of a list of shapes without the others")       \

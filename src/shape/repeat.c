@@ -136,4 +136,4 @@ static double work(const void *shape)
     return copies * shape_work(&repeat->shape);
 }
 
-const struct shape_class shape_repeat_class = {inside, bounds, wrong, NULL, work};
+const struct shape_class shape_repeat_class = {inside, bounds, wrong, NULL, work, NULL};

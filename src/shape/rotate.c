@@ -100,4 +100,4 @@ static double work(const void *shape)
     return shape_work(&((const struct shape_rotate *)shape)->shape);
 }
 
-const struct shape_class shape_rotate_class = {inside, bounds, wrong, NULL, work};
+const struct shape_class shape_rotate_class = {inside, bounds, wrong, NULL, work, NULL};

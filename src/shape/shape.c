@@ -27,7 +27,9 @@ struct bounds shape_bounds(const struct one_of *shape)
 
 const char *shape_wrong(const struct one_of *shape, int dimension)
 {
-    return class_of(shape)->wrong(shape->value, dimension);
+    const struct shape_class *class = class_of(shape);
+    const char *text = class->wrong(shape->value, dimension);
+    return !text && class->prepare ? class->prepare(shape->value, dimension) : text;
 }
 
 bool shape_radii(const struct one_of *shape, struct radii *radii)

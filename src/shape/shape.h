@@ -26,6 +26,9 @@ struct shape_class {
     bool (*radii)(const void *shape, struct radii *radii);
     /* The largest number of simple shapes that one query tests; NULL: one. */
     double (*work)(const void *shape);
+    /* Computes what the shape keeps beside its parameters, once they are right; NULL, or what is
+     * wrong (static text). NULL instead of a function: nothing. */
+    const char *(*prepare)(void *shape, int dimension);
 };
 
 extern const struct choice shape_choices[];
@@ -33,6 +36,7 @@ extern const int shape_choice_count;
 
 bool shape_inside(const struct one_of *shape, struct vec3 point);
 struct bounds shape_bounds(const struct one_of *shape);
+/* Prepares the shape too: it comes before any question of what is inside. */
 const char *shape_wrong(const struct one_of *shape, int dimension);
 bool shape_radii(const struct one_of *shape, struct radii *radii);
 

@@ -67,4 +67,4 @@ static const char *wrong(const void *shape, int dimension)
     return found ? NULL : "the `letter` of this template is nowhere in its `rows`";
 }
 
-const struct shape_class shape_template_class = {inside, bounds, wrong, NULL, NULL};
+const struct shape_class shape_template_class = {inside, bounds, wrong, NULL, NULL, NULL};

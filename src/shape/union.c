@@ -41,4 +41,4 @@ static double work(const void *shape)
     return shapes_work(&((const struct shape_union *)shape)->shapes);
 }
 
-const struct shape_class shape_union_class = {inside, bounds, wrong, NULL, work};
+const struct shape_class shape_union_class = {inside, bounds, wrong, NULL, work, NULL};

@@ -1,0 +1,122 @@
+/* Grains at random places in a box: discs in 2-D, spheres in 3-D. */
+#include "shape/grains.h"
+#include "shape/kinds.h"
+
+#include <string.h>
+
+const struct parameter shape_packing_table[] = {
+    {.key = "from",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct shape_packing, from),
+     .unit = "m",
+     .help = "the corner of the box with the low coordinates"},
+    {.key = "to",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct shape_packing, to),
+     .unit = "m",
+     .help = "the opposite corner"},
+    {.key = "fraction",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct shape_packing, fraction),
+     .unit = "",
+     .above = 0.0,
+     .below = 1.0,
+     .help = "the fraction of the box that the grains fill; random packings of equal discs reach "
+             "about 0.8, of equal spheres 0.6"},
+    {.key = "radius",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct shape_packing, radius),
+     .unit = "m",
+     .above = 0.0,
+     .below = INFINITY,
+     .help = "the radius of the grains, or of the smallest; all radii change by one factor so that "
+             "a whole number of grains gives `fraction`"},
+    {.key = "largest",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct shape_packing, largest),
+     .unit = "m",
+     .standard = PARAMETER_OPTIONAL,
+     .above = 0.0,
+     .below = INFINITY,
+     .help = "the largest radius: radii are evenly distributed between the two; default: all are "
+             "`radius`"},
+    {.key = "gap",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct shape_packing, gap),
+     .unit = "m",
+     .standard = "0 m",
+     .above = 0.0,
+     .below = INFINITY,
+     .closed = true,
+     .help = "the least distance between two grains; half of it to the faces of the box"},
+    {.key = "periodic",
+     .kind = PARAMETER_NAMES,
+     .offset = offsetof(struct shape_packing, periodic),
+     .standard = PARAMETER_OPTIONAL,
+     .help = "axes along which a grain that is cut by a face of the box continues at the opposite "
+             "face; default: all grains are whole"},
+    {.key = "seed",
+     .kind = PARAMETER_INTEGER,
+     .offset = offsetof(struct shape_packing, seed),
+     .standard = "1",
+     .help = "another number gives other places",
+     .owned = offsetof(struct shape_packing, grains)},
+    PARAMETER_END,
+};
+
+static struct bounds bounds(const void *shape)
+{
+    const struct shape_packing *packing = shape;
+    return (struct bounds){vec3_of(&packing->from), vec3_of(&packing->to)};
+}
+
+/* The box has its low faces and not its high ones. */
+static bool inside(const void *shape, struct vec3 point)
+{
+    const struct shape_packing *packing = shape;
+    const double at[3] = {point.x, point.y, point.z};
+    assert(packing->grains && packing->from.count <= 3);
+    for (int axis = 0; axis < packing->from.count; axis++)
+        if (!(at[axis] >= packing->from.at[axis] && at[axis] < packing->to.at[axis]))
+            return false;
+    return grains_hold(packing->grains, point);
+}
+
+static const char *wrong(const void *shape, int dimension)
+{
+    const struct shape_packing *packing = shape;
+    if (dimension < 2 || packing->from.count != dimension || packing->to.count != dimension)
+        return "a packing needs two or three dimensions, and as many numbers in `from` and `to`";
+    for (int axis = 0; axis < dimension; axis++)
+        if (!(packing->from.at[axis] < packing->to.at[axis]))
+            return "each number of `from` of a packing must be below that of `to`";
+    if (packing->largest < packing->radius)
+        return "the `largest` radius of a packing must not be below `radius`";
+    for (int i = 0; i < packing->periodic.count; i++) {
+        const char *name = packing->periodic.names[i];
+        if (strlen(name) != 1 || name[0] < 'x' || name[0] >= 'x' + dimension)
+            return "`periodic` of a packing is a list of axes of the case: x, y, z";
+    }
+    return NULL;
+}
+
+static const char *prepare(void *shape, int dimension)
+{
+    struct shape_packing *packing = shape;
+    if (packing->grains)
+        return NULL;
+    struct grains_wanted wanted = {.dimension = dimension,
+                                   .box = bounds(packing),
+                                   .fraction = packing->fraction,
+                                   .smallest = packing->radius,
+                                   .largest = packing->largest,
+                                   .gap = packing->gap,
+                                   .seed = (uint64_t)packing->seed};
+    if (isnan(wanted.largest))
+        wanted.largest = packing->radius;
+    for (int i = 0; i < packing->periodic.count; i++)
+        wanted.periodic[packing->periodic.names[i][0] - 'x'] = true;
+    return grains_make(&wanted, &packing->grains);
+}
+
+const struct shape_class shape_packing_class = {inside, bounds, wrong, NULL, NULL, prepare};
