@@ -45,6 +45,8 @@ struct shape_template {
     char *letter;
     double site;
     struct vector_value from;
+    int64_t seed;
+    char *shuffled; /* the letters of all rows, computed from these; NULL: `rows` as they are */
 };
 
 /* Discs or spheres at random places in a box. */

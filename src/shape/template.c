@@ -2,6 +2,8 @@
  * touch and do not overlap. Parshikov (2013), section 5.3. */
 #include <string.h>
 
+#include "base/chance.h"
+#include "base/memory.h"
 #include "shape/kinds.h"
 
 const struct parameter shape_template_table[] = {
@@ -25,6 +27,15 @@ const struct parameter shape_template_table[] = {
      .offset = offsetof(struct shape_template, from),
      .unit = "m",
      .help = "the corner of the map with the low coordinates"},
+    {.key = "seed",
+     .kind = PARAMETER_INTEGER,
+     .offset = offsetof(struct shape_template, seed),
+     .standard = "0",
+     .below = 1e15,
+     .closed = true,
+     .help = "0: the map as it is written; else its letters change places at random: the rows give "
+             "their numbers, and the same seed the same map, for every letter",
+     .owned = offsetof(struct shape_template, shuffled)},
     PARAMETER_END,
 };
 
@@ -36,7 +47,10 @@ static bool inside(const void *shape, struct vec3 point)
     const double y = floor((point.y - map->from.at[1]) / map->site);
     if (!(x >= 0.0 && x < columns && y >= 0.0 && y < rows))
         return false;
-    return map->rows.names[map->rows.count - 1 - (int)y][(int)x] == map->letter[0];
+    const int64_t row = map->rows.count - 1 - (int)y;
+    const char letter = map->shuffled ? map->shuffled[row * (int64_t)columns + (int64_t)x]
+                                      : map->rows.names[row][(int)x];
+    return letter == map->letter[0];
 }
 
 /* Of the whole map: the lattice is the same for every letter. */
@@ -67,4 +81,29 @@ static const char *wrong(const void *shape, int dimension)
     return found ? NULL : "the `letter` of this template is nowhere in its `rows`";
 }
 
-const struct shape_class shape_template_class = {inside, bounds, wrong, NULL, NULL, NULL};
+/* Shuffles the map, every order as likely (Fisher and Yates). */
+static const char *prepare(void *shape, int dimension)
+{
+    (void)dimension;
+    struct shape_template *map = shape;
+    if (map->seed == 0 || map->shuffled)
+        return NULL;
+    const size_t columns = strlen(map->rows.names[0]);
+    const int64_t sites = (int64_t)columns * map->rows.count;
+    char *letters = memory_allocate((size_t)sites);
+    if (!letters)
+        return "there is no memory for the sites of this template";
+    for (int i = 0; i < map->rows.count; i++)
+        memcpy(letters + (size_t)i * columns, map->rows.names[i], columns);
+    for (int64_t last = sites - 1; last > 0; last--) {
+        const int64_t other =
+            (int64_t)((double)(last + 1) * chance_of((uint64_t)last, (uint64_t)map->seed));
+        const char letter = letters[last];
+        letters[last] = letters[other];
+        letters[other] = letter;
+    }
+    map->shuffled = letters;
+    return NULL;
+}
+
+const struct shape_class shape_template_class = {inside, bounds, wrong, NULL, NULL, prepare};

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
@@ -141,7 +142,7 @@ static void a_template_is_tiled_without_a_lost_site(void **state)
     int64_t count[BODIES];
     open_workshop(&w, 2, d);
     for (int i = 0; i < 2; i++) {
-        map[i] = (struct shape_template){{10, rows}, letters[i], d, VECTOR(0.0, 0.0)};
+        map[i] = (struct shape_template){{10, rows}, letters[i], d, VECTOR(0.0, 0.0), 0, NULL};
         tiles[i] = (struct shape_repeat){shape_of("template", &map[i]), VECTOR(45.0, 5.0),
                                          VECTOR(10.0 * d, 10.0 * d), 0};
         add_body(&w, "repeat", &tiles[i]);
@@ -149,6 +150,37 @@ static void a_template_is_tiled_without_a_lost_site(void **state)
     count_bodies(&w, count);
     assert_int_equal(count[0], 225 * 18);
     assert_int_equal(count[1], 225 * 28);
+}
+
+/* A shuffled map keeps the number of each letter; each site has one letter, the same one whichever
+ * letter is asked for. */
+static void a_shuffled_template_keeps_the_number_of_each_letter(void **state)
+{
+    (void)state;
+    char *rows[10] = {"rrrrrrrrrr", "rrrrrrrrnn", "nnnnnnnnnn", "nnnnnnnnnn", "nnnnnn....",
+                      "..........", "..........", "..........", "..........", ".........."};
+    char *letters[3] = {"r", "n", "."};
+    const int counts[3] = {18, 28, 54};
+    for (int64_t seed = 1; seed <= 3; seed++) {
+        int taken[100] = {0}, moved = 0;
+        for (int i = 0; i < 3; i++) {
+            struct shape_template map = {{10, rows}, letters[i], 1.0, VECTOR(0.0, 0.0), seed, NULL};
+            const struct one_of shape = shape_of("template", &map);
+            assert_null(shape_wrong(&shape, 2));
+            int found = 0;
+            for (int site = 0; site < 100; site++)
+                if (shape_inside(&shape, vec3_make(site % 10 + 0.5, 9.5 - site / 10, 0.0))) {
+                    found++;
+                    taken[site]++;
+                    moved += rows[site / 10][site % 10] != letters[i][0];
+                }
+            assert_int_equal(found, counts[i]);
+            free(map.shuffled);
+        }
+        for (int site = 0; site < 100; site++)
+            assert_int_equal(taken[site], 1);
+        assert_in_range(moved, 40, 80); /* 100 - (18^2 + 28^2 + 54^2)/100 = 60 on average */
+    }
 }
 
 int main(void)
@@ -160,6 +192,7 @@ int main(void)
         cmocka_unit_test(a_channel_takes_its_rectangle_of_sites),
         cmocka_unit_test(staggered_squares_keep_their_sites_between_walls),
         cmocka_unit_test(a_template_is_tiled_without_a_lost_site),
+        cmocka_unit_test(a_shuffled_template_keeps_the_number_of_each_letter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

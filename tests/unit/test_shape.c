@@ -115,8 +115,8 @@ static void a_template_is_its_letter_on_the_map(void **state)
 {
     (void)state;
     char *rows[3] = {"xo.x", "ooxx", "...o"};
-    struct shape_template letter[2] = {{{3, rows}, "x", 0.1, VECTOR(1.0, 2.0)},
-                                       {{3, rows}, "o", 0.1, VECTOR(1.0, 2.0)}};
+    struct shape_template letter[2] = {{{3, rows}, "x", 0.1, VECTOR(1.0, 2.0), 0, NULL},
+                                       {{3, rows}, "o", 0.1, VECTOR(1.0, 2.0), 0, NULL}};
     const struct one_of x = shape_of("template", &letter[0]), o = shape_of("template", &letter[1]);
     assert_near(sampled_volume(&x, 2, 120), 4 * 0.01, 1e-9);
     assert_near(sampled_volume(&o, 2, 120), 4 * 0.01, 1e-9);
@@ -184,7 +184,7 @@ static void parameters_that_make_no_shape_are_told(void **state)
     assert_wrong("polygon", &mixed, 2, "two numbers");
 
     char *uneven[2] = {"xx", "x"}, *even[2] = {"xo", "ox"};
-    struct shape_template map = {{2, uneven}, "x", 1.0, VECTOR(0.0, 0.0)};
+    struct shape_template map = {{2, uneven}, "x", 1.0, VECTOR(0.0, 0.0), 0, NULL};
     assert_wrong("template", &map, 2, "one length");
     map.rows.names = even;
     map.letter = "xo";
