@@ -70,9 +70,9 @@ static const struct answer answers[] = {
      "material.",
      "tasks/plate-impact.md"},
     {" mesostructure microstructure pore porous porosity foam grain composite mixture packing ",
-     "Structures are resolved, with shapes: packing (random grains), repeat, template, polygon,\n"
-     "difference, and bodies that replace parts of others. Not available: images as input, and\n"
-     "a compaction model (P-alpha) for pores that are not resolved.",
+     "Structures are resolved, with shapes: packing, voronoi (random grains), repeat, template,\n"
+     "polygon, difference, and bodies that replace parts of others. Not available: images as\n"
+     "input, and a compaction model (P-alpha) for pores that are not resolved.",
      "tasks/mesostructures.md"},
     {" calibrate calibration optimise optimize fit fitting taylor taylor.test taylor.bar ",
      "There is no optimiser. Run a sweep of the constant, and interpolate in sweep.csv; `fits`\n"

@@ -18,11 +18,7 @@ const struct parameter shape_box_table[] = {
 static bool inside(const void *shape, struct vec3 point)
 {
     const struct shape_box *box = shape;
-    const double at[3] = {point.x, point.y, point.z};
-    for (int axis = 0; axis < box->from.count; axis++)
-        if (!(at[axis] >= box->from.at[axis] && at[axis] < box->to.at[axis]))
-            return false;
-    return true;
+    return point_in_box(&box->from, &box->to, point);
 }
 
 static struct bounds bounds(const void *shape)

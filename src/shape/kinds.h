@@ -58,6 +58,15 @@ struct shape_packing {
     struct grains *grains; /* computed from these; one block of memory */
 };
 
+/* Grains that fill a box, but for gaps. */
+struct shape_voronoi {
+    struct vector_value from, to;
+    double size, gap, fraction, picked; /* gap, fraction: NAN when not given */
+    struct name_list periodic;
+    int64_t seed;
+    struct tessellation *grains; /* computed from these; one block of memory */
+};
+
 struct shape_union {
     struct one_of_list shapes;
 };
@@ -99,6 +108,7 @@ struct shape_rotate {
     X(half_space, "one side of a plane, to cut other shapes with")          \
     X(template, "the sites of a map with a given letter; 2-D only")         \
     X(packing, "discs or spheres at random places in a box; 2-D and 3-D")   \
+    X(voronoi, "convex grains that fill a box, with or without gaps")       \
     X(union, "all points that lie in at least one of a list of shapes")     \
     X(intersection, "all points that lie in every one of a list of shapes") \
     X(difference, "the first of a list of shapes without the others")       \
@@ -117,5 +127,20 @@ BOLIDE_INLINE struct vec3 vec3_of(const struct vector_value *value)
     return vec3_make(value->count > 0 ? value->at[0] : 0.0, value->count > 1 ? value->at[1] : 0.0,
                      value->count > 2 ? value->at[2] : 0.0);
 }
+
+/* Whether POINT is in the box, which has its low faces and not its high ones. */
+BOLIDE_INLINE bool point_in_box(const struct vector_value *from, const struct vector_value *to,
+                                struct vec3 point)
+{
+    const double at[3] = {point.x, point.y, point.z};
+    assert(from->count <= 3);
+    for (int axis = 0; axis < from->count; axis++)
+        if (!(at[axis] >= from->at[axis] && at[axis] < to->at[axis]))
+            return false;
+    return true;
+}
+
+/* Marks the axes that NAMES lists; false when one is no axis of the DIMENSION. */
+bool axes_of(const struct name_list *names, int dimension, bool marked[3]);
 
 #endif

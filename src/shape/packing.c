@@ -2,8 +2,6 @@
 #include "shape/grains.h"
 #include "shape/kinds.h"
 
-#include <string.h>
-
 const struct parameter shape_packing_table[] = {
     {.key = "from",
      .kind = PARAMETER_VECTOR,
@@ -74,12 +72,8 @@ static struct bounds bounds(const void *shape)
 static bool inside(const void *shape, struct vec3 point)
 {
     const struct shape_packing *packing = shape;
-    const double at[3] = {point.x, point.y, point.z};
-    assert(packing->grains && packing->from.count <= 3);
-    for (int axis = 0; axis < packing->from.count; axis++)
-        if (!(at[axis] >= packing->from.at[axis] && at[axis] < packing->to.at[axis]))
-            return false;
-    return grains_hold(packing->grains, point);
+    assert(packing->grains);
+    return point_in_box(&packing->from, &packing->to, point) && grains_hold(packing->grains, point);
 }
 
 static const char *wrong(const void *shape, int dimension)
@@ -92,11 +86,9 @@ static const char *wrong(const void *shape, int dimension)
             return "each number of `from` of a packing must be below that of `to`";
     if (packing->largest < packing->radius)
         return "the `largest` radius of a packing must not be below `radius`";
-    for (int i = 0; i < packing->periodic.count; i++) {
-        const char *name = packing->periodic.names[i];
-        if (strlen(name) != 1 || name[0] < 'x' || name[0] >= 'x' + dimension)
-            return "`periodic` of a packing is a list of axes of the case: x, y, z";
-    }
+    bool periodic[3];
+    if (!axes_of(&packing->periodic, dimension, periodic))
+        return "`periodic` of a packing is a list of axes of the case: x, y, z";
     return NULL;
 }
 
@@ -114,8 +106,7 @@ static const char *prepare(void *shape, int dimension)
                                    .seed = (uint64_t)packing->seed};
     if (isnan(wanted.largest))
         wanted.largest = packing->radius;
-    for (int i = 0; i < packing->periodic.count; i++)
-        wanted.periodic[packing->periodic.names[i][0] - 'x'] = true;
+    axes_of(&packing->periodic, dimension, wanted.periodic);
     return grains_make(&wanted, &packing->grains);
 }
 

@@ -1,6 +1,8 @@
 /* The list of shapes, and questions to whichever shape a case has chosen. */
 #include "shape/kinds.h"
 
+#include <string.h>
+
 #define SHAPE_CHOICE(identifier, help)                                                 \
     {#identifier, help, shape_##identifier##_table, sizeof(struct shape_##identifier), \
      &shape_##identifier##_class},
@@ -64,6 +66,19 @@ bool bounds_finite(const struct bounds *bounds)
 {
     return isfinite(bounds->low.x) && isfinite(bounds->low.y) && isfinite(bounds->low.z) &&
            isfinite(bounds->high.x) && isfinite(bounds->high.y) && isfinite(bounds->high.z);
+}
+
+bool axes_of(const struct name_list *names, int dimension, bool marked[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        marked[axis] = false;
+    for (int i = 0; i < names->count; i++) {
+        const char *name = names->names[i];
+        if (strlen(name) != 1 || name[0] < 'x' || name[0] >= 'x' + dimension)
+            return false;
+        marked[name[0] - 'x'] = true;
+    }
+    return true;
 }
 
 static struct vec3 lower_ends(struct vec3 a, struct vec3 b)
