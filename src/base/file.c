@@ -229,6 +229,24 @@ struct error *file_read(const char *path, char **content, size_t *size)
     return NULL;
 }
 
+const char *file_read_input(const char *path, size_t most, char **content, size_t *size)
+{
+    struct stat status;
+    *content = NULL;
+    if (stat(path, &status))
+        return errno == ENOENT || errno == ENOTDIR ? "there is no such `file`"
+                                                   : "this `file` cannot be read";
+    if (S_ISDIR(status.st_mode))
+        return "this `file` is a folder";
+    if (!S_ISREG(status.st_mode))
+        return "this `file` is not a regular file";
+    if ((uint64_t)status.st_size > most)
+        return "this `file` is too large";
+    struct error *error = file_read(path, content, size);
+    error_free(error);
+    return error || !*content ? "this `file` cannot be read" : NULL;
+}
+
 static int by_name(const void *left, const void *right)
 {
     return strcmp(*(char *const *)left, *(char *const *)right);

@@ -36,6 +36,10 @@ struct error *folder_make(const char *folder);
  * is no such file, or it is no plain file. */
 struct error *file_read(const char *path, char **content, size_t *size);
 
+/* The same of a file that must be there and have at most MOST bytes; NULL, or what is wrong (static
+ * text). */
+const char *file_read_input(const char *path, size_t most, char **content, size_t *size);
+
 /* Bytes of the plain file PATH, 0 when there is none. */
 int64_t file_size(const char *path);
 

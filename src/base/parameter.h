@@ -10,7 +10,9 @@
  *   QUANTITY   an expression of any dimension            struct quantity; value NAN when not given
  *   INTEGER    a whole number                            int64_t
  *   FLAG       yes | no                                  bool
- *   TEXT       a scalar                                  char *, NULL when not given
+ *   TEXT       a scalar                                  char *, NULL when not given; the name of a
+ *                                                        file (`is_path`) is made absolute, as seen
+ *                                                        from the folder of the file that names it
  *   CHOICE     one of `names`                            int, the index in `names`
  *   VECTOR     a list of 1 to 3 expressions              struct vector_value (count 0: not given)
  *   VECTORS    a list of such lists                      struct vector_list
@@ -63,7 +65,8 @@ struct parameter {
     const char *standard; /* default as typed, PARAMETER_REQUIRED or PARAMETER_OPTIONAL */
     /* NUMBER, INTEGER, constant FIELD: allowed is above < value < below; both 0: anything */
     double above, below;
-    bool closed; /* the bounds themselves are allowed too */
+    bool closed;  /* the bounds themselves are allowed too */
+    bool is_path; /* TEXT */
     const char *help;
     const struct parameter
         *table;                /* TABLE, MAP: the nested table, ended by a key and kind of zero */

@@ -70,9 +70,9 @@ static const struct answer answers[] = {
      "material.",
      "tasks/plate-impact.md"},
     {" mesostructure microstructure pore porous porosity foam grain composite mixture packing ",
-     "Structures are resolved, with shapes: packing, voronoi (random grains), repeat, template,\n"
-     "polygon, difference, and bodies that replace parts of others. Not available: images as\n"
-     "input, and a compaction model (P-alpha) for pores that are not resolved.",
+     "Structures are resolved, with shapes: packing, voronoi (random grains), image (PNG),\n"
+     "repeat, template, polygon, difference, and bodies that replace parts of others. Not\n"
+     "available: a compaction model (P-alpha) for pores that are not resolved.",
      "tasks/mesostructures.md"},
     {" calibrate calibration optimise optimize fit fitting taylor taylor.test taylor.bar ",
      "There is no optimiser. Run a sweep of the constant, and interpolate in sweep.csv; `fits`\n"
@@ -156,7 +156,10 @@ static const struct answer answers[] = {
      "material=NAME` its reaction zone. `burn: ignition-growth` with `eos: reactive-jwl` resolves\n"
      "that zone in a run, and so does `burn: pressure-power` with `eos: blended-jwl`, JWL++.",
      "detonation.md"},
-    {" stl cad mesh geometry.file image step.file ",
+    {" image png picture micrograph tomography scan ",
+     "The shape `image` takes the pixels of a PNG file in a range of grey (bolide help image).",
+     "case.md"},
+    {" stl cad mesh geometry.file step.file ",
      "Not available: bodies are made of shapes (bolide help shape), or of a `template`, a map\n"
      "of letters. There is no mesh to make: particles are placed at the distance `resolution`.",
      "case.md"},

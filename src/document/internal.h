@@ -55,6 +55,11 @@ char *document_suggest_inside(const struct reading *reading, const struct parame
 char *document_suggest(const struct reading *reading, const struct parameter *table,
                        const struct node *unknown);
 
+/* Makes of *PATH, the name of a file at PLACE, its name as seen from the folder of the file of that
+ * place, or, in a setting, from the working folder; absolute if there is such a file. False when
+ * memory is out. */
+bool make_path_whole(struct place place, char **path);
+
 /* Any expression. WANTED says what, for a node that is none. False after a complaint,
  * or where the expression rests on a name that was complained about. */
 bool read_quantity(struct reading *reading, const struct node *node, const struct path *path,

@@ -170,12 +170,24 @@ static struct error *read_source(struct loading *loading, struct source *source,
 static struct error *load(struct loading *loading, struct source *source, struct node **root);
 
 /* NAME as seen from the file BY. */
-static char *path_from(const struct source *by, const char *name)
+static char *path_from(const char *by, const char *name)
 {
-    const char *slash = strrchr(by->path, '/');
+    const char *slash = strrchr(by, '/');
     if (name[0] == '/' || !slash)
         return text_copy(name);
-    return text_format("%.*s%s", (int)(slash + 1 - by->path), by->path, name);
+    return text_format("%.*s%s", (int)(slash + 1 - by), by, name);
+}
+
+bool make_path_whole(struct place place, char **path)
+{
+    const bool is_setting = place.line == 0;
+    char *seen = path_from(is_setting ? "" : place.origin, *path);
+    char *whole = seen ? realpath(seen, NULL) : NULL;
+    free(*path);
+    *path = whole ? whole : seen;
+    if (whole)
+        free(seen);
+    return *path;
 }
 
 /* Lays the file that NAME, a node, names over what BASE holds of the files before it. */
@@ -186,7 +198,7 @@ static struct error *include_one(struct loading *loading, const struct source *b
         return place_error(name->place, include_key, "expected a file or a list of files");
     if (++loading->included > INCLUDED_MAX)
         return place_error(name->place, include_key, "these are more than %d files", INCLUDED_MAX);
-    char *path = path_from(by, name->text);
+    char *path = path_from(by->path, name->text);
     struct source source = {.by = by, .path = path, .place = name->place};
     struct node *root = NULL;
     struct error *error = path ? load(loading, &source, &root) : out_of_memory();

@@ -457,7 +457,9 @@ void read_scalar(struct reading *reading, const struct node *node, const struct 
         read_flag(reading, node, path, value);
         break;
     case PARAMETER_TEXT:
-        read_text(reading, node, path, value);
+        if (read_text(reading, node, path, value) && parameter->is_path &&
+            !make_path_whole(node->place, value))
+            complain_memory(reading);
         break;
     case PARAMETER_CHOICE:
         read_choice(reading, node, path, parameter, value);

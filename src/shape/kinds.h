@@ -49,6 +49,14 @@ struct shape_template {
     char *shuffled; /* the letters of all rows, computed from these; NULL: `rows` as they are */
 };
 
+/* The pixels of a picture whose grey value is in a range; 2-D. */
+struct shape_image {
+    char *file;
+    double pixel;
+    struct vector_value from, grey;
+    struct pixels *pixels; /* of the file; one block of memory */
+};
+
 /* Discs or spheres at random places in a box. */
 struct shape_packing {
     struct vector_value from, to;
@@ -107,6 +115,7 @@ struct shape_rotate {
     X(polygon, "the area within straight edges; 2-D only")                  \
     X(half_space, "one side of a plane, to cut other shapes with")          \
     X(template, "the sites of a map with a given letter; 2-D only")         \
+    X(image, "the pixels of a PNG file in a range of grey; 2-D only")       \
     X(packing, "discs or spheres at random places in a box; 2-D and 3-D")   \
     X(voronoi, "convex grains that fill a box, with or without gaps")       \
     X(union, "all points that lie in at least one of a list of shapes")     \
