@@ -160,8 +160,9 @@ static const struct answer answers[] = {
      "The shape `image` takes the pixels of a PNG file in a range of grey (bolide help image).",
      "case.md"},
     {" stl cad mesh geometry.file step.file ",
-     "Not available: bodies are made of shapes (bolide help shape), or of a `template`, a map\n"
-     "of letters. There is no mesh to make: particles are placed at the distance `resolution`.",
+     "The shape `mesh` is what a closed STL surface encloses (bolide help mesh). Particles are\n"
+     "placed in it at the distance `resolution`: there is no volume mesh to make. Convert other\n"
+     "formats, such as STEP, to STL.",
      "case.md"},
     {" erosion erode delete element.deletion ",
      "Not needed: particles are not removed, however far they deform.", "choosing.md"},

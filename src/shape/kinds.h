@@ -75,6 +75,14 @@ struct shape_voronoi {
     struct tessellation *grains; /* computed from these; one block of memory */
 };
 
+/* What a closed surface of triangles encloses; 3-D. */
+struct shape_mesh {
+    char *file;
+    double unit; /* m */
+    struct vector_value from;
+    struct triangles *triangles; /* of the file; one block of memory */
+};
+
 struct shape_union {
     struct one_of_list shapes;
 };
@@ -118,6 +126,7 @@ struct shape_rotate {
     X(image, "the pixels of a PNG file in a range of grey; 2-D only")       \
     X(packing, "discs or spheres at random places in a box; 2-D and 3-D")   \
     X(voronoi, "convex grains that fill a box, with or without gaps")       \
+    X(mesh, "what a closed surface of an STL file encloses; 3-D only")      \
     X(union, "all points that lie in at least one of a list of shapes")     \
     X(intersection, "all points that lie in every one of a list of shapes") \
     X(difference, "the first of a list of shapes without the others")       \

@@ -1,0 +1,259 @@
+#include "shape/triangles.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* Columns along an axis at most; triangles that all columns list together, for each triangle. */
+enum { MOST_COLUMNS = 1024, MOST_LISTED = 16 };
+
+/* The six coordinates of an edge, the lower end first. */
+struct edge {
+    double end[2][3];
+};
+
+/* By x, then y, then z. */
+static int compare_points(const double a[3], const double b[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        if (a[axis] != b[axis])
+            return a[axis] < b[axis] ? -1 : 1;
+    return 0;
+}
+
+static int compare_edges(const void *a, const void *b)
+{
+    const struct edge *first = a, *second = b;
+    const int order = compare_points(first->end[0], second->end[0]);
+    return order ? order : compare_points(first->end[1], second->end[1]);
+}
+
+static bool has_area(const double corner[3][3])
+{
+    return compare_points(corner[0], corner[1]) && compare_points(corner[1], corner[2]) &&
+           compare_points(corner[2], corner[0]);
+}
+
+/* Sorts the edges: those of a closed surface come in pairs. */
+static const char *check_closed(const struct triangles *triangles)
+{
+    const size_t count = 3 * (size_t)triangles->count;
+    struct edge *edges = malloc(count * sizeof *edges);
+    if (!edges)
+        return "there is no memory for the edges of this mesh";
+    for (size_t i = 0; i < count; i++) {
+        const double *from = triangles->corners[i / 3][i % 3];
+        const double *to = triangles->corners[i / 3][(i + 1) % 3];
+        const bool is_up = compare_points(from, to) < 0;
+        memcpy(edges[i].end[0], is_up ? from : to, sizeof edges[i].end[0]);
+        memcpy(edges[i].end[1], is_up ? to : from, sizeof edges[i].end[1]);
+    }
+    qsort(edges, count, sizeof *edges, compare_edges);
+    bool is_closed = count % 2 == 0;
+    for (size_t i = 0; i + 1 < count && is_closed; i += 2)
+        is_closed = compare_edges(&edges[i], &edges[i + 1]) == 0;
+    free(edges);
+    return is_closed ? NULL
+                     : "the surface of this mesh is open: some edges belong to one triangle only. "
+                       "Repair it, and write shared corners with the same digits";
+}
+
+/* The column of a coordinate along y (0) or z (1). */
+static int64_t column_along(const struct triangles *triangles, int axis, double at)
+{
+    const double low = axis == 0 ? triangles->bounds.low.y : triangles->bounds.low.z;
+    const double high = axis == 0 ? triangles->bounds.high.y : triangles->bounds.high.z;
+    const double columns = (double)triangles->columns[axis];
+    const double column = floor((at - low) / (high - low) * columns);
+    return (int64_t)minimum(maximum(column, 0.0), columns - 1.0);
+}
+
+/* The columns that a triangle may meet: first and last along y and z. */
+static void columns_of(const struct triangles *triangles, int64_t triangle, int64_t range[2][2])
+{
+    const double(*corner)[3] = triangles->corners[triangle];
+    for (int axis = 0; axis < 2; axis++) {
+        const double a = corner[0][axis + 1], b = corner[1][axis + 1], c = corner[2][axis + 1];
+        range[axis][0] = column_along(triangles, axis, minimum(minimum(a, b), c));
+        range[axis][1] = column_along(triangles, axis, maximum(maximum(a, b), c));
+    }
+}
+
+static double listed(const struct triangles *triangles)
+{
+    double sum = 0.0;
+    for (int64_t triangle = 0; triangle < triangles->count; triangle++) {
+        int64_t range[2][2];
+        columns_of(triangles, triangle, range);
+        sum += (double)(range[0][1] - range[0][0] + 1) * (double)(range[1][1] - range[1][0] + 1);
+    }
+    return sum;
+}
+
+/* About one triangle of the near side and one of the far side a column, fewer columns where
+ * triangles are long. */
+static void choose_columns(struct triangles *triangles)
+{
+    double columns = minimum(MOST_COLUMNS, ceil(sqrt(0.5 * (double)triangles->count)));
+    for (;; columns = floor(0.5 * columns)) {
+        triangles->columns[0] = triangles->columns[1] = (int64_t)maximum(columns, 1.0);
+        if (columns <= 1.0 || listed(triangles) <= MOST_LISTED * (double)triangles->count)
+            return;
+    }
+}
+
+/* Counts the triangles of each column, then lists them, in the order of their numbers. */
+static void list_columns(struct triangles *triangles)
+{
+    const int64_t columns = triangles->columns[0] * triangles->columns[1];
+    for (int pass = 0; pass < 2; pass++) {
+        for (int64_t triangle = 0; triangle < triangles->count; triangle++) {
+            int64_t range[2][2];
+            columns_of(triangles, triangle, range);
+            for (int64_t k = range[1][0]; k <= range[1][1]; k++)
+                for (int64_t j = range[0][0]; j <= range[0][1]; j++) {
+                    int64_t *next = &triangles->start[k * triangles->columns[0] + j + 1];
+                    if (pass == 0)
+                        ++*next;
+                    else
+                        triangles->list[(*next)++] = triangle;
+                }
+        }
+        if (pass == 1)
+            return;
+        /* Each start[column + 1] is where the next triangle of the column goes: in the end it is
+         * where those of the next column begin. */
+        int64_t sum = 0;
+        for (int64_t column = 0; column < columns; column++) {
+            const int64_t here = triangles->start[column + 1];
+            triangles->most = here > triangles->most ? here : triangles->most;
+            triangles->start[column + 1] = sum;
+            sum += here;
+        }
+    }
+}
+
+static void find_bounds(struct triangles *triangles)
+{
+    struct bounds bounds = {vec3_make(INFINITY, INFINITY, INFINITY),
+                            vec3_make(-INFINITY, -INFINITY, -INFINITY)};
+    for (int64_t i = 0; i < 3 * triangles->count; i++) {
+        const double *corner = triangles->corners[i / 3][i % 3];
+        const struct vec3 at = vec3_make(corner[0], corner[1], corner[2]);
+        bounds = bounds_around(bounds, (struct bounds){at, at});
+    }
+    triangles->bounds = bounds;
+}
+
+/* The triangles with area, from CORNERS. */
+static void take_corners(struct triangles *triangles, const float (*corners)[3][3], int64_t count)
+{
+    for (int64_t i = 0; i < count; i++) {
+        double(*corner)[3] = triangles->corners[triangles->count];
+        for (int j = 0; j < 9; j++)
+            corner[j / 3][j % 3] = (double)corners[i][j / 3][j % 3] + 0.0; /* -0 is 0 */
+        if (has_area((const double(*)[3])corner))
+            triangles->count++;
+    }
+}
+
+static bool are_finite(const float (*corners)[3][3], int64_t count)
+{
+    for (int64_t i = 0; i < 9 * count; i++)
+        if (!isfinite(corners[i / 9][i % 9 / 3][i % 3]))
+            return false;
+    return true;
+}
+
+/* PLAN with room for its columns behind its corners. */
+static struct triangles *with_columns(struct triangles *plan)
+{
+    const size_t corners = (size_t)plan->count * sizeof *plan->corners;
+    const size_t starts = (size_t)(plan->columns[0] * plan->columns[1] + 1) * sizeof *plan->start;
+    const size_t lists = (size_t)listed(plan) * sizeof *plan->list;
+    struct triangles *triangles = memory_allocate(sizeof *plan + corners + starts + lists);
+    if (!triangles)
+        return NULL;
+    *triangles = *plan;
+    triangles->corners = (double(*)[3][3])(triangles + 1);
+    triangles->start = (int64_t *)(triangles->corners + plan->count);
+    triangles->list = triangles->start + plan->columns[0] * plan->columns[1] + 1;
+    memcpy(triangles->corners, plan->corners, corners);
+    return triangles;
+}
+
+const char *triangles_make(const float (*corners)[3][3], int64_t count, struct triangles **made)
+{
+    if (!are_finite(corners, count))
+        return "a corner of this mesh is not a number, or infinite";
+    struct triangles plan = {.corners = malloc((size_t)(count + 1) * sizeof *plan.corners)};
+    if (!plan.corners)
+        return "there is no memory for this mesh";
+    take_corners(&plan, corners, count);
+    const char *text = NULL;
+    if (plan.count < 4)
+        text = "this mesh has less than four triangles, the fewest that enclose anything";
+    if (!text)
+        text = check_closed(&plan);
+    if (!text) {
+        find_bounds(&plan);
+        if (!(plan.bounds.low.x < plan.bounds.high.x && plan.bounds.low.y < plan.bounds.high.y &&
+              plan.bounds.low.z < plan.bounds.high.z))
+            text = "this mesh is flat: it encloses nothing";
+    }
+    if (!text) {
+        choose_columns(&plan);
+        *made = with_columns(&plan);
+        if (*made)
+            list_columns(*made);
+        else
+            text = "there is no memory for this mesh";
+    }
+    free(plan.corners);
+    return text;
+}
+
+/* Whether an edge, seen along x, passes the line that runs from POINT along y. It has its low end
+ * and not its high one, and is computed from the low one: triangles with a common edge share no
+ * line along x and miss none. */
+static bool edge_passes(const double *from, const double *to, struct vec3 point)
+{
+    const bool is_up = from[2] < to[2] || (from[2] == to[2] && from[1] < to[1]);
+    const double *low = is_up ? from : to, *high = is_up ? to : from;
+    if (!(low[2] <= point.z && point.z < high[2]))
+        return false;
+    return point.y < low[1] + (point.z - low[2]) / (high[2] - low[2]) * (high[1] - low[1]);
+}
+
+/* Whether the line along x through POINT meets the triangle at a higher x. */
+static bool is_above(const double corner[3][3], struct vec3 point)
+{
+    bool is_met = false;
+    for (int i = 0; i < 3; i++)
+        is_met ^= edge_passes(corner[i], corner[(i + 1) % 3], point);
+    if (!is_met)
+        return false;
+    const double y1 = corner[1][1] - corner[0][1], z1 = corner[1][2] - corner[0][2];
+    const double y2 = corner[2][1] - corner[0][1], z2 = corner[2][2] - corner[0][2];
+    const double y = point.y - corner[0][1], z = point.z - corner[0][2];
+    const double area = y1 * z2 - y2 * z1;
+    const double first = (y * z2 - y2 * z) / area, second = (y1 * z - y * z1) / area;
+    return corner[0][0] + first * (corner[1][0] - corner[0][0]) +
+               second * (corner[2][0] - corner[0][0]) >
+           point.x;
+}
+
+bool triangles_hold(const struct triangles *triangles, struct vec3 point)
+{
+    const struct bounds *bounds = &triangles->bounds;
+    if (!(point.x >= bounds->low.x && point.x < bounds->high.x && point.y >= bounds->low.y &&
+          point.y < bounds->high.y && point.z >= bounds->low.z && point.z < bounds->high.z))
+        return false;
+    const int64_t column = column_along(triangles, 1, point.z) * triangles->columns[0] +
+                           column_along(triangles, 0, point.y);
+    bool is_odd = false;
+    for (int64_t i = triangles->start[column]; i < triangles->start[column + 1]; i++)
+        is_odd ^= is_above((const double(*)[3])triangles->corners[triangles->list[i]], point);
+    return is_odd;
+}
