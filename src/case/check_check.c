@@ -47,20 +47,28 @@ static void check_deviation(struct checking *checking, const struct check_input 
         case_wrong(checking, "known_deviation_if", "this needs `known_deviation` beside it");
 }
 
-/* A chain of ratios would hide what is compared with what. */
-static void check_relative(struct checking *checking, struct check_input *check, int index)
+/* The check that KEY of check INDEX names; -1 after a mistake. A chain of ratios and differences
+ * would hide what is compared with what. */
+static int find_other(struct checking *checking, const char *key, const char *name, int index)
 {
     const struct simulation_case *input = checking->input;
-    check->relative_check = -1;
-    if (!check->relative || !strcmp(check->relative, "start"))
-        return;
-    const int other =
-        case_find_name(checking, &input->checks, "check", check->relative, "relative");
+    const int other = case_find_name(checking, &input->checks, "check", name, key);
     if (other == index)
-        case_wrong(checking, "relative", "a check cannot be relative to itself");
+        case_wrong(checking, key, "a check cannot be compared with itself");
     else if (other >= 0 && case_check(input, other)->relative)
-        case_wrong(checking, "relative", "the check \"%s\" is relative itself", check->relative);
-    check->relative_check = other;
+        case_wrong(checking, key, "the check \"%s\" is relative itself", name);
+    else if (other >= 0 && case_check(input, other)->minus)
+        case_wrong(checking, key, "the check \"%s\" is a difference itself", name);
+    return other;
+}
+
+static void find_others(struct checking *checking, struct check_input *check, int index)
+{
+    check->relative_check = check->minus_check = -1;
+    if (check->relative && strcmp(check->relative, "start") != 0)
+        check->relative_check = find_other(checking, "relative", check->relative, index);
+    if (check->minus)
+        check->minus_check = find_other(checking, "minus", check->minus, index);
 }
 
 void case_check_check(struct checking *checking, int index)
@@ -75,7 +83,7 @@ void case_check_check(struct checking *checking, int index)
         case_wrong(checking, "about", "expected %d component%s, one per dimension; found %d",
                    (int)checking->input->dimension, checking->input->dimension == 1 ? "" : "s",
                    check->about.count);
-    check_relative(checking, check, index);
+    find_others(checking, check, index);
     if (check->at > checking->input->run.until &&
         !document_is_wrong(checking->input->document, "run"))
         case_wrong(checking, "at", "the run ends before, at %.9g s", checking->input->run.until);

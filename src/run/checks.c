@@ -99,7 +99,7 @@ static bool takes_expected(const struct measurement *m)
     const struct check_input *check = m->check;
     const struct dimension none = {0, 0, 0, 0};
     return class_of(check)->expected && against_of(m)->choice && !check->relative &&
-           !given(&check->is) && given(&check->within) &&
+           !check->minus && !given(&check->is) && given(&check->within) &&
            dimension_equal(check->within.dimension, none);
 }
 
@@ -197,6 +197,14 @@ static struct error *prepare_limits(const struct checks *checks, struct prepared
         return NULL;
     TRY(unit_parse(prepared->raw_unit, &unit));
     snprintf(prepared->unit, sizeof prepared->unit, "%s", prepared->raw_unit);
+    const char *subtracted =
+        m->check->minus_check < 0 ? NULL : checks->item[m->check->minus_check].raw_unit;
+    if (m->check->minus && subtracted) {
+        TRY(unit_parse(subtracted, &other));
+        if (!dimension_equal(unit.dimension, other.dimension))
+            return measure_error(m, "`minus`: the check \"%s\" is in %s, and this one in %s",
+                                 m->check->minus, subtracted, prepared->raw_unit);
+    }
     if (m->check->relative) {
         TRY(unit_parse(divided_by, &other));
         unit.dimension = dimension_quotient(unit.dimension, other.dimension);
@@ -358,6 +366,8 @@ static struct error *judge(const struct prepared_check *prepared, const struct c
     result->high = prepared->high;
     result->time = memory[index].time;
     result->measured = memory[index].measured;
+    if (check->minus)
+        result->measured -= memory[check->minus_check].measured;
     if (relative_to_start(check))
         result->measured /= memory[index].start;
     else if (check->relative)

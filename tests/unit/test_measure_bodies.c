@@ -378,7 +378,7 @@ static void a_check_whose_time_never_came_fails(void **state)
     stage_close(&s);
 }
 
-static void a_value_is_divided_by_that_at_the_start_or_of_another_check(void **state)
+static void a_value_is_compared_with_that_at_the_start_or_of_another_check(void **state)
 {
     (void)state;
     struct stage s;
@@ -386,7 +386,9 @@ static void a_value_is_divided_by_that_at_the_start_or_of_another_check(void **s
                 "  grown: {extent: x, of: left, relative: start, is: 2, within: 1 %}\n"
                 "  slope: {mean: position.y, of: left, relative: way, is: 3, within: 1 %}\n"
                 "  way: {mean: position.x, of: left, at_most: 1 m}\n"
-                "  rate: {decay: mass, of: left, at_most: 1 s^-1}\n");
+                "  rate: {decay: mass, of: left, at_most: 1 s^-1}\n"
+                "  ahead: {mean: position.y, of: left, minus: way, is: 1 m, within: 100 m}\n"
+                "  gain: {mean: position.y, of: left, minus: way, relative: way, at_least: 1}\n");
     struct particles *p = particles_of(&s.simulation);
     for (int32_t i = 0; i < p->count; i++) {
         const struct vec3 x = start_of(&s, i);
@@ -397,9 +399,12 @@ static void a_value_is_divided_by_that_at_the_start_or_of_another_check(void **s
     assert_float_equal(stage_value(&s, 0), 2.0, 1e-12);
     assert_float_equal(stage_value(&s, 1), 3.0, 1e-12);
     assert_float_equal(stage_value(&s, 3), log(2.0) / 0.25, 1e-12);
+    assert_float_equal(stage_value(&s, 4), 2.0 * stage_value(&s, 2), 1e-12);
+    assert_float_equal(stage_value(&s, 5), 2.0, 1e-12);
     assert_int_equal(s.results.item[0].verdict, CHECK_PASSED);
     assert_int_equal(s.results.item[1].verdict, CHECK_PASSED);
     assert_string_equal(s.results.item[0].unit, "");
+    assert_string_equal(s.results.item[4].unit, "m");
     stage_close(&s);
 }
 
@@ -447,7 +452,7 @@ int main(void)
         cmocka_unit_test(a_known_deviation_is_no_failure_until_it_passes),
         cmocka_unit_test(a_check_without_a_limit_only_measures),
         cmocka_unit_test(a_check_whose_time_never_came_fails),
-        cmocka_unit_test(a_value_is_divided_by_that_at_the_start_or_of_another_check),
+        cmocka_unit_test(a_value_is_compared_with_that_at_the_start_or_of_another_check),
         cmocka_unit_test(what_makes_no_sense_of_a_body_is_told_before_the_run),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
