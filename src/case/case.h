@@ -42,6 +42,7 @@ struct body_input {
     int material_index;        /* filled by case_read */
     bool varies;        /* filled by case_read: its state at the start is one of the position */
     struct point start; /* filled by case_read, unless it varies: the state at the start */
+    bool elsewhere;     /* of a case that a coupling makes: another solver has all of its members */
 };
 
 /* walls: NAME: {mirror: x, at: 0 mm, side: low}: a rigid slip wall normal to an axis; the material

@@ -62,6 +62,12 @@ int case_find_name(struct checking *checking, const struct named_map *map, const
     return -1;
 }
 
+void case_find_members(struct checking *checking, const char *of)
+{
+    if (of && strcmp(of, "particles") != 0 && strcmp(of, "gas") != 0)
+        case_find_name(checking, &checking->input->bodies, "body", of, "of");
+}
+
 bool case_dimension_known(const struct checking *checking)
 {
     return checking->input->dimension > 0 &&
@@ -388,8 +394,7 @@ void case_check_between(struct checking *checking, const struct vector_value *be
 static void check_probe(struct checking *checking, int index)
 {
     const struct probe_input *probe = case_probe(checking->input, index);
-    if (probe->of)
-        case_find_name(checking, &checking->input->bodies, "body", probe->of, "of");
+    case_find_members(checking, probe->of);
     case_check_between(checking, &probe->between);
     case_check_axis(checking, "axis", probe->axis);
     case_check_interval(checking, "every", probe->every);
@@ -398,8 +403,7 @@ static void check_probe(struct checking *checking, int index)
 static void check_profile(struct checking *checking, int index)
 {
     const struct profile_input *profile = case_profile(checking->input, index);
-    if (profile->of)
-        case_find_name(checking, &checking->input->bodies, "body", profile->of, "of");
+    case_find_members(checking, profile->of);
     case_check_between(checking, &profile->between);
     case_check_axis(checking, "along", profile->along);
 }

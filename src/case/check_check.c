@@ -74,8 +74,7 @@ static void find_others(struct checking *checking, struct check_input *check, in
 void case_check_check(struct checking *checking, int index)
 {
     struct check_input *check = case_check(checking->input, index);
-    if (check->of)
-        case_find_name(checking, &checking->input->bodies, "body", check->of, "of");
+    case_find_members(checking, check->of);
     case_check_between(checking, &check->between);
     case_check_axis(checking, "axis", check->axis);
     if (check->about.count != 0 && case_dimension_known(checking) &&

@@ -20,6 +20,9 @@ bool case_is_wrong(const struct checking *checking, const char *key);
 void case_wrong(struct checking *checking, const char *key, const char *format, ...)
     BOLIDE_PRINTF(3, 4);
 
+/* Complains about the key `of` unless OF, which may be NULL, is a body or a population. */
+void case_find_members(struct checking *checking, const char *of);
+
 /* The index of NAME in MAP; -1 after a complaint. WHAT is `body` or `material`. */
 int case_find_name(struct checking *checking, const struct named_map *map, const char *what,
                    const char *name, const char *key);

@@ -276,11 +276,27 @@ static double area_of(const struct simulation *simulation, double edge, const do
     return power == 0 ? area : power == 1 ? area * at[0] : area * square(at[0]);
 }
 
-/* Books what a FLUX has brought to the gas above a face at AT, or, with SIGN -1, to that below. */
-static void book(const struct simulation *simulation, double edge, const double at[3],
-                 const double *flux, double sign, double dt, enum ledger_cause cause,
-                 struct ledger *ledger)
+/* Whether the cell above the face at AT across AXIS, or with SIGN -1 that below, lies in the box that
+ * a coupling watches: what it holds does not count. */
+static bool is_watched(const struct gas *gas, const double at[3], int axis, double sign)
 {
+    bool inside = gas->cut != NULL;
+    for (int k = 0; k < gas->cells->dimension && inside; k++) {
+        const double place = at[k] / gas->cells->edge + (k == axis ? 0.5 * sign : 0.0);
+        inside = place > (double)gas->cut->low[k] && place < (double)gas->cut->high[k];
+    }
+    return inside;
+}
+
+/* Books what a FLUX along AXIS has brought to the gas above a face at AT, or, with SIGN -1, to that
+ * below. */
+static void book(const struct gas *gas, const struct simulation *simulation, int axis,
+                 const double at[3], const double *flux, double sign, double dt,
+                 enum ledger_cause cause, struct ledger *ledger)
+{
+    const double edge = gas->cells->edge;
+    if (is_watched(gas, at, axis, sign))
+        return;
     const double amount = sign * dt * area_of(simulation, edge, at);
     const struct vec3 momentum =
         vec3_make(amount * flux[GAS_MOMENTUM], amount * flux[GAS_MOMENTUM + 1],
@@ -309,7 +325,7 @@ void gas_book(const struct gas *gas, const struct simulation *simulation,
             double at[3] = {0.0, 0.0, 0.0};
             row_place(cells, low, first, second, row, at);
             at[axis] = (double)(side ? cells->high : cells->low)[axis] * edge;
-            book(simulation, edge, at, through->end[side][row], side ? -1.0 : 1.0, dt,
+            book(gas, simulation, axis, at, through->end[side][row], side ? -1.0 : 1.0, dt,
                  face == CELL_FACE_MIRROR ? LEDGER_WALLS : LEDGER_OUTFLOWS, ledger);
         }
     for (int row = 0; row < rows * low->count[second] && axis == 0 && gas->round; row++) {
@@ -325,7 +341,7 @@ void gas_book(const struct gas *gas, const struct simulation *simulation,
         double at[3] = {0.0, 0.0, 0.0};
         row_place(cells, low, first, second, through->obstacle[k].row, at);
         at[axis] = (double)(low->corner[axis] + through->obstacle[k].face) * edge;
-        book(simulation, edge, at, through->obstacle[k].flux, (double)through->obstacle[k].side, dt,
-             LEDGER_WALLS, ledger);
+        book(gas, simulation, axis, at, through->obstacle[k].flux,
+             (double)through->obstacle[k].side, dt, LEDGER_WALLS, ledger);
     }
 }

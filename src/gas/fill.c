@@ -65,7 +65,8 @@ static int body_at(struct filling *f, struct vec3 place)
     int found = -1;
     for (int k = 0; k < f->heres; k++) {
         const int body = f->here[k];
-        if (!shape_inside(&case_body(input, body)->shape, place))
+        if (case_body(input, body)->elsewhere ||
+            !shape_inside(&case_body(input, body)->shape, place))
             continue;
         const bool wins = found >= 0 && replaces(&f->replacements, body, found);
         if (found >= 0 && wins == replaces(&f->replacements, found, body) && !f->error) {

@@ -227,8 +227,7 @@ void gas_bind(struct gas *gas, const struct cell_blocks *cells)
     }
 }
 
-/* Derived fields of the blocks that are awake, which of them are still, and the fastest cell. */
-static struct error *look(struct gas *gas, const struct simulation *simulation)
+struct error *gas_derive(struct gas *gas, const struct simulation *simulation)
 {
     const struct cell_blocks *cells = gas->cells;
     struct gas_look look = {.cells = cells,
@@ -298,7 +297,7 @@ static struct error *gas_start(void *solver, struct simulation *simulation)
     gas->cells->threads = simulation->threads;
     TRY(gas_plan(gas, simulation));
     TRY(gas_burn(gas, simulation, simulation->time));
-    return look(gas, simulation);
+    return gas_derive(gas, simulation);
 }
 
 /* Blocks go to other ranks where the case has space divided anew, or one has worked longer. */
@@ -316,7 +315,7 @@ static struct error *balance(struct gas *gas, struct simulation *simulation)
         return NULL;
     gas->room = 0; /* all of them may have moved */
     TRY(gas_plan(gas, simulation));
-    return ranks_agree(simulation->ranks, look(gas, simulation));
+    return ranks_agree(simulation->ranks, gas_derive(gas, simulation));
 }
 
 /* The part of the step that the first steps of two materials take: products that begin to expand
@@ -395,7 +394,7 @@ static struct error *gas_advance(void *solver, struct simulation *simulation, do
     gas_afterburn(gas, simulation, dt);
     simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
     TRY(gas_burn(gas, simulation, simulation->time + dt));
-    struct error *error = look(gas, simulation);
+    struct error *error = gas_derive(gas, simulation);
     gas_map(gas, simulation, dt);
     simulation_end_phase(simulation, PHASE_BLOCKS, "states");
     return error;

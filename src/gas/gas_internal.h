@@ -45,7 +45,8 @@ struct gas {
     int32_t room;   /* cells for which `other` has room */
     struct gas_block *block;
     int64_t block_capacity;
-    bool *shocked;  /* of each block, found by a sweep */
+    bool *shocked;             /* of each block, found by a sweep */
+    const struct gas_cut *cut; /* what a coupling watches; NULL: nothing */
     bool sleepless; /* all blocks are swept always: gravity pulls them, or a test wants it */
     struct gas_through *through; /* one a thread */
     int throughs;
@@ -60,6 +61,10 @@ struct gas {
     double fastest; /* |u_i| + c of all of this rank's cells, m/s */
     uint64_t fastest_id;
 };
+
+/* Collective: derived fields of the blocks that are awake, which of them are still, and the fastest
+ * cell. */
+struct error *gas_derive(struct gas *gas, const struct simulation *simulation);
 
 /* Keeps the maps of a blast after a step of DT. */
 void gas_map(const struct gas *gas, const struct simulation *simulation, double dt);

@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "gas/gas_internal.h"
+#include "gas/gas_phases.h"
 #include "material/material.h"
 #include "shape/shape.h"
 
@@ -16,6 +17,8 @@ static struct error *refuse_body(const struct simulation_case *input, int index)
     const struct body_input *body = case_body(input, index);
     const char *name = input->bodies.names[index];
     struct error *error = NULL;
+    if (body->elsewhere)
+        return NULL;
     if (body->driven || body->frozen || !isnan(body->stop))
         error = input_error(input, "bodies", name,
                             "the solver gas cannot hold a body: gas flows through its cells; an "
@@ -30,11 +33,14 @@ static struct error *refuse_body(const struct simulation_case *input, int index)
 void gas_find_materials(const struct simulation *simulation, int material[2])
 {
     const struct simulation_case *input = simulation->problem->input;
-    material[0] = material[1] = case_body(input, 0)->material_index;
+    int first = 0;
+    while (first + 1 < input->bodies.count && case_body(input, first)->elsewhere)
+        first++;
+    material[0] = material[1] = case_body(input, first)->material_index;
     if (input->start.input && input->start.material_index >= 0)
         material[1] = input->start.material_index;
     for (int b = 1; b < input->bodies.count && material[1] == material[0]; b++)
-        if (case_body(input, b)->material_index != material[0])
+        if (!case_body(input, b)->elsewhere && case_body(input, b)->material_index != material[0])
             material[1] = case_body(input, b)->material_index;
     const struct material *of = simulation->problem->material;
     const double density[2] = {eos_reference_density(&of[material[0]].eos),
@@ -82,6 +88,8 @@ static const char *refuse_material(const struct material *material)
     return NULL;
 }
 
+bool gas_computes(const struct material *material) { return !refuse_material(material); }
+
 /* Two materials at most. */
 static struct error *refuse_materials(const struct simulation *simulation,
                                       const struct gas_parameters *parameters)
@@ -94,7 +102,7 @@ static struct error *refuse_materials(const struct simulation *simulation,
     const bool two = material[0] != material[1];
     for (int b = 0; b < input->bodies.count; b++) {
         const int m = case_body(input, b)->material_index;
-        if (m != material[0] && m != material[1])
+        if (m != material[0] && m != material[1] && !case_body(input, b)->elsewhere)
             return input_error(input, "bodies", input->bodies.names[b],
                                "the solver gas computes two materials at most, and this is another "
                                "one: \"%s\", beside \"%s\" and \"%s\"",

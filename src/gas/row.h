@@ -41,6 +41,8 @@ struct gas_row {
     double part[PARTS][ROW_ROOM]; /* of the second material, where there are two */
     bool afterburns;              /* it burns in the first */
     double afterburnt[ROW_ROOM];  /* its mass per volume of the cell that has */
+    bool watched;                 /* who sweeps wants to know */
+    double second_flux[ROW_ROOM]; /* what of its mass has passed through faces, where it does */
     const struct eos *lit;        /* that of an explosive of which some is unburnt, NULL: none is */
     double burnt[ROW_ROOM];       /* the fraction of it that is not */
     double

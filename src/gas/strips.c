@@ -120,13 +120,26 @@ static bool is_alike(const struct gas *gas, int32_t a, int32_t b)
                                  gas->u[GAS_FRACTION][i] == gas->u[GAS_FRACTION][j]));
 }
 
+/* Whether a face that a coupling watches may lie across the strip. */
+static bool is_cut(const struct gas *gas, const struct gas_strip *strip, int axis)
+{
+    const struct gas_cut *cut = gas->cut;
+    const struct cell_block *first = &gas->cells->block[strip->block[0]],
+                            *last = &gas->cells->block[strip->block[strip->count - 1]];
+    bool inside = cut != NULL;
+    for (int k = 0; k < 3 && inside; k++)
+        inside =
+            cut->low[k] <= last->corner[k] + last->count[k] && cut->high[k] >= first->corner[k];
+    return inside && (cut->open[axis][0] || cut->open[axis][1]);
+}
+
 /* A sweep leaves one gas at rest as it is, to the bit, whatever the step is: fluxes are its
  * pressure everywhere. What it knows of the blocks is as they are before the sweep. */
 static bool may_sleep(const struct gas *gas, const struct gas_strip *strip, int axis)
 {
     const struct cell_halo_axis *halo = &gas->halo.axis[axis];
     const int32_t first = strip->block[0], last = strip->block[strip->count - 1];
-    if (strip->waits || gas->block[first].awake)
+    if (strip->waits || gas->block[first].awake || is_cut(gas, strip, axis))
         return false;
     for (int k = 1; k < strip->count; k++)
         if (!is_alike(gas, first, strip->block[k]))
@@ -239,7 +252,9 @@ struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis
                               .round = axis == 0 ? gas->round : 0,
                               .shocked = gas->shocked,
                               .second_order = gas->second_order,
-                              .scheme = gas->scheme};
+                              .scheme = gas->scheme,
+                              .cut = gas->cut,
+                              .dt = dt};
     memcpy(sweep.from, gas->u, sizeof sweep.from);
     memcpy(sweep.to, gas->other, sizeof sweep.to);
     struct error *error = plan_strips(gas, cells, simulation->threads);

@@ -32,6 +32,16 @@ struct gas_layout {
     int fields;      /* all of them */
 };
 
+/* A box of cells, whose faces on SIDEs that are open a coupling watches: what passes through each
+ * per area in a step, fluxes times the duration of sweeps, and of the second material's mass. The
+ * faces across an axis lie in the order of cells, the lower of the two other axes first. */
+enum { GAS_PASSED = GAS_NUMBERS + 1 };
+struct gas_cut {
+    int64_t low[3], high[3]; /* its first cell along each axis, the one after its last */
+    bool open[3][2];
+    double *passed[3][2]; /* GAS_PASSED numbers a face; positive along the axis */
+};
+
 /* A sweep along an axis: what all strips share. */
 struct gas_sweep {
     const struct cell_blocks *cells;
@@ -47,6 +57,8 @@ struct gas_sweep {
     bool *shocked;     /* of each block, found: it has strong shocks */
     bool second_order; /* MUSCL-Hancock, else Lax-Wendroff */
     struct lax_wendroff scheme;
+    const struct gas_cut *cut; /* NULL: none */
+    double dt;
 };
 
 /* `count` blocks, one behind the other. */

@@ -130,6 +130,35 @@ static void note_end(const struct gas_numbers *flux, int face, double *out)
         out[n] = flux->of[n][face + ROW_GHOSTS];
 }
 
+/* Adds what passes through the faces of the cut that lie among those below the CELLS of a row,
+ * whose first is cell BEGIN of the strip. */
+static void note_cut(const struct gather *g, const struct gas_row *row,
+                     const struct gas_numbers *flux, int begin)
+{
+    const struct gas_sweep *sweep = g->sweep;
+    const struct gas_cut *cut = sweep->cut;
+    const struct cell_block *block = &sweep->cells->block[g->strip->block[0]];
+    const struct across across = across_of(sweep->axis);
+    const int64_t first = block->corner[sweep->axis] + begin;
+    const int64_t at[2] = {block->corner[across.first] + g->i, block->corner[across.second] + g->j};
+    if (at[0] < cut->low[across.first] || at[0] >= cut->high[across.first] ||
+        at[1] < cut->low[across.second] || at[1] >= cut->high[across.second])
+        return;
+    const int64_t number =
+        at[0] - cut->low[across.first] +
+        (at[1] - cut->low[across.second]) * (cut->high[across.first] - cut->low[across.first]);
+    for (int side = 0; side < 2; side++) {
+        const int64_t plane = side ? cut->high[sweep->axis] : cut->low[sweep->axis];
+        if (!cut->open[sweep->axis][side] || plane < first || plane >= first + row->cells)
+            continue;
+        double *passed = cut->passed[sweep->axis][side] + number * GAS_PASSED;
+        const int k = (int)(plane - first) + ROW_GHOSTS;
+        for (int n = 0; n < GAS_NUMBERS; n++)
+            passed[n] += sweep->dt * flux->of[n][k];
+        passed[GAS_NUMBERS] += row->other ? sweep->dt * row->second_flux[k] : 0.0;
+    }
+}
+
 /* Along a radius, the sums of PUSH over the cells of each block of the strip. */
 static void note_push(const struct gather *g, const double *push, int number,
                       struct gas_through *through)
@@ -221,6 +250,8 @@ static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cell
                 copy_cell(all, layout, source, turned, row, at - from + ROW_GHOSTS);
             }
             sweep_row(g->sweep, row, &flux);
+            if (g->sweep->cut)
+                note_cut(g, row, &flux, from - begin);
             store_row(g, row, from - begin);
             for (int at = from; at < to && row->round; at++)
                 push[at] = row->push[at - from + ROW_GHOSTS];
@@ -262,6 +293,7 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
     row.axis = sweep->axis;
     row.round = sweep->round;
     row.shocked = true;
+    row.watched = sweep->cut != NULL;
     row.first = (double)block->corner[sweep->axis];
     through->obstacles = 0;
     for (int j = 0; j < columns; j++)
@@ -304,6 +336,8 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
                     copy_cell(all, layout, k, false, &row, k);
             }
             sweep_row(sweep, &row, &flux);
+            if (sweep->cut)
+                note_cut(&g, &row, &flux, 0);
             store_row(&g, &row, 0);
             note_push(&g, row.push, number, through);
             note_end(&flux, 0, through->end[0][number]);

@@ -447,6 +447,8 @@ static inline void parts_sweep(struct gas_row *row, struct row_parts *parts, dou
                 parts->flux[PART_MASS][k] = flux->of[GAS_DENSITY][k];
         row_carry_afterburnt(row, parts->flux[PART_MASS], row->part[PART_MASS], r);
     }
+    FOR_ROW (k, 0, row->watched ? row->cells : -1)
+        row->second_flux[k] = parts->flux[PART_MASS][k];
     parts_advance(row, parts, r);
     parts_clean(row);
 }
@@ -471,6 +473,8 @@ static inline void row_two_materials(struct gas_row *row, double r, struct gas_n
     row->eos = first;
     if (row->afterburns && most > 0.0)
         row_carry_afterburnt(row, flux->of[GAS_DENSITY], row->part[PART_MASS], r);
+    FOR_ROW (k, 0, row->watched ? row->cells : -1)
+        row->second_flux[k] = most > 0.0 ? flux->of[GAS_DENSITY][k] : 0.0;
     FOR_ROW (k, 0, row->cells - 1)
         row->part[PART_MASS][k] = most > 0.0 ? row->u.of[GAS_DENSITY][k] : 0.0;
 }

@@ -43,7 +43,7 @@ static double relative(double change, double scale) { return change == 0.0 ? 0.0
 double conserved_change(const struct simulation *simulation, const struct totals *start,
                         enum conserved_total total)
 {
-    struct totals now = population_totals(simulation_population(simulation), simulation->ranks, -1);
+    struct totals now = simulation_totals(simulation);
     struct totals booked = ledger_totals(&simulation->ledger, simulation->ranks, LEDGER_CAUSES);
     double motion = maximum(now.momentum_scale, start->momentum_scale), scale;
     switch (total) {

@@ -135,7 +135,9 @@ static struct error *prepare(struct probe *probe, const struct simulation *simul
                              const struct population *population)
 {
     const struct probe_input *input = probe->input;
+    population = simulation_seen(simulation, input->of, population);
     TRY(check_key(probe, simulation, "of", input->of, PROBE_TAKES_OF));
+    TRY(simulation_check_of(simulation, "probes", probe->name, input->of));
     TRY(check_key(probe, simulation, "fields", input->fields.count, PROBE_TAKES_FIELDS));
     TRY(check_key(probe, simulation, "axis", input->axis >= 0, PROBE_TAKES_AXIS));
     TRY(check_key(probe, simulation, "between", input->between.count, PROBE_TAKES_AXIS));
@@ -292,7 +294,9 @@ static struct error *record(struct probe *probe, const struct simulation *simula
     TRY(ranks_agree(simulation->ranks, row ? NULL : out_of_memory()));
     row[0] = simulation->time;
     TRY(ranks_agree(simulation->ranks,
-                    class_of(probe)->sample(probe, simulation, population, row + 1)));
+                    class_of(probe)->sample(
+                        probe, simulation,
+                        simulation_seen(simulation, probe->input->of, population), row + 1)));
     TRY(ranks_agree(simulation->ranks, probe->writes ? write_row(probe, row) : NULL));
     probe->rows++;
     probe->step = simulation->step;

@@ -78,6 +78,8 @@ static struct error *check_bins(const struct profile *profile, const struct simu
 static struct error *prepare(struct profile *profile, const struct simulation *simulation,
                              const struct population *population)
 {
+    population = simulation_seen(simulation, profile->input->of, population);
+    TRY(simulation_check_of(simulation, "profiles", profile->name, profile->input->of));
     struct error *told = NULL,
                  *error = fields_choose(population, &profile->input->fields,
                                         simulation->problem->dimension, &profile->fields);
@@ -340,6 +342,7 @@ static struct error *write_one(const struct profile *profile, const struct simul
 {
     FILE *file;
     struct sorting sorting = {0};
+    population = simulation_seen(simulation, profile->input->of, population);
     struct scatter *scatter = NULL;
     struct error *error = sort(profile, simulation, population, &sorting);
     if (!error) {

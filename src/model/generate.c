@@ -190,10 +190,13 @@ static struct error *explore(const struct simulation_case *input, const struct r
     const bool ready = !error;
     int64_t total = 0;
     for (int body = 0; ready && body < input->bodies.count; body++)
-        error = error_join(error, explore_body(&overlaps, body, ranks, &findings[body]));
+        if (!case_body(input, body)->elsewhere)
+            error = error_join(error, explore_body(&overlaps, body, ranks, &findings[body]));
     overlaps_free(&overlaps);
     TRY(ranks_agree(ranks, error));
     for (int body = 0; body < input->bodies.count; body++) {
+        if (case_body(input, body)->elsewhere)
+            continue;
         error = error_join(error, judge_body(input, body, ranks, findings));
         total += findings[body].summary.particles;
     }

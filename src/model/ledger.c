@@ -5,9 +5,9 @@
 #include <string.h>
 
 static const char *const cause_names[LEDGER_CAUSES] = {
-    [LEDGER_WALLS] = "walls",        [LEDGER_AXIS] = "axis",   [LEDGER_PISTONS] = "pistons",
-    [LEDGER_GRAVITY] = "gravity",    [LEDGER_LOADS] = "loads", [LEDGER_OUTFLOWS] = "outflows",
-    [LEDGER_AFTERBURN] = "afterburn"};
+    [LEDGER_WALLS] = "walls",         [LEDGER_AXIS] = "axis",        [LEDGER_PISTONS] = "pistons",
+    [LEDGER_GRAVITY] = "gravity",     [LEDGER_LOADS] = "loads",      [LEDGER_OUTFLOWS] = "outflows",
+    [LEDGER_AFTERBURN] = "afterburn", [LEDGER_EXCHANGE] = "exchange"};
 
 /* Behind the entries of the ledger, what else population_totals sums. */
 enum { TOTAL_KINETIC = LEDGER_ENTRIES, TOTAL_INTERNAL, TOTAL_MOMENTUM_SCALE, TOTALS };

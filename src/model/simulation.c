@@ -1,6 +1,7 @@
 /* The state of a run: its populations, and the time that its phases take. */
 #include "model/simulation.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,6 +48,41 @@ struct population simulation_population_at(const struct simulation *simulation, 
 struct population simulation_population(const struct simulation *simulation)
 {
     return simulation_population_at(simulation, 0);
+}
+
+void simulation_see(struct simulation *simulation)
+{
+    for (int k = 0; k < simulation->populations; k++)
+        simulation->seen[k] = simulation_population_at(simulation, k);
+}
+
+/* The number of the population OF, -1 for none and for bodies. */
+static int find_population(const struct simulation *simulation, const char *of)
+{
+    const bool body = case_find_body(simulation->problem->input, of) >= 0;
+    for (int k = 0; k < simulation->populations && of && !body; k++)
+        if (strcmp(simulation->population[k].name, of) == 0)
+            return k;
+    return -1;
+}
+
+const struct population *simulation_seen(const struct simulation *simulation, const char *of,
+                                         const struct population *first)
+{
+    const int found = find_population(simulation, of);
+    return found > 0 ? &simulation->seen[found] : first;
+}
+
+struct error *simulation_check_of(const struct simulation *simulation, const char *section,
+                                  const char *name, const char *of)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    if (!of || case_find_body(input, of) >= 0 || find_population(simulation, of) >= 0)
+        return NULL;
+    char key[160];
+    snprintf(key, sizeof key, "%.120s.of", name);
+    return input_error(input, section, key, "this case has no %s: its solver computes %s", of,
+                       simulation->population[0].name);
 }
 
 void simulation_remove_population(struct simulation *simulation, const void *store)
@@ -100,6 +136,22 @@ int64_t simulation_members(const struct simulation *simulation)
     return ranks_sum(simulation->ranks, own);
 }
 
+struct totals simulation_totals(const struct simulation *simulation)
+{
+    struct totals totals =
+        population_totals(simulation_population(simulation), simulation->ranks, -1);
+    for (int k = 1; k < simulation->populations; k++) {
+        const struct totals more =
+            population_totals(simulation_population_at(simulation, k), simulation->ranks, -1);
+        for (int entry = 0; entry < LEDGER_ENTRIES; entry++)
+            totals.entry[entry] += more.entry[entry];
+        totals.kinetic += more.kinetic;
+        totals.internal += more.internal;
+        totals.momentum_scale += more.momentum_scale;
+    }
+    return totals;
+}
+
 void simulation_destroy(struct simulation *simulation)
 {
     simulation->populations = 0;
@@ -130,6 +182,18 @@ void simulation_end_phase(struct simulation *simulation, enum phase_kind kind, c
     simulation->phase[i].seconds += seconds;
     if (kind == PHASE_BLOCKS)
         simulation->partition.work += seconds;
+}
+
+void simulation_take_phases(struct simulation *simulation, struct simulation *part)
+{
+    for (int k = 0; k < part->phases; k++) {
+        simulation_end_phase(simulation, PHASE_SHARED, part->phase[k].name);
+        for (int i = 0; i < simulation->phases; i++)
+            if (strcmp(simulation->phase[i].name, part->phase[k].name) == 0)
+                simulation->phase[i].seconds += part->phase[k].seconds;
+    }
+    part->phases = 0;
+    simulation_start_phase(simulation);
 }
 
 void simulation_end_waiting(struct simulation *simulation)

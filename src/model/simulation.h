@@ -38,6 +38,7 @@ struct simulation {
     struct partition partition; /* of the blocks among the ranks */
     int populations;            /* what it computes with */
     struct population_source population[POPULATIONS_MAX];
+    struct population seen[POPULATIONS_MAX]; /* by simulation_see */
     struct ledger ledger;
     double time;
     int64_t step;
@@ -63,6 +64,16 @@ void simulation_remove_population(struct simulation *simulation, const void *sto
 struct population simulation_population_at(const struct simulation *simulation, int index);
 struct population simulation_population(const struct simulation *simulation);
 
+/* Looks at all populations as they are: the pointers of `seen` hold until members come or go. */
+void simulation_see(struct simulation *simulation);
+/* What OF, a body or a population of the case or NULL, is to be looked for in: that population as
+ * it was seen; FIRST unless OF names another. */
+const struct population *simulation_seen(const struct simulation *simulation, const char *of,
+                                         const struct population *first);
+/* That SECTION.NAME has the key `of` with a name of a population that the run has not. */
+struct error *simulation_check_of(const struct simulation *simulation, const char *section,
+                                  const char *name, const char *of);
+
 /* Of all populations: whether members are to be taken in or out; takes them in and out; brings each
  * to the rank that owns its block; a number for all their bits. Collective, but for the first
  * two. */
@@ -73,6 +84,9 @@ uint64_t simulation_hash(const struct simulation *simulation);
 /* Collective: how many members all populations have. */
 int64_t simulation_members(const struct simulation *simulation);
 
+/* Collective: mass, momentum, angular momentum, energy of the members of all populations. */
+struct totals simulation_totals(const struct simulation *simulation);
+
 /* Starts the clock of the phases: the time up to now counts for none. */
 void simulation_start_phase(struct simulation *simulation);
 
@@ -82,6 +96,9 @@ void simulation_end_phase(struct simulation *simulation, enum phase_kind kind, c
 
 /* The same for the time that this rank has waited for others; nothing where it has none. */
 void simulation_end_waiting(struct simulation *simulation);
+
+/* Adds the time that the phases of PART of a coupling have taken, and clears them. */
+void simulation_take_phases(struct simulation *simulation, struct simulation *part);
 
 /* The error that names member INDEX, whose new state is impossible. */
 struct error *simulation_impossible(const struct simulation *simulation, int32_t index);

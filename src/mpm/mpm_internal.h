@@ -4,6 +4,7 @@
 
 #include "model/generate.h"
 #include "mpm/mpm.h"
+#include "mpm/mpm_phases.h"
 #include "mpm/transfer.h"
 #include "parallel/exchange.h"
 #include "particle/particles.h"
@@ -76,9 +77,10 @@ struct mpm {
     double **rate; /* of the particles of a bin, one a thread */
     int threads;
     int64_t rate_capacity;
-    double limit, limit_before; /* of this step, and of the one before; 0 for none yet */
-    bool shocks;                /* anywhere, on any rank */
-    struct halo halo;           /* of several ranks only */
+    double limit, limit_before;        /* of this step, and of the one before; 0 for none yet */
+    bool shocks;                       /* anywhere, on any rank */
+    struct halo halo;                  /* of several ranks only */
+    const struct mpm_outside *outside; /* NULL: nothing */
 };
 
 /* Whether particles carry a gradient of velocity. */

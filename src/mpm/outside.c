@@ -99,6 +99,8 @@ struct surface {
     double pressure, traction[3]; /* of the load in the middle of the step */
     double time, density;         /* of a blast: that middle; of the body at the start */
     const struct outflow_input *outflow;
+    const struct mpm_outside *outside;
+    double reach; /* how far from a face its surface may be, in nodes */
 };
 
 static struct given by_load(const struct mpm *mpm, const struct simulation *simulation,
@@ -132,6 +134,17 @@ static struct given by_blast(const struct mpm *mpm, const struct simulation *sim
             given.by_slope[k][k] = volume;
     if (flat)
         given.filled[surface->axis] = -1;
+    return given;
+}
+
+static struct given by_area(const struct mpm *mpm, const struct simulation *simulation,
+                            const struct surface *surface, int32_t i)
+{
+    const struct particles *p = mpm->particles;
+    struct given given = {{{0.0}}, {0, 1, 2}};
+    (void)surface;
+    for (int k = 0; k < simulation->problem->dimension; k++)
+        given.by_slope[k][k] = p->mass[i] / p->density[i];
     return given;
 }
 
@@ -321,6 +334,33 @@ static void push_blast(const struct mpm *mpm, struct layer *layer, const struct 
         memcpy(layer->wall[w].back, layer->wall[w].pushed, sizeof layer->wall[w].pushed);
 }
 
+/* The force of what is outside on AREA of a node; nothing far from the open faces. */
+static void push_area(const struct surface *surface, const int64_t at[3], double *area)
+{
+    const struct mpm_outside *outside = surface->outside;
+    bool near = false;
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = 0; side < 2; side++)
+            near |= outside->open[axis][side] &&
+                    fabs((double)(at[axis] - (side ? outside->high : outside->low)[axis])) <=
+                        surface->reach;
+    for (int c = 0; c < 3; c++)
+        area[c] = near && area[c] != 0.0 ? -area[c] * outside->pressure(outside->of, at, c) : 0.0;
+}
+
+/* Converts areas to forces. */
+static void push_outside(struct layer *layer, const struct surface *surface)
+{
+    int64_t corner[3], at[3];
+    for (int32_t n = 0; n < layer->grid.blocks; n++) {
+        grid_corner(&layer->grid, n, corner);
+        for (int k = 0; k < BLOCK_CELLS; k++) {
+            mpm_node_index(layer->grid.dimension, corner, k, at);
+            push_area(surface, at, grid_node(&layer->back, n, k));
+        }
+    }
+}
+
 /* Sets the force to zero at nodes of a block that are not on the surface. */
 static void keep_surface(const struct layer *layer, const struct surface *surface, int32_t block)
 {
@@ -346,10 +386,14 @@ static void book_force(const struct mpm *mpm, const struct surface *surface, con
     for (int c = 0; c < 3; c++)
         work += dt * f[c] * (node[NODE_MOMENTUM + c] + 0.5 * dt * node[NODE_FORCE + c]) /
                 node[NODE_MASS];
-    ledger_book(ledger, surface->load ? LEDGER_LOADS : LEDGER_OUTFLOWS, 0.0,
-                vec3_scale(dt, vec3_make(f[0], f[1], f[2])),
-                vec3_scale(mpm->edge, vec3_make((double)at[0], (double)at[1], (double)at[2])),
-                work);
+    const double impulse[3] = {dt * f[0], dt * f[1], dt * f[2]};
+    if (surface->outside)
+        surface->outside->pushed(surface->outside->of, at, impulse, work);
+    else
+        ledger_book(ledger, surface->load ? LEDGER_LOADS : LEDGER_OUTFLOWS, 0.0,
+                    vec3_scale(dt, vec3_make(f[0], f[1], f[2])),
+                    vec3_scale(mpm->edge, vec3_make((double)at[0], (double)at[1], (double)at[2])),
+                    work);
 }
 
 /* The same for the nodes of a block that are not near a wall, if this rank owns the block. */
@@ -386,7 +430,7 @@ static void push_nodes(const struct mpm *mpm, struct simulation *simulation, str
         if (wall->booked)
             book_force(mpm, surface, wall->node, wall->at, wall->pushed, dt, &simulation->ledger);
     }
-#pragma omp parallel num_threads(simulation->threads)
+#pragma omp parallel num_threads(surface->outside ? 1 : simulation->threads)
     {
         struct ledger own = {0};
 #pragma omp for schedule(static)
@@ -409,6 +453,8 @@ static void push_surface(struct mpm *mpm, struct simulation *simulation,
             push_face(layer, surface, dt, simulation->threads);
         if (surface->of == by_blast)
             push_blast(mpm, layer, surface, simulation->threads);
+        if (surface->outside)
+            push_outside(layer, surface);
         push_nodes(mpm, simulation, layer, surface, dt);
     }
 }
@@ -452,6 +498,15 @@ struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, 
         if (simulation->time < load->after || simulation->time >= load->before)
             continue;
         TRY(find_load(simulation, input->loads.names[i], simulation->time + 0.5 * dt, &surface));
+        push_surface(mpm, simulation, &surface, dt);
+    }
+    if (mpm->outside) {
+        const struct surface surface = {.body = -1,
+                                        .low = -(double)INFINITY,
+                                        .high = (double)INFINITY,
+                                        .of = by_area,
+                                        .outside = mpm->outside,
+                                        .reach = reach};
         push_surface(mpm, simulation, &surface, dt);
     }
     for (int i = 0; i < input->outflows.count; i++) {

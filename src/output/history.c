@@ -150,7 +150,7 @@ static struct row find_row(const struct simulation *simulation, double dt,
     struct row row = {
         .simulation = simulation, .members = population_members(&population), .dt = dt};
     row.count = ranks_sum(simulation->ranks, population.count);
-    row.now = population_totals(population, simulation->ranks, -1);
+    row.now = simulation_totals(simulation);
     for (int i = 0; i < LEDGER_CAUSES; i++)
         row.booked[i] = ledger_totals(&simulation->ledger, simulation->ranks, (enum ledger_cause)i);
     struct totals all = ledger_totals(&simulation->ledger, simulation->ranks, LEDGER_CAUSES);

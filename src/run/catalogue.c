@@ -1,6 +1,7 @@
 /* The catalogue; each list is in its own module. */
 #include "run/catalogue.h"
 
+#include "couple/couple.h"
 #include "exact/choices.h"
 #include "gas/gas.h"
 #include "material/choices.h"
@@ -21,6 +22,8 @@ static const struct choice solver_choices[] = {
      mpm_table, sizeof(struct mpm_parameters), &mpm_class},
     {"gas", "a gas, or two gases, on a fixed grid, without particles", gas_table,
      sizeof(struct gas_parameters), &gas_class},
+    {"cfdmp", "gas on a grid and material points side by side, for blasts on structures",
+     cfdmp_table, sizeof(struct cfdmp_parameters), &cfdmp_class},
 };
 
 static const struct choice_list lists[] = {

@@ -237,13 +237,16 @@ struct error *checks_prepare(const struct simulation *simulation,
     *checks = (struct checks){input->checks.count, items, 0};
     struct error *error = NULL;
     for (int i = 0; i < checks->count; i++) {
-        items[i].measurement = (struct measurement){.simulation = simulation,
-                                                    .population = population,
-                                                    .probes = probes,
-                                                    .check = case_check(input, i),
-                                                    .name = input->checks.names[i],
-                                                    .unplaced = error_is_full(error),
-                                                    .at_start = NAN};
+        items[i].measurement = (struct measurement){
+            .simulation = simulation,
+            .population = simulation_seen(simulation, case_check(input, i)->of, population),
+            .probes = probes,
+            .check = case_check(input, i),
+            .name = input->checks.names[i],
+            .unplaced = error_is_full(error),
+            .at_start = NAN};
+        error = error_join(error, simulation_check_of(simulation, "checks", input->checks.names[i],
+                                                      case_check(input, i)->of));
         error = error_join(error, prepare_check(checks, &items[i]));
     }
     for (int i = 0; i < checks->count; i++) {
@@ -272,7 +275,8 @@ static struct measurement measurement_at(const struct prepared_check *prepared,
 {
     struct measurement measurement = prepared->measurement;
     measurement.simulation = moment->simulation;
-    measurement.population = moment->population;
+    measurement.population =
+        simulation_seen(moment->simulation, measurement.check->of, moment->population);
     measurement.start = moment->start;
     measurement.at_start = memory->start;
     return measurement;

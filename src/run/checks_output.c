@@ -246,7 +246,7 @@ struct error *checks_draw(const struct checks *checks, const struct simulation *
     for (int i = 0; i < checks->count; i++) {
         struct measurement m = checks->item[i].measurement;
         m.simulation = simulation;
-        m.population = population;
+        m.population = simulation_seen(simulation, m.check->of, population);
         if (!is_drawn(&m) || drawn_before(checks, i))
             continue;
         char *name = checks_picture(checks, i);

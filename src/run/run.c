@@ -149,8 +149,7 @@ static double released_energy(const struct run *run)
 
 static struct totals totals_at_start(const struct run *run)
 {
-    struct totals totals =
-        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
+    struct totals totals = simulation_totals(&run->simulation);
     totals.released = released_energy(run);
     return totals;
 }

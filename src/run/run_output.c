@@ -301,7 +301,11 @@ struct error *run_close_files(struct run *run, struct error *error)
     return error;
 }
 
-void run_observe(struct run *run) { run->population = simulation_population(&run->simulation); }
+void run_observe(struct run *run)
+{
+    simulation_see(&run->simulation);
+    run->population = run->simulation.seen[0];
+}
 
 static double history_interval(const struct run *run)
 {

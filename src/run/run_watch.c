@@ -35,8 +35,7 @@ struct error *run_watch_tracers(struct run *run)
 
 struct error *run_watch_physics(struct run *run)
 {
-    const struct totals now =
-        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
+    const struct totals now = simulation_totals(&run->simulation);
     struct error *error = watch_energy(run, &now);
     const bool drift_is_limited = !isnan(run->input->run.energy_drift);
     return error_join(error, warnings_watch(run->warnings, &run->simulation, &now,

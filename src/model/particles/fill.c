@@ -68,7 +68,8 @@ struct error *generate_particles(const struct simulation *simulation, struct par
     if (!error)
         error = overlaps_make(input, &overlaps);
     for (int body = 0; !error && body < input->bodies.count; body++)
-        error = fill_body(simulation, particles, &overlaps, body, &next);
+        if (!case_body(input, body)->elsewhere)
+            error = fill_body(simulation, particles, &overlaps, body, &next);
     overlaps_free(&overlaps);
     if (!error)
         error = particles_commit(particles);

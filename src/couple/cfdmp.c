@@ -1,0 +1,256 @@
+/* The solver cfdmp as the run loop sees it: a step of the gas, then one of the particles, which the
+ * gas pushes, then what passes between them. */
+#include "couple/cfdmp.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "material/material.h"
+
+static const char *const transport_names[] = {"conservative", "printed", NULL};
+
+static const struct parameter region_table[] = {
+    {.key = "low",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct cfdmp_region, low),
+     .unit = "m",
+     .standard = PARAMETER_OPTIONAL,
+     .help = "its lowest corner"},
+    {.key = "high",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct cfdmp_region, high),
+     .unit = "m",
+     .standard = PARAMETER_OPTIONAL,
+     .help = "its highest corner"},
+    PARAMETER_END,
+};
+
+const struct parameter cfdmp_table[] = {
+    {.key = "region",
+     .kind = PARAMETER_TABLE,
+     .offset = offsetof(struct cfdmp_parameters, region),
+     .standard = PARAMETER_OPTIONAL,
+     .table = region_table,
+     .help = "the box of the material points, enlarged to whole cells; default: around all solids, "
+             "with room for the overlap"},
+    {.key = "overlap",
+     .kind = PARAMETER_INTEGER,
+     .offset = offsetof(struct cfdmp_parameters, overlap),
+     .standard = "5",
+     .above = 0.0,
+     .below = 65.0,
+     .help = "cells that gas and material points have in common, behind each face of the region"},
+    {.key = "transport",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct cfdmp_parameters, transport),
+     .standard = "conservative",
+     .names = transport_names,
+     .help = "what passes through the faces of the region; conservative: the fluxes of the gas; "
+             "printed: as printed in the source, which loses and gains mass"},
+    {.key = "mpm",
+     .kind = PARAMETER_TABLE,
+     .offset = offsetof(struct cfdmp_parameters, mpm),
+     .standard = PARAMETER_OPTIONAL,
+     .table = mpm_table,
+     .help = "options of the material points; the gas has cells of the same edge"},
+    {.key = "gas",
+     .kind = PARAMETER_TABLE,
+     .offset = offsetof(struct cfdmp_parameters, gas),
+     .standard = PARAMETER_OPTIONAL,
+     .table = gas_table,
+     .help = "options of the gas"},
+    PARAMETER_END,
+};
+
+static struct error *cfdmp_create(void *solver, struct simulation *simulation,
+                                  const void *parameters)
+{
+    struct cfdmp *cfdmp = solver;
+    cfdmp->parameters = *(const struct cfdmp_parameters *)parameters;
+    TRY(cfdmp_make_parts(cfdmp, simulation));
+    gas_watch(cfdmp->gas, &cfdmp->cut);
+    cfdmp_surround(cfdmp);
+    struct part *const parts[] = {&cfdmp->mpm_part, &cfdmp->gas_part};
+    for (int k = 0; k < 2; k++) {
+        const struct population_source *own = &parts[k]->simulation.population[0];
+        simulation_add_population(simulation, own->name, own->type, own->store);
+    }
+    return NULL;
+}
+
+/* The parts have the time of the run. */
+static void share_time(struct cfdmp *cfdmp, const struct simulation *simulation)
+{
+    struct part *const parts[] = {&cfdmp->mpm_part, &cfdmp->gas_part};
+    for (int k = 0; k < 2; k++) {
+        parts[k]->simulation.time = simulation->time;
+        parts[k]->simulation.step = simulation->step;
+        parts[k]->simulation.threads = simulation->threads;
+    }
+}
+
+/* What the parts have booked, and how long they took. */
+static void gather(struct simulation *simulation, struct part *part)
+{
+    ledger_join(&simulation->ledger, &part->simulation.ledger);
+    memset(&part->simulation.ledger, 0, sizeof part->simulation.ledger);
+    simulation_take_phases(simulation, &part->simulation);
+}
+
+/* Cells of the region are not the gas that counts. */
+static void hide_cells(struct cfdmp *cfdmp)
+{
+    struct cell_blocks *cells = gas_view(cfdmp->gas).cells;
+    const struct gas_cut *cut = &cfdmp->cut;
+    for (int32_t b = 0; b < cells->blocks; b++) {
+        const struct cell_block *block = &cells->block[b];
+        bool meets = true;
+        for (int axis = 0; axis < 3; axis++)
+            meets &= block->corner[axis] < cut->high[axis] &&
+                     block->corner[axis] + block->count[axis] > cut->low[axis];
+        if (!meets)
+            continue;
+        int32_t i = block->first;
+        for (int c = 0; c < block->count[2]; c++)
+            for (int j = 0; j < block->count[1]; j++)
+                for (int k = 0; k < block->count[0]; k++, i++) {
+                    const int64_t at[3] = {block->corner[0] + k, block->corner[1] + j,
+                                           block->corner[2] + c};
+                    bool inside = true;
+                    for (int axis = 0; axis < 3; axis++)
+                        inside &= at[axis] >= cut->low[axis] && at[axis] < cut->high[axis];
+                    if (inside)
+                        cells->mass[i] = 0.0;
+                }
+    }
+}
+
+static struct error *reserve_changed(struct cfdmp *cfdmp)
+{
+    const int32_t blocks = gas_view(cfdmp->gas).cells->blocks;
+    if (!memory_reserve((void **)&cfdmp->changed, &cfdmp->changed_capacity, blocks + 1, 0,
+                        sizeof *cfdmp->changed))
+        return error_new(ERROR_SYSTEM, "out of memory for blocks of cells");
+    memset(cfdmp->changed, 0, (size_t)blocks * sizeof *cfdmp->changed);
+    return NULL;
+}
+
+/* Cells that have changed get what follows from their state. */
+static struct error *refresh(struct cfdmp *cfdmp)
+{
+    struct error *error = gas_refresh(cfdmp->gas, &cfdmp->gas_part.simulation, cfdmp->changed);
+    memset(cfdmp->changed, 0, (size_t)gas_view(cfdmp->gas).cells->blocks * sizeof *cfdmp->changed);
+    hide_cells(cfdmp);
+    return error;
+}
+
+static struct error *cfdmp_fill(void *solver, struct simulation *simulation)
+{
+    struct cfdmp *cfdmp = solver;
+    (void)simulation;
+    TRY(gas_class.fill(cfdmp->gas, &cfdmp->gas_part.simulation));
+    return mpm_class.fill(cfdmp->mpm, &cfdmp->mpm_part.simulation);
+}
+
+static struct error *cfdmp_start(void *solver, struct simulation *simulation)
+{
+    struct cfdmp *cfdmp = solver;
+    share_time(cfdmp, simulation);
+    TRY(gas_class.start(cfdmp->gas, &cfdmp->gas_part.simulation));
+    TRY(mpm_class.start(cfdmp->mpm, &cfdmp->mpm_part.simulation));
+    TRY(reserve_changed(cfdmp));
+    hide_cells(cfdmp);
+    return NULL;
+}
+
+static struct error *cfdmp_prepare(void *solver, struct simulation *simulation, struct limit *limit)
+{
+    struct cfdmp *cfdmp = solver;
+    struct limit of_gas;
+    share_time(cfdmp, simulation);
+    simulation_start_phase(&cfdmp->mpm_part.simulation);
+    TRY(mpm_class.prepare(cfdmp->mpm, &cfdmp->mpm_part.simulation, limit));
+    gather(simulation, &cfdmp->mpm_part);
+    TRY(cfdmp_fill_band(cfdmp));
+    TRY(refresh(cfdmp));
+    simulation_end_phase(simulation, PHASE_SHARED, "coupling");
+    simulation_start_phase(&cfdmp->gas_part.simulation);
+    TRY(gas_class.prepare(cfdmp->gas, &cfdmp->gas_part.simulation, &of_gas));
+    gather(simulation, &cfdmp->gas_part);
+    const double event = minimum(limit->event, of_gas.event);
+    if (of_gas.dt < limit->dt)
+        *limit = of_gas;
+    limit->event = event;
+    return NULL;
+}
+
+static struct error *cfdmp_advance(void *solver, struct simulation *simulation, double dt)
+{
+    struct cfdmp *cfdmp = solver;
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = 0; side < 2; side++)
+            if (cfdmp->side[axis][side].gates)
+                memset(cfdmp->cut.passed[axis][side], 0,
+                       (size_t)(cfdmp->side[axis][side].gates * GAS_PASSED) * sizeof(double));
+    simulation_start_phase(&cfdmp->gas_part.simulation);
+    TRY(gas_class.advance(cfdmp->gas, &cfdmp->gas_part.simulation, dt));
+    gather(simulation, &cfdmp->gas_part);
+    cfdmp_find_pressures(cfdmp, dt);
+    simulation_end_phase(simulation, PHASE_SHARED, "coupling");
+    simulation_start_phase(&cfdmp->mpm_part.simulation);
+    TRY(mpm_class.advance(cfdmp->mpm, &cfdmp->mpm_part.simulation, dt));
+    gather(simulation, &cfdmp->mpm_part);
+    TRY(cfdmp_transport(cfdmp, simulation, dt));
+    struct error *error = refresh(cfdmp);
+    simulation_end_phase(simulation, PHASE_SHARED, "coupling");
+    return error;
+}
+
+static struct error *cfdmp_state(void *solver, struct visitor *visitor)
+{
+    struct cfdmp *cfdmp = solver;
+    static const char *const names[3][2] = {{"cfdmp/low x", "cfdmp/high x"},
+                                            {"cfdmp/low y", "cfdmp/high y"},
+                                            {"cfdmp/low z", "cfdmp/high z"}};
+    for (int axis = 0; axis < cfdmp->dimension; axis++)
+        for (int side = 0; side < 2; side++)
+            if (cfdmp->side[axis][side].gates)
+                TRY(visitor->visit(visitor, names[axis][side], NUMBER_DOUBLE,
+                                   cfdmp->side[axis][side].gate, cfdmp->side[axis][side].gates,
+                                   (int)(sizeof(struct gate) / sizeof(double))));
+    TRY(gas_class.state(cfdmp->gas, visitor));
+    return mpm_class.state(cfdmp->mpm, visitor);
+}
+
+static void cfdmp_destroy(void *solver) { cfdmp_free_parts(solver); }
+
+static double cfdmp_bytes(const void *parameters, int dimension)
+{
+    const struct cfdmp_parameters *of = parameters;
+    return mpm_class.bytes(&of->mpm, dimension);
+}
+
+static double cfdmp_step(const void *parameters, int dimension, const struct material *material,
+                         const struct point *point, double diameter)
+{
+    const struct cfdmp_parameters *of = parameters;
+    return mpm_class.step(&of->mpm, dimension, material, point, diameter);
+}
+
+static const char *cfdmp_energy_lost(const void *parameters)
+{
+    const struct cfdmp_parameters *of = parameters;
+    return mpm_class.energy_lost(&of->mpm);
+}
+
+const struct solver_class cfdmp_class = {.size = sizeof(struct cfdmp),
+                                         .create = cfdmp_create,
+                                         .fill = cfdmp_fill,
+                                         .start = cfdmp_start,
+                                         .prepare = cfdmp_prepare,
+                                         .advance = cfdmp_advance,
+                                         .state = cfdmp_state,
+                                         .destroy = cfdmp_destroy,
+                                         .bytes = cfdmp_bytes,
+                                         .step = cfdmp_step,
+                                         .energy_lost = cfdmp_energy_lost};

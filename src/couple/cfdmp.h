@@ -1,0 +1,79 @@
+/* The state of the solver cfdmp and the parts of its step. Private to couple/.
+ *
+ * Cells of the gas solver cover the whole domain. Material points cover a box of cells, the region,
+ * whose faces within the domain are open. Inside the region the cells nearest to open faces, the
+ * overlap, belong to both; those of the band behind get what the particles there have; cells
+ * further in are blocked. What counts is the gas outside the region and the particles in it. */
+#ifndef BOLIDE_CFDMP_H
+#define BOLIDE_CFDMP_H
+
+#include "couple/couple.h"
+#include "gas/gas_phases.h"
+#include "mpm/mpm_phases.h"
+
+/* Conserved numbers that pass from one part to the other: mass, momentum, energy, and the mass of
+ * the gas solver's second material. */
+enum { PASS_MASS, PASS_MOMENTUM, PASS_ENERGY = 4, PASS_SECOND, PASSES };
+
+/* What a face of a cell in an open face of the region has. */
+struct gate {
+    double pressure;        /* mean of the step, Pa */
+    double flow;            /* mass into the region in the step, kg */
+    double push[4];         /* what gas has given as pressure: impulse and work */
+    double pushed[4];       /* what particles have got of it */
+    double pending[PASSES]; /* what has left one part and not come to the other */
+    double booked[PASSES];  /* that of the end of the last step */
+    double emitted;         /* layers of particles so far */
+};
+
+struct side {
+    struct gate *gate; /* in the order of struct gas_cut */
+    int64_t gates;
+};
+
+struct cfdmp {
+    struct cfdmp_parameters parameters;
+    struct part {
+        struct simulation_case input; /* of this part: maps below are its own, others borrowed */
+        struct simulation simulation;
+        void *solver;
+    } gas_part, mpm_part;
+    struct gas *gas;
+    struct mpm *mpm;
+    int dimension;
+    double edge;
+    struct gas_cut cut; /* the region */
+    struct mpm_outside outside;
+    struct side side[3][2];
+    int64_t count[3];   /* cells of the region */
+    int64_t band_cells; /* so many cells get what particles have */
+    int64_t (*band)[3]; /* their places */
+    int32_t *band_of;   /* of each cell of the region, its number among these; -1: none */
+    bool *changed;      /* of each block of cells */
+    int64_t changed_capacity;
+    void **owned; /* memory, freed with the solver */
+    int64_t owned_capacity;
+    int owned_count;
+};
+
+/* Makes the cases of both parts, and their solvers; finds the region. */
+struct error *cfdmp_make_parts(struct cfdmp *cfdmp, struct simulation *simulation);
+void cfdmp_free_parts(struct cfdmp *cfdmp);
+
+/* The cells of the band take what the particles there have. */
+struct error *cfdmp_fill_band(struct cfdmp *cfdmp);
+
+/* Before and after the particles' step of DT: what has passed as pressure, and what material has. */
+void cfdmp_find_pressures(struct cfdmp *cfdmp, double dt);
+struct error *cfdmp_transport(struct cfdmp *cfdmp, struct simulation *simulation, double dt);
+
+/* Has the gas push on the particles through the open faces of the region. */
+void cfdmp_surround(struct cfdmp *cfdmp);
+
+/* The cell AT of the gas; of this rank. */
+int32_t cfdmp_cell(const struct cell_blocks *cells, const int64_t at[3], int32_t *block);
+
+/* The gate of the face across AXIS on SIDE next to the cell AT, clamped to the region. */
+struct gate *cfdmp_gate(struct cfdmp *cfdmp, int axis, int side, const int64_t at[3]);
+
+#endif

@@ -1,0 +1,31 @@
+/* What a coupling uses of the gas solver beside the functions of its class: the state of its cells,
+ * and what passes through faces within its domain. */
+#ifndef BOLIDE_GAS_PHASES_H
+#define BOLIDE_GAS_PHASES_H
+
+#include "gas/gas.h"
+#include "gas/sweep.h"
+
+struct gas;
+
+/* The cells and their state; pointers hold until the next step. */
+struct gas_view {
+    struct cell_blocks *cells;
+    double *u[GAS_FIELDS]; /* as sweep.h has them; NULL: there is none */
+    const struct gas_layout *layout;
+    const struct eos *eos; /* of both materials, the same twice where there is one */
+    const int *material;
+};
+struct gas_view gas_view(const struct gas *gas);
+
+/* Sweeps add to CUT, which must last, what passes through its faces; NULL: to nothing. */
+void gas_watch(struct gas *gas, const struct gas_cut *cut);
+
+/* Collective: finds what follows from the state of cells after a coupling has changed it; cells of
+ * BLOCKS, a flag each, may have changed. ERROR_STATE: one is impossible. */
+struct error *gas_refresh(struct gas *gas, const struct simulation *simulation, const bool *blocks);
+
+/* Whether the solver computes MATERIAL. */
+bool gas_computes(const struct material *material);
+
+#endif

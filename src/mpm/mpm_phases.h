@@ -1,0 +1,38 @@
+/* What a coupling uses of the material point method beside the functions of its class: its
+ * particles, the forces of what is outside a box, and particles that come in. */
+#ifndef BOLIDE_MPM_PHASES_H
+#define BOLIDE_MPM_PHASES_H
+
+#include "grid/grid_shape.h"
+#include "mpm/mpm.h"
+#include "particle/particles.h"
+
+struct mpm;
+
+/* A box of cells with a fluid outside its open faces, which pushes on the surface of the particles
+ * there. Gives the pressure, less that of the gauge, at the node AT near an open face, of its force
+ * along COMPONENT; takes down the impulse and the work of a step. Called by one thread. */
+struct mpm_outside {
+    int64_t low[3], high[3]; /* nodes of its faces */
+    bool open[3][2];         /* faces */
+    void *of;
+    double (*pressure)(void *of, const int64_t at[3], int component);
+    void (*pushed)(void *of, const int64_t at[3], const double impulse[3], double work);
+};
+
+/* OUTSIDE must last; NULL: nothing is outside. */
+void mpm_surround(struct mpm *mpm, const struct mpm_outside *outside);
+
+struct particles *mpm_particles(const struct mpm *mpm);
+double mpm_edge(const struct mpm *mpm);
+/* Half the size of the particles of BODY, in cells, and how their shape functions fall off. */
+double mpm_half_size(const struct mpm *mpm, int body);
+enum grid_shape mpm_shape(const struct mpm *mpm);
+/* The ambient pressure of MATERIAL that forces leave out, Pa. */
+double mpm_gauge(const struct mpm *mpm, int material);
+
+/* Particle I, appended with body, material, mass, density, energy, position and velocity, gets all
+ * that follows from them. */
+void mpm_welcome(const struct mpm *mpm, const struct simulation *simulation, int32_t i);
+
+#endif
