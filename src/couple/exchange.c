@@ -55,41 +55,67 @@ static double cell_volume(const struct cfdmp *cfdmp)
     return volume;
 }
 
-/* Adds VALUES, conserved, to the cell outside a gate. */
+/* Adds VALUES, conserved, to the cell outside a gate; materials have the densities OF, 0 where they
+ * are not known. */
 static void give_gas(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t at[3],
-                     const double values[PASSES])
+                     const double values[PASSES], const double of[2])
 {
     const double per = 1.0 / cell_volume(cfdmp);
     int32_t block;
     const int32_t i = cfdmp_cell(view->cells, at, &block);
     for (int n = 0; n < GAS_NUMBERS; n++)
         view->u[n][i] += per * values[n];
-    if (view->layout->two)
-        view->u[GAS_SECOND][i] += per * values[PASS_SECOND];
     cfdmp->changed[block] = true;
+    if (!view->layout->two)
+        return;
+    double *second = &view->u[GAS_SECOND][i], *fraction = &view->u[GAS_FRACTION][i];
+    const double given[2] = {per * (values[PASS_MASS] - values[PASS_SECOND]),
+                             per * values[PASS_SECOND]};
+    const double volume[2] = {of[0] > 0.0 ? given[0] / of[0] : 0.0,
+                              of[1] > 0.0 ? given[1] / of[1] : 0.0};
+    *second += given[1];
+    *fraction = (*fraction + volume[1]) / (1.0 + volume[0] + volume[1]);
+    const double all = view->u[GAS_DENSITY][i];
+    if (!(*fraction > 1e-8) || !(*second > 1e-8 * all))
+        *fraction = *second = 0.0;
+    if (!(*fraction < 1.0 - 1e-8) || !(*second < (1.0 - 1e-8) * all)) {
+        *fraction = 1.0;
+        *second = all;
+    }
 }
 
-/* The mean of the cells on both sides of a gate. */
+/* The mean of the cells on both sides of a gate; the densities of both materials where they are, 0
+ * where there is none. */
 struct beside {
-    double density, velocity[3], energy, sound;
+    double density, velocity[3], energy, sound, pressure, of[2];
 };
 
 static struct beside beside_of(const struct cfdmp *cfdmp, const struct gas_view *view, int axis,
                                int side, int64_t number)
 {
-    struct beside beside = {0.0, {0.0, 0.0, 0.0}, 0.0, 0.0};
+    struct beside beside = {0.0, {0.0, 0.0, 0.0}, 0.0, 0.0, 0.0, {0.0, 0.0}};
     const double *sound = cell_blocks_field(view->cells, "sound_long");
+    double mass[2] = {0.0, 0.0}, volume[2] = {0.0, 0.0};
     for (int inside = 0; inside < 2; inside++) {
         int64_t at[3];
         int32_t block;
         cell_of_gate(cfdmp, axis, side, number, inside, at);
         const int32_t i = cfdmp_cell(view->cells, at, &block);
+        const double second = view->layout->two ? view->u[GAS_SECOND][i] : 0.0,
+                     fraction = view->layout->two ? view->u[GAS_FRACTION][i] : 0.0;
         beside.density += 0.5 * view->cells->density[i];
         beside.energy += 0.5 * view->cells->energy[i];
+        beside.pressure += 0.5 * view->cells->pressure[i];
         beside.sound = maximum(beside.sound, sound[i]);
         for (int k = 0; k < 3; k++)
             beside.velocity[k] += 0.5 * view->cells->velocity[i][k];
+        mass[0] += view->cells->density[i] - second;
+        mass[1] += second;
+        volume[0] += 1.0 - fraction;
+        volume[1] += fraction;
     }
+    for (int m = 0; m < 2; m++)
+        beside.of[m] = volume[m] > 1e-6 && mass[m] > 0.0 ? mass[m] / volume[m] : 0.0;
     return beside;
 }
 
@@ -106,11 +132,13 @@ static void split(struct cfdmp *cfdmp, int axis, int side, const struct beside *
     for (int k = 0; k < 3; k++)
         gate->push[k] = k == axis ? into * push : 0.0;
     gate->push[3] = into * push * velocity;
-    for (int n = 0; n < GAS_NUMBERS; n++)
-        gate->pending[n] += into * passed[n];
-    gate->pending[PASS_SECOND] += into * passed[GAS_NUMBERS];
-    gate->pending[PASS_MOMENTUM + axis] -= gate->push[axis];
-    gate->pending[PASS_ENERGY] -= gate->push[3];
+    if (cfdmp->parameters.transport == CFDMP_CONSERVATIVE) {
+        for (int n = 0; n < GAS_NUMBERS; n++)
+            gate->pending[n] += into * passed[n];
+        gate->pending[PASS_SECOND] += into * passed[GAS_NUMBERS];
+        gate->pending[PASS_MOMENTUM + axis] -= gate->push[axis];
+        gate->pending[PASS_ENERGY] -= gate->push[3];
+    }
     for (int k = 0; k < 4; k++)
         gate->pushed[k] = 0.0;
 }
@@ -179,40 +207,34 @@ static int64_t particles_across(const struct cfdmp *cfdmp, int body)
     return count < 1.0 ? 1 : (int64_t)(count + 0.5);
 }
 
-/* A layer of particles of one material comes in through a gate. */
-static struct error *emit(struct cfdmp *cfdmp, struct simulation *simulation, int axis, int side,
-                          int64_t number, const struct beside *beside, bool second)
+/* What comes in through a gate: of one material, at one state. */
+struct arrival {
+    int axis, side, material;
+    int64_t number;
+    double mass, density, energy, depth; /* depth: of the layer, m */
+    double velocity[3];
+};
+
+static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
 {
-    const struct gas_view view = gas_view(cfdmp->gas);
     struct particles *p = mpm_particles(cfdmp->mpm);
-    struct gate *gate = &cfdmp->side[axis][side].gate[number];
-    const int material = view.material[second], body = body_of(cfdmp, material);
+    const int axis = arrival->axis, side = arrival->side;
+    struct gate *gate = &cfdmp->side[axis][side].gate[arrival->number];
+    const int body = body_of(cfdmp, arrival->material);
     const int64_t each = particles_across(cfdmp, body);
-    const double area = cell_volume(cfdmp) / cfdmp->edge, mass = gate->pending[PASS_MASS];
-    const double layer = mass / (beside->density * area);
     int64_t count = 1, at[3];
     int across[2];
     across_of(axis, across);
     for (int k = 1; k < cfdmp->dimension; k++)
         count *= each;
-    double kinetic = 0.0, velocity[3];
-    for (int k = 0; k < 3; k++) {
-        velocity[k] = gate->pending[PASS_MOMENTUM + k] / mass;
-        kinetic += 0.5 * square(velocity[k]);
-    }
-    double energy = gate->pending[PASS_ENERGY] / mass - kinetic;
-    if (!(energy > 0.5 * beside->energy && energy < 2.0 * beside->energy)) {
-        energy = beside->energy;
-        for (int k = 0; k < 3; k++)
-            velocity[k] = beside->velocity[k];
-    }
     int32_t first;
     TRY(particles_append(p, (int32_t)count, &first));
-    cell_of_gate(cfdmp, axis, side, number, true, at);
+    cell_of_gate(cfdmp, axis, side, arrival->number, true, at);
     /* by layer, face and place, beyond the sites of any body */
     const int64_t emitted =
         ((int64_t)1 << (PARTICLE_SITE_BITS - 1)) +
-        (((int64_t)gate->emitted * 6 + 2 * axis + side) * cfdmp->side[axis][side].gates + number) *
+        (((int64_t)gate->emitted * 6 + 2 * axis + side) * cfdmp->side[axis][side].gates +
+         arrival->number) *
             count;
     const double sign = side ? -1.0 : 1.0,
                  plane = (double)(side ? cfdmp->cut.high : cfdmp->cut.low)[axis] * cfdmp->edge;
@@ -221,44 +243,144 @@ static struct error *emit(struct cfdmp *cfdmp, struct simulation *simulation, in
         const int64_t place[2] = {k % each, k / each};
         p->id[i] = particle_id(body, emitted + k);
         p->body[i] = (uint16_t)body;
-        p->material[i] = (uint16_t)material;
-        p->mass[i] = mass / (double)count;
-        p->density[i] = beside->density;
-        p->energy[i] = energy;
-        p->position[i][axis] = plane + sign * 0.5 * layer;
+        p->material[i] = (uint16_t)arrival->material;
+        p->mass[i] = arrival->mass / (double)count;
+        p->density[i] = arrival->density;
+        p->energy[i] = arrival->energy;
+        p->position[i][axis] = plane + sign * 0.5 * arrival->depth;
         for (int n = 0; n < cfdmp->dimension - 1; n++)
             p->position[i][across[n]] =
                 ((double)at[across[n]] + ((double)place[n] + 0.5) / (double)each) * cfdmp->edge;
         for (int n = 0; n < 3; n++)
-            p->velocity[i][n] = velocity[n];
+            p->velocity[i][n] = arrival->velocity[n];
+        if (p->history[HISTORY_lighting_time])
+            p->history[HISTORY_lighting_time][i] = -1.0; /* it has burnt */
         mpm_welcome(cfdmp->mpm, &cfdmp->mpm_part.simulation, i);
     }
-    (void)simulation;
     gate->emitted++;
-    gate->pending[PASS_MASS] = gate->pending[PASS_SECOND] = 0.0;
-    kinetic = 0.0;
+    return NULL;
+}
+
+/* The specific energies of the materials that come in, of MASS and DENSITY: both have one pressure,
+ * and together ENERGY, J, unless that takes them too far from the PRESSURE beside them. Returns
+ * whether it does not. Where there are two, pressures grow in proportion to the energy. */
+static bool share_energy(const struct gas_view *view, const double mass[2], const double density[2],
+                         double energy, double pressure, double rest[2])
+{
+    const double none[POINT_HISTORY] = {0.0};
+    double cold[2] = {0.0, 0.0}, slope[2] = {1.0, 1.0}, over = energy, per = 0.0;
+    for (int m = 0; m < 2; m++)
+        if (mass[m] > 0.0) {
+            const struct eos_value value = eos_evaluate(&view->eos[m], density[m], 0.0, none);
+            cold[m] = value.pressure;
+            slope[m] = value.dp_de;
+            over += mass[m] * cold[m] / slope[m];
+            per += mass[m] / slope[m];
+        }
+    const double common = over / per;
+    const bool near = common > 0.5 * pressure && common < 2.0 * pressure;
+    for (int m = 0; m < 2; m++)
+        rest[m] = ((near ? common : pressure) - cold[m]) / slope[m];
+    return near;
+}
+
+/* A layer of particles comes in through a gate, of each material that waits there; what is left
+ * waits on. */
+static struct error *emit_layer(struct cfdmp *cfdmp, int axis, int side, int64_t number,
+                                const struct beside *beside)
+{
+    static const double trace = 1e-3;
+    const struct gas_view view = gas_view(cfdmp->gas);
+    struct gate *gate = &cfdmp->side[axis][side].gate[number];
+    const double all = gate->pending[PASS_MASS], area = cell_volume(cfdmp) / cfdmp->edge;
+    double part = view.layout->two ? gate->pending[PASS_SECOND] / all : 0.0;
+    part = part < trace || beside->of[1] == 0.0         ? 0.0
+           : part > 1.0 - trace || beside->of[0] == 0.0 ? 1.0
+                                                        : part;
+    const double mass[2] = {(1.0 - part) * all, part * all};
+    double kinetic = 0.0, velocity[3], depth = 0.0, rest[2];
     for (int k = 0; k < 3; k++) {
-        gate->pending[PASS_MOMENTUM + k] -= mass * velocity[k];
+        velocity[k] = gate->pending[PASS_MOMENTUM + k] / all;
         kinetic += 0.5 * square(velocity[k]);
     }
-    gate->pending[PASS_ENERGY] -= mass * (energy + kinetic);
+    for (int m = 0; m < 2; m++)
+        depth += mass[m] > 0.0 ? mass[m] / (beside->of[m] * area) : 0.0;
+    if (!share_energy(&view, mass, beside->of, gate->pending[PASS_ENERGY] - all * kinetic,
+                      beside->pressure, rest))
+        for (int k = 0; k < 3; k++)
+            velocity[k] = beside->velocity[k];
+    for (int m = 0; m < 2; m++) {
+        if (!(mass[m] > 0.0))
+            continue;
+        const struct arrival arrival = {axis,    side,    view.material[m],
+                                        number,  mass[m], beside->of[m],
+                                        rest[m], depth,   {velocity[0], velocity[1], velocity[2]}};
+        TRY(emit(cfdmp, &arrival));
+        kinetic = 0.0;
+        for (int k = 0; k < 3; k++) {
+            gate->pending[PASS_MOMENTUM + k] -= mass[m] * velocity[k];
+            kinetic += 0.5 * square(velocity[k]);
+        }
+        gate->pending[PASS_ENERGY] -= mass[m] * (arrival.energy + kinetic);
+        gate->pending[PASS_MASS] -= mass[m];
+        gate->pending[PASS_SECOND] -= m ? mass[m] : 0.0;
+    }
     return NULL;
 }
 
 /* A part of what waits goes to the gas. */
 static void pour(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t at[3],
-                 struct gate *gate, double part)
+                 struct gate *gate, const struct beside *beside, double part)
 {
     double values[PASSES];
     for (int n = 0; n < PASSES; n++) {
         values[n] = part * gate->pending[n];
         gate->pending[n] -= values[n];
     }
-    give_gas(cfdmp, view, at, values);
+    give_gas(cfdmp, view, at, values, beside->of);
 }
 
-static struct error *settle(struct cfdmp *cfdmp, struct simulation *simulation, int axis, int side,
-                            int64_t number, double dt)
+/* The volume of what waits at a gate to come in. */
+static double waiting_volume(const struct gate *gate, const struct beside *beside)
+{
+    const double mass[2] = {gate->pending[PASS_MASS] - gate->pending[PASS_SECOND],
+                            gate->pending[PASS_SECOND]};
+    double volume = 0.0;
+    for (int m = 0; m < 2; m++)
+        volume += beside->of[m] > 0.0 ? mass[m] / beside->of[m] : 0.0;
+    return gate->pending[PASS_MASS] > 0.0 ? volume : 0.0;
+}
+
+/* As printed in the source (4-10) to (4-21): the mean state of the cells beside a gate flows into
+ * the region, a layer of particles each step, and the cell outside gets the particles that have
+ * left, beside what the gas solver's own step has moved. */
+static struct error *settle_printed(struct cfdmp *cfdmp, int axis, int side, int64_t number,
+                                    double dt)
+{
+    const struct gas_view view = gas_view(cfdmp->gas);
+    struct gate *gate = &cfdmp->side[axis][side].gate[number];
+    const struct beside beside = beside_of(cfdmp, &view, axis, side, number);
+    const double area = cell_volume(cfdmp) / cfdmp->edge, sign = side ? -1.0 : 1.0;
+    const double way = sign * beside.velocity[axis] * dt;
+    const int m = view.layout->two && beside.of[0] == 0.0;
+    int64_t outside[3];
+    cell_of_gate(cfdmp, axis, side, number, false, outside);
+    give_gas(cfdmp, &view, outside, gate->pending, beside.of);
+    for (int n = 0; n < PASSES; n++)
+        gate->pending[n] = 0.0;
+    const struct arrival arrival = {axis,
+                                    side,
+                                    view.material[m],
+                                    number,
+                                    beside.density * way * area,
+                                    beside.density,
+                                    beside.energy,
+                                    way,
+                                    {beside.velocity[0], beside.velocity[1], beside.velocity[2]}};
+    return way > 0.0 ? emit(cfdmp, &arrival) : NULL;
+}
+
+static struct error *settle(struct cfdmp *cfdmp, int axis, int side, int64_t number, double dt)
 {
     static const double rate = 0.25; /* of what the gas gets, of the time that sound takes */
     const struct gas_view view = gas_view(cfdmp->gas);
@@ -272,13 +394,12 @@ static struct error *settle(struct cfdmp *cfdmp, struct simulation *simulation, 
     for (int k = 0; k < 3; k++)
         difference[PASS_MOMENTUM + k] = gate->push[k] - gate->pushed[k];
     difference[PASS_ENERGY] = gate->push[3] - gate->pushed[3];
-    give_gas(cfdmp, &view, outside, difference);
-    if (gate->flow > 0.0 && gate->pending[PASS_MASS] >= beside.density * layer) {
-        TRY(emit(cfdmp, simulation, axis, side, number, &beside, false));
-        pour(cfdmp, &view, outside, gate, 1.0);
-    } else if (gate->flow < 0.0) {
+    give_gas(cfdmp, &view, outside, difference, beside.of);
+    if (gate->flow > 0.0 && waiting_volume(gate, &beside) >= layer)
+        TRY(emit_layer(cfdmp, axis, side, number, &beside));
+    else if (gate->flow < 0.0) {
         const double part = rate * dt * (beside.sound + fabs(beside.velocity[axis])) / cfdmp->edge;
-        pour(cfdmp, &view, outside, gate, minimum(part, 1.0));
+        pour(cfdmp, &view, outside, gate, &beside, minimum(part, 1.0));
     }
     return NULL;
 }
@@ -311,7 +432,11 @@ struct error *cfdmp_transport(struct cfdmp *cfdmp, struct simulation *simulation
         for (int side = 0; side < 2; side++)
             for (int64_t n = 0; n < cfdmp->side[axis][side].gates; n++) {
                 double *booked = cfdmp->side[axis][side].gate[n].booked;
-                TRY(settle(cfdmp, simulation, axis, side, n, dt));
+                if (cfdmp->parameters.transport == CFDMP_PRINTED) {
+                    TRY(settle_printed(cfdmp, axis, side, n, dt));
+                    continue;
+                }
+                TRY(settle(cfdmp, axis, side, n, dt));
                 book(cfdmp, simulation, axis, side, n, booked);
                 for (int k = 0; k < PASSES; k++)
                     booked[k] = cfdmp->side[axis][side].gate[n].pending[k];

@@ -73,6 +73,17 @@ const struct population *simulation_seen(const struct simulation *simulation, co
     return found > 0 ? &simulation->seen[found] : first;
 }
 
+int simulation_shown(const struct simulation *simulation, const struct population *population,
+                     const struct population *shown[POPULATIONS_MAX])
+{
+    int count = 0;
+    shown[count++] = population;
+    for (int k = 1; k < simulation->populations; k++)
+        if (population->name == simulation->population[0].name)
+            shown[count++] = &simulation->seen[k];
+    return count;
+}
+
 struct error *simulation_check_of(const struct simulation *simulation, const char *section,
                                   const char *name, const char *of)
 {

@@ -36,7 +36,7 @@ struct dots {
     int64_t of_all;      /* the number of all ranks' */
 };
 
-/* The dots of this rank's particles. Free dots->dot also after an error. */
+/* Adds the dots of this rank's particles. Free dots->dot also after an error. */
 struct error *dots_take(const struct shown *shown, const struct plane *plane, struct dots *dots);
 
 /* What is painted upon: columns left .. right - 1 and rows top .. bottom - 1 of pixels, the middle

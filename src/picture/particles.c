@@ -351,20 +351,27 @@ static struct error *plot_line_problem(const char *path, const struct simulation
     return picture_plot(path, &plot);
 }
 
-/* In 1-D: the field over x, as dots. */
+/* In 1-D: the field over x, as dots, of so many populations that have it. */
 static struct error *draw_line_problem(const char *path, const struct simulation *simulation,
-                                       const struct shown *shown, const char *field,
+                                       const struct shown *shown, int shows, const char *field,
                                        struct range fixed)
 {
-    const struct population *particles = shown->population;
     struct scatter scatter;
     struct error *error = NULL;
-    if (scatter_allocate(&scatter, particles->count)) {
-        for (int64_t i = 0; i < particles->count; ++i)
-            scatter.x[i] = particles->position[i][0];
-        shown_read(shown, 0, particles->count, scatter.y);
-    } else {
+    int64_t count = 0;
+    for (int k = 0; k < shows; k++)
+        count += shown[k].population->count;
+    if (!scatter_allocate(&scatter, count))
         error = error_new(ERROR_SYSTEM, "picture: out of memory");
+    count = 0;
+    for (int k = 0; k < shows && !error; k++) {
+        const struct population *particles = shown[k].population;
+        shown_read(&shown[k], 0, particles->count, scatter.y + count);
+        for (int64_t i = 0; i < particles->count; ++i, ++count) {
+            scatter.x[count] = particles->position[i][0];
+            if (shows > 1 && !population_has(particles, (int32_t)i))
+                scatter.y[count] = NAN; /* another has what is there */
+        }
     }
     error = ranks_agree(simulation->ranks, error);
     if (!error)
@@ -379,16 +386,26 @@ struct error *picture_particles(const char *path, const struct simulation *simul
                                 const struct population *population, const char *field, double low,
                                 double high)
 {
-    struct shown shown;
+    const struct population *all[POPULATIONS_MAX];
+    struct shown shown[POPULATIONS_MAX];
     struct range fixed = {low, high};
-    TRY(shown_find(simulation, population, field, &shown));
+    const int populations = simulation_shown(simulation, population, all);
+    int shows = 0;
+    TRY(shown_find(simulation, population, field, &shown[shows++]));
+    for (int k = 1; k < populations; k++) {
+        struct error *without = shown_find(simulation, all[k], field, &shown[shows]);
+        shows += without == NULL;
+        error_free(without);
+    }
     if (population->dimension == 1)
-        return draw_line_problem(path, simulation, &shown, field, fixed);
+        return draw_line_problem(path, simulation, shown, shows, field, fixed);
     struct plane plane = plane_find(simulation, population);
-    struct dots dots;
+    struct dots dots = {.values = range_empty()};
     struct surroundings around = {
-        .simulation = simulation, .plane = &plane, .shown = &shown, .field = field};
-    struct error *error = dots_take(&shown, &plane, &dots);
+        .simulation = simulation, .plane = &plane, .shown = shown, .field = field};
+    struct error *error = NULL;
+    for (int k = 0; k < shows && !error; k++)
+        error = dots_take(&shown[k], &plane, &dots);
     error = ranks_agree(simulation->ranks, error);
     if (!error)
         error = draw_plane(path, &around, &dots, fixed);

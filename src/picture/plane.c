@@ -4,6 +4,9 @@
 
 enum { SLICE = 4096 };
 
+/* Beside cells particles are squares, so large that they leave few gaps. */
+static const double particle_factor = 1.3;
+
 /* The edge of the square or cube that a member fills; of RINGS that of their section. */
 static double particle_diameter(const struct population *population, bool rings, int64_t i)
 {
@@ -29,21 +32,26 @@ static void end_at_walls(struct plane *plane, const struct mirrors *mirrors)
 }
 
 /* Collective: extents and mean diameter of the particles of all ranks, without their size. */
-static void measure(const struct population *population, const struct ranks *ranks,
+static void measure(const struct simulation *simulation, const struct population *population,
                     struct plane *plane)
 {
+    const struct ranks *ranks = simulation->ranks;
+    const struct population *all[POPULATIONS_MAX];
+    const int populations = simulation_shown(simulation, population, all);
     struct range *extent = plane->extent;
     struct exact_sum logarithms = {0};
     int64_t counted = 0;
-    for (int64_t i = 0; i < population->count; ++i) {
-        for (int axis = 0; axis < 3; ++axis)
-            range_include(&extent[axis], population->position[i][axis]);
-        double logarithm = log(particle_diameter(population, plane->rings, i));
-        if (isfinite(logarithm)) {
-            exact_sum_add(&logarithms, logarithm);
-            ++counted;
+    for (int k = 0; k < populations; k++)
+        for (int64_t i = 0; i < all[k]->count; ++i) {
+            for (int axis = 0; axis < 3; ++axis)
+                range_include(&extent[axis], all[k]->position[i][axis]);
+            double logarithm = log(particle_diameter(all[k], plane->rings, i));
+            if (isfinite(logarithm)) {
+                exact_sum_add(&logarithms, logarithm);
+                ++counted;
+            }
+            plane->cells |= all[k]->kind == POPULATION_OF_CELLS;
         }
-    }
     for (int axis = 0; axis < 3; ++axis)
         extent[axis] = range_of_all(ranks, extent[axis]);
     ranks_sum_exact(ranks, &logarithms, 1);
@@ -54,12 +62,11 @@ static void measure(const struct population *population, const struct ranks *ran
 struct plane plane_find(const struct simulation *simulation, const struct population *population)
 {
     struct plane plane = {.rings = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC,
-                          .cells = population->kind == POPULATION_OF_CELLS,
                           .across = 0,
                           .up = 1,
                           .normal = -1,
                           .extent = {range_empty(), range_empty(), range_empty()}};
-    measure(population, simulation->ranks, &plane);
+    measure(simulation, population, &plane);
     for (int axis = 0; axis < 3; ++axis) {
         struct range *extent = &plane.extent[axis];
         if (!(extent->low <= extent->high))
@@ -91,11 +98,13 @@ static bool take_one(const struct population *population, const struct plane *pl
     double diameter = particle_diameter(population, plane->rings, i);
     /* A particle blown to next to nothing would cover all others. */
     diameter = minimum(isfinite(diameter) ? diameter : plane->diameter, 4.0 * plane->diameter);
+    if (plane->cells && population->kind == POPULATION_OF_PARTICLES)
+        diameter *= particle_factor;
     const double reach = plane->cells ? 0.500001 : 0.75; /* one layer of cells; two of a tie */
     if (!isfinite(position[plane->across]) || !isfinite(position[plane->up]) ||
         !(fabs(depth) <= reach * diameter || plane->normal < 0))
         return true;
-    if (plane->cells && !(population->density[i] > 0.0)) /* blocked */
+    if (plane->cells && !population_has(population, (int32_t)i)) /* blocked */
         return true;
     if (dots->count == dots->capacity &&
         !memory_reserve((void **)&dots->dot, &dots->capacity, dots->count + 1, dots->count,
@@ -116,10 +125,10 @@ struct error *dots_take(const struct shown *shown, const struct plane *plane, st
 {
     const struct population *population = shown->population;
     double values[SLICE];
-    *dots = (struct dots){.values = range_empty()};
     /* In a plane all are shown. */
-    if (plane->normal < 0 && !memory_reserve((void **)&dots->dot, &dots->capacity,
-                                             population->count, 0, sizeof *dots->dot))
+    if (plane->normal < 0 &&
+        !memory_reserve((void **)&dots->dot, &dots->capacity, dots->count + population->count,
+                        dots->count, sizeof *dots->dot))
         return error_new(ERROR_SYSTEM, "picture: out of memory");
     for (int64_t begin = 0; begin < population->count; begin += SLICE) {
         int64_t end = begin + SLICE < population->count ? begin + SLICE : population->count;
