@@ -169,9 +169,11 @@ static bool lists(const struct solver_class *class, const struct shown *one)
 
 static bool every_solver_lists(const struct choice_list *solvers, const struct shown *one)
 {
-    for (int i = 0; i < solvers->count; i++)
-        if (!lists(solvers->choices[i].thing, one))
+    for (int i = 0; i < solvers->count; i++) {
+        const struct solver_class *class = solvers->choices[i].thing;
+        if (class->fields && !lists(class, one)) /* couplings have those of others */
             return false;
+    }
     return true;
 }
 

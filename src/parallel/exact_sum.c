@@ -53,6 +53,8 @@ void exact_sum_add(struct exact_sum *sum, double value)
 
 void exact_sum_join(struct exact_sum *sum, const struct exact_sum *other)
 {
+    if (other->pending == 0 && !other->not_finite) /* nothing was added */
+        return;
     struct exact_sum tidy = *other;
     take_carries(&tidy);
     take_carries(sum);

@@ -70,7 +70,7 @@ static void a_joined_ledger_is_the_ledger_of_all_bookings(void **state)
 struct memory_visitor {
     struct visitor visitor;
     bool loads;
-    char bytes[32768];
+    char bytes[65536];
 };
 
 static struct error *visit_memory(struct visitor *visitor, const char *name, enum number number,
