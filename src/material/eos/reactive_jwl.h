@@ -217,35 +217,57 @@ BOLIDE_INLINE struct eos_value jwl_alone(const struct jwl_phase *phase, double r
 /* Fractions below this and above one less this are one phase. */
 static const double JWL_PURE = 1e-5;
 
+/* Both phases of a mixture, the rarer one first, by which its equations are solved. */
+struct jwl_closure {
+    struct jwl_phase phase[2];
+    double fraction[2], volume[2];
+    struct jwl_mixture mixture;
+    bool found;
+};
+
+/* The mixture of the volume TOTAL and the energy ALL (J/m^3) with the fraction BURNT, neither 0 nor
+ * 1, from the GUESS of the volume of the explosive; 0: from none. */
+BOLIDE_INLINE struct jwl_closure reactive_jwl_close(const struct eos_reactive_jwl *jwl,
+                                                    double total, double all, double burnt,
+                                                    double guess)
+{
+    const struct jwl_phase explosive = reactive_jwl_explosive(jwl),
+                           products = reactive_jwl_products(jwl);
+    const bool few = burnt < 0.5;
+    struct jwl_closure c = {.phase = {few ? products : explosive, few ? explosive : products},
+                            .fraction = {few ? burnt : 1.0 - burnt, few ? 1.0 - burnt : burnt},
+                            .volume = {total, total}};
+    const double low = 0.05, high = total / c.fraction[0];
+    const double start = guess > 0.0 ? guess : total;
+    double first = few ? (total - (1.0 - burnt) * start) / burnt : start;
+    if (!(first > low && first < high))
+        first = maximum(low, minimum(total, 0.999 * high));
+    c.found = jwl_newton(c.phase, c.fraction, total, all, low, high, first, c.volume, &c.mixture);
+    if (!c.found)
+        c.found = jwl_newton(c.phase, c.fraction, total, all, low, high,
+                             maximum(low, minimum(total, 0.999 * high)), c.volume, &c.mixture);
+    if (!c.found)
+        c.found = jwl_search(c.phase, c.fraction, total, all, low, 0.9999 * high, first, c.volume,
+                             &c.mixture);
+    return c;
+}
+
 /* The state of DENSITY and ENERGY (J/kg) with the fraction BURNT; LAST is the last volume of the
  * explosive, and becomes the new one. */
 BOLIDE_INLINE struct eos_value reactive_jwl_state(const struct eos_reactive_jwl *jwl,
                                                   double density, double energy, double burnt,
                                                   double *last)
 {
-    const struct jwl_phase explosive = reactive_jwl_explosive(jwl),
-                           products = reactive_jwl_products(jwl);
     const double total = jwl->density / density, all = energy * jwl->density;
     if (burnt < JWL_PURE || burnt > 1.0 - JWL_PURE) {
+        const struct jwl_phase alone =
+            burnt < 0.5 ? reactive_jwl_explosive(jwl) : reactive_jwl_products(jwl);
         *last = total;
-        return jwl_alone(burnt < 0.5 ? &explosive : &products, jwl->density, density, energy);
+        return jwl_alone(&alone, jwl->density, density, energy);
     }
-    /* phase 0 is the rarer one */
-    const bool few = burnt < 0.5;
-    const struct jwl_phase phase[2] = {few ? products : explosive, few ? explosive : products};
-    const double fraction[2] = {few ? burnt : 1.0 - burnt, few ? 1.0 - burnt : burnt};
-    const double low = 0.05, high = total / fraction[0];
-    const double guess = *last > 0.0 ? *last : total;
-    double first = few ? (total - (1.0 - burnt) * guess) / burnt : guess, volume[2];
-    if (!(first > low && first < high))
-        first = maximum(low, minimum(total, 0.999 * high));
-    struct jwl_mixture m;
-    bool found = jwl_newton(phase, fraction, total, all, low, high, first, volume, &m);
-    if (!found)
-        found = jwl_newton(phase, fraction, total, all, low, high,
-                           maximum(low, minimum(total, 0.999 * high)), volume, &m);
-    if (!found)
-        found = jwl_search(phase, fraction, total, all, low, 0.9999 * high, first, volume, &m);
+    const struct jwl_closure closure = reactive_jwl_close(jwl, total, all, burnt, *last);
+    const struct jwl_mixture m = closure.mixture;
+    const double *fraction = closure.fraction;
     struct eos_value value;
     const double slope = jwl_apart_slope(&m, fraction), other = -fraction[0] / fraction[1];
     const double heats = m.t_pressure[0] - m.t_pressure[1];
@@ -256,12 +278,12 @@ BOLIDE_INLINE struct eos_value reactive_jwl_state(const struct eos_reactive_jwl 
     value.pressure = m.pressure;
     value.dp_drho = -(m.p_volume[1] / fraction[1] + along * by_volume) * total / density;
     value.dp_de = (m.p_energy + along * by_energy) * jwl->density;
-    value.status = found ? 0 : POINT_OUT_OF_RANGE;
+    value.status = closure.found ? 0 : POINT_OUT_OF_RANGE;
     /* Beyond the tension that the explosive bears its pressure falls with density, and with a
      * little of hot products so does that of both. */
     eos_hold_sound(&value, density,
                    0.01 * jwl->energy / jwl->density * minimum(density / jwl->density, 1.0));
-    *last = few ? volume[1] : volume[0];
+    *last = closure.volume[burnt < 0.5 ? 1 : 0];
     return value;
 }
 
