@@ -4,6 +4,8 @@
 
 #include "material/material.h"
 
+#include <stdlib.h>
+
 static const struct eos_reactive_jwl petn = EOS_reactive_jwl_SAMPLE;
 static const struct eos_reactive_jwl c4 = {1601.0,   77810e9, -5.031e9, 11.3, 1.13, 0.8938, 2.505e6,
                                            609.77e9, 12.95e9, 4.5,      1.4,  0.38, 1e6,    10.2e9};
@@ -79,7 +81,7 @@ static void random_states_have_one_pressure_and_temperature(void **state)
         double last = guess;
         const struct eos_value value =
             reactive_jwl_state(jwl, jwl->density / total, energy / jwl->density, burnt, &last);
-        assert_true(value.status == 0);
+        assert_true(!(value.status & POINT_OUT_OF_RANGE));
         assert_close(value.pressure, closure.mixture.pressure, 1e-9);
         elsewhere += fabs(value.pressure - pressure) > 1e-6 * pressure;
         k++;
