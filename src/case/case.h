@@ -229,7 +229,7 @@ struct fit_input {
     struct check_input check; /* its limits, source and known deviation; the rest is not used */
 };
 enum fit_form { FIT_LINE, FIT_POWER };
-enum fit_take { FIT_SLOPE, FIT_INTERCEPT, FIT_MISFIT };
+enum fit_take { FIT_SLOPE, FIT_INTERCEPT, FIT_MISFIT, FIT_MEAN, FIT_DEVIATION, FIT_CONFIDENCE };
 
 /* expected_warnings: NAME: {warning: tension, of: [copper], reason: ...}: what `bolide verify` lets
  * pass. */
@@ -304,6 +304,7 @@ struct simulation_case {
     struct one_of exact;       /* "exact": what checks measure against; not given: nothing */
     struct named_map checks;   /* struct check_input */
     struct named_map fits;     /* struct fit_input */
+    char *repetitions;         /* a key of the sweep; NULL: none */
     struct named_map expected; /* "expected_warnings", struct expected_warning_input */
     struct convergence_input convergence;
     int sweep_runs;   /* filled by case_read: runs that a sweep asks for; 0: it has none */

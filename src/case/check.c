@@ -497,6 +497,8 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "checks", &input->checks, take_check_material);
     check_map(&checking, "checks", &input->checks, case_check_check);
     check_map(&checking, "fits", &input->fits, case_check_fit);
+    checking.map = "repetitions";
+    case_check_repetitions(&checking);
     check_map(&checking, "expected_warnings", &input->expected, check_expected);
     case_check_study(&checking);
     check_map(&checking, "convergence.order", &input->convergence.order, case_check_order);

@@ -116,8 +116,22 @@ void case_check_fit(struct checking *checking, int index)
         case_find_name(checking, &input->checks, "swept key or check", fit->over, "over");
     if (fit->form == FIT_POWER && fit->take == FIT_INTERCEPT)
         case_wrong(checking, "take", "a power law has no intercept: take slope or misfit");
+    if (fit->form == FIT_POWER && fit->take >= FIT_MEAN)
+        case_wrong(checking, "form", "a mean and its deviation have no form: leave this key out");
     check_limits(checking, &fit->check);
     check_deviation(checking, &fit->check);
+}
+
+void case_check_repetitions(struct checking *checking)
+{
+    const struct simulation_case *input = checking->input;
+    if (!input->repetitions)
+        return;
+    if (input->sweep_runs == 0)
+        case_wrong(checking, "repetitions", "this needs a `sweep` with the key \"%s\"",
+                   input->repetitions);
+    else if (input->sweep_values > 0 && !is_swept(input, input->repetitions))
+        case_wrong(checking, "repetitions", "the sweep has no key \"%s\"", input->repetitions);
 }
 
 /* NAMES of checks under KEY. */

@@ -43,6 +43,8 @@ void case_check_interval(struct checking *checking, const char *key, double inte
 /* Of checks and the study of convergence (check_check.c). */
 void case_check_check(struct checking *checking, int index);
 void case_check_fit(struct checking *checking, int index);
+/* `repetitions` is a key of the sweep. */
+void case_check_repetitions(struct checking *checking);
 void case_check_order(struct checking *checking, int index);
 void case_check_study(struct checking *checking);
 

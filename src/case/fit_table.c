@@ -2,7 +2,8 @@
 #include "case/internal.h"
 
 static const char *const form_names[] = {"line", "power", NULL};
-static const char *const take_names[] = {"slope", "intercept", "misfit", NULL};
+static const char *const take_names[] = {"slope",     "intercept",  "misfit", "mean",
+                                         "deviation", "confidence", NULL};
 
 const struct parameter case_fit_table[] = {
     {.key = "of",
@@ -28,7 +29,8 @@ const struct parameter case_fit_table[] = {
      .standard = PARAMETER_REQUIRED,
      .names = take_names,
      .help = "slope: b; intercept: a of a line; misfit: root mean square of the residuals over the "
-             "mean absolute value of y (power: of the logarithms)"},
+             "mean absolute value of y (power: of the logarithms); mean, deviation: those of y; "
+             "confidence: half the width of the 95 % confidence interval of the mean"},
     {.key = "from",
      .kind = PARAMETER_QUANTITY,
      .offset = offsetof(struct fit_input, from),

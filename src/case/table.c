@@ -446,7 +446,14 @@ const struct parameter case_table[] = {
      .standard = PARAMETER_OPTIONAL,
      .table = case_fit_table,
      .size = sizeof(struct fit_input),
-     .help = "lines and power laws fitted to the measured values of a sweep, by name"},
+     .help =
+         "lines and power laws through the measured values of a sweep, and their means, by name"},
+    {.key = "repetitions",
+     .kind = PARAMETER_TEXT,
+     .offset = offsetof(struct simulation_case, repetitions),
+     .standard = PARAMETER_OPTIONAL,
+     .help = "a key of the sweep, such as a seed: runs that differ in it alone are repetitions, "
+             "of which the sweep shows means with their confidence"},
     {.key = "expected_warnings",
      .kind = PARAMETER_MAP,
      .offset = offsetof(struct simulation_case, expected),

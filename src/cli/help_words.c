@@ -79,6 +79,12 @@ static const struct answer answers[] = {
      "puts lines and power laws through the runs of a sweep. `bolide search` bisects one key on\n"
      "whether a check passes.",
      "tasks/strength-calibration.md"},
+    {" statistic seed repetition confidence error.bar error.bars standard.deviation ensemble "
+     "monte.carlo random ",
+     "Sweep over the seed of a packing and name it in `repetitions`: the sweep then has means "
+     "with\n"
+     "their confidence (statistics.csv, plots, and fits with `take: mean`).",
+     "case.md"},
     {" restart resume checkpoint continue extend ",
      "bolide run --resume continues a run from its last checkpoint, with the same bits. The\n"
      "case must be the same: a run cannot be extended or changed.",

@@ -149,6 +149,7 @@ static struct error *read_run(const char *folder, struct page *page)
 static struct error *read_first_run(const char *folder, struct page *page)
 {
     TRY(read_table(folder, "checks.csv", &page->checks)); /* its fits */
+    TRY(read_table(folder, "statistics.csv", &page->statistics));
     char *first = path_join(folder, csv_field(&page->sweep, 0, 0));
     struct error *error =
         first ? read_table(first, "summary.csv", &page->summary) : out_of_memory();
@@ -167,6 +168,7 @@ struct error *page_write(const char *folder)
         error = path ? put_file_of_page(&page, path) : out_of_memory();
     free(path);
     csv_free(&page.sweep);
+    csv_free(&page.statistics);
     csv_free(&page.summary);
     csv_free(&page.checks);
     csv_free(&page.history);

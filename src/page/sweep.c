@@ -101,6 +101,60 @@ static void put_table(const struct page *page)
     fputs("</tbody></table>\n", page->file);
 }
 
+/* Whether COLUMN of the statistics is a mean, which its deviation and confidence follow. */
+static bool is_mean(const struct csv *table, int column)
+{
+    static const char ending[] = " mean";
+    const struct head head = head_of(table, column);
+    const size_t length = strlen(head.name), size = strlen(ending);
+    return column + 2 < table->columns && length > size &&
+           !strcmp(head.name + length - size, ending);
+}
+
+static void put_statistic(const struct page *page, int64_t row, int column, bool is_with_confidence)
+{
+    const struct csv *table = &page->statistics;
+    const struct head head = head_of(table, column);
+    const double value = csv_number(table, row, column);
+    fputs("<td class=\"num\" data-label=\"", page->file);
+    page_text(page->file, head.name);
+    fputs("\">", page->file);
+    if (isnan(value))
+        page_text(page->file, csv_field(table, row, column));
+    else
+        page_quantity(page->file, value, head.unit);
+    const double confidence = is_with_confidence ? csv_number(table, row, column + 2) : NAN;
+    if (!isnan(confidence)) {
+        fputs(" ± ", page->file);
+        page_quantity(page->file, confidence, head.unit);
+    }
+    fputs("</td>", page->file);
+}
+
+/* Means of the runs that are repetitions, with half the width of their confidence interval. */
+static void put_statistics(const struct page *page)
+{
+    const struct csv *table = &page->statistics;
+    if (table->rows == 0)
+        return;
+    fputs("<table class=\"cards\"><caption>Means of repetitions ± half the width of the 95 % "
+          "confidence interval</caption>\n<thead><tr>",
+          page->file);
+    for (int column = 0; column < table->columns; column += is_mean(table, column) ? 3 : 1) {
+        fputs("<th scope=\"col\" class=\"num\">", page->file);
+        page_text(page->file, head_of(table, column).name);
+        fputs("</th>", page->file);
+    }
+    fputs("</tr></thead>\n<tbody>\n", page->file);
+    for (int64_t row = 0; row < table->rows; row++) {
+        fputs("<tr>", page->file);
+        for (int column = 0; column < table->columns; column += is_mean(table, column) ? 3 : 1)
+            put_statistic(page, row, column, is_mean(table, column));
+        fputs("</tr>\n", page->file);
+    }
+    fputs("</tbody></table>\n", page->file);
+}
+
 /* The reasons of known deviations: those of the first run that has them. */
 static void put_reasons(const struct page *page)
 {
@@ -147,6 +201,7 @@ void page_sweep(const struct page *page)
         fprintf(page->file, " <strong>Failed: %lld of %lld fits.</strong>",
                 (long long)failed_fits(page), (long long)page->checks.rows);
     fputs("</p>\n", page->file);
+    put_statistics(page);
     put_table(page);
     put_reasons(page);
     if (page->checks.rows)

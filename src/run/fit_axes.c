@@ -28,7 +28,10 @@ struct dimension fit_dimension(const struct fit_input *fit, struct dimension x, 
 
 const char *fit_take_name(const struct fit_input *fit)
 {
-    return fit->take == FIT_SLOPE ? "slope" : fit->take == FIT_INTERCEPT ? "intercept" : "misfit";
+    static const char *const names[] = {
+        [FIT_SLOPE] = "slope", [FIT_INTERCEPT] = "intercept", [FIT_MISFIT] = "misfit",
+        [FIT_MEAN] = "mean",   [FIT_DEVIATION] = "deviation", [FIT_CONFIDENCE] = "confidence"};
+    return names[fit->take];
 }
 
 /* The dimensions of `over` and `of`. */

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "run/fit_axes.h"
+#include "study/statistics.h"
 
 struct points {
     int count;
@@ -59,6 +60,12 @@ static void fit_line(const struct points *points, double *a, double *b)
 static double value_of(const struct fit_input *fit, struct points *points)
 {
     double a, b, off = 0.0, scale = 0.0;
+    if (fit->take >= FIT_MEAN) {
+        const struct statistic statistic = statistic_of(points->y, points->count);
+        return fit->take == FIT_MEAN        ? statistic.mean
+               : fit->take == FIT_DEVIATION ? statistic.deviation
+                                            : statistic.confidence;
+    }
     if (points->count < (fit->take == FIT_MISFIT ? 3 : 2))
         return NAN;
     for (int i = 0; i < points->count && fit->form == FIT_POWER; i++) {

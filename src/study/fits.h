@@ -1,5 +1,5 @@
 /* Fits through the runs of a sweep: a line or a power law, whose slope, intercept and misfit are
- * checked. */
+ * checked; and the mean of a value, its deviation and its confidence. */
 #ifndef BOLIDE_FITS_H
 #define BOLIDE_FITS_H
 

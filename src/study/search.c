@@ -198,11 +198,11 @@ static struct error *prepare(struct bisection *bisection)
 static struct error *write_runs(const struct bisection *bisection)
 {
     const struct verify_result *runs = &bisection->result->runs;
+    const struct repetitions all = {runs->item, runs->count, NULL};
     const bool writes = ranks_of(bisection)->rank == 0 && runs->count && runs->item[0].sweep_values;
-    return ranks_agree(
-        ranks_of(bisection),
-        writes ? sweep_write(bisection->folder, runs->item, runs->count, &(struct check_results){0})
-               : NULL);
+    return ranks_agree(ranks_of(bisection),
+                       writes ? sweep_write(bisection->folder, &all, &(struct check_results){0})
+                              : NULL);
 }
 
 /* Why RUN did not come to its end; NULL: it did. */

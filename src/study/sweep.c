@@ -16,22 +16,7 @@ const char sweep_table_name[] = "sweep.csv";
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
-/* "U0=500 m/s,pore=1 mm" of the values from FIRST on. */
-static char *values_text(const struct sweep_value *values, int first, int count)
-{
-    char *text = text_copy("");
-    for (int i = first; i < count && text; i++) {
-        char *longer =
-            text_format("%s%s%s=%s", text, i > first ? "," : "", values[i].key, values[i].text);
-        free(text);
-        text = longer;
-    }
-    return text;
-}
-
-/* The unit of the swept value at INDEX where all runs have a quantity of one dimension; else
- * NULL. */
-static const char *swept_unit(const struct verify_case *runs, int count, int index, char *buffer)
+const char *sweep_unit(const struct verify_case *runs, int count, int index, char *buffer)
 {
     const struct quantity *first = &runs[0].sweep[index].quantity;
     for (int i = 0; i < count; i++) {
@@ -42,8 +27,7 @@ static const char *swept_unit(const struct verify_case *runs, int count, int ind
     return dimension_text(first->dimension, buffer);
 }
 
-/* The checks of the first run that has any: all runs have the same. */
-static const struct check_results *checks_of(const struct verify_case *runs, int count)
+const struct check_results *sweep_checks(const struct verify_case *runs, int count)
 {
     for (int i = 0; i < count; i++)
         if (runs[i].result.checks.count)
@@ -64,10 +48,10 @@ static void put_head(FILE *file, const char *name, const char *unit)
 static void put_heads(FILE *file, const struct verify_case *runs, int count)
 {
     char unit[DIMENSION_TEXT];
-    const struct check_results *checks = checks_of(runs, count);
+    const struct check_results *checks = sweep_checks(runs, count);
     fputs("run", file);
     for (int k = 0; k < runs[0].sweep_values; k++)
-        put_head(file, runs[0].sweep[k].key, swept_unit(runs, count, k, unit));
+        put_head(file, runs[0].sweep[k].key, sweep_unit(runs, count, k, unit));
     for (int k = 0; k < checks->count; k++) {
         put_head(file, checks->item[k].name, checks->item[k].unit);
         char *verdict = text_format("%s verdict", checks->item[k].name);
@@ -81,12 +65,12 @@ static void put_row(FILE *file, const struct verify_case *runs, int count,
                     const struct verify_case *run)
 {
     char unit[DIMENSION_TEXT];
-    const struct check_results *checks = checks_of(runs, count);
+    const struct check_results *checks = sweep_checks(runs, count);
     const char *slash = strrchr(run->name, '/');
     csv_put_text(file, slash ? slash + 1 : run->name);
     for (int k = 0; k < run->sweep_values; k++) {
         fputc(',', file);
-        if (swept_unit(runs, count, k, unit))
+        if (sweep_unit(runs, count, k, unit))
             csv_put_number(file, run->sweep[k].quantity.value);
         else
             csv_put_text(file, run->sweep[k].text);
@@ -126,7 +110,8 @@ static struct error *write_table(const char *folder, const struct verify_case *r
 struct dot {
     double x;
     const struct check_result *check;
-    int group;   /* the first run with the same swept values but for the first entry's */
+    int run;
+    int group;   /* the first run with the same swept values but for those of the axis */
     char *label; /* these values */
 };
 
@@ -139,43 +124,66 @@ static int compare_dots(const void *a, const void *b)
     return (one->x > other->x) - (one->x < other->x);
 }
 
-/* The first of the values that are not the first entry's. */
-static int behind_first(const struct verify_case *run)
+/* The swept value on the axis: the first whose runs are no repetitions, if there is one. */
+static int axis_of(const struct repetitions *repetitions)
 {
-    int k = 0;
-    while (k < run->sweep_values && run->sweep[k].entry == 0)
-        k++;
-    return k;
+    const struct verify_case *run = &repetitions->runs[0];
+    const int repeated = repetitions_entry(repetitions);
+    for (int k = 0; k < run->sweep_values; k++)
+        if (run->sweep[k].entry != repeated)
+            return k;
+    return 0;
 }
 
-static bool differ_in_first_only(const struct verify_case *a, const struct verify_case *b)
+/* Whether the swept value K tells groups of dots apart. */
+static bool is_of_group(const struct repetitions *repetitions, int k)
 {
-    for (int k = behind_first(a); k < a->sweep_values; k++)
-        if (strcmp(a->sweep[k].text, b->sweep[k].text) != 0)
-            return false;
-    return true;
+    const struct sweep_value *values = repetitions->runs[0].sweep;
+    return values[k].entry != values[axis_of(repetitions)].entry &&
+           values[k].entry != repetitions_entry(repetitions);
 }
 
-static int group_of(const struct verify_case *runs, int run)
+static int group_of(const struct repetitions *repetitions, int run)
 {
-    int first = 0;
-    while (!differ_in_first_only(&runs[first], &runs[run]))
-        first++;
-    return first;
+    const struct verify_case *runs = repetitions->runs;
+    for (int first = 0;; first++) {
+        bool is_same = true;
+        for (int k = 0; k < runs[run].sweep_values && is_same; k++)
+            is_same = !is_of_group(repetitions, k) ||
+                      strcmp(runs[first].sweep[k].text, runs[run].sweep[k].text) == 0;
+        if (is_same)
+            return first;
+    }
+}
+
+/* "U0=500 m/s,pore=1 mm" */
+static char *group_label(const struct repetitions *repetitions, int run)
+{
+    const struct sweep_value *values = repetitions->runs[run].sweep;
+    char *text = text_copy("");
+    for (int k = 0; k < repetitions->runs[run].sweep_values && text; k++) {
+        if (!is_of_group(repetitions, k))
+            continue;
+        char *longer =
+            text_format("%s%s%s=%s", text, text[0] ? "," : "", values[k].key, values[k].text);
+        free(text);
+        text = longer;
+    }
+    return text;
 }
 
 /* The runs in which the check NAME measured something; returns how many. */
-static int take_dots(const struct verify_case *runs, int count, const char *name, bool ordinal,
+static int take_dots(const struct repetitions *repetitions, const char *name, bool ordinal,
                      struct dot *dots)
 {
     int taken = 0;
-    for (int i = 0; i < count; i++) {
-        const struct check_result *check = verify_find_check(&runs[i], name);
-        if (!check || !isfinite(check->measured))
-            continue;
-        dots[taken++] = (struct dot){
-            ordinal ? i + 1.0 : runs[i].sweep[0].quantity.value, check, group_of(runs, i),
-            values_text(runs[i].sweep, behind_first(&runs[i]), runs[i].sweep_values)};
+    const int axis = axis_of(repetitions);
+    for (int i = 0; i < repetitions->count; i++) {
+        const struct verify_case *run = &repetitions->runs[i];
+        const struct check_result *check = verify_find_check(run, name);
+        if (check && isfinite(check->measured))
+            dots[taken++] = (struct dot){ordinal ? i + 1.0 : run->sweep[axis].quantity.value, check,
+                                         i, group_of(repetitions, i), group_label(repetitions, i)};
     }
     qsort(dots, (size_t)taken, sizeof *dots, compare_dots);
     return taken;
@@ -208,23 +216,49 @@ static int make_series(const struct dot *dots, int count, double *x, double *y,
     return used;
 }
 
+/* Fills X and Y, of 4 COUNT places each: at each place with several runs of a group a bar from end
+ * to end of the confidence interval of their mean, with the mean in the middle. */
+static struct series make_bars(const struct repetitions *repetitions, const struct dot *dots,
+                               int count, double *x, double *y)
+{
+    int used = 0;
+    for (int i = 0; i < count; i++) {
+        if (i > 0 && dots[i].group == dots[i - 1].group && dots[i].x == dots[i - 1].x)
+            continue;
+        const struct statistic statistic =
+            repetitions_of_check(repetitions, dots[i].run, dots[i].check->name);
+        if (statistic.count < 2)
+            continue;
+        for (int end = -1; end <= 2; end++) {
+            x[used] = end == 2 ? NAN : dots[i].x;
+            y[used++] = statistic.mean + end * statistic.confidence;
+        }
+    }
+    return (struct series){"mean and its 95 % confidence", used, x, y, LINE_MARKED};
+}
+
 /* Draws what COUNT runs measured into PATH. */
 static struct error *draw(const char *path, const char *x_name, const char *x_unit,
-                          const struct dot *dots, int count)
+                          const struct repetitions *repetitions, const struct dot *dots, int count)
 {
-    size_t places = 3 * (size_t)count + 1;
-    struct series *series = memory_allocate(((size_t)count + 1) * sizeof *series);
+    size_t places = 7 * (size_t)count + 1;
+    const bool has_bars = repetitions_entry(repetitions) >= 0;
+    struct series *series = memory_allocate(((size_t)count + 2) * sizeof *series);
     double *x = memory_allocate(places * sizeof *x), *y = memory_allocate(places * sizeof *y);
     const char *name = dots[0].check->name;
     char *title = text_format("%s over %s", name, x_name);
     struct error *error = series && x && y && title ? NULL : out_of_memory();
     if (!error) {
+        const int dots_end = 3 * count + 1;
+        const int bars = has_bars; /* behind the dots */
+        if (has_bars)
+            series[0] = make_bars(repetitions, dots, count, x + dots_end, y + dots_end);
         struct plot plot = {.title = title,
                             .x_name = x_name,
                             .x_unit = x_unit,
                             .y_name = name,
                             .y_unit = dots[0].check->unit,
-                            .count = make_series(dots, count, x, y, series),
+                            .count = bars + make_series(dots, count, x, y, series + bars),
                             .series = series};
         error = picture_plot(path, &plot);
     }
@@ -237,20 +271,21 @@ static struct error *draw(const char *path, const char *x_name, const char *x_un
 
 /* The picture of the check NAME, where two runs measured something. Without a quantity on the first
  * axis the runs are counted. */
-static struct error *draw_check(const char *folder, const struct verify_case *runs, int count,
+static struct error *draw_check(const char *folder, const struct repetitions *repetitions,
                                 const char *name, struct dot *dots)
 {
     char unit[DIMENSION_TEXT];
-    const char *x_unit = swept_unit(runs, count, 0, unit);
+    const int axis = axis_of(repetitions);
+    const char *x_unit = sweep_unit(repetitions->runs, repetitions->count, axis, unit);
     char *file = text_format("%s.png", name);
     if (file)
         text_make_file_name(file);
     char *path = file ? path_join(folder, file) : NULL;
     struct error *error = path ? NULL : out_of_memory();
-    int taken = take_dots(runs, count, name, !x_unit, dots);
+    int taken = take_dots(repetitions, name, !x_unit, dots);
     if (!error && taken > 1)
-        error =
-            draw(path, x_unit ? runs[0].sweep[0].key : "run", x_unit ? x_unit : "", dots, taken);
+        error = draw(path, x_unit ? repetitions->runs[0].sweep[axis].key : "run",
+                     x_unit ? x_unit : "", repetitions, dots, taken);
     for (int i = 0; i < taken; i++)
         free(dots[i].label);
     free(path);
@@ -258,13 +293,13 @@ static struct error *draw_check(const char *folder, const struct verify_case *ru
     return error;
 }
 
-static struct error *draw_checks(const char *folder, const struct verify_case *runs, int count)
+static struct error *draw_checks(const char *folder, const struct repetitions *repetitions)
 {
-    const struct check_results *checks = checks_of(runs, count);
-    struct dot *dots = memory_allocate((size_t)count * sizeof *dots);
+    const struct check_results *checks = sweep_checks(repetitions->runs, repetitions->count);
+    struct dot *dots = memory_allocate((size_t)repetitions->count * sizeof *dots);
     struct error *error = dots ? folder_make(folder) : out_of_memory();
     for (int k = 0; k < checks->count && !error; k++)
-        error = draw_check(folder, runs, count, checks->item[k].name, dots);
+        error = draw_check(folder, repetitions, checks->item[k].name, dots);
     free(dots);
     return error;
 }
@@ -277,17 +312,19 @@ static struct error *write_fits(const char *folder, const struct check_results *
     return error;
 }
 
-struct error *sweep_write(const char *folder, const struct verify_case *runs, int count,
+struct error *sweep_write(const char *folder, const struct repetitions *repetitions,
                           const struct check_results *fits)
 {
-    if (count == 0)
+    if (repetitions->count == 0)
         return NULL;
     TRY(folder_make(folder));
-    TRY(write_table(folder, runs, count));
+    TRY(write_table(folder, repetitions->runs, repetitions->count));
+    if (repetitions->key)
+        TRY(repetitions_write(repetitions, folder));
     if (fits->count > 0)
         TRY(write_fits(folder, fits));
     char *pictures = path_join(folder, "pictures");
-    struct error *error = pictures ? draw_checks(pictures, runs, count) : out_of_memory();
+    struct error *error = pictures ? draw_checks(pictures, repetitions) : out_of_memory();
     free(pictures);
     return error ? error : page_write(folder);
 }

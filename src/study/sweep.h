@@ -3,17 +3,25 @@
 #ifndef BOLIDE_SWEEP_H
 #define BOLIDE_SWEEP_H
 
-#include "study/verify.h"
+#include "study/statistics.h"
 
 /* The table's file in the folder of a sweep. */
 extern const char sweep_table_name[];
 
-/* Writes the table of the COUNT runs into FOLDER, a row a run in SI units: the swept values, what
- * each check measured and its verdict, the verdict of the run; and FITS, if there are any, as
- * checks.csv. And FOLDER/pictures/CHECK.png for every check that measured something in two runs:
- * the measured values as dots, one series for each choice of the other swept values, and the limits
- * behind them where there is one series only. */
-struct error *sweep_write(const char *folder, const struct verify_case *runs, int count,
+/* The checks of the first run that has any: all runs have the same. */
+const struct check_results *sweep_checks(const struct verify_case *runs, int count);
+
+/* The unit of the swept value at INDEX where all runs have a quantity of one dimension; else
+ * NULL. */
+const char *sweep_unit(const struct verify_case *runs, int count, int index, char *buffer);
+
+/* Writes the table of the runs into FOLDER, a row a run in SI units: the swept values, what each
+ * check measured and its verdict, the verdict of the run; FITS, if there are any, as checks.csv; and
+ * the table of repetitions. And FOLDER/pictures/CHECK.png for every check that measured something in
+ * two runs: the measured values as dots, one series for each choice of the other swept values, the
+ * limits behind them where there is one series only, and means of repetitions with their
+ * confidence. */
+struct error *sweep_write(const char *folder, const struct repetitions *repetitions,
                           const struct check_results *fits);
 
 #endif

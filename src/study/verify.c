@@ -185,19 +185,24 @@ static struct error *check_folder(const char *folder, const struct run_options *
                      folder);
 }
 
-/* Fits through the COUNT runs of the sweep of the case at PATH; none where a run stopped. */
-static struct error *evaluate_fits(const char *path, const struct verify_options *options,
-                                   const struct verify_case *runs, int count,
-                                   struct check_results *fits)
+/* What the COUNT runs of the sweep of the case at PATH come to together, into FOLDER (NULL:
+ * nowhere). There are no fits where a run stopped. */
+static struct error *evaluate_sweep(const char *path, const char *folder,
+                                    const struct verify_options *options,
+                                    const struct verify_case *runs, int count,
+                                    struct check_results *fits)
 {
     struct simulation_case *input = NULL;
     struct case_options reading = options->reading;
+    bool is_whole = true;
     for (int i = 0; i < count; i++)
-        if (runs[i].error) /* told already */
-            return NULL;
+        is_whole = is_whole && !runs[i].error; /* told already */
     reading.sweep_run = 1;
     TRY(read_case(path, &reading, options, &input));
-    struct error *error = fits_evaluate(input, runs, count, fits);
+    struct error *error = is_whole ? fits_evaluate(input, runs, count, fits) : NULL;
+    const struct repetitions repetitions = {runs, count, input->repetitions};
+    if (!error && folder && ranks_of(options)->rank == 0)
+        error = sweep_write(folder, &repetitions, fits);
     case_free(input);
     return error;
 }
@@ -239,9 +244,7 @@ static struct error *run_all(const char *path, const char *name, const char *fol
         return NULL;
     struct check_results fits = {0};
     struct error *error =
-        evaluate_fits(path, options, result->item + first, result->count - first, &fits);
-    if (!error && folder && ranks_of(options)->rank == 0)
-        error = sweep_write(folder, result->item + first, result->count - first, &fits);
+        evaluate_sweep(path, folder, options, result->item + first, result->count - first, &fits);
     return error_join(error, add_fits(result, path, name, &fits));
 }
 
