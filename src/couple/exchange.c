@@ -382,7 +382,9 @@ static struct error *settle_printed(struct cfdmp *cfdmp, int axis, int side, int
 
 static struct error *settle(struct cfdmp *cfdmp, int axis, int side, int64_t number, double dt)
 {
-    static const double rate = 0.25; /* of what the gas gets, of the time that sound takes */
+    /* What waits goes to the gas over the time in which the flow crosses two cells. Much faster, and
+     * each particle that leaves would be a pulse of sound. */
+    static const double cells = 2.0;
     const struct gas_view view = gas_view(cfdmp->gas);
     struct gate *gate = &cfdmp->side[axis][side].gate[number];
     const struct beside beside = beside_of(cfdmp, &view, axis, side, number);
@@ -398,7 +400,7 @@ static struct error *settle(struct cfdmp *cfdmp, int axis, int side, int64_t num
     if (gate->flow > 0.0 && waiting_volume(gate, &beside) >= layer)
         TRY(emit_layer(cfdmp, axis, side, number, &beside));
     else if (gate->flow < 0.0) {
-        const double part = rate * dt * (beside.sound + fabs(beside.velocity[axis])) / cfdmp->edge;
+        const double part = dt * fabs(beside.velocity[axis]) / (cells * cfdmp->edge);
         pour(cfdmp, &view, outside, gate, &beside, minimum(part, 1.0));
     }
     return NULL;
