@@ -125,13 +125,14 @@ void case_check_fit(struct checking *checking, int index)
 void case_check_repetitions(struct checking *checking)
 {
     const struct simulation_case *input = checking->input;
+    checking->map = "repetitions";
+    checking->name = NULL;
     if (!input->repetitions)
         return;
     if (input->sweep_runs == 0)
-        case_wrong(checking, "repetitions", "this needs a `sweep` with the key \"%s\"",
-                   input->repetitions);
+        case_wrong(checking, "", "this needs a `sweep` with the key \"%s\"", input->repetitions);
     else if (input->sweep_values > 0 && !is_swept(input, input->repetitions))
-        case_wrong(checking, "repetitions", "the sweep has no key \"%s\"", input->repetitions);
+        case_wrong(checking, "", "the sweep has no key \"%s\"", input->repetitions);
 }
 
 /* NAMES of checks under KEY. */
