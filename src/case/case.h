@@ -43,6 +43,7 @@ struct body_input {
     bool varies;        /* filled by case_read: its state at the start is one of the position */
     struct point start; /* filled by case_read, unless it varies: the state at the start */
     bool elsewhere;     /* of a case that a coupling makes: another solver has all of its members */
+    bool cut;           /* of such a case: cut to a region, in which it may have no member */
 };
 
 /* walls: NAME: {mirror: x, at: 0 mm, side: low}: a rigid slip wall normal to an axis; the material

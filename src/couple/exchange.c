@@ -215,6 +215,17 @@ struct arrival {
     double velocity[3];
 };
 
+/* How far the middle of what comes in has moved along ACROSS since it passed the face. */
+static double drift(const struct cfdmp *cfdmp, const struct arrival *arrival, int across)
+{
+    static const double most = 2.0; /* cells */
+    const double *u = arrival->velocity, in = (arrival->side ? -1.0 : 1.0) * u[arrival->axis],
+                 half = 0.5 * arrival->depth, limit = most * cfdmp->edge;
+    if (!(fabs(u[across]) * half < limit * in))
+        return in > 0.0 ? copysign(limit, u[across]) : 0.0;
+    return half * u[across] / in;
+}
+
 static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
 {
     struct particles *p = mpm_particles(cfdmp->mpm);
@@ -250,7 +261,8 @@ static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
         p->position[i][axis] = plane + sign * 0.5 * arrival->depth;
         for (int n = 0; n < cfdmp->dimension - 1; n++)
             p->position[i][across[n]] =
-                ((double)at[across[n]] + ((double)place[n] + 0.5) / (double)each) * cfdmp->edge;
+                ((double)at[across[n]] + ((double)place[n] + 0.5) / (double)each) * cfdmp->edge +
+                drift(cfdmp, arrival, across[n]);
         for (int n = 0; n < 3; n++)
             p->velocity[i][n] = arrival->velocity[n];
         if (p->history[HISTORY_lighting_time])

@@ -198,6 +198,7 @@ static struct error *cut_bodies(struct cfdmp *cfdmp, struct part *part)
         items[1] = shape_of("box", box);
         *both = (struct shape_intersection){{2, items}};
         body->shape = shape_of("intersection", both);
+        body->cut = true;
     }
     return NULL;
 }

@@ -174,7 +174,7 @@ static struct error *judge_body(const struct simulation_case *input, int body,
         error = error_join(error, input_error(input, "bodies", name,
                                               "its mass and energy are not finite: %g and %g",
                                               finding->summary.mass, finding->energy));
-    if (ranks_sum(ranks, finding->summary.particles) == 0)
+    if (ranks_sum(ranks, finding->summary.particles) == 0 && !case_body(input, body)->cut)
         error =
             error_join(error, input_error(input, "bodies", name, "%s", no_particle(input, body)));
     return error;
