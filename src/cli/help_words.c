@@ -69,11 +69,19 @@ static const struct answer answers[] = {
      "impedance-match` has the exact state; `bolide materials NAME --curves` the curves of a\n"
      "material.",
      "tasks/plate-impact.md"},
-    {" mesostructure microstructure pore porous porosity foam grain composite mixture packing ",
-     "Structures are resolved, with shapes: packing, voronoi (random grains), image (PNG),\n"
-     "repeat, template, polygon, difference, and bodies that replace parts of others. Not\n"
+    {" mesostructure microstructure pore porous porosity foam grain composite packing voronoi "
+     "polycrystal random.packing ",
+     "Structures are resolved, with shapes: packing, voronoi (random grains), image (PNG), mesh\n"
+     "(STL), repeat, template, polygon, difference, and bodies that replace parts of others. Not\n"
      "available: a compaction model (P-alpha) for pores that are not resolved.",
-     "tasks/mesostructures.md"},
+     "microstructures.md"},
+    {" mixture two.component two.phase impedance.mismatch thermal.equilibrium "
+     "velocity.equilibrium ",
+     "Grains of both materials are resolved; `profiles` with `by: material` have means by "
+     "material\n"
+     "and slab, and checks with `minus` and `relative` compare them. There is no homogenised\n"
+     "model of a mixture.",
+     "mixtures.md"},
     {" calibrate calibration optimise optimize fit fitting taylor taylor.test taylor.bar ",
      "There is no optimiser. Run a sweep of the constant, and interpolate in sweep.csv; `fits`\n"
      "puts lines and power laws through the runs of a sweep. `bolide search` bisects one key on\n"
@@ -84,7 +92,7 @@ static const struct answer answers[] = {
      "Sweep over the seed of a packing and name it in `repetitions`: the sweep then has means "
      "with\n"
      "their confidence (statistics.csv, plots, and fits with `take: mean`).",
-     "case.md"},
+     "tasks/random-grains.md"},
     {" restart resume checkpoint continue extend ",
      "bolide run --resume continues a run from its last checkpoint, with the same bits. The\n"
      "case must be the same: a run cannot be extended or changed.",
@@ -164,7 +172,7 @@ static const struct answer answers[] = {
      "detonation.md"},
     {" image png picture micrograph tomography scan ",
      "The shape `image` takes the pixels of a PNG file in a range of grey (bolide help image).",
-     "case.md"},
+     "tasks/image.md"},
     {" stl cad mesh geometry.file step.file ",
      "The shape `mesh` is what a closed STL surface encloses (bolide help mesh). Particles are\n"
      "placed in it at the distance `resolution`: there is no volume mesh to make. Convert other\n"

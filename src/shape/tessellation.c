@@ -264,8 +264,10 @@ static const char *measure(struct tessellation *grains)
         take_samples(grains, &survey);
         pick_grains(grains, &survey);
         qsort(survey.to_face, (size_t)survey.count, sizeof(double), lower_first);
-        if (!isnan(fraction) && fraction < 1.0)
-            grains->half_gap = survey.to_face[(int64_t)((1.0 - fraction) * (double)survey.count)];
+        const double left_out = (1.0 - fraction) * (double)survey.count;
+        if (!isnan(fraction))
+            grains->half_gap =
+                survey.to_face[(int64_t)minimum(left_out, (double)survey.count - 1.0)];
     }
     free(survey.in_grain);
     free(survey.to_face);

@@ -69,6 +69,10 @@ static void a_gap_leaves_the_fraction_that_is_wanted(void **state)
     check_volume(grains, 0.9, 701, 5e-3);
     grains.fraction = 0.3;
     check_volume(grains, 0.3, 701, 5e-3);
+    grains.fraction = 1e-18; /* hardly anything, and no crash */
+    const struct one_of shape = prepared(&grains);
+    assert_true(sampled_volume(&shape, 2, 100) < 1e-2);
+    free(grains.grains);
     grains = block;
     grains.fraction = 0.7;
     check_volume(grains, 0.7, 101, 5e-3);
