@@ -8,8 +8,8 @@
 
 /* How many places a grain tries; how many sweeps push grains apart, and visits of grains in them;
  * how many grains there may be; the largest relative change of the radii. */
-enum { TRIES = 200, SWEEPS = 20000, MOST_GRAINS = 200000 };
-static const double most_visits = 5e7, most_change = 0.05;
+enum { TRIES = 200, SWEEPS = 20000, MOST_GRAINS = 50000 };
+static const double most_visits = 3e7, most_change = 0.05;
 
 /* Grains push each other so much farther apart, relative to their distance, than they must be:
  * the last overlaps vanish after few sweeps. */
@@ -141,7 +141,7 @@ static bool place_grains(struct grains *grains)
 {
     const double low[3] = {grains->wanted.box.low.x, grains->wanted.box.low.y,
                            grains->wanted.box.low.z};
-    uint64_t draws = (uint64_t)MOST_GRAINS + 1; /* those before are of the radii */
+    uint64_t draws = 200001; /* those before are of the radii */
     bool all_free = true;
     clear_cells(grains);
     for (int64_t grain = 0; grain < grains->count; grain++) {
@@ -319,7 +319,7 @@ const char *grains_make(const struct grains_wanted *wanted, struct grains **made
                    "their gaps";
     const int64_t count = count_grains(wanted, wanted->fraction * volume, &factor);
     if (count > MOST_GRAINS)
-        return "this packing has more than 200000 grains: repeat a smaller one that is periodic";
+        return "this packing has more than 50000 grains: repeat a smaller one that is periodic";
     if (fabs(factor - 1.0) > most_change)
         return "no whole number of grains gives this `fraction`, unless their radii change by more "
                "than 5 %: make the box larger or the grains smaller";

@@ -295,7 +295,7 @@ const char *tessellation_make(const struct tessellation_wanted *wanted, struct t
     struct grains *packing = NULL;
     const char *text = grains_make(&sites, &packing);
     if (text)
-        return "there are more than 200000 grains: repeat a smaller box that is periodic";
+        return "there are more than 50000 grains: repeat a smaller box that is periodic";
     struct tessellation *grains = open_cells(wanted, packing);
     if (grains)
         fill_cells(grains, packing);

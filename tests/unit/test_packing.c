@@ -210,7 +210,7 @@ static void packings_that_cannot_be_are_refused(void **state)
     assert_wrong("packing", &packing, 2, "no whole number");
     packing.radius = 1e-6;
     packing.fraction = 0.5;
-    assert_wrong("packing", &packing, 2, "200000 grains");
+    assert_wrong("packing", &packing, 2, "50000 grains");
     packing = discs;
     packing.largest = 0.02;
     assert_wrong("packing", &packing, 2, "must not be below");

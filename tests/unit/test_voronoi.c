@@ -154,7 +154,7 @@ static void grains_that_cannot_be_are_refused(void **state)
     grains.size = 0.4;
     assert_wrong("voronoi", &grains, 2, "three grains wide");
     grains.size = 1e-6;
-    assert_wrong("voronoi", &grains, 2, "200000 grains");
+    assert_wrong("voronoi", &grains, 2, "50000 grains");
     grains = plane;
     grains.gap = grains.fraction = 0.01;
     assert_wrong("voronoi", &grains, 2, "`gap` or `fraction`");
