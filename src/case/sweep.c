@@ -51,10 +51,28 @@ static struct error *check_values(const struct node *list, const char *told)
     if (list->kind != NODE_LIST || list->count == 0)
         return place_error(node_place(list), told, "expected a list of values");
     for (int i = 0; i < list->count; i++)
-        if (list->child[i]->kind != NODE_SCALAR || node_is_empty(list->child[i]))
+        if (list->child[i]->kind == NODE_MAP || node_is_empty(list->child[i]))
             error = error_join(error, place_error(node_place(list->child[i]), told,
-                                                  "expected a single value, a number or a text"));
+                                                  "expected a number, a text or a list of them"));
     return error;
+}
+
+/* "2 km/s" of a value, "[2 km/s, 0 m/s]" of a list. In fresh memory; NULL when that is out. */
+static char *value_text(const struct node *value)
+{
+    if (value->kind != NODE_LIST)
+        return text_copy(value->text ? value->text : "");
+    char *text = text_copy("[");
+    for (int i = 0; i < value->count && text; i++) {
+        char *item = value_text(value->child[i]);
+        char *longer = item ? text_format("%s%s%s", text, i ? ", " : "", item) : NULL;
+        free(item);
+        free(text);
+        text = longer;
+    }
+    char *whole = text ? text_format("%s]", text) : NULL;
+    free(text);
+    return whole;
 }
 
 /* The lists of an entry of a sweep: its own, or those of the map of keys that change together. */
@@ -85,14 +103,10 @@ static struct error *take_value(struct simulation_case *input, int entry, const 
     struct sweep_value *taken = &input->sweep[input->sweep_values++];
     taken->entry = entry;
     taken->key = text_copy(key);
-    taken->text = text_copy(value->text);
+    taken->text = value_text(value);
     taken->quantity.value = NAN;
-    struct node *copy = node_new(NODE_SCALAR, value->place);
-    if (copy) {
-        copy->text = text_copy(value->text);
-        copy->plain = value->plain;
-    }
-    struct error *error = taken->key && taken->text && copy && copy->text
+    struct node *copy = node_copy(value);
+    struct error *error = taken->key && taken->text && copy
                               ? document_set(input->document, path, &copy)
                               : out_of_memory();
     node_free(copy);

@@ -51,6 +51,8 @@ void node_free(struct node *node);
 struct error *refuse_controls(struct place place, const char *text, bool key);
 
 struct node *node_new(enum node_kind kind, struct place place);
+/* With all below it; NULL when memory is out. */
+struct node *node_copy(const struct node *node);
 
 /* Appends CHILD, which PARENT then owns; false (and CHILD freed) when memory is out. */
 bool node_append(struct node *parent, struct node *child);

@@ -61,6 +61,26 @@ bool node_append(struct node *parent, struct node *child)
     return true;
 }
 
+struct node *node_copy(const struct node *node)
+{
+    struct node *copy = node_new(node->kind, node->place);
+    if (!copy)
+        return NULL;
+    copy->plain = node->plain;
+    copy->key_place = node->key_place;
+    copy->text = text_copy(node->text);
+    copy->key = text_copy(node->key);
+    bool is_whole = (copy->text || !node->text) && (copy->key || !node->key);
+    for (int i = 0; i < node->count && is_whole; i++) {
+        struct node *child = node_copy(node->child[i]);
+        is_whole = child && node_append(copy, child);
+    }
+    if (is_whole)
+        return copy;
+    node_free(copy);
+    return NULL;
+}
+
 struct node *node_take(struct node *parent, int index)
 {
     struct node *taken = parent->child[index];

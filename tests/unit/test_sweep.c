@@ -12,6 +12,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "run/catalogue.h"
+#include "shape/kinds.h"
 #include "source_folder.h"
 #include "study/sweep.h"
 
@@ -102,6 +103,23 @@ static void keys_that_change_together_are_one(void **state)
         assert_true(case_body(input, 0)->velocity.at[0].constant == speeds[run - 1]);
         assert_true(case_body(input, 0)->energy.constant == energies[run - 1]);
         assert_true(input->resolution == (run % 2 ? 1e-3 : 2e-3));
+        case_free(input);
+    }
+}
+
+static void a_value_may_be_a_list(void **state)
+{
+    (void)state;
+    write_case(HEAD "sweep: {bodies.all.box.to: [[10 mm], [2*gap]], speed: [1 m/s]}\n");
+    for (int run = 1; run <= 2; run++) {
+        struct simulation_case *input = NULL;
+        struct error *error = read_run(run, false, &input);
+        if (error)
+            fail_msg("%s", error_message(error, 0));
+        assert_string_equal(input->sweep[0].text, run == 1 ? "[10 mm]" : "[2*gap]");
+        assert_true(isnan(input->sweep[0].quantity.value));
+        const struct shape_box *box = case_body(input, 0)->shape.value;
+        assert_true(box->to.at[0] == (run == 1 ? 10e-3 : 2e-3));
         case_free(input);
     }
 }
@@ -387,6 +405,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_last_key_changes_fastest),
         cmocka_unit_test(keys_that_change_together_are_one),
+        cmocka_unit_test(a_value_may_be_a_list),
         cmocka_unit_test(keys_that_change_together_have_as_many_values),
         cmocka_unit_test(a_run_knows_its_values),
         cmocka_unit_test(the_short_form_has_a_sweep_of_its_own),
