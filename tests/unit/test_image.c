@@ -9,9 +9,11 @@
 #include <cairo.h>
 #include <cmocka.h>
 
+#include "run/catalogue.h"
 #include "sample.h"
 #include "scratch_folder.h"
 #include "shape/pixels.h"
+#include "source_folder.h"
 
 enum { WIDTH = 40, HEIGHT = 25, MOST = 1 << 16 };
 
@@ -162,6 +164,60 @@ static void ranges_that_make_no_shape_are_refused(void **state)
     assert_wrong("image", &image, 3, "two dimensions");
 }
 
+static void write_text(const char *name, const char *text)
+{
+    FILE *file = fopen(path_of(name), "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static struct simulation_case *read_file(const char *name, const char *setting)
+{
+    static const char *const folders[] = {materials_folder};
+    const char *const settings[] = {setting};
+    const struct case_options options = {.library_paths = folders,
+                                         .library_count = 1,
+                                         .settings = settings,
+                                         .setting_count = setting != NULL};
+    struct simulation_case *input = NULL;
+    struct error *error = case_read(path_of(name), &options, &bolide_catalogue, &input);
+    if (error)
+        fail_msg("%s", error_message(error, 0));
+    return input;
+}
+
+/* The name of an image is seen from the folder of the file that names it, in a setting from the
+ * working folder; what the program writes is right from everywhere. */
+static void an_image_is_seen_from_the_file_that_names_it(void **state)
+{
+    (void)state;
+    char setting[160];
+    assert_int_equal(mkdir(path_of("parts"), 0700), 0);
+    draw("parts/grey.png", CAIRO_FORMAT_RGB24);
+    write_text("case.yaml", "include: parts/bodies.yaml\nformat: 1\ntitle: t\ndimension: 2\n"
+                            "resolution: 2 um\nsolver: sph\nrun: {until: 1 ns}\n"
+                            "materials: {metal: {library: aluminium}}\n");
+    write_text(
+        "parts/bodies.yaml",
+        "bodies: {a: {material: metal, image: {file: grey.png, pixel: 2 um, grey: [0, 255]}}}"
+        "\n");
+    struct simulation_case *input = read_file("case.yaml", NULL);
+    const struct shape_image *image = case_body(input, 0)->shape.value;
+    assert_string_equal(image->file, path_of("parts/grey.png"));
+    assert_int_equal(image->pixels->width, WIDTH);
+
+    FILE *file = fopen(path_of("written.yaml"), "w");
+    assert_non_null(file);
+    assert_null(case_write(input, file));
+    assert_int_equal(fclose(file), 0);
+    case_free(input);
+    case_free(read_file("written.yaml", NULL));
+
+    snprintf(setting, sizeof setting, "bodies.a.image.file=%s", path_of("parts/grey.png"));
+    case_free(read_file("case.yaml", setting));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -169,6 +225,7 @@ int main(void)
         cmocka_unit_test(the_top_row_of_a_picture_is_up),
         cmocka_unit_test(files_that_are_no_picture_are_refused),
         cmocka_unit_test(ranges_that_make_no_shape_are_refused),
+        cmocka_unit_test(an_image_is_seen_from_the_file_that_names_it),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
