@@ -323,28 +323,29 @@ void sweep_values_free(struct sweep_value *values, int count)
     free(values);
 }
 
-/* "U0=500 m/s,pore=1 mm" of the values from FIRST on. */
-static char *values_text(const struct sweep_value *values, int first, int count)
+/* The last part of the path of the value at INDEX, or the whole where another ends with the same. */
+static const char *short_key(const struct sweep_value *values, int count, int index)
 {
-    char *text = text_copy("");
-    for (int i = first; i < count && text; i++) {
-        char *longer =
-            text_format("%s%s%s=%s", text, i > first ? "," : "", values[i].key, values[i].text);
-        free(text);
-        text = longer;
+    const char *dot = strrchr(values[index].key, '.');
+    if (!dot || !dot[1])
+        return values[index].key;
+    for (int i = 0; i < count; i++) {
+        const char *other = strrchr(values[i].key, '.');
+        if (i != index && !strcmp(other ? other + 1 : values[i].key, dot + 1))
+            return values[index].key;
     }
-    return text;
+    return dot + 1;
 }
 
-/* The same of the first value of every entry. */
-static char *first_values_text(const struct sweep_value *values, int count)
+/* "U0=500 m/s,pore=1 mm"; with FIRSTS of the first value of every entry. */
+static char *values_text(const struct sweep_value *values, int count, bool firsts)
 {
     char *text = text_copy("");
     for (int i = 0; i < count && text; i++) {
-        if (i > 0 && values[i].entry == values[i - 1].entry)
+        if (firsts && i > 0 && values[i].entry == values[i - 1].entry)
             continue;
-        char *longer =
-            text_format("%s%s%s=%s", text, text[0] ? "," : "", values[i].key, values[i].text);
+        char *longer = text_format("%s%s%s=%s", text, text[0] ? "," : "",
+                                   short_key(values, count, i), values[i].text);
         free(text);
         text = longer;
     }
@@ -354,10 +355,10 @@ static char *first_values_text(const struct sweep_value *values, int count)
 char *sweep_run_name(const struct sweep_value *values, int count)
 {
     enum { LONGEST = 120 }; /* a folder has a name of 255 bytes at most */
-    char *name = values_text(values, 0, count);
+    char *name = values_text(values, count, false);
     if (name && strlen(name) > LONGEST) {
         free(name);
-        name = first_values_text(values, count);
+        name = values_text(values, count, true);
     }
     if (name)
         text_make_file_name(name);

@@ -50,7 +50,7 @@ refused "already contains the results of a run" "$BOLIDE" run run/plate.yaml --o
 sweep=(--set "sweep={run.until: [50 ns, 1 ms]}" --output results/sweep)
 "$BOLIDE" run run/plate.yaml "${sweep[@]}" >sweep.log 2>&1 &
 runner=$!
-while [ ! -s results/sweep/run.until=50_ns/report.html ] && kill -0 $runner 2>/dev/null; do
+while [ ! -s results/sweep/until=50_ns/report.html ] && kill -0 $runner 2>/dev/null; do
     sleep 0.02
 done
 refused "results/sweep: is in use by another run (process $runner)" \
