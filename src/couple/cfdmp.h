@@ -41,6 +41,7 @@ struct cfdmp {
     struct gas *gas;
     struct mpm *mpm;
     int dimension;
+    bool round; /* x is a radius */
     double edge;
     struct gas_cut cut; /* the region */
     struct mpm_outside outside;

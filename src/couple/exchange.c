@@ -47,12 +47,26 @@ static void cell_of_gate(const struct cfdmp *cfdmp, int axis, int side, int64_t 
     at[axis] = side ? cfdmp->cut.high[axis] - inside : cfdmp->cut.low[axis] - !inside;
 }
 
-static double cell_volume(const struct cfdmp *cfdmp)
+/* The volume of the cell AT, of a radian in axisymmetry. */
+static double cell_volume(const struct cfdmp *cfdmp, const int64_t at[3])
 {
-    double volume = 1.0;
+    double volume = cfdmp->round ? ((double)at[0] + 0.5) * cfdmp->edge : 1.0;
     for (int axis = 0; axis < cfdmp->dimension; axis++)
         volume *= cfdmp->edge;
     return volume;
+}
+
+/* The area of gate NUMBER. */
+static double gate_area(const struct cfdmp *cfdmp, int axis, int side, int64_t number)
+{
+    int64_t at[3];
+    cell_of_gate(cfdmp, axis, side, number, true, at);
+    const double radius =
+        axis > 0 ? (double)at[0] + 0.5 : (double)(side ? cfdmp->cut.high : cfdmp->cut.low)[0];
+    double area = cfdmp->round ? radius * cfdmp->edge : 1.0;
+    for (int k = 1; k < cfdmp->dimension; k++)
+        area *= cfdmp->edge;
+    return area;
 }
 
 /* Adds VALUES, conserved, to the cell outside a gate; materials have the densities OF, 0 where they
@@ -60,7 +74,7 @@ static double cell_volume(const struct cfdmp *cfdmp)
 static void give_gas(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t at[3],
                      const double values[PASSES], const double of[2])
 {
-    const double per = 1.0 / cell_volume(cfdmp);
+    const double per = 1.0 / cell_volume(cfdmp, at);
     int32_t block;
     const int32_t i = cfdmp_cell(view->cells, at, &block);
     for (int n = 0; n < GAS_NUMBERS; n++)
@@ -121,10 +135,12 @@ static struct beside beside_of(const struct cfdmp *cfdmp, const struct gas_view 
 
 /* Splits what has passed through a gate into pressure and flow; of the begin of the step is
  * BESIDE. */
-static void split(struct cfdmp *cfdmp, int axis, int side, const struct beside *beside,
-                  const double *passed, double dt, struct gate *gate)
+static void split(struct cfdmp *cfdmp, int axis, int side, int64_t number,
+                  const struct beside *beside, double dt)
 {
-    const double area = cell_volume(cfdmp) / cfdmp->edge, into = side ? -area : area;
+    struct gate *gate = &cfdmp->side[axis][side].gate[number];
+    const double *passed = &cfdmp->cut.passed[axis][side][number * GAS_PASSED];
+    const double area = gate_area(cfdmp, axis, side, number), into = side ? -area : area;
     const double velocity = beside->velocity[axis],
                  push = passed[GAS_MOMENTUM + axis] - passed[GAS_DENSITY] * velocity;
     gate->pressure = push / dt;
@@ -150,8 +166,7 @@ void cfdmp_find_pressures(struct cfdmp *cfdmp, double dt)
         for (int side = 0; side < 2; side++)
             for (int64_t n = 0; n < cfdmp->side[axis][side].gates; n++) {
                 const struct beside beside = beside_of(cfdmp, &view, axis, side, n);
-                split(cfdmp, axis, side, &beside, &cfdmp->cut.passed[axis][side][n * GAS_PASSED],
-                      dt, &cfdmp->side[axis][side].gate[n]);
+                split(cfdmp, axis, side, n, &beside, dt);
             }
 }
 
@@ -255,14 +270,17 @@ static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
         p->id[i] = particle_id(body, emitted + k);
         p->body[i] = (uint16_t)body;
         p->material[i] = (uint16_t)arrival->material;
-        p->mass[i] = arrival->mass / (double)count;
         p->density[i] = arrival->density;
         p->energy[i] = arrival->energy;
         p->position[i][axis] = plane + sign * 0.5 * arrival->depth;
         for (int n = 0; n < cfdmp->dimension - 1; n++)
             p->position[i][across[n]] =
-                ((double)at[across[n]] + ((double)place[n] + 0.5) / (double)each) * cfdmp->edge +
-                drift(cfdmp, arrival, across[n]);
+                ((double)at[across[n]] + ((double)place[n] + 0.5) / (double)each) * cfdmp->edge;
+        p->mass[i] = arrival->mass / (double)count;
+        if (cfdmp->round && axis > 0) /* in the cell, as the radius */
+            p->mass[i] *= p->position[i][0] / (((double)at[0] + 0.5) * cfdmp->edge);
+        for (int n = 0; n < cfdmp->dimension - 1; n++)
+            p->position[i][across[n]] += drift(cfdmp, arrival, across[n]);
         for (int n = 0; n < 3; n++)
             p->velocity[i][n] = arrival->velocity[n];
         if (p->history[HISTORY_lighting_time])
@@ -304,7 +322,7 @@ static struct error *emit_layer(struct cfdmp *cfdmp, int axis, int side, int64_t
     static const double trace = 1e-3;
     const struct gas_view view = gas_view(cfdmp->gas);
     struct gate *gate = &cfdmp->side[axis][side].gate[number];
-    const double all = gate->pending[PASS_MASS], area = cell_volume(cfdmp) / cfdmp->edge;
+    const double all = gate->pending[PASS_MASS], area = gate_area(cfdmp, axis, side, number);
     double part = view.layout->two ? gate->pending[PASS_SECOND] / all : 0.0;
     part = part < trace || beside->of[1] == 0.0         ? 0.0
            : part > 1.0 - trace || beside->of[0] == 0.0 ? 1.0
@@ -372,7 +390,7 @@ static struct error *settle_printed(struct cfdmp *cfdmp, int axis, int side, int
     const struct gas_view view = gas_view(cfdmp->gas);
     struct gate *gate = &cfdmp->side[axis][side].gate[number];
     const struct beside beside = beside_of(cfdmp, &view, axis, side, number);
-    const double area = cell_volume(cfdmp) / cfdmp->edge, sign = side ? -1.0 : 1.0;
+    const double area = gate_area(cfdmp, axis, side, number), sign = side ? -1.0 : 1.0;
     const double way = sign * beside.velocity[axis] * dt;
     const int m = view.layout->two && beside.of[0] == 0.0;
     int64_t outside[3];
@@ -401,7 +419,8 @@ static struct error *settle(struct cfdmp *cfdmp, int axis, int side, int64_t num
     struct gate *gate = &cfdmp->side[axis][side].gate[number];
     const struct beside beside = beside_of(cfdmp, &view, axis, side, number);
     const int body = body_of(cfdmp, view.material[0]);
-    const double layer = cell_volume(cfdmp) / (double)particles_across(cfdmp, body);
+    const double layer = gate_area(cfdmp, axis, side, number) * cfdmp->edge /
+                         (double)particles_across(cfdmp, body);
     double difference[PASSES] = {0.0};
     int64_t outside[3];
     cell_of_gate(cfdmp, axis, side, number, false, outside);

@@ -318,6 +318,7 @@ struct error *cfdmp_make_parts(struct cfdmp *cfdmp, struct simulation *simulatio
     if (simulation->ranks->size > 1)
         return input_error(input, "solver", NULL, "the solver cfdmp runs on one rank");
     cfdmp->dimension = simulation->problem->dimension;
+    cfdmp->round = geometry_power(simulation->problem->geometry) > 0;
     cfdmp->edge =
         isnan(cfdmp->parameters.mpm.cell) ? 2.0 * input->resolution : cfdmp->parameters.mpm.cell;
     TRY(make_gas_part(cfdmp, simulation));

@@ -130,6 +130,20 @@ static void note_end(const struct gas_numbers *flux, int face, double *out)
         out[n] = flux->of[n][face + ROW_GHOSTS];
 }
 
+/* The cells BEGIN .. END - 1 of a row, counted from its first, that lie in the cut. */
+static void find_cut(const struct gather *g, int *begin, int *end)
+{
+    const struct gas_cut *cut = g->sweep->cut;
+    const struct cell_block *block = &g->sweep->cells->block[g->strip->block[0]];
+    const struct across across = across_of(g->sweep->axis);
+    const int64_t at[2] = {block->corner[across.first] + g->i, block->corner[across.second] + g->j};
+    const bool meets =
+        cut && at[0] >= cut->low[across.first] && at[0] < cut->high[across.first] &&
+        at[1] >= cut->low[across.second] && at[1] < cut->high[across.second];
+    *begin = meets ? (int)(cut->low[g->sweep->axis] - block->corner[g->sweep->axis]) : 0;
+    *end = meets ? (int)(cut->high[g->sweep->axis] - block->corner[g->sweep->axis]) : 0;
+}
+
 /* Adds what passes through the faces of the cut that lie among those below the CELLS of a row,
  * whose first is cell BEGIN of the strip. */
 static void note_cut(const struct gather *g, const struct gas_row *row,
@@ -163,12 +177,14 @@ static void note_cut(const struct gather *g, const struct gas_row *row,
 static void note_push(const struct gather *g, const double *push, int number,
                       struct gas_through *through)
 {
-    int k = ROW_GHOSTS;
+    int k = ROW_GHOSTS, begin, end; /* what is in the cut does not count */
+    find_cut(g, &begin, &end);
     for (int s = 0; s < g->strip->count && g->sweep->round; s++) {
         const int count = g->sweep->cells->block[g->strip->block[s]].count[g->sweep->axis];
         double sum = 0.0;
         for (int c = 0; c < count; c++)
-            sum += push[k + c];
+            if (k + c - ROW_GHOSTS < begin || k + c - ROW_GHOSTS >= end)
+                sum += push[k + c];
         through->push[number][s] = sum;
         k += count;
     }

@@ -13,11 +13,14 @@
 #include "mpm/mpm_internal.h"
 
 /* The contributions of a particle to the values of its nodes: value n gets the sum over axes k of
- * by_slope[n][k] dN/dx_k. With stresses on faces, the slope along k includes the factors of the
- * node's faces where k is filled[n], so that a pressure balances the stress inside. */
+ * by_slope[n][k] dN/dx_k, and of around[n] and what acts around the axis. With
+ * stresses on faces, the slope along k includes the factors of the node's faces where k is
+ * filled[n], and what acts around the axis those of its ring, so that a pressure balances the stress
+ * inside. */
 struct given {
     double by_slope[3][3];
     int filled[3];
+    double around[3];
 };
 
 /* A particle at X of half the size HALF, in cells, in a cell whose first node is at PLACE of the
@@ -50,8 +53,10 @@ static void give(const struct mpm *mpm, const struct layer *layer, const struct 
     const double *x = reached->x, half = reached->half;
     const enum grid_shape shape = (enum grid_shape)mpm->parameters.shape;
     const int dimension = layer->grid.dimension, window = 1 + layer->grid.reach + layer->grid.after;
-    double value[3][4], slope[3][4];
+    double value[3][4], slope[3][4], around[4] = {0.0};
     int count[3] = {1, 1, 1};
+    const bool round =
+        given->around[0] != 0.0 || given->around[1] != 0.0 || given->around[2] != 0.0;
     assert(1 <= dimension && dimension <= 3);
     for (int axis = 0; axis < dimension; axis++) {
         count[axis] = window;
@@ -60,6 +65,8 @@ static void give(const struct mpm *mpm, const struct layer *layer, const struct 
             const bool linear = shape == SHAPE_LINEAR; /* on a node all of the cell has slopes */
             value[axis][k] = linear && k ? 1.0 + r : shape_value(shape, r, half);
             slope[axis][k] = (linear ? (k ? 1.0 : -1.0) : shape_slope(shape, r, half)) / mpm->edge;
+            if (axis == 0 && round)
+                around[k] = fill ? value[0][k] : shape_around(shape, r, half);
         }
     }
     int at[3];
@@ -70,6 +77,10 @@ static void give(const struct mpm *mpm, const struct layer *layer, const struct 
                 for (int axis = 0; axis < dimension; axis++)
                     node =
                         node * (size_t)layer->grid.side + (size_t)(reached->place[axis] + at[axis]);
+                const double ring = around[at[0]] * value[1][at[1]] *
+                                    (fill ? fill[node * FILL_STRIDE + FILL_RING] : 1.0);
+                for (int n = 0; n < 3 && round; n++)
+                    patch[node * BACK_STRIDE + (size_t)n] += given->around[n] * ring;
                 size_t step = 1;
                 for (int k = dimension - 1; k >= 0; k--, step *= (size_t)layer->grid.side) {
                     double others = 1.0;
@@ -110,7 +121,7 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
     const struct load_input *load = surface->load;
     const double volume = p->mass[i] / p->density[i],
                  sign = load->side == WALL_HIGH ? volume : -volume;
-    struct given given = {{{0.0}}, {0, 1, 2}};
+    struct given given = {{{0.0}}, {0, 1, 2}, {0.0}};
     (void)mpm;
     for (int k = 0; k < simulation->problem->dimension; k++)
         if (load->traction.count) { /* a prescribed force, which balances no stress */
@@ -118,6 +129,8 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
             given.filled[k] = -1;
         } else
             given.by_slope[k][k] = -volume * surface->pressure;
+    if (simulation->problem->geometry == GEOMETRY_AXISYMMETRIC && !load->traction.count)
+        given.around[0] = -volume * surface->pressure / p->position[i][0];
     return given;
 }
 
@@ -127,13 +140,15 @@ static struct given by_blast(const struct mpm *mpm, const struct simulation *sim
 {
     const struct particles *p = mpm->particles;
     const double volume = p->mass[i] / p->density[i];
-    struct given given = {{{0.0}}, {0, 1, 2}};
+    struct given given = {{{0.0}}, {0, 1, 2}, {0.0}};
     const bool flat = surface->load->between.count > 0;
     for (int k = 0; k < simulation->problem->dimension; k++)
         if (!flat || k == surface->axis)
             given.by_slope[k][k] = volume;
     if (flat)
         given.filled[surface->axis] = -1;
+    if (simulation->problem->geometry == GEOMETRY_AXISYMMETRIC && given.by_slope[0][0] != 0.0)
+        given.around[0] = volume / p->position[i][0];
     return given;
 }
 
@@ -141,10 +156,12 @@ static struct given by_area(const struct mpm *mpm, const struct simulation *simu
                             const struct surface *surface, int32_t i)
 {
     const struct particles *p = mpm->particles;
-    struct given given = {{{0.0}}, {0, 1, 2}};
+    struct given given = {{{0.0}}, {0, 1, 2}, {0.0}};
     (void)surface;
     for (int k = 0; k < simulation->problem->dimension; k++)
         given.by_slope[k][k] = p->mass[i] / p->density[i];
+    if (simulation->problem->geometry == GEOMETRY_AXISYMMETRIC)
+        given.around[0] = p->mass[i] / (p->density[i] * p->position[i][0]);
     return given;
 }
 
@@ -154,19 +171,22 @@ enum { FACE_AREA, FACE_IMPEDANCE, FACE_PUSH, FACE_FORCE };
 static struct given by_outflow(const struct mpm *mpm, const struct simulation *simulation,
                                const struct surface *surface, int32_t i)
 {
-    (void)simulation;
     const struct particles *p = mpm->particles;
     const struct mpm_fields fields = mpm_fields_of(mpm);
     const double gauge = mpm->gauge[p->material[i]], volume = p->mass[i] / p->density[i];
     const double sign = surface->outflow->side == WALL_HIGH ? 1.0 : -1.0;
     const int axis = surface->axis;
-    struct given given = {{{0.0}}, {axis, axis, axis}};
+    struct given given = {{{0.0}}, {axis, axis, axis}, {0.0}};
     given.by_slope[FACE_AREA][axis] = sign * volume;
     given.by_slope[FACE_IMPEDANCE][axis] = sign * p->mass[i] * fields.sound_long[i];
     given.by_slope[FACE_PUSH][axis] =
         isnan(surface->outflow->pressure)
             ? sign * volume * (p->pressure[i] + fields.viscosity[i] - gauge - p->deviator[i][axis])
             : sign * volume * (surface->outflow->pressure - gauge);
+    for (int n = 0; n < 3; n++)
+        given.around[n] = axis == 0 && simulation->problem->geometry == GEOMETRY_AXISYMMETRIC
+                              ? given.by_slope[n][0] / p->position[i][0]
+                              : 0.0;
     return given;
 }
 
