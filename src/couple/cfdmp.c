@@ -47,6 +47,14 @@ const struct parameter cfdmp_table[] = {
      .names = transport_names,
      .help = "what passes through the faces of the region; conservative: the fluxes of the gas; "
              "printed: as printed in the source, which loses and gains mass"},
+    {.key = "wake",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct cfdmp_parameters, wake),
+     .standard = "1.1",
+     .above = 1.0,
+     .below = INFINITY,
+     .help = "the material points are computed from when on the pressure of the gas beside the "
+             "region has changed by this factor; from the start where something moves them"},
     {.key = "mpm",
      .kind = PARAMETER_TABLE,
      .offset = offsetof(struct cfdmp_parameters, mpm),
@@ -152,6 +160,24 @@ static struct error *cfdmp_fill(void *solver, struct simulation *simulation)
     return mpm_class.fill(cfdmp->mpm, &cfdmp->mpm_part.simulation);
 }
 
+/* Whether something other than the gas outside moves the particles. */
+static bool moves_itself(const struct cfdmp *cfdmp)
+{
+    const struct simulation_case *input = &cfdmp->mpm_part.input;
+    const struct problem *problem = cfdmp->mpm_part.simulation.problem;
+    const struct particles *p = mpm_particles(cfdmp->mpm);
+    bool moves = input->loads.count > 0 || problem_has_gravity(problem);
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct body_input *body = case_body(input, b);
+        moves |= !body->elsewhere && ((body->driven && body->velocity.count > 0) || body->varies ||
+                                      material_burns(&problem->material[body->material_index]));
+    }
+    for (int32_t i = 0; i < p->count && !moves; i++)
+        for (int axis = 0; axis < 3; axis++)
+            moves |= p->velocity[i][axis] != 0.0 || p->pressure[i] != p->pressure[0];
+    return moves;
+}
+
 static struct error *cfdmp_start(void *solver, struct simulation *simulation)
 {
     struct cfdmp *cfdmp = solver;
@@ -160,6 +186,10 @@ static struct error *cfdmp_start(void *solver, struct simulation *simulation)
     TRY(mpm_class.start(cfdmp->mpm, &cfdmp->mpm_part.simulation));
     TRY(reserve_changed(cfdmp));
     hide_cells(cfdmp);
+    if (simulation->step == 0) {
+        cfdmp_note_rest(cfdmp);
+        cfdmp->awake = moves_itself(cfdmp) ? 1.0 : 0.0;
+    }
     return NULL;
 }
 
@@ -168,11 +198,16 @@ static struct error *cfdmp_prepare(void *solver, struct simulation *simulation, 
     struct cfdmp *cfdmp = solver;
     struct limit of_gas;
     share_time(cfdmp, simulation);
-    simulation_start_phase(&cfdmp->mpm_part.simulation);
-    TRY(mpm_class.prepare(cfdmp->mpm, &cfdmp->mpm_part.simulation, limit));
-    gather(simulation, &cfdmp->mpm_part);
-    TRY(cfdmp_fill_band(cfdmp));
-    TRY(refresh(cfdmp));
+    *limit = limit_of_nothing();
+    if (cfdmp->awake == 0.0 && cfdmp_stirs(cfdmp))
+        cfdmp->awake = 1.0;
+    if (cfdmp->awake > 0.0) {
+        simulation_start_phase(&cfdmp->mpm_part.simulation);
+        TRY(mpm_class.prepare(cfdmp->mpm, &cfdmp->mpm_part.simulation, limit));
+        gather(simulation, &cfdmp->mpm_part);
+        TRY(cfdmp_fill_band(cfdmp));
+        TRY(refresh(cfdmp));
+    }
     simulation_end_phase(simulation, PHASE_SHARED, "coupling");
     simulation_start_phase(&cfdmp->gas_part.simulation);
     TRY(gas_class.prepare(cfdmp->gas, &cfdmp->gas_part.simulation, &of_gas));
@@ -197,9 +232,12 @@ static struct error *cfdmp_advance(void *solver, struct simulation *simulation, 
     gather(simulation, &cfdmp->gas_part);
     cfdmp_find_pressures(cfdmp, dt);
     simulation_end_phase(simulation, PHASE_SHARED, "coupling");
-    simulation_start_phase(&cfdmp->mpm_part.simulation);
-    TRY(mpm_class.advance(cfdmp->mpm, &cfdmp->mpm_part.simulation, dt));
-    gather(simulation, &cfdmp->mpm_part);
+    if (cfdmp->awake > 0.0) {
+        simulation_start_phase(&cfdmp->mpm_part.simulation);
+        TRY(mpm_class.advance(cfdmp->mpm, &cfdmp->mpm_part.simulation, dt));
+        gather(simulation, &cfdmp->mpm_part);
+    } else
+        cfdmp_lean(cfdmp, simulation);
     TRY(cfdmp_transport(cfdmp, simulation, dt));
     struct error *error = refresh(cfdmp);
     simulation_end_phase(simulation, PHASE_SHARED, "coupling");
@@ -218,6 +256,7 @@ static struct error *cfdmp_state(void *solver, struct visitor *visitor)
                 TRY(visitor->visit(visitor, names[axis][side], NUMBER_DOUBLE,
                                    cfdmp->side[axis][side].gate, cfdmp->side[axis][side].gates,
                                    (int)(sizeof(struct gate) / sizeof(double))));
+    TRY(visitor->visit(visitor, "cfdmp/awake", NUMBER_DOUBLE, &cfdmp->awake, 1, 1));
     TRY(gas_class.state(cfdmp->gas, visitor));
     return mpm_class.state(cfdmp->mpm, visitor);
 }

@@ -22,6 +22,7 @@ struct gate {
     double push[4];         /* what gas has given as pressure: impulse and work */
     double pushed[4];       /* what particles have got of it */
     double pending[PASSES]; /* what has left one part and not come to the other */
+    double rest;            /* pressure of the cell outside at the start, Pa */
     double booked[PASSES];  /* that of the end of the last step */
     double emitted;         /* layers of particles so far */
 };
@@ -40,6 +41,7 @@ struct cfdmp {
     } gas_part, mpm_part;
     struct gas *gas;
     struct mpm *mpm;
+    double awake; /* 1 when the particles are computed; 0 while all around them is at rest */
     int dimension;
     bool round; /* x is a radius */
     double edge;
@@ -67,6 +69,13 @@ struct error *cfdmp_fill_band(struct cfdmp *cfdmp);
 /* Before and after the particles' step of DT: what has passed as pressure, and what material has. */
 void cfdmp_find_pressures(struct cfdmp *cfdmp, double dt);
 struct error *cfdmp_transport(struct cfdmp *cfdmp, struct simulation *simulation, double dt);
+
+/* Notes the pressures outside the region at the start; whether they have changed so far that the
+ * particles must be computed. */
+void cfdmp_note_rest(struct cfdmp *cfdmp);
+bool cfdmp_stirs(const struct cfdmp *cfdmp);
+/* What the gas has pushed in a step while the particles rest. */
+void cfdmp_lean(struct cfdmp *cfdmp, struct simulation *simulation);
 
 /* Has the gas push on the particles through the open faces of the region. */
 void cfdmp_surround(struct cfdmp *cfdmp);

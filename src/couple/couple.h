@@ -17,6 +17,7 @@ struct cfdmp_parameters {
     struct cfdmp_region region; /* of material points; not given: around the solids */
     int64_t overlap;            /* cells */
     int transport;              /* enum cfdmp_transport */
+    double wake;                /* ratio of pressures */
     struct mpm_parameters mpm;
     struct gas_parameters gas;
 };

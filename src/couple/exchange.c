@@ -314,44 +314,46 @@ static bool share_energy(const struct gas_view *view, const double mass[2], cons
     return near;
 }
 
-/* A layer of particles comes in through a gate, of each material that waits there; what is left
- * waits on. */
-static struct error *emit_layer(struct cfdmp *cfdmp, int axis, int side, int64_t number,
-                                const struct beside *beside)
+/* Layers of particles, LAYER thick, come in through a gate: of each material of which one waits.
+ * What is left waits on: particles of next to nothing, whose density follows from that of a trace in
+ * cells of gas, would be squeezed with all that comes behind. */
+static struct error *emit_layers(struct cfdmp *cfdmp, int axis, int side, int64_t number,
+                                 const struct beside *beside, double layer)
 {
-    static const double trace = 1e-3;
     const struct gas_view view = gas_view(cfdmp->gas);
     struct gate *gate = &cfdmp->side[axis][side].gate[number];
-    const double all = gate->pending[PASS_MASS], area = gate_area(cfdmp, axis, side, number);
-    double part = view.layout->two ? gate->pending[PASS_SECOND] / all : 0.0;
-    part = part < trace || beside->of[1] == 0.0         ? 0.0
-           : part > 1.0 - trace || beside->of[0] == 0.0 ? 1.0
-                                                        : part;
-    const double mass[2] = {(1.0 - part) * all, part * all};
-    double kinetic = 0.0, velocity[3], depth = 0.0, rest[2];
-    for (int k = 0; k < 3; k++) {
-        velocity[k] = gate->pending[PASS_MOMENTUM + k] / all;
-        kinetic += 0.5 * square(velocity[k]);
-    }
-    for (int m = 0; m < 2; m++)
-        depth += mass[m] > 0.0 ? mass[m] / (beside->of[m] * area) : 0.0;
-    if (!share_energy(&view, mass, beside->of, gate->pending[PASS_ENERGY] - all * kinetic,
-                      beside->pressure, rest))
-        for (int k = 0; k < 3; k++)
-            velocity[k] = beside->velocity[k];
+    const double area = gate_area(cfdmp, axis, side, number);
     for (int m = 0; m < 2; m++) {
-        if (!(mass[m] > 0.0))
+        const double all = gate->pending[PASS_MASS], second = gate->pending[PASS_SECOND];
+        const double mass[2] = {beside->of[0] > 0.0 ? maximum(all - second, 0.0) : 0.0,
+                                beside->of[1] > 0.0 ? maximum(second, 0.0) : 0.0};
+        if (!(mass[m] > 0.0 && mass[m] >= beside->of[m] * area * layer))
             continue;
-        const struct arrival arrival = {axis,    side,    view.material[m],
-                                        number,  mass[m], beside->of[m],
-                                        rest[m], depth,   {velocity[0], velocity[1], velocity[2]}};
+        double kinetic = 0.0, velocity[3], rest[2];
+        for (int k = 0; k < 3; k++) {
+            velocity[k] = gate->pending[PASS_MOMENTUM + k] / all;
+            kinetic += 0.5 * square(velocity[k]);
+        }
+        if (!share_energy(&view, mass, beside->of, gate->pending[PASS_ENERGY] - all * kinetic,
+                          beside->pressure, rest))
+            for (int k = 0; k < 3; k++)
+                velocity[k] = beside->velocity[k];
+        const struct arrival arrival = {axis,
+                                        side,
+                                        view.material[m],
+                                        number,
+                                        mass[m],
+                                        beside->of[m],
+                                        rest[m],
+                                        mass[m] / (beside->of[m] * area),
+                                        {velocity[0], velocity[1], velocity[2]}};
         TRY(emit(cfdmp, &arrival));
         kinetic = 0.0;
         for (int k = 0; k < 3; k++) {
             gate->pending[PASS_MOMENTUM + k] -= mass[m] * velocity[k];
             kinetic += 0.5 * square(velocity[k]);
         }
-        gate->pending[PASS_ENERGY] -= mass[m] * (arrival.energy + kinetic);
+        gate->pending[PASS_ENERGY] -= mass[m] * (rest[m] + kinetic);
         gate->pending[PASS_MASS] -= mass[m];
         gate->pending[PASS_SECOND] -= m ? mass[m] : 0.0;
     }
@@ -368,17 +370,6 @@ static void pour(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t
         gate->pending[n] -= values[n];
     }
     give_gas(cfdmp, view, at, values, beside->of);
-}
-
-/* The volume of what waits at a gate to come in. */
-static double waiting_volume(const struct gate *gate, const struct beside *beside)
-{
-    const double mass[2] = {gate->pending[PASS_MASS] - gate->pending[PASS_SECOND],
-                            gate->pending[PASS_SECOND]};
-    double volume = 0.0;
-    for (int m = 0; m < 2; m++)
-        volume += beside->of[m] > 0.0 ? mass[m] / beside->of[m] : 0.0;
-    return gate->pending[PASS_MASS] > 0.0 ? volume : 0.0;
 }
 
 /* As printed in the source (4-10) to (4-21): the mean state of the cells beside a gate flows into
@@ -419,8 +410,7 @@ static struct error *settle(struct cfdmp *cfdmp, int axis, int side, int64_t num
     struct gate *gate = &cfdmp->side[axis][side].gate[number];
     const struct beside beside = beside_of(cfdmp, &view, axis, side, number);
     const int body = body_of(cfdmp, view.material[0]);
-    const double layer = gate_area(cfdmp, axis, side, number) * cfdmp->edge /
-                         (double)particles_across(cfdmp, body);
+    const double layer = cfdmp->edge / (double)particles_across(cfdmp, body);
     double difference[PASSES] = {0.0};
     int64_t outside[3];
     cell_of_gate(cfdmp, axis, side, number, false, outside);
@@ -428,14 +418,17 @@ static struct error *settle(struct cfdmp *cfdmp, int axis, int side, int64_t num
         difference[PASS_MOMENTUM + k] = gate->push[k] - gate->pushed[k];
     difference[PASS_ENERGY] = gate->push[3] - gate->pushed[3];
     give_gas(cfdmp, &view, outside, difference, beside.of);
-    if (gate->flow > 0.0 && waiting_volume(gate, &beside) >= layer)
-        TRY(emit_layer(cfdmp, axis, side, number, &beside));
+    if (gate->flow > 0.0 && gate->pending[PASS_MASS] > 0.0)
+        TRY(emit_layers(cfdmp, axis, side, number, &beside, layer));
     else if (gate->flow < 0.0) {
         const double part = dt * fabs(beside.velocity[axis]) / (cells * cfdmp->edge);
         pour(cfdmp, &view, outside, gate, &beside, minimum(part, 1.0));
     }
     return NULL;
 }
+
+static struct error *(*const settle_of[])(struct cfdmp *, int axis, int side, int64_t number,
+                                          double dt) = {settle, settle_printed};
 
 /* What waits at a gate is in neither part. */
 static void book(const struct cfdmp *cfdmp, struct simulation *simulation, int axis, int side,
@@ -459,17 +452,17 @@ struct error *cfdmp_transport(struct cfdmp *cfdmp, struct simulation *simulation
 {
     const struct gas_view view = gas_view(cfdmp->gas);
     struct particles *p = mpm_particles(cfdmp->mpm);
-    for (int32_t i = 0; i < p->count; i++)
+    const bool awake = cfdmp->awake > 0.0; /* else what little comes waits */
+    for (int32_t i = 0; i < p->count && awake; i++)
         take_out(cfdmp, p, i, view.layout->two && p->material[i] == view.material[1]);
     for (int axis = 0; axis < cfdmp->dimension; axis++)
         for (int side = 0; side < 2; side++)
             for (int64_t n = 0; n < cfdmp->side[axis][side].gates; n++) {
                 double *booked = cfdmp->side[axis][side].gate[n].booked;
-                if (cfdmp->parameters.transport == CFDMP_PRINTED) {
-                    TRY(settle_printed(cfdmp, axis, side, n, dt));
+                if (awake)
+                    TRY(settle_of[cfdmp->parameters.transport](cfdmp, axis, side, n, dt));
+                if (cfdmp->parameters.transport == CFDMP_PRINTED)
                     continue;
-                }
-                TRY(settle(cfdmp, axis, side, n, dt));
                 book(cfdmp, simulation, axis, side, n, booked);
                 for (int k = 0; k < PASSES; k++)
                     booked[k] = cfdmp->side[axis][side].gate[n].pending[k];
@@ -555,4 +548,57 @@ void cfdmp_surround(struct cfdmp *cfdmp)
     outside->pressure = pressure_at;
     outside->pushed = take_push;
     mpm_surround(cfdmp->mpm, outside);
+}
+
+static double pressure_outside(const struct cfdmp *cfdmp, const struct gas_view *view, int axis,
+                               int side, int64_t number)
+{
+    int64_t at[3];
+    int32_t block;
+    cell_of_gate(cfdmp, axis, side, number, false, at);
+    return view->cells->pressure[cfdmp_cell(view->cells, at, &block)];
+}
+
+void cfdmp_note_rest(struct cfdmp *cfdmp)
+{
+    const struct gas_view view = gas_view(cfdmp->gas);
+    for (int axis = 0; axis < cfdmp->dimension; axis++)
+        for (int side = 0; side < 2; side++)
+            for (int64_t n = 0; n < cfdmp->side[axis][side].gates; n++)
+                cfdmp->side[axis][side].gate[n].rest =
+                    pressure_outside(cfdmp, &view, axis, side, n);
+}
+
+bool cfdmp_stirs(const struct cfdmp *cfdmp)
+{
+    const struct gas_view view = gas_view(cfdmp->gas);
+    const double wake = cfdmp->parameters.wake;
+    bool stirs = false;
+    for (int axis = 0; axis < cfdmp->dimension; axis++)
+        for (int side = 0; side < 2; side++)
+            for (int64_t n = 0; n < cfdmp->side[axis][side].gates && !stirs; n++) {
+                const double now = pressure_outside(cfdmp, &view, axis, side, n),
+                             rest = cfdmp->side[axis][side].gate[n].rest;
+                stirs = !(now < wake * rest && rest < wake * now);
+            }
+    return stirs;
+}
+
+void cfdmp_lean(struct cfdmp *cfdmp, struct simulation *simulation)
+{
+    for (int axis = 0; axis < cfdmp->dimension; axis++)
+        for (int side = 0; side < 2; side++)
+            for (int64_t n = 0; n < cfdmp->side[axis][side].gates; n++) {
+                struct gate *gate = &cfdmp->side[axis][side].gate[n];
+                int64_t at[3];
+                cell_of_gate(cfdmp, axis, side, n, true, at);
+                for (int k = 0; k < 4; k++)
+                    gate->pushed[k] = gate->push[k];
+                ledger_book(
+                    &simulation->ledger, LEDGER_WALLS, 0.0,
+                    vec3_make(-gate->push[0], -gate->push[1], -gate->push[2]),
+                    vec3_scale(cfdmp->edge, vec3_make((double)at[0] + 0.5, (double)at[1] + 0.5,
+                                                      (double)at[2] + 0.5)),
+                    -gate->push[3]);
+            }
 }

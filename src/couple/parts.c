@@ -101,6 +101,37 @@ static struct error *find_region(struct cfdmp *cfdmp, const struct simulation *s
     return NULL;
 }
 
+/* Solids lie in the region, behind what gas sees of it. */
+static struct error *check_solids(const struct cfdmp *cfdmp, const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    const double depth = (double)(cfdmp->parameters.overlap + band_depth(cfdmp->dimension));
+    struct error *error = NULL;
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct body_input *body = case_body(input, b);
+        if (gas_computes(&simulation->problem->material[body->material_index]))
+            continue;
+        const struct bounds bounds = shape_bounds(&body->shape);
+        for (int axis = 0; axis < cfdmp->dimension; axis++)
+            for (int side = 0; side < 2; side++) {
+                const double at = in(side ? &bounds.high : &bounds.low, axis) / cfdmp->edge,
+                             face = (double)(side ? cfdmp->cut.high : cfdmp->cut.low)[axis];
+                const double room = side ? face - at : at - face,
+                             wanted = cfdmp->cut.open[axis][side] ? depth : 0.0;
+                if (room < wanted - 1e-6)
+                    error = error_join(
+                        error,
+                        input_error(input, "bodies", input->bodies.names[b],
+                                    "this solid is %.6g m from the face %c = %.6g m of the region "
+                                    "of material points: it must be %.6g m inside, behind the "
+                                    "overlap; enlarge the region, or leave it out",
+                                    room * cfdmp->edge, "xyz"[axis], face * cfdmp -> edge,
+                                    wanted * cfdmp -> edge));
+            }
+    }
+    return error;
+}
+
 /* The domain in cells of EDGE, before the gas solver has found it: its faces, rounded. */
 static struct cell_blocks domain_of(const struct simulation_case *input, double edge)
 {
@@ -159,6 +190,7 @@ static struct error *make_gas_part(struct cfdmp *cfdmp, const struct simulation 
     }
     const struct cell_blocks domain = domain_of(input, cfdmp->edge);
     TRY(find_region(cfdmp, simulation, &domain));
+    TRY(check_solids(cfdmp, simulation));
     TRY(block_inside(cfdmp));
     TRY(simulation_create(&part->input, simulation->ranks, simulation->threads, &part->simulation));
     part->solver = own(cfdmp, gas_class.size);
