@@ -106,6 +106,29 @@ static bool is_near(const struct cfdmp *cfdmp, const double x[3])
     return near;
 }
 
+/* The error of a solid particle that has come to the overlap: gas computes no solids. */
+static struct error *check_solid(const struct cfdmp *cfdmp, int32_t i)
+{
+    const struct particles *p = mpm_particles(cfdmp->mpm);
+    const struct simulation_case *input = &cfdmp->mpm_part.input;
+    const double *x = p->position[i];
+    for (int axis = 0; axis < cfdmp->dimension; axis++)
+        for (int side = 0; side < 2; side++) {
+            const double plane = (double)(side ? cfdmp->cut.high : cfdmp->cut.low)[axis],
+                         way = fabs(x[axis] / cfdmp->edge - plane);
+            if (cfdmp->cut.open[axis][side] && way < (double)cfdmp->parameters.overlap)
+                return error_new(
+                    ERROR_STATE,
+                    "step %lld, t = %.6g s: the solid \"%s\" has come to (%.6g, %.6g, %.6g) m, into "
+                    "the overlap of gas and material points at the face %c = %.6g m of the region: "
+                    "the gas cannot see it there; enlarge the `region` of the solver",
+                    (long long)cfdmp->mpm_part.simulation.step + 1,
+                    cfdmp->mpm_part.simulation.time, input->bodies.names[p->body[i]], x[0], x[1],
+                    x[2], "xyz"[axis], plane * cfdmp->edge);
+        }
+    return NULL;
+}
+
 struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
 {
     struct key {
@@ -122,10 +145,20 @@ struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
         return error_new(ERROR_SYSTEM, "out of memory for the cells beside particles");
     }
     int32_t near = 0;
-    for (int32_t i = 0; i < p->count; i++)
-        if (is_near(cfdmp, p->position[i]) &&
-            (p->material[i] == view.material[0] || p->material[i] == view.material[1]))
+    struct error *error = NULL;
+    for (int32_t i = 0; i < p->count && !error; i++) {
+        if (!is_near(cfdmp, p->position[i]))
+            continue;
+        if (p->material[i] == view.material[0] || p->material[i] == view.material[1])
             key[near++] = (struct key){p->id[i], i};
+        else
+            error = check_solid(cfdmp, i);
+    }
+    if (error) {
+        free(key);
+        free(sums);
+        return error;
+    }
     qsort(key, (size_t)near, sizeof *key, by_id);
     for (int64_t n = 0; n < cfdmp->band_cells; n++)
         sums[n] = (struct sums){{0.0}, {0.0}, {0.0}, {0.0}};

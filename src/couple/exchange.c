@@ -69,14 +69,47 @@ static double gate_area(const struct cfdmp *cfdmp, int axis, int side, int64_t n
     return area;
 }
 
-/* Adds VALUES, conserved, to the cell outside a gate; materials have the densities OF, 0 where they
- * are not known. */
+/* The largest part of VALUES, of 1, 1/2, 1/4 and so on, that leaves cell I half of its density and
+ * most of its heat. */
+static double bearable_part(const struct gas_view *view, int32_t i, const double values[PASSES],
+                            double per)
+{
+    enum { HALVINGS = 10 };
+    const double heat = view->cells->pressure[i]; /* a gas has more of it per volume */
+    double part = 1.0;
+    for (int k = 0; k < HALVINGS; k++, part *= 0.5) {
+        double kinetic[2] = {0.0, 0.0}, density[2], energy[2];
+        for (int after = 0; after < 2; after++) {
+            const double given = after ? part * per : 0.0;
+            density[after] = view->u[GAS_DENSITY][i] + given * values[PASS_MASS];
+            energy[after] = view->u[GAS_ENERGY][i] + given * values[PASS_ENERGY];
+            for (int axis = 0; axis < 3; axis++)
+                kinetic[after] += 0.5 *
+                                  square(view->u[GAS_MOMENTUM + axis][i] +
+                                         given * values[PASS_MOMENTUM + axis]) /
+                                  density[after];
+        }
+        if (density[1] > 0.5 * density[0] &&
+            energy[1] - kinetic[1] > energy[0] - kinetic[0] - 0.5 * heat)
+            return part;
+    }
+    return 0.0;
+}
+
+/* Adds REST, conserved, to the cell outside a gate; materials have the densities OF, 0 where they
+ * are not known. REST becomes what the cell cannot bear at once. */
 static void give_gas(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t at[3],
-                     const double values[PASSES], const double of[2])
+                     double rest[PASSES], const double of[2])
 {
     const double per = 1.0 / cell_volume(cfdmp, at);
     int32_t block;
     const int32_t i = cfdmp_cell(view->cells, at, &block);
+    const double part = bearable_part(view, i, rest, per);
+    double values[PASSES];
+    for (int n = 0; n < PASSES; n++) {
+        values[n] = part * rest[n];
+        rest[n] -= values[n];
+    }
     for (int n = 0; n < GAS_NUMBERS; n++)
         view->u[n][i] += per * values[n];
     cfdmp->changed[block] = true;
@@ -205,14 +238,19 @@ static bool take_out(struct cfdmp *cfdmp, struct particles *p, int32_t i, bool s
     return true;
 }
 
-/* The body whose particles those that come in belong to: the first of MATERIAL. */
+/* The body whose particles those that come in belong to: the first of MATERIAL, or where the products
+ * of another case have none, the first that is gas. */
 static int body_of(const struct cfdmp *cfdmp, int material)
 {
-    const struct simulation_case *input = &cfdmp->mpm_part.input;
-    int body = 0;
-    while (body + 1 < input->bodies.count && case_body(input, body)->material_index != material)
-        body++;
-    return body;
+    const struct simulation_case *input = &cfdmp->gas_part.input;
+    int first = -1;
+    for (int body = 0; body < input->bodies.count; body++) {
+        if (case_body(input, body)->material_index == material)
+            return body;
+        if (first < 0 && !case_body(input, body)->elsewhere)
+            first = body;
+    }
+    return first;
 }
 
 /* Particles of a layer along an axis, in a cell. */
@@ -370,6 +408,8 @@ static void pour(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t
         gate->pending[n] -= values[n];
     }
     give_gas(cfdmp, view, at, values, beside->of);
+    for (int n = 0; n < PASSES; n++)
+        gate->pending[n] += values[n];
 }
 
 /* As printed in the source (4-10) to (4-21): the mean state of the cells beside a gate flows into
@@ -387,8 +427,6 @@ static struct error *settle_printed(struct cfdmp *cfdmp, int axis, int side, int
     int64_t outside[3];
     cell_of_gate(cfdmp, axis, side, number, false, outside);
     give_gas(cfdmp, &view, outside, gate->pending, beside.of);
-    for (int n = 0; n < PASSES; n++)
-        gate->pending[n] = 0.0;
     const struct arrival arrival = {axis,
                                     side,
                                     view.material[m],
@@ -418,6 +456,8 @@ static struct error *settle(struct cfdmp *cfdmp, int axis, int side, int64_t num
         difference[PASS_MOMENTUM + k] = gate->push[k] - gate->pushed[k];
     difference[PASS_ENERGY] = gate->push[3] - gate->pushed[3];
     give_gas(cfdmp, &view, outside, difference, beside.of);
+    for (int n = 0; n < PASSES; n++)
+        gate->pending[n] += difference[n];
     if (gate->flow > 0.0 && gate->pending[PASS_MASS] > 0.0)
         TRY(emit_layers(cfdmp, axis, side, number, &beside, layer));
     else if (gate->flow < 0.0) {

@@ -137,7 +137,7 @@ static bool is_seen(const struct profile *profile, const struct population *part
     const struct profile_input *input = profile->input;
     double at = particles->position[index][input->along];
     return population_has(particles, index) &&
-           (!input->of || particles->body[index] == profile->body) &&
+           (profile->body < 0 || particles->body[index] == profile->body) &&
            (input->between.count != 2 ||
             (at >= input->between.at[0] && at <= input->between.at[1]));
 }
