@@ -119,12 +119,13 @@ static struct error *check_solid(const struct cfdmp *cfdmp, int32_t i)
             if (cfdmp->cut.open[axis][side] && way < (double)cfdmp->parameters.overlap)
                 return error_new(
                     ERROR_STATE,
-                    "step %lld, t = %.6g s: the solid \"%s\" has come to (%.6g, %.6g, %.6g) m, into "
+                    "step %lld, t = %.6g s: the solid \"%s\" has come to (%.6g, %.6g, %.6g) m, "
+                    "into "
                     "the overlap of gas and material points at the face %c = %.6g m of the region: "
                     "the gas cannot see it there; enlarge the `region` of the solver",
-                    (long long)cfdmp->mpm_part.simulation.step + 1,
-                    cfdmp->mpm_part.simulation.time, input->bodies.names[p->body[i]], x[0], x[1],
-                    x[2], "xyz"[axis], plane * cfdmp->edge);
+                    (long long)cfdmp->mpm_part.simulation.step + 1, cfdmp->mpm_part.simulation.time,
+                    input->bodies.names[p->body[i]], x[0], x[1], x[2], "xyz"[axis],
+                    plane * cfdmp -> edge);
         }
     return NULL;
 }

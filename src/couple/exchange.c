@@ -69,66 +69,115 @@ static double gate_area(const struct cfdmp *cfdmp, int axis, int side, int64_t n
     return area;
 }
 
-/* The largest part of VALUES, of 1, 1/2, 1/4 and so on, that leaves cell I half of its density and
- * most of its heat. */
-static double bearable_part(const struct gas_view *view, int32_t i, const double values[PASSES],
-                            double per)
+/* The state of a cell: conserved numbers, the second material's mass per volume and its fraction. */
+struct content {
+    double u[GAS_NUMBERS], second, fraction;
+};
+
+static struct content content_of(const struct gas_view *view, int32_t i)
 {
-    enum { HALVINGS = 10 };
-    const double heat = view->cells->pressure[i]; /* a gas has more of it per volume */
-    double part = 1.0;
-    for (int k = 0; k < HALVINGS; k++, part *= 0.5) {
-        double kinetic[2] = {0.0, 0.0}, density[2], energy[2];
-        for (int after = 0; after < 2; after++) {
-            const double given = after ? part * per : 0.0;
-            density[after] = view->u[GAS_DENSITY][i] + given * values[PASS_MASS];
-            energy[after] = view->u[GAS_ENERGY][i] + given * values[PASS_ENERGY];
-            for (int axis = 0; axis < 3; axis++)
-                kinetic[after] += 0.5 *
-                                  square(view->u[GAS_MOMENTUM + axis][i] +
-                                         given * values[PASS_MOMENTUM + axis]) /
-                                  density[after];
-        }
-        if (density[1] > 0.5 * density[0] &&
-            energy[1] - kinetic[1] > energy[0] - kinetic[0] - 0.5 * heat)
-            return part;
+    struct content content = {{0.0}, 0.0, 0.0};
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        content.u[n] = view->u[n][i];
+    if (view->layout->two) {
+        content.second = view->u[GAS_SECOND][i];
+        content.fraction = view->u[GAS_FRACTION][i];
     }
-    return 0.0;
+    return content;
+}
+
+/* The pressure of both materials of a cell together, which grows in proportion to the energy where
+ * there are two. */
+static double pressure_of(const struct gas_view *view, const struct content *content)
+{
+    const double none[POINT_HISTORY] = {0.0}, *u = content->u;
+    double kinetic = 0.0, over, per = 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        kinetic += 0.5 * square(u[GAS_MOMENTUM + axis]) / u[GAS_DENSITY];
+    over = u[GAS_ENERGY] - kinetic;
+    if (!view->layout->two)
+        return eos_evaluate(view->eos, u[GAS_DENSITY], over / u[GAS_DENSITY], none).pressure;
+    const double mass[2] = {u[GAS_DENSITY] - content->second, content->second},
+                 part[2] = {1.0 - content->fraction, content->fraction};
+    for (int m = 0; m < 2; m++)
+        if (part[m] > 0.0 && mass[m] > 0.0) {
+            const struct eos_value cold = eos_evaluate(&view->eos[m], mass[m] / part[m], 0.0, none);
+            over += mass[m] * cold.pressure / cold.dp_de;
+            per += mass[m] / cold.dp_de;
+        }
+    return over / per;
+}
+
+/* CONTENT with VALUES per volume more; materials have the densities OF, 0 where they are not
+ * known. */
+static struct content content_with(const struct gas_view *view, struct content content,
+                                   const double values[PASSES], const double of[2])
+{
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        content.u[n] += values[n];
+    if (!view->layout->two)
+        return content;
+    const double given[2] = {values[PASS_MASS] - values[PASS_SECOND], values[PASS_SECOND]};
+    const double volume[2] = {of[0] > 0.0 ? given[0] / of[0] : 0.0,
+                              of[1] > 0.0 ? given[1] / of[1] : 0.0};
+    content.second += given[1];
+    content.fraction = (content.fraction + volume[1]) / (1.0 + volume[0] + volume[1]);
+    const double all = content.u[GAS_DENSITY], trace = 1e-8;
+    if (fabs(content.second) <= trace * all)
+        content.fraction = content.second = 0.0;
+    if (fabs(content.second - all) <= trace * all) {
+        content.fraction = 1.0;
+        content.second = all;
+    }
+    return content;
+}
+
+/* Whether a cell keeps half of its density and of its pressure, and some of each material that it
+ * has. */
+static bool is_bearable(const struct gas_view *view, const struct content *before,
+                        const struct content *after)
+{
+    const double all = after->u[GAS_DENSITY];
+    if (!(all > 0.5 * before->u[GAS_DENSITY]))
+        return false;
+    if (after->second < 0.0 || after->second > all || !(after->fraction >= 0.0) ||
+        after->fraction > 1.0 || (after->fraction == 0.0) != (after->second == 0.0) ||
+        (after->fraction == 1.0) != (after->second == all && view->layout->two))
+        return false;
+    return pressure_of(view, after) > 0.5 * pressure_of(view, before);
 }
 
 /* Adds REST, conserved, to the cell outside a gate; materials have the densities OF, 0 where they
- * are not known. REST becomes what the cell cannot bear at once. */
+ * are not known. REST becomes what the cell cannot bear at once: it takes all, a half, a quarter
+ * and so on. */
 static void give_gas(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t at[3],
                      double rest[PASSES], const double of[2])
 {
-    const double per = 1.0 / cell_volume(cfdmp, at);
+    enum { HALVINGS = 10 };
     int32_t block;
     const int32_t i = cfdmp_cell(view->cells, at, &block);
-    const double part = bearable_part(view, i, rest, per);
-    double values[PASSES];
-    for (int n = 0; n < PASSES; n++) {
-        values[n] = part * rest[n];
-        rest[n] -= values[n];
+    const struct content before = content_of(view, i);
+    double part = 1.0 / cell_volume(cfdmp, at), values[PASSES];
+    const double all = part;
+    struct content after = before;
+    bool bearable = false;
+    for (int k = 0; k < HALVINGS && !bearable; k++, part *= bearable ? 1.0 : 0.5) {
+        for (int n = 0; n < PASSES; n++)
+            values[n] = part * rest[n];
+        after = content_with(view, before, values, of);
+        bearable = is_bearable(view, &before, &after);
     }
-    for (int n = 0; n < GAS_NUMBERS; n++)
-        view->u[n][i] += per * values[n];
-    cfdmp->changed[block] = true;
-    if (!view->layout->two)
+    if (!bearable)
         return;
-    double *second = &view->u[GAS_SECOND][i], *fraction = &view->u[GAS_FRACTION][i];
-    const double given[2] = {per * (values[PASS_MASS] - values[PASS_SECOND]),
-                             per * values[PASS_SECOND]};
-    const double volume[2] = {of[0] > 0.0 ? given[0] / of[0] : 0.0,
-                              of[1] > 0.0 ? given[1] / of[1] : 0.0};
-    *second += given[1];
-    *fraction = (*fraction + volume[1]) / (1.0 + volume[0] + volume[1]);
-    const double all = view->u[GAS_DENSITY][i];
-    if (!(*fraction > 1e-8) || !(*second > 1e-8 * all))
-        *fraction = *second = 0.0;
-    if (!(*fraction < 1.0 - 1e-8) || !(*second < (1.0 - 1e-8) * all)) {
-        *fraction = 1.0;
-        *second = all;
+    for (int n = 0; n < PASSES; n++)
+        rest[n] -= values[n] / all;
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        view->u[n][i] = after.u[n];
+    if (view->layout->two) {
+        view->u[GAS_SECOND][i] = after.second;
+        view->u[GAS_FRACTION][i] = after.fraction;
     }
+    cfdmp->changed[block] = true;
 }
 
 /* The mean of the cells on both sides of a gate; the densities of both materials where they are, 0
@@ -319,6 +368,8 @@ static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
             p->mass[i] *= p->position[i][0] / (((double)at[0] + 0.5) * cfdmp->edge);
         for (int n = 0; n < cfdmp->dimension - 1; n++)
             p->position[i][across[n]] += drift(cfdmp, arrival, across[n]);
+        if (cfdmp->round)
+            p->position[i][0] = fabs(p->position[i][0]);
         for (int n = 0; n < 3; n++)
             p->velocity[i][n] = arrival->velocity[n];
         if (p->history[HISTORY_lighting_time])
