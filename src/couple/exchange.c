@@ -132,11 +132,20 @@ static struct content content_with(const struct gas_view *view, struct content c
     return content;
 }
 
-/* Whether a cell keeps half of its density and of its pressure, and some of each material that it
- * has. */
-static bool is_bearable(const struct gas_view *view, const struct content *before,
-                        const struct content *after)
+/* The density of material M in a cell, 0 where there is none. */
+static double density_in(const struct content *content, int m)
 {
+    const double mass = m ? content->second : content->u[GAS_DENSITY] - content->second,
+                 part = m ? content->fraction : 1.0 - content->fraction;
+    return part > 0.0 ? mass / part : 0.0;
+}
+
+/* Whether a cell keeps half of its density and of its pressure, and of each material some at about
+ * the density that it had, or that it has beside the gate, OF. */
+static bool is_bearable(const struct gas_view *view, const struct content *before,
+                        const struct content *after, const double of[2])
+{
+    static const double most = 5.0;
     const double all = after->u[GAS_DENSITY];
     if (!(all > 0.5 * before->u[GAS_DENSITY]))
         return false;
@@ -144,6 +153,12 @@ static bool is_bearable(const struct gas_view *view, const struct content *befor
         after->fraction > 1.0 || (after->fraction == 0.0) != (after->second == 0.0) ||
         (after->fraction == 1.0) != (after->second == all && view->layout->two))
         return false;
+    for (int m = 0; m < 2 && view->layout->two; m++) {
+        const double now = density_in(after, m), was = density_in(before, m);
+        const double than = was > 0.0 ? was : of[m];
+        if (now != 0.0 && !(now < most * than && than < most * now))
+            return false;
+    }
     return pressure_of(view, after) > 0.5 * pressure_of(view, before);
 }
 
@@ -165,7 +180,7 @@ static void give_gas(struct cfdmp *cfdmp, const struct gas_view *view, const int
         for (int n = 0; n < PASSES; n++)
             values[n] = part * rest[n];
         after = content_with(view, before, values, of);
-        bearable = is_bearable(view, &before, &after);
+        bearable = is_bearable(view, &before, &after, of);
     }
     if (!bearable)
         return;

@@ -197,6 +197,7 @@ void simulation_end_phase(struct simulation *simulation, enum phase_kind kind, c
 
 void simulation_take_phases(struct simulation *simulation, struct simulation *part)
 {
+    simulation_start_phase(simulation);
     for (int k = 0; k < part->phases; k++) {
         simulation_end_phase(simulation, PHASE_SHARED, part->phase[k].name);
         for (int i = 0; i < simulation->phases; i++)
@@ -204,7 +205,6 @@ void simulation_take_phases(struct simulation *simulation, struct simulation *pa
                 simulation->phase[i].seconds += part->phase[k].seconds;
     }
     part->phases = 0;
-    simulation_start_phase(simulation);
 }
 
 void simulation_end_waiting(struct simulation *simulation)
