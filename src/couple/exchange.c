@@ -332,15 +332,23 @@ struct arrival {
     double velocity[3];
 };
 
-/* How far the middle of what comes in has moved along ACROSS since it passed the face. */
-static double drift(const struct cfdmp *cfdmp, const struct arrival *arrival, int across)
+/* Where what comes in is along ACROSS, from PLACE at the face: its middle has moved since it passed
+ * the face. It stays in the region, and half the distance ROOM of particles off a wall. */
+static double drifted(const struct cfdmp *cfdmp, const struct arrival *arrival, int across,
+                      double place, double room)
 {
     static const double most = 2.0; /* cells */
     const double *u = arrival->velocity, in = (arrival->side ? -1.0 : 1.0) * u[arrival->axis],
                  half = 0.5 * arrival->depth, limit = most * cfdmp->edge;
-    if (!(fabs(u[across]) * half < limit * in))
-        return in > 0.0 ? copysign(limit, u[across]) : 0.0;
-    return half * u[across] / in;
+    const bool *open = cfdmp->cut.open[across];
+    const double low = (double)cfdmp->cut.low[across] * cfdmp->edge + (open[0] ? 0.0 : 0.5 * room),
+                 high =
+                     (double)cfdmp->cut.high[across] * cfdmp->edge - (open[1] ? 0.0 : 0.5 * room);
+    if (fabs(u[across]) * half < limit * in)
+        place += half * u[across] / in;
+    else if (in > 0.0)
+        place += copysign(limit, u[across]);
+    return minimum(maximum(place, low), high);
 }
 
 static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
@@ -358,9 +366,9 @@ static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
     int32_t first;
     TRY(particles_append(p, (int32_t)count, &first));
     cell_of_gate(cfdmp, axis, side, arrival->number, true, at);
-    /* by layer, face and place, beyond the sites of any body */
+    /* by layer, face and place */
     const int64_t emitted =
-        ((int64_t)1 << (PARTICLE_SITE_BITS - 1)) +
+        (int64_t)PARTICLE_CREATED +
         (((int64_t)gate->emitted * 6 + 2 * axis + side) * cfdmp->side[axis][side].gates +
          arrival->number) *
             count;
@@ -382,9 +390,8 @@ static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
         if (cfdmp->round && axis > 0) /* in the cell, as the radius */
             p->mass[i] *= p->position[i][0] / (((double)at[0] + 0.5) * cfdmp->edge);
         for (int n = 0; n < cfdmp->dimension - 1; n++)
-            p->position[i][across[n]] += drift(cfdmp, arrival, across[n]);
-        if (cfdmp->round)
-            p->position[i][0] = fabs(p->position[i][0]);
+            p->position[i][across[n]] = drifted(
+                cfdmp, arrival, across[n], p->position[i][across[n]], cfdmp->edge / (double)each);
         for (int n = 0; n < 3; n++)
             p->velocity[i][n] = arrival->velocity[n];
         if (p->history[HISTORY_lighting_time])

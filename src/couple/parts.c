@@ -56,12 +56,44 @@ static struct error *copy_bodies(struct cfdmp *cfdmp, const struct simulation_ca
     return NULL;
 }
 
+/* What is wrong with the region as the case gives it. */
+static struct error *check_region(const struct cfdmp *cfdmp, const struct simulation *simulation,
+                                  const struct cell_blocks *cells)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    const struct cfdmp_region *region = &cfdmp->parameters.region;
+    static const char key[] = "cfdmp.region";
+    if (region->low.count == 0 && region->high.count == 0)
+        return NULL;
+    if (region->low.count != cfdmp->dimension || region->high.count != cfdmp->dimension)
+        return input_error(input, "solver", key,
+                           "expected `low` and `high` with %d component%s each, one per dimension",
+                           cfdmp->dimension, cfdmp->dimension == 1 ? "" : "s");
+    for (int axis = 0; axis < cfdmp->dimension; axis++) {
+        const double low = region->low.at[axis], high = region->high.at[axis],
+                     domain[2] = {(double)cells->low[axis] * cfdmp->edge,
+                                  (double)cells->high[axis] * cfdmp->edge},
+                     slack = 1e-6 * cfdmp->edge;
+        if (!(low < high))
+            return input_error(input, "solver", key, "`low` is not below `high` along %c",
+                               "xyz"[axis]);
+        if (low < domain[0] - slack || high > domain[1] + slack)
+            return input_error(
+                input, "solver", key,
+                "it reaches from %.6g m to %.6g m along %c, beyond the domain, which "
+                "reaches from %.6g m to %.6g m",
+                low, high, "xyz"[axis], domain[0], domain[1]);
+    }
+    return NULL;
+}
+
 /* The region in cells of the domain of CELLS. */
 static struct error *find_region(struct cfdmp *cfdmp, const struct simulation *simulation,
                                  const struct cell_blocks *cells)
 {
     const struct simulation_case *input = simulation->problem->input;
     const struct cfdmp_region *region = &cfdmp->parameters.region;
+    TRY(check_region(cfdmp, simulation, cells));
     const int64_t margin = cfdmp->parameters.overlap + band_depth(cfdmp->dimension) + 3;
     for (int axis = 0; axis < 3; axis++) {
         double low = INFINITY, high = -INFINITY;

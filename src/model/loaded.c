@@ -23,7 +23,8 @@ static struct error *check_indices(const struct simulation *simulation, int64_t 
                              (long long)(first + i), p->material[i], materials);
         if (p->kind == POPULATION_OF_CELLS)
             continue; /* their ids are places, which the solver knows */
-        if (of >= bodies || (double)(p->id[i] & PARTICLE_SITE) >= sites[of])
+        const bool created = p->id[i] & PARTICLE_CREATED;
+        if (of >= bodies || (!created && (double)(p->id[i] & PARTICLE_SITE) >= sites[of]))
             return error_new(ERROR_SYSTEM, "row %lld of id is %llu, a site that no body has",
                              (long long)(first + i), (unsigned long long)p->id[i]);
     }

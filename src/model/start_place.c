@@ -12,6 +12,11 @@ void start_places(const struct population *particles, int64_t begin, int64_t end
     for (int64_t i = begin; i < end; i++) {
         const int body = (int)(particles->id[i] >> PARTICLE_SITE_BITS);
         const int64_t site = (int64_t)(particles->id[i] & PARTICLE_SITE);
+        if (particles->id[i] & PARTICLE_CREATED) {
+            for (int axis = 0; axis < 3; axis++)
+                place[i - begin][axis] = particles->position[i][axis];
+            continue;
+        }
         if (body != lattice_body) {
             lattice = body_lattice(particles->problem->input, body);
             lattice_body = body;

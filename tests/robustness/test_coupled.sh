@@ -1,0 +1,38 @@
+#!/bin/bash
+# Gas and material points side by side: the same bits on any number of threads and after a kill, and
+# what a coupled case refuses.
+set -u
+status=0
+fail() {
+    echo "FAILED: $*"
+    status=1
+}
+hash_of() { grep -o '"hash","[0-9a-f]*"' "$1/summary.csv"; }
+# What two runs wrote, to the last bit, but for what tells of the running itself.
+same() {
+    [ -n "$(hash_of "$1")" ] && [ "$(hash_of "$1")" = "$(hash_of "$2")" ] || return 1
+    diff -rq -x summary.csv -x run.log -x report.html -x checkpoint.h5 -x case.yaml "$1" "$2"
+}
+case=$BOLIDE_SOURCE_DIR/tests/data/everything-coupled.yaml
+
+rm -rf one two four killed
+for threads in 1:one 2:two 4:four; do
+    "$BOLIDE" run "$case" --threads "${threads%:*}" --output "${threads#*:}" >run.log 2>&1 ||
+        fail "on ${threads%:*} threads: $(cat run.log)"
+done
+same one two || fail "2 threads differ from one"
+same one four || fail "4 threads differ from one"
+
+# Killed half-way, when material is passing the faces, and resumed on another number of threads.
+"$BOLIDE" run "$case" --threads 2 --output killed >killed.log 2>&1 &
+runner=$!
+while [ ! -e killed/snapshots/000002.vtkhdf ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+kill -KILL $runner 2>/dev/null
+wait $runner 2>/dev/null
+[ ! -e killed/checks.csv ] || fail "the killed run came to its end"
+"$BOLIDE" run "$case" --threads 1 --output killed --resume >resumed.log 2>&1 ||
+    fail "resuming after a kill: $(cat resumed.log)"
+grep -q "^resumed at step" resumed.log || fail "nothing was resumed: $(cat resumed.log)"
+same one killed || fail "a killed and resumed run differs"
+
+exit $status
