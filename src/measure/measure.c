@@ -24,6 +24,8 @@ const struct choice measure_choices[MEASURES] = {
     {"mean", "mean of a field over particles", FIELD, &measure_mean},
     {"minimum", "smallest value of a field", FIELD, &measure_minimum},
     {"maximum", "largest value of a field", FIELD, &measure_maximum},
+    {"quantile", "value of a field that a fraction of the particles does not exceed",
+     measure_quantile_table, sizeof(struct measure_quantile), &measure_quantile},
     {"l1", "mean distance of a field from the exact solution, by volume, over `scale`", FIELD,
      &measure_l1},
     {"rms", "root of the mean square distance from the exact solution, by volume, over `scale`",

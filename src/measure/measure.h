@@ -46,6 +46,11 @@ struct measure_field {
     char *field; /* a column or one component of it: "pressure", "velocity.x" */
 };
 
+struct measure_quantile {
+    struct measure_field of;
+    double fraction;
+};
+
 struct measure_front {
     char *field;
     struct quantity value; /* of the field at the front; NAN: not given */
@@ -161,10 +166,10 @@ struct measure_shear_layer {
 double conserved_change(const struct simulation *simulation, const struct totals *start,
                         enum conserved_total total);
 
-enum { MEASURES = 29 };
+enum { MEASURES = 30 };
 extern const struct choice measure_choices[MEASURES];
 
-extern const struct parameter measure_field_table[];
+extern const struct parameter measure_field_table[], measure_quantile_table[];
 extern const struct parameter measure_front_table[], measure_width_table[],
     measure_conserved_table[];
 extern const struct parameter measure_total_table[], measure_extent_table[], measure_turn_table[],
@@ -172,8 +177,9 @@ extern const struct parameter measure_total_table[], measure_extent_table[], mea
     measure_shear_layer_table[], measure_recorded_table[], measure_fragments_table[],
     measure_largest_fragment_table[], measure_length_table[], measure_hole_table[],
     measure_crater_table[], measure_bulge_table[], measure_blast_table[];
-extern const struct measure_class measure_total, measure_decay, measure_spread, measure_extent,
-    measure_turn, measure_pieces, measure_asymmetry, measure_radius, measure_shear_layer;
+extern const struct measure_class measure_quantile, measure_total, measure_decay, measure_spread,
+    measure_extent, measure_turn, measure_pieces, measure_asymmetry, measure_radius,
+    measure_shear_layer;
 extern const struct measure_class measure_fragments, measure_largest_fragment, measure_length,
     measure_hole, measure_crater, measure_bulge;
 extern const struct measure_class measure_mean, measure_minimum, measure_maximum, measure_l1,

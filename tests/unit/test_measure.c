@@ -176,6 +176,25 @@ static void extremes_are_found_and_nonsense_is_not_hidden(void **state)
     assert_float_equal(value_of(b, "finite", &pressure), 2.0, 0.0);
 }
 
+static void a_quantile_is_the_value_that_a_fraction_does_not_exceed(void **state)
+{
+    struct bench *b = *state;
+    double *p = particles_of(&b->simulation)->pressure;
+    limit_dimension(b, pascal);
+    for (int i = 0; i < ALL; i++)
+        p[i] = (i * 7) % ALL - 20.0; /* all whole numbers from -20 to 19 */
+    struct measure_quantile quantile = {pressure, 0.975};
+    assert_float_equal(value_of(b, "quantile", &quantile), 18.0, 0.0);
+    quantile.fraction = 1.0;
+    assert_float_equal(value_of(b, "quantile", &quantile), 19.0, 0.0);
+    quantile.fraction = 0.1;
+    assert_float_equal(value_of(b, "quantile", &quantile), -17.0, 0.0);
+    quantile.fraction = 0.525;
+    assert_float_equal(value_of(b, "quantile", &quantile), 0.0, 0.0);
+    p[17] = NAN;
+    assert_true(isnan(value_of(b, "quantile", &quantile)));
+}
+
 static void front_lies_between_the_particles_that_straddle_the_value(void **state)
 {
     struct bench *b = *state;
@@ -427,6 +446,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(mean_counts_every_particle_of_the_window_once),
         TEST(extremes_are_found_and_nonsense_is_not_hidden),
+        TEST(a_quantile_is_the_value_that_a_fraction_does_not_exceed),
         TEST(front_lies_between_the_particles_that_straddle_the_value),
         TEST(width_counts_the_particles_between_a_tenth_and_nine_tenths),
         TEST(slabs_average_a_ragged_front),

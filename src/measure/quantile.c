@@ -1,0 +1,69 @@
+/* quantile: the value that a fraction of the particles does not exceed, each counting once. Unlike
+ * the maximum it converges where single particles are thrown out. */
+#include <string.h>
+
+#include "measure/measure.h"
+
+const struct parameter measure_quantile_table[] = {
+    {.key = "field",
+     .kind = PARAMETER_TEXT,
+     .offset = offsetof(struct measure_quantile, of.field),
+     .standard = PARAMETER_REQUIRED,
+     .help = "a field of the particles, or one component of it: pressure, velocity.x, stress.xx"},
+    {.key = "fraction",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct measure_quantile, fraction),
+     .standard = PARAMETER_REQUIRED,
+     .below = 1.0,
+     .closed = true,
+     .help = "the fraction of the particles whose values are at most the result; 0.5: the median"},
+    PARAMETER_END,
+};
+
+/* Numbers in the order of the values, and back; no two values have the same. */
+static uint64_t rank_of(double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits >> 63 ? ~bits : bits | UINT64_C(1) << 63;
+}
+
+static double value_of(uint64_t rank)
+{
+    const uint64_t bits = rank >> 63 ? rank & ~(UINT64_C(1) << 63) : ~rank;
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Bisects: the least value that enough samples do not exceed is one of theirs. */
+static struct error *measure(const struct measurement *measurement, double *value)
+{
+    const struct measure_quantile *quantile = measurement->check->measure.value;
+    const struct ranks *ranks = measurement->simulation->ranks;
+    struct samples samples;
+    TRY(samples_take(measurement, &samples));
+    int64_t lost = 0;
+    for (int64_t i = 0; i < samples.count; i++)
+        lost += isnan(samples.at[i].value);
+    lost = ranks_sum(ranks, lost);
+    const int64_t count = ranks_sum(ranks, samples.count);
+    uint64_t low = rank_of(-INFINITY), high = rank_of(INFINITY);
+    while (low < high) {
+        const uint64_t middle = low + (high - low) / 2;
+        const double limit = value_of(middle);
+        int64_t within = 0;
+        for (int64_t i = 0; i < samples.count; i++)
+            within += samples.at[i].value <= limit;
+        if ((double)ranks_sum(ranks, within) >= quantile->fraction * (double)count)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    *value = count > 0 && lost == 0 ? value_of(low) : NAN;
+    samples_free(&samples);
+    return NULL;
+}
+
+const struct measure_class measure_quantile = {
+    .of_field = true, .unit = measure_field_unit, .measure = measure};
