@@ -1,0 +1,32 @@
+/* The gates of a coupling, faces of cells in the open faces of the region, and the cells of gas on
+ * both sides of them. Private to couple/. */
+#ifndef BOLIDE_GATES_H
+#define BOLIDE_GATES_H
+
+#include "couple/cfdmp.h"
+
+/* The axes across AXIS, the lower first, by which the gates of a face are numbered. */
+void gate_axes(int axis, int across[2]);
+
+/* The cell behind gate NUMBER of the face across AXIS on SIDE, INSIDE the region or outside. */
+void gate_cell(const struct cfdmp *cfdmp, int axis, int side, int64_t number, bool inside,
+               int64_t at[3]);
+
+/* The area of gate NUMBER, of a radian in axisymmetry. */
+double gate_area(const struct cfdmp *cfdmp, int axis, int side, int64_t number);
+
+/* The mean of the cells on both sides of a gate; the densities of both materials where they are, 0
+ * where there is none. */
+struct beside {
+    double density, velocity[3], energy, sound, pressure, of[2];
+};
+struct beside gate_beside(const struct cfdmp *cfdmp, const struct gas_view *view, int axis,
+                          int side, int64_t number);
+
+/* Adds REST, conserved, to the cell AT outside a gate; materials have the densities OF, 0 where they
+ * are not known. REST becomes what the cell cannot bear at once: it takes all, a half, a quarter
+ * and so on. */
+void gate_give(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t at[3],
+               double rest[PASSES], const double of[2]);
+
+#endif
