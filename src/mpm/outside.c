@@ -8,20 +8,9 @@
 #include <assert.h>
 #include <string.h>
 
-#include "exact/kingery_curves.h"
 #include "material/material.h"
 #include "mpm/mpm_internal.h"
-
-/* The contributions of a particle to the values of its nodes: value n gets the sum over axes k of
- * by_slope[n][k] dN/dx_k, and of around[n] and what acts around the axis. With
- * stresses on faces, the slope along k includes the factors of the node's faces where k is
- * filled[n], and what acts around the axis those of its ring, so that a pressure balances the stress
- * inside. */
-struct given {
-    double by_slope[3][3];
-    int filled[3];
-    double around[3];
-};
+#include "mpm/surface.h"
 
 /* A particle at X of half the size HALF, in cells, in a cell whose first node is at PLACE of the
  * patch and has index FIRST. */
@@ -98,21 +87,6 @@ static void give(const struct mpm *mpm, const struct layer *layer, const struct 
                 }
             }
 }
-
-/* A loaded surface, and the contributions of its particles. */
-struct surface {
-    int body;         /* -1: all */
-    double low, high; /* range of nodes on the surface, in cells along AXIS */
-    int axis;
-    struct given (*of)(const struct mpm *, const struct simulation *, const struct surface *,
-                       int32_t i);
-    const struct load_input *load;
-    double pressure, traction[3]; /* of the load in the middle of the step */
-    double time, density;         /* of a blast: that middle; of the body at the start */
-    const struct outflow_input *outflow;
-    const struct mpm_outside *outside;
-    double reach; /* how far from a face its surface may be, in nodes */
-};
 
 static struct given by_load(const struct mpm *mpm, const struct simulation *simulation,
                             const struct surface *surface, int32_t i)
@@ -293,67 +267,6 @@ static void push_face(struct layer *layer, const struct surface *surface, double
         }
 }
 
-/* The pressure of a blast at a node with AREA, of which the images are a part: inside the body the
- * area is zero but for the disorder of particles, which counts for nothing. */
-static double blast_pressure(const struct mpm *mpm, const struct surface *surface,
-                             const int64_t at[3], const double *area, double mass)
-{
-    enum { NOISE = 50 }; /* area of a cell's face over that */
-    const struct blast_input *blast = &surface->load->blast;
-    const bool flat = surface->load->between.count > 0;
-    const double sign = surface->load->side == WALL_HIGH ? 1.0 : -1.0;
-    const double size = sqrt(square(area[0]) + square(area[1]) + square(area[2]));
-    if (size == 0.0 || (!flat && size * mpm->edge * surface->density * NOISE < mass))
-        return 0.0;
-    double way = 0.0, along = 0.0;
-    for (int axis = 0; axis < blast->at.count; axis++) {
-        int64_t place = at[axis];
-        for (int side = 0; side < 2; side++)
-            if (mpm->has_plane[axis][side] &&
-                (side == 0 ? place < mpm->plane[axis][side] : place > mpm->plane[axis][side]))
-                place = 2 * mpm->plane[axis][side] - place;
-        const double to = blast->at.at[axis] - mpm->edge * (double)place;
-        const double normal = flat ? (axis == surface->axis ? sign : 0.0) : area[axis] / size;
-        way += square(to);
-        along += to * (place == at[axis] ? normal : -normal);
-    }
-    way = sqrt(way);
-    return kingery_load((enum kingery_charge)blast->charge, blast->mass, way, along / way,
-                        surface->time - blast->time);
-}
-
-/* Converts areas to forces. The normals of nodes near walls include the images; what is pushed
- * there are the particles alone. */
-static void push_blast(const struct mpm *mpm, struct layer *layer, const struct surface *surface,
-                       int threads)
-{
-    for (int32_t w = 0; w < layer->walls; w++)
-        memcpy(layer->wall[w].pushed, layer->wall[w].back, sizeof layer->wall[w].pushed);
-    mpm_fold_vectors(mpm, layer, &layer->back);
-    for (int32_t w = 0; w < layer->walls; w++) {
-        struct wall_node *wall = &layer->wall[w];
-        const double pressure =
-            blast_pressure(mpm, surface, wall->at, wall->back, wall->node[NODE_MASS]);
-        for (int c = 0; c < 3; c++)
-            wall->pushed[c] *= -pressure;
-    }
-#pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
-    for (int32_t n = 0; n < layer->grid.blocks; n++) {
-        int64_t corner[3], at[3];
-        grid_corner(&layer->grid, n, corner);
-        for (int k = 0; k < BLOCK_CELLS; k++) {
-            double *area = grid_node(&layer->back, n, k);
-            mpm_node_index(layer->grid.dimension, corner, k, at);
-            const double pressure =
-                blast_pressure(mpm, surface, at, area, grid_node(&layer->main, n, k)[NODE_MASS]);
-            for (int c = 0; c < 3; c++)
-                area[c] *= -pressure;
-        }
-    }
-    for (int32_t w = 0; w < layer->walls; w++)
-        memcpy(layer->wall[w].back, layer->wall[w].pushed, sizeof layer->wall[w].pushed);
-}
-
 /* The force of what is outside on AREA of a node; nothing far from the open faces. */
 static void push_area(const struct surface *surface, const int64_t at[3], double *area)
 {
@@ -472,7 +385,7 @@ static void push_surface(struct mpm *mpm, struct simulation *simulation,
         if (surface->outflow)
             push_face(layer, surface, dt, simulation->threads);
         if (surface->of == by_blast)
-            push_blast(mpm, layer, surface, simulation->threads);
+            mpm_push_blast(mpm, layer, surface, simulation->threads);
         if (surface->outside)
             push_outside(layer, surface);
         push_nodes(mpm, simulation, layer, surface, dt);

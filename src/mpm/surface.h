@@ -1,0 +1,38 @@
+/* A surface that is pushed, and what its particles contribute to nodes; see outside.c. Private to
+ * mpm/. */
+#ifndef BOLIDE_MPM_SURFACE_H
+#define BOLIDE_MPM_SURFACE_H
+
+#include "mpm/mpm_internal.h"
+
+/* The contributions of a particle to the values of its nodes: value n gets the sum over axes k of
+ * by_slope[n][k] dN/dx_k, and of around[n] and what acts around the axis. With
+ * stresses on faces, the slope along k includes the factors of the node's faces where k is
+ * filled[n], and what acts around the axis those of its ring, so that a pressure balances the stress
+ * inside. */
+struct given {
+    double by_slope[3][3];
+    int filled[3];
+    double around[3];
+};
+
+/* A loaded surface, and the contributions of its particles. */
+struct surface {
+    int body;         /* -1: all */
+    double low, high; /* range of nodes on the surface, in cells along AXIS */
+    int axis;
+    struct given (*of)(const struct mpm *, const struct simulation *, const struct surface *,
+                       int32_t i);
+    const struct load_input *load;
+    double pressure, traction[3]; /* of the load in the middle of the step */
+    double time, density;         /* of a blast: that middle; of the body at the start */
+    const struct outflow_input *outflow;
+    const struct mpm_outside *outside;
+    double reach; /* how far from a face its surface may be, in nodes */
+};
+
+/* Converts the areas of the nodes of LAYER to the forces of the blast that the surface has. */
+void mpm_push_blast(const struct mpm *mpm, struct layer *layer, const struct surface *surface,
+                    int threads);
+
+#endif
