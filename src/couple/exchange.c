@@ -6,8 +6,8 @@
 #include "couple/gates.h"
 #include "material/material.h"
 
-/* Splits what has passed through a gate into pressure and flow; of the begin of the step is
- * BESIDE. */
+/* Splits what has passed through a gate in the gas's step of DT into pressure and flow, by the
+ * velocity BESIDE it. */
 static void split(struct cfdmp *cfdmp, int axis, int side, int64_t number,
                   const struct beside *beside, double dt)
 {
