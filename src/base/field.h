@@ -39,7 +39,8 @@ struct error *fields_visit(const char *store, const struct field *field, int fie
 /* An id identifies the origin of a particle: a body and the index of its lattice site. */
 enum { PARTICLE_SITE_BITS = 48 };
 #define PARTICLE_SITE (((uint64_t)1 << PARTICLE_SITE_BITS) - 1)
-/* Part of the sites of particles that are created during a run, which have no place at the start. */
+/* Part of the sites of particles that are created during a run, which have no place at the
+ * start. */
 #define PARTICLE_CREATED ((uint64_t)1 << (PARTICLE_SITE_BITS - 1))
 BOLIDE_INLINE uint64_t particle_id(int body, int64_t site)
 {

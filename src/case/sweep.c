@@ -323,7 +323,8 @@ void sweep_values_free(struct sweep_value *values, int count)
     free(values);
 }
 
-/* The last part of the path of the value at INDEX, or the whole where another ends with the same. */
+/* The last part of the path of the value at INDEX, or the whole where another ends with the
+ * same. */
 static const char *short_key(const struct sweep_value *values, int count, int index)
 {
     const char *dot = strrchr(values[index].key, '.');

@@ -66,7 +66,8 @@ void cfdmp_free_parts(struct cfdmp *cfdmp);
 /* The cells of the band take what the particles there have. */
 struct error *cfdmp_fill_band(struct cfdmp *cfdmp);
 
-/* Before and after the particles' step of DT: what has passed as pressure, and what material has. */
+/* Before and after the particles' step of DT: what has passed as pressure, and what material
+ * has. */
 void cfdmp_find_pressures(struct cfdmp *cfdmp, double dt);
 struct error *cfdmp_transport(struct cfdmp *cfdmp, struct simulation *simulation, double dt);
 

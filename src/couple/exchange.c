@@ -1,8 +1,8 @@
 /* What passes between the gas and the particles through the open faces of the region (4-10) to
  * (4-21), so that nothing is lost: the flux of the gas solver's step gives the pressure, which
  * pushes on the particles, and the flow of material, which is kept at the face until it makes a
- * layer of particles. Particles that leave are kept there likewise, and the gas, which had taken the
- * flow already, gets the difference little by little. */
+ * layer of particles. Particles that leave are kept there likewise, and the gas, which had taken
+ * the flow already, gets the difference little by little. */
 #include "couple/gates.h"
 #include "material/material.h"
 
@@ -78,8 +78,8 @@ static bool take_out(struct cfdmp *cfdmp, struct particles *p, int32_t i, bool s
     return true;
 }
 
-/* The body whose particles those that come in belong to: the first of MATERIAL, or where the products
- * of another case have none, the first that is gas. */
+/* The body whose particles those that come in belong to: the first of MATERIAL, or where the
+ * products of another case have none, the first that is gas. */
 static int body_of(const struct cfdmp *cfdmp, int material)
 {
     const struct simulation_case *input = &cfdmp->gas_part.input;
@@ -202,8 +202,8 @@ static bool share_energy(const struct gas_view *view, const double mass[2], cons
 }
 
 /* Layers of particles, LAYER thick, come in through a gate: of each material of which one waits.
- * What is left waits on: particles of next to nothing, whose density follows from that of a trace in
- * cells of gas, would be squeezed with all that comes behind. */
+ * What is left waits on: particles of next to nothing, whose density follows from that of a trace
+ * in cells of gas, would be squeezed with all that comes behind. */
 static struct error *emit_layers(struct cfdmp *cfdmp, int axis, int side, int64_t number,
                                  const struct beside *beside, double layer)
 {
@@ -290,8 +290,8 @@ static struct error *settle_printed(struct cfdmp *cfdmp, int axis, int side, int
 
 static struct error *settle(struct cfdmp *cfdmp, int axis, int side, int64_t number, double dt)
 {
-    /* What waits goes to the gas over the time in which the flow crosses two cells. Much faster, and
-     * each particle that leaves would be a pulse of sound. */
+    /* What waits goes to the gas over the time in which the flow crosses two cells. Much faster,
+     * and each particle that leaves would be a pulse of sound. */
     static const double cells = 2.0;
     const struct gas_view view = gas_view(cfdmp->gas);
     struct gate *gate = &cfdmp->side[axis][side].gate[number];

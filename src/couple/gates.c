@@ -64,7 +64,8 @@ double gate_area(const struct cfdmp *cfdmp, int axis, int side, int64_t number)
     return area;
 }
 
-/* The state of a cell: conserved numbers, the second material's mass per volume and its fraction. */
+/* The state of a cell: conserved numbers, the second material's mass per volume and its
+ * fraction. */
 struct content {
     double u[GAS_NUMBERS], second, fraction;
 };

@@ -23,9 +23,9 @@ struct beside {
 struct beside gate_beside(const struct cfdmp *cfdmp, const struct gas_view *view, int axis,
                           int side, int64_t number);
 
-/* Adds REST, conserved, to the cell AT outside a gate; materials have the densities OF, 0 where they
- * are not known. REST becomes what the cell cannot bear at once: it takes all, a half, a quarter
- * and so on. */
+/* Adds REST, conserved, to the cell AT outside a gate; materials have the densities OF, 0 where
+ * they are not known. REST becomes what the cell cannot bear at once: it takes all, a half, a
+ * quarter and so on. */
 void gate_give(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t at[3],
                double rest[PASSES], const double of[2]);
 

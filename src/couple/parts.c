@@ -271,15 +271,23 @@ static struct error *cut_bodies(struct cfdmp *cfdmp, struct part *part)
 static struct error *close_faces(struct cfdmp *cfdmp, struct part *part)
 {
     enum { FACES = 6 };
-    static char *names[FACES] = {"the face low in x",  "the face high in x", "the face low in y",
-                                 "the face high in y", "the face low in z",  "the face high in z"};
+    static const char *const faces[FACES] = {"the face low in x", "the face high in x",
+                                             "the face low in y", "the face high in y",
+                                             "the face low in z", "the face high in z"};
     const struct mirrors *mirrors = &cfdmp->gas_part.simulation.problem->mirrors;
+    char **names = own(cfdmp, FACES * sizeof *names);
     struct wall_input *wall = own(cfdmp, FACES * sizeof *wall);
     struct outflow_input *outflow = own(cfdmp, FACES * sizeof *outflow);
     part->input.walls = (struct named_map){.names = names, .items = wall};
     part->input.outflows = (struct named_map){.names = names, .items = outflow};
-    if (!wall || !outflow)
+    if (!names || !wall || !outflow)
         return out_of_memory();
+    for (int k = 0; k < FACES; k++) {
+        names[k] = own(cfdmp, strlen(faces[k]) + 1);
+        if (!names[k])
+            return out_of_memory();
+        memcpy(names[k], faces[k], strlen(faces[k]));
+    }
     for (int axis = 0; axis < cfdmp->dimension; axis++)
         for (int side = 0; side < 2; side++) {
             const double at = (double)(side ? cfdmp->cut.high : cfdmp->cut.low)[axis] * cfdmp->edge;

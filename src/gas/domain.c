@@ -276,8 +276,8 @@ static double area_of(const struct simulation *simulation, double edge, const do
     return power == 0 ? area : power == 1 ? area * at[0] : area * square(at[0]);
 }
 
-/* Whether the cell above the face at AT across AXIS, or with SIGN -1 that below, lies in the box that
- * a coupling watches: what it holds does not count. */
+/* Whether the cell above the face at AT across AXIS, or with SIGN -1 that below, lies in the box
+ * that a coupling watches: what it holds does not count. */
 static bool is_watched(const struct gas *gas, const double at[3], int axis, double sign)
 {
     bool inside = gas->cut != NULL;

@@ -70,8 +70,8 @@ void simulation_see(struct simulation *simulation);
  * it was seen; FIRST unless OF names another. */
 const struct population *simulation_seen(const struct simulation *simulation, const char *of,
                                          const struct population *first);
-/* All that is shown where POPULATION is: that alone, or with the first all others as they were seen.
- * Returns their number. */
+/* All that is shown where POPULATION is: that alone, or with the first all others as they were
+ * seen. Returns their number. */
 int simulation_shown(const struct simulation *simulation, const struct population *population,
                      const struct population *shown[POPULATIONS_MAX]);
 /* That SECTION.NAME has the key `of` with a name of a population that the run has not. */

@@ -6,10 +6,9 @@
 #include "mpm/mpm_internal.h"
 
 /* The contributions of a particle to the values of its nodes: value n gets the sum over axes k of
- * by_slope[n][k] dN/dx_k, and of around[n] and what acts around the axis. With
- * stresses on faces, the slope along k includes the factors of the node's faces where k is
- * filled[n], and what acts around the axis those of its ring, so that a pressure balances the stress
- * inside. */
+ * by_slope[n][k] dN/dx_k, and of around[n] and what acts around the axis. With stresses on faces,
+ * the slope along k includes the factors of the node's faces where k is filled[n], and what acts
+ * around the axis those of its ring, so that a pressure balances the stress inside. */
 struct given {
     double by_slope[3][3];
     int filled[3];

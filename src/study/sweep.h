@@ -16,11 +16,11 @@ const struct check_results *sweep_checks(const struct verify_case *runs, int cou
 const char *sweep_unit(const struct verify_case *runs, int count, int index, char *buffer);
 
 /* Writes the table of the runs into FOLDER, a row a run in SI units: the swept values, what each
- * check measured and its verdict, the verdict of the run; FITS, if there are any, as checks.csv; and
- * the table of repetitions. And FOLDER/pictures/CHECK.png for every check that measured something in
- * two runs: the measured values as dots, one series for each choice of the other swept values, the
- * limits behind them where there is one series only, and means of repetitions with their
- * confidence. */
+ * check measured and its verdict, the verdict of the run; FITS, if there are any, as checks.csv;
+ * and the table of repetitions. And FOLDER/pictures/CHECK.png for every check that measured
+ * something in two runs: the measured values as dots, one series for each choice of the other swept
+ * values, the limits behind them where there is one series only, and means of repetitions with
+ * their confidence. */
 struct error *sweep_write(const char *folder, const struct repetitions *repetitions,
                           const struct check_results *fits);
 

@@ -1,4 +1,5 @@
-/* Repetitions of a sweep: means, deviations and confidence, in numbers, in the table and as fits. */
+/* Repetitions of a sweep: means, deviations and confidence, in numbers, in the table and as
+ * fits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -21,7 +22,8 @@ static void assert_near(double value, double wanted, double within)
         fail_msg("%.9g is not within %g of %.9g", value, within, wanted);
 }
 
-/* Student's t at 97.5 %: 12.706 for one degree of freedom, 2.7764 for four, 1.9840 for a hundred. */
+/* Student's t at 97.5 %: 12.706 for one degree of freedom, 2.7764 for four, 1.9840 for a
+ * hundred. */
 static void confidence_is_that_of_student(void **state)
 {
     (void)state;
