@@ -184,20 +184,10 @@ static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
 static bool share_energy(const struct gas_view *view, const double mass[2], const double density[2],
                          double energy, double pressure, double rest[2])
 {
-    const double none[POINT_HISTORY] = {0.0};
-    double cold[2] = {0.0, 0.0}, slope[2] = {1.0, 1.0}, over = energy, per = 0.0;
+    const struct shared shared = gate_share(view, mass, density, energy);
+    const bool near = shared.pressure > 0.5 * pressure && shared.pressure < 2.0 * pressure;
     for (int m = 0; m < 2; m++)
-        if (mass[m] > 0.0) {
-            const struct eos_value value = eos_evaluate(&view->eos[m], density[m], 0.0, none);
-            cold[m] = value.pressure;
-            slope[m] = value.dp_de;
-            over += mass[m] * cold[m] / slope[m];
-            per += mass[m] / slope[m];
-        }
-    const double common = over / per;
-    const bool near = common > 0.5 * pressure && common < 2.0 * pressure;
-    for (int m = 0; m < 2; m++)
-        rest[m] = ((near ? common : pressure) - cold[m]) / slope[m];
+        rest[m] = ((near ? shared.pressure : pressure) - shared.cold[m]) / shared.slope[m];
     return near;
 }
 

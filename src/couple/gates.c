@@ -82,26 +82,46 @@ static struct content content_of(const struct gas_view *view, int32_t i)
     return content;
 }
 
-/* The pressure of both materials of a cell together, which grows in proportion to the energy where
- * there are two. */
+struct shared gate_share(const struct gas_view *view, const double mass[2], const double density[2],
+                         double energy)
+{
+    const double none[POINT_HISTORY] = {0.0};
+    struct shared shared = {0.0, {0.0, 0.0}, {1.0, 1.0}};
+    double per = 0.0;
+    for (int m = 0; m < 2; m++)
+        if (mass[m] > 0.0) {
+            const struct eos_value cold = eos_evaluate(&view->eos[m], density[m], 0.0, none);
+            shared.cold[m] = cold.pressure;
+            shared.slope[m] = cold.dp_de;
+            energy += mass[m] * cold.pressure / cold.dp_de;
+            per += mass[m] / cold.dp_de;
+        }
+    shared.pressure = energy / per;
+    return shared;
+}
+
+/* The density of material M in a cell, 0 where there is none. */
+static double density_in(const struct content *content, int m)
+{
+    const double mass = m ? content->second : content->u[GAS_DENSITY] - content->second,
+                 part = m ? content->fraction : 1.0 - content->fraction;
+    return part > 0.0 ? mass / part : 0.0;
+}
+
+/* The pressure of a cell. */
 static double pressure_of(const struct gas_view *view, const struct content *content)
 {
     const double none[POINT_HISTORY] = {0.0}, *u = content->u;
-    double kinetic = 0.0, over, per = 0.0;
+    double kinetic = 0.0;
     for (int axis = 0; axis < 3; axis++)
         kinetic += 0.5 * square(u[GAS_MOMENTUM + axis]) / u[GAS_DENSITY];
-    over = u[GAS_ENERGY] - kinetic;
+    const double energy = u[GAS_ENERGY] - kinetic;
     if (!view->layout->two)
-        return eos_evaluate(view->eos, u[GAS_DENSITY], over / u[GAS_DENSITY], none).pressure;
-    const double mass[2] = {u[GAS_DENSITY] - content->second, content->second},
-                 part[2] = {1.0 - content->fraction, content->fraction};
-    for (int m = 0; m < 2; m++)
-        if (part[m] > 0.0 && mass[m] > 0.0) {
-            const struct eos_value cold = eos_evaluate(&view->eos[m], mass[m] / part[m], 0.0, none);
-            over += mass[m] * cold.pressure / cold.dp_de;
-            per += mass[m] / cold.dp_de;
-        }
-    return over / per;
+        return eos_evaluate(view->eos, u[GAS_DENSITY], energy / u[GAS_DENSITY], none).pressure;
+    const double density[2] = {density_in(content, 0), density_in(content, 1)},
+                 mass[2] = {density[0] > 0.0 ? u[GAS_DENSITY] - content->second : 0.0,
+                            density[1] > 0.0 ? content->second : 0.0};
+    return gate_share(view, mass, density, energy).pressure;
 }
 
 /* CONTENT with VALUES per volume more; materials have the densities OF, 0 where they are not
@@ -126,14 +146,6 @@ static struct content content_with(const struct gas_view *view, struct content c
         content.second = all;
     }
     return content;
-}
-
-/* The density of material M in a cell, 0 where there is none. */
-static double density_in(const struct content *content, int m)
-{
-    const double mass = m ? content->second : content->u[GAS_DENSITY] - content->second,
-                 part = m ? content->fraction : 1.0 - content->fraction;
-    return part > 0.0 ? mass / part : 0.0;
 }
 
 /* Whether a cell keeps half of its density and of its pressure, and of each material some at about

@@ -23,6 +23,16 @@ struct beside {
 struct beside gate_beside(const struct cfdmp *cfdmp, const struct gas_view *view, int axis,
                           int side, int64_t number);
 
+/* Materials at one pressure, where each has MASS, DENSITY and a pressure that grows in proportion
+ * to its energy: that pressure, from their ENERGY together, and of each what it has without energy
+ * and the slope by its specific energy; as gas/mixture.h has it, without its bounds. A mass may be
+ * zero. */
+struct shared {
+    double pressure, cold[2], slope[2];
+};
+struct shared gate_share(const struct gas_view *view, const double mass[2], const double density[2],
+                         double energy);
+
 /* Adds REST, conserved, to the cell AT outside a gate; materials have the densities OF, 0 where
  * they are not known. REST becomes what the cell cannot bear at once: it takes all, a half, a
  * quarter and so on. */

@@ -24,7 +24,6 @@ struct mpm_outside {
 void mpm_surround(struct mpm *mpm, const struct mpm_outside *outside);
 
 struct particles *mpm_particles(const struct mpm *mpm);
-double mpm_edge(const struct mpm *mpm);
 /* Half the size of the particles of BODY, in cells, and how their shape functions fall off. */
 double mpm_half_size(const struct mpm *mpm, int body);
 enum grid_shape mpm_shape(const struct mpm *mpm);

@@ -9,8 +9,6 @@ void mpm_surround(struct mpm *mpm, const struct mpm_outside *outside) { mpm->out
 
 struct particles *mpm_particles(const struct mpm *mpm) { return mpm->particles; }
 
-double mpm_edge(const struct mpm *mpm) { return mpm->edge; }
-
 double mpm_half_size(const struct mpm *mpm, int body) { return mpm->half_size[body]; }
 
 enum grid_shape mpm_shape(const struct mpm *mpm) { return (enum grid_shape)mpm->parameters.shape; }
