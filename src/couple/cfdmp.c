@@ -78,31 +78,9 @@ static struct error *cfdmp_create(void *solver, struct simulation *simulation,
     TRY(cfdmp_make_parts(cfdmp, simulation));
     gas_watch(cfdmp->gas, &cfdmp->cut);
     cfdmp_surround(cfdmp);
-    struct part *const parts[] = {&cfdmp->mpm_part, &cfdmp->gas_part};
-    for (int k = 0; k < 2; k++) {
-        const struct population_source *own = &parts[k]->simulation.population[0];
-        simulation_add_population(simulation, own->name, own->type, own->store);
-    }
+    part_show(simulation, &cfdmp->mpm_part);
+    part_show(simulation, &cfdmp->gas_part);
     return NULL;
-}
-
-/* The parts have the time of the run. */
-static void share_time(struct cfdmp *cfdmp, const struct simulation *simulation)
-{
-    struct part *const parts[] = {&cfdmp->mpm_part, &cfdmp->gas_part};
-    for (int k = 0; k < 2; k++) {
-        parts[k]->simulation.time = simulation->time;
-        parts[k]->simulation.step = simulation->step;
-        parts[k]->simulation.threads = simulation->threads;
-    }
-}
-
-/* What the parts have booked, and how long they took. */
-static void gather(struct simulation *simulation, struct part *part)
-{
-    ledger_join(&simulation->ledger, &part->simulation.ledger);
-    memset(&part->simulation.ledger, 0, sizeof part->simulation.ledger);
-    simulation_take_phases(simulation, &part->simulation);
 }
 
 /* Cells of the region are not the gas that counts. */
@@ -181,7 +159,8 @@ static bool moves_itself(const struct cfdmp *cfdmp)
 static struct error *cfdmp_start(void *solver, struct simulation *simulation)
 {
     struct cfdmp *cfdmp = solver;
-    share_time(cfdmp, simulation);
+    part_share_time(&cfdmp->mpm_part, simulation);
+    part_share_time(&cfdmp->gas_part, simulation);
     TRY(gas_class.start(cfdmp->gas, &cfdmp->gas_part.simulation));
     TRY(mpm_class.start(cfdmp->mpm, &cfdmp->mpm_part.simulation));
     TRY(reserve_changed(cfdmp));
@@ -197,21 +176,22 @@ static struct error *cfdmp_prepare(void *solver, struct simulation *simulation, 
 {
     struct cfdmp *cfdmp = solver;
     struct limit of_gas;
-    share_time(cfdmp, simulation);
+    part_share_time(&cfdmp->mpm_part, simulation);
+    part_share_time(&cfdmp->gas_part, simulation);
     *limit = limit_of_nothing();
     if (cfdmp->awake == 0.0 && cfdmp_stirs(cfdmp))
         cfdmp->awake = 1.0;
     if (cfdmp->awake > 0.0) {
         simulation_start_phase(&cfdmp->mpm_part.simulation);
         TRY(mpm_class.prepare(cfdmp->mpm, &cfdmp->mpm_part.simulation, limit));
-        gather(simulation, &cfdmp->mpm_part);
+        part_gather(simulation, &cfdmp->mpm_part);
         TRY(cfdmp_fill_band(cfdmp));
         TRY(refresh(cfdmp));
     }
     simulation_end_phase(simulation, PHASE_SHARED, "coupling");
     simulation_start_phase(&cfdmp->gas_part.simulation);
     TRY(gas_class.prepare(cfdmp->gas, &cfdmp->gas_part.simulation, &of_gas));
-    gather(simulation, &cfdmp->gas_part);
+    part_gather(simulation, &cfdmp->gas_part);
     const double event = minimum(limit->event, of_gas.event);
     if (of_gas.dt < limit->dt)
         *limit = of_gas;
@@ -229,13 +209,13 @@ static struct error *cfdmp_advance(void *solver, struct simulation *simulation, 
                        (size_t)(cfdmp->side[axis][side].gates * GAS_PASSED) * sizeof(double));
     simulation_start_phase(&cfdmp->gas_part.simulation);
     TRY(gas_class.advance(cfdmp->gas, &cfdmp->gas_part.simulation, dt));
-    gather(simulation, &cfdmp->gas_part);
+    part_gather(simulation, &cfdmp->gas_part);
     cfdmp_find_pressures(cfdmp, dt);
     simulation_end_phase(simulation, PHASE_SHARED, "coupling");
     if (cfdmp->awake > 0.0) {
         simulation_start_phase(&cfdmp->mpm_part.simulation);
         TRY(mpm_class.advance(cfdmp->mpm, &cfdmp->mpm_part.simulation, dt));
-        gather(simulation, &cfdmp->mpm_part);
+        part_gather(simulation, &cfdmp->mpm_part);
     } else
         cfdmp_lean(cfdmp, simulation);
     TRY(cfdmp_transport(cfdmp, simulation, dt));

@@ -8,8 +8,7 @@
 #define BOLIDE_CFDMP_H
 
 #include "couple/couple.h"
-#include "gas/gas_phases.h"
-#include "mpm/mpm_phases.h"
+#include "couple/part.h"
 
 /* Conserved numbers that pass from one part to the other: mass, momentum, energy, and the mass of
  * the gas solver's second material. */
@@ -34,11 +33,7 @@ struct side {
 
 struct cfdmp {
     struct cfdmp_parameters parameters;
-    struct part {
-        struct simulation_case input; /* of this part: maps below are its own, others borrowed */
-        struct simulation simulation;
-        void *solver;
-    } gas_part, mpm_part;
+    struct part gas_part, mpm_part;
     struct gas *gas;
     struct mpm *mpm;
     double awake; /* 1 when the particles are computed; 0 while all around them is at rest */
@@ -54,9 +49,8 @@ struct cfdmp {
     int32_t *band_of;   /* of each cell of the region, its number among these; -1: none */
     bool *changed;      /* of each block of cells */
     int64_t changed_capacity;
-    void **owned; /* memory, freed with the solver */
-    int64_t owned_capacity;
-    int owned_count;
+    struct owned owned;
+    struct part_maker maker;
 };
 
 /* Makes the cases of both parts, and their solvers; finds the region. */

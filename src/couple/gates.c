@@ -43,15 +43,6 @@ void gate_cell(const struct cfdmp *cfdmp, int axis, int side, int64_t number, bo
     at[axis] = side ? cfdmp->cut.high[axis] - inside : cfdmp->cut.low[axis] - !inside;
 }
 
-/* The volume of the cell AT, of a radian in axisymmetry. */
-static double cell_volume(const struct cfdmp *cfdmp, const int64_t at[3])
-{
-    double volume = cfdmp->round ? ((double)at[0] + 0.5) * cfdmp->edge : 1.0;
-    for (int axis = 0; axis < cfdmp->dimension; axis++)
-        volume *= cfdmp->edge;
-    return volume;
-}
-
 double gate_area(const struct cfdmp *cfdmp, int axis, int side, int64_t number)
 {
     int64_t at[3];
@@ -177,7 +168,7 @@ void gate_give(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t a
     int32_t block;
     const int32_t i = cfdmp_cell(view->cells, at, &block);
     const struct content before = content_of(view, i);
-    double part = 1.0 / cell_volume(cfdmp, at), values[PASSES];
+    double part = 1.0 / part_cell_volume(&cfdmp->maker, cfdmp->round, at), values[PASSES];
     const double all = part;
     struct content after = before;
     bool bearable = false;

@@ -1,0 +1,216 @@
+/* Cases of the parts of a coupling, see part.h. */
+#include "couple/part.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "model/domain.h"
+#include "shape/kinds.h"
+
+struct error *owned_error(void)
+{
+    return error_new(ERROR_SYSTEM, "out of memory for the parts of the coupling");
+}
+
+void *owned_new(struct owned *owned, size_t size)
+{
+    void *memory = memory_allocate(size + 1);
+    if (!memory || !memory_reserve((void **)&owned->memory, &owned->capacity, owned->count + 1,
+                                   owned->count, sizeof(void *))) {
+        free(memory);
+        return NULL;
+    }
+    owned->memory[owned->count++] = memory;
+    memset(memory, 0, size + 1);
+    return memory;
+}
+
+void owned_free(struct owned *owned)
+{
+    for (int k = 0; k < owned->count; k++)
+        free(owned->memory[k]);
+    free(owned->memory);
+}
+
+static struct one_of shape_of(const char *name, void *value)
+{
+    struct one_of shape = {.index = -1};
+    for (int k = 0; k < shape_choice_count; k++)
+        if (strcmp(shape_choices[k].name, name) == 0)
+            shape = (struct one_of){k, &shape_choices[k], value};
+    return shape;
+}
+
+/* A box of cells as a shape; of no kind when there is no memory. */
+static struct one_of box_of(const struct part_maker *maker, const int64_t low[3],
+                            const int64_t high[3])
+{
+    struct shape_box *box = owned_new(maker->owned, sizeof *box);
+    if (!box)
+        return (struct one_of){.index = -1};
+    box->from.count = box->to.count = maker->dimension;
+    for (int axis = 0; axis < maker->dimension; axis++) {
+        box->from.at[axis] = (double)low[axis] * maker->edge;
+        box->to.at[axis] = (double)high[axis] * maker->edge;
+    }
+    return shape_of("box", box);
+}
+
+struct error *part_copy_bodies(const struct part_maker *maker, struct part *part)
+{
+    const struct body_input *items = part->input.bodies.items;
+    const size_t size = (size_t)part->input.bodies.count * sizeof *items;
+    part->input.bodies.items = owned_new(maker->owned, size);
+    if (!part->input.bodies.items)
+        return owned_error();
+    memcpy(part->input.bodies.items, items, size);
+    return NULL;
+}
+
+struct error *part_cut_bodies(const struct part_maker *maker, struct part *part,
+                              const int64_t low[3], const int64_t high[3])
+{
+    for (int b = 0; b < part->input.bodies.count; b++) {
+        struct body_input *body = case_body(&part->input, b);
+        const struct bounds bounds = shape_bounds(&body->shape);
+        bool within = true;
+        for (int axis = 0; axis < maker->dimension; axis++) {
+            const double from = (double)low[axis] * maker->edge,
+                         to = (double)high[axis] * maker->edge;
+            body->elsewhere |=
+                !(part_in(&bounds.low, axis) < to && part_in(&bounds.high, axis) > from);
+            within &= part_in(&bounds.low, axis) >= from && part_in(&bounds.high, axis) <= to;
+        }
+        if (within || body->elsewhere)
+            continue;
+        struct shape_intersection *both = owned_new(maker->owned, sizeof *both);
+        struct one_of *items = owned_new(maker->owned, 2 * sizeof *items);
+        const struct one_of box = box_of(maker, low, high);
+        if (!both || !items || box.index < 0)
+            return owned_error();
+        items[0] = body->shape;
+        items[1] = box;
+        *both = (struct shape_intersection){{2, items}};
+        body->shape = shape_of("intersection", both);
+        body->cut = true;
+    }
+    return NULL;
+}
+
+struct error *part_block(const struct part_maker *maker, struct part *part, const int64_t low[3],
+                         const int64_t high[3])
+{
+    const int old = part->input.obstacles.count;
+    struct obstacle_input *items = owned_new(maker->owned, ((size_t)old + 1) * sizeof *items);
+    char **names = owned_new(maker->owned, ((size_t)old + 1) * sizeof *names);
+    const struct one_of box = box_of(maker, low, high);
+    if (!items || !names || box.index < 0)
+        return owned_error();
+    bool any = true;
+    for (int axis = 0; axis < maker->dimension; axis++)
+        any &= low[axis] < high[axis];
+    for (int k = 0; k < old; k++) {
+        items[k] = *case_obstacle(&part->input, k);
+        names[k] = part->input.obstacles.names[k];
+    }
+    items[old] = (struct obstacle_input){.shape = box};
+    names[old] = "region";
+    part->input.obstacles = (struct named_map){.count = old + any, .names = names, .items = items};
+    return NULL;
+}
+
+struct error *part_close_faces(const struct part_maker *maker, struct part *part,
+                               const struct gas_cut *cut, const struct mirrors *mirrors)
+{
+    enum { FACES = 6 };
+    static const char *const faces[FACES] = {"the face low in x", "the face high in x",
+                                             "the face low in y", "the face high in y",
+                                             "the face low in z", "the face high in z"};
+    char **names = owned_new(maker->owned, FACES * sizeof *names);
+    struct wall_input *wall = owned_new(maker->owned, FACES * sizeof *wall);
+    struct outflow_input *outflow = owned_new(maker->owned, FACES * sizeof *outflow);
+    part->input.walls = (struct named_map){.names = names, .items = wall};
+    part->input.outflows = (struct named_map){.names = names, .items = outflow};
+    if (!names || !wall || !outflow)
+        return owned_error();
+    for (int k = 0; k < FACES; k++) {
+        names[k] = owned_new(maker->owned, strlen(faces[k]) + 1);
+        if (!names[k])
+            return owned_error();
+        memcpy(names[k], faces[k], strlen(faces[k]));
+    }
+    for (int axis = 0; axis < maker->dimension; axis++)
+        for (int side = 0; side < 2; side++) {
+            const double at = (double)(side ? cut->high : cut->low)[axis] * maker->edge;
+            const double mirror = side ? mirrors->high[axis] : mirrors->low[axis];
+            if (cut->open[axis][side])
+                continue;
+            if (!isnan(mirror))
+                wall[part->input.walls.count++] = (struct wall_input){axis, side, mirror};
+            else
+                outflow[part->input.outflows.count++] =
+                    (struct outflow_input){.axis = axis, .side = side, .at = at, .pressure = NAN};
+        }
+    return NULL;
+}
+
+struct error *part_create(const struct part_maker *maker, struct part *part,
+                          const struct simulation *simulation, const struct solver_class *type,
+                          const void *parameters)
+{
+    TRY(simulation_create(&part->input, simulation->ranks, simulation->threads, &part->simulation));
+    part->solver = owned_new(maker->owned, type->size);
+    if (!part->solver)
+        return owned_error();
+    return type->create(part->solver, &part->simulation, parameters);
+}
+
+void part_free(struct part *part, const struct solver_class *type)
+{
+    if (part->solver)
+        type->destroy(part->solver);
+    if (part->simulation.problem)
+        simulation_destroy(&part->simulation);
+}
+
+void part_show(struct simulation *simulation, const struct part *part)
+{
+    const struct population_source *own = &part->simulation.population[0];
+    simulation_add_population(simulation, own->name, own->type, own->store);
+}
+
+void part_share_time(struct part *part, const struct simulation *simulation)
+{
+    part->simulation.time = simulation->time;
+    part->simulation.step = simulation->step;
+    part->simulation.threads = simulation->threads;
+}
+
+void part_gather(struct simulation *simulation, struct part *part)
+{
+    ledger_join(&simulation->ledger, &part->simulation.ledger);
+    memset(&part->simulation.ledger, 0, sizeof part->simulation.ledger);
+    simulation_take_phases(simulation, &part->simulation);
+}
+
+struct cell_blocks part_domain(const struct simulation_case *input, double edge)
+{
+    struct cell_blocks cells = {.dimension = (int)input->dimension, .edge = edge};
+    for (int axis = 0; axis < 3; axis++) {
+        cells.high[axis] = 1;
+        if (axis >= cells.dimension)
+            continue;
+        cells.low[axis] = (int64_t)floor(domain_face(input, axis, 0).at / edge + 0.5);
+        cells.high[axis] = (int64_t)floor(domain_face(input, axis, 1).at / edge + 0.5);
+    }
+    return cells;
+}
+
+double part_cell_volume(const struct part_maker *maker, bool round, const int64_t at[3])
+{
+    double volume = round ? ((double)at[0] + 0.5) * maker->edge : 1.0;
+    for (int axis = 0; axis < maker->dimension; axis++)
+        volume *= maker->edge;
+    return volume;
+}

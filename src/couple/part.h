@@ -1,0 +1,74 @@
+/* The parts of a coupling: each has a case, made from that of the run, a simulation and a solver.
+ * Private to couple/. */
+#ifndef BOLIDE_PART_H
+#define BOLIDE_PART_H
+
+#include "gas/gas_phases.h"
+#include "mpm/mpm_phases.h"
+
+struct part {
+    struct simulation_case input; /* of this part: maps of its own, or those of the run */
+    struct simulation simulation;
+    void *solver;
+};
+
+/* Memory that is freed with the solver. */
+struct owned {
+    void **memory;
+    int64_t capacity;
+    int count;
+};
+/* Zeroed; NULL when there is none. */
+void *owned_new(struct owned *owned, size_t size);
+void owned_free(struct owned *owned);
+struct error *owned_error(void);
+
+/* What the functions below make cases in: whole cells of EDGE in DIMENSION dimensions. */
+struct part_maker {
+    struct owned *owned;
+    double edge;
+    int dimension;
+};
+
+/* The bodies of the case become the part's own. */
+struct error *part_copy_bodies(const struct part_maker *maker, struct part *part);
+
+/* Bodies of the part reach to the faces of the box of cells from LOW to HIGH; those beyond are
+ * elsewhere. */
+struct error *part_cut_bodies(const struct part_maker *maker, struct part *part,
+                              const int64_t low[3], const int64_t high[3]);
+
+/* An obstacle blocks the cells from LOW to HIGH, where there are any. */
+struct error *part_block(const struct part_maker *maker, struct part *part, const int64_t low[3],
+                         const int64_t high[3]);
+
+/* The faces of the box of CUT that are not open become walls, where MIRRORS has them, or
+ * outflows. */
+struct error *part_close_faces(const struct part_maker *maker, struct part *part,
+                               const struct gas_cut *cut, const struct mirrors *mirrors);
+
+/* Makes the simulation of the part's case and its solver, of CLASS with PARAMETERS. */
+struct error *part_create(const struct part_maker *maker, struct part *part,
+                          const struct simulation *simulation, const struct solver_class *type,
+                          const void *parameters);
+void part_free(struct part *part, const struct solver_class *type);
+
+/* The part's own population is shown by the run; the part has the time of the run; the run gets
+ * what the part has booked, and how long it took. */
+void part_show(struct simulation *simulation, const struct part *part);
+void part_share_time(struct part *part, const struct simulation *simulation);
+void part_gather(struct simulation *simulation, struct part *part);
+
+/* The domain of a case in cells of EDGE: its faces, rounded. */
+struct cell_blocks part_domain(const struct simulation_case *input, double edge);
+
+/* The volume of the cell AT, ROUND: of a radian. */
+double part_cell_volume(const struct part_maker *maker, bool round, const int64_t at[3]);
+
+/* A component of a vector. */
+BOLIDE_INLINE double part_in(const struct vec3 *v, int axis)
+{
+    return axis == 0 ? v->x : axis == 1 ? v->y : v->z;
+}
+
+#endif
