@@ -39,13 +39,14 @@ for name in $names; do
     same_but_for_order "one/$name" "four/$name" || fail "$name divided anew on 4 ranks: $(tail -n 5 four.log)"
 done
 
-# One rank is killed when the first checkpoint is there; others go on, in another number.
+# One rank is killed when the first checkpoint is there, or the file $until; others go on, in another number.
+until=checkpoint.h5
 kill_and_resume() {
     rm -rf whole killed
     "$BOLIDE" run "$@" --output whole >whole.log 2>&1 || fail "the whole run: $(cat whole.log)"
     OMP_NUM_THREADS=1 $BOLIDE_MPIRUN -n 2 "$BOLIDE" run "$@" --output killed >killed.log 2>&1 </dev/null &
     local runner=$!
-    while [ ! -e killed/checkpoint.h5 ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+    while [ ! -e "killed/$until" ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
     local rank
     rank=$(grep -l "^PPid:[[:space:]]*$runner\$" /proc/[0-9]*/status 2>/dev/null | tail -n 1)
     rank=${rank//[^0-9]/}
@@ -60,6 +61,12 @@ kill_and_resume() {
 }
 kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-gas.yaml"
 kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-gas-two.yaml"
+explosives=$BOLIDE_SOURCE_DIR/tests/data/everything-explosives.yaml
+until=snapshots/000002.vtkhdf
+kill_and_resume "$explosives"
+until=checkpoint.h5
+on 2 run "$explosives" --overwrite --output two >two.log 2>&1 || fail "2 ranks: $(cat two.log)"
+same_but_for_order whole two || fail "$explosives on 2 ranks"
 for solver in mpm sph; do
     kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-failure.yaml" --set solver=$solver
 done
