@@ -155,6 +155,8 @@ static void mpm_destroy(void *solver)
         free(layer->wall);
         free(layer->meets);
         free(layer->shocked);
+        for (int cause = 0; cause < SURFACE_CAUSES; cause++)
+            free(layer->pushed[cause]);
         mpm_free_order(layer);
         grid_free(&layer->grid);
         grid_field_free(&layer->main);

@@ -9,6 +9,9 @@
 #include "parallel/exchange.h"
 #include "particle/particles.h"
 
+/* What pushes on surfaces: loads, outflows, what is outside a box (mpm_phases.h). */
+enum surface_cause { SURFACE_LOADS, SURFACE_OUTFLOWS, SURFACE_OUTSIDE, SURFACE_CAUSES };
+
 /* A node on a wall or, where shape functions reach beyond walls, next to one. */
 struct wall_node {
     double *node, *back, *normal; /* in the fields; normal: NULL where there is one layer */
@@ -17,7 +20,8 @@ struct wall_node {
     bool booked;             /* by this rank: the first patch that covers it is its own */
     double sum[NODE_STRIDE]; /* of the particles alone, before what is behind the wall is added */
     double raised[NODE_STRIDE]; /* the same of the field `mapped` */
-    double pushed[3];           /* the force of a surface on the particles alone */
+    /* the force of a surface on the particles alone; of all in this step, by cause */
+    double pushed[3], pushed_by[SURFACE_CAUSES][3];
 };
 
 /* Distances of a surface from a node that are told apart, and the largest in cells. */
@@ -37,6 +41,10 @@ struct layer {
         normal; /* gradient of mass, and how it touches other layers; of several layers only */
     struct grid_field stress, fill; /* by faces only, see transfer.h and fill.c */
     double surface[SURFACES + 1];   /* mass per gradient of it, of a surface so far beyond a node */
+    /* of nodes away from walls: what surfaces push in this step, by cause, where any does */
+    double (*pushed[SURFACE_CAUSES])[3];
+    bool is_pushed[SURFACE_CAUSES];
+    int64_t pushed_capacity[SURFACE_CAUSES];
     struct grid_field left, mapped; /* of velocities of higher order only, see order.c */
     struct wall_node *wall;
     int32_t walls;
@@ -247,6 +255,9 @@ void mpm_warm(const struct mpm *mpm, const struct simulation *simulation, struct
 /* Collective: loads, as they are in its middle, and faces of outflow push in a step of DT.
  * ERROR_STATE: a load is not finite. */
 struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt);
+/* Books the impulse and work of these forces, once nodes have all forces of the step of DT. */
+void mpm_book_surfaces(const struct mpm *mpm, struct simulation *simulation, double dt);
+struct error *mpm_reserve_surfaces(struct mpm *mpm, const struct simulation *simulation);
 /* Marks particles that have left through a face, and books what they had. */
 void mpm_lose_particles(const struct mpm *mpm, struct simulation *simulation);
 

@@ -308,70 +308,21 @@ static void keep_surface(const struct layer *layer, const struct surface *surfac
     }
 }
 
-/* Books the impulse and work of the force F on a node in a step of DT, with the mean velocity of
- * the step. The forces of NODE include F. */
-static void book_force(const struct mpm *mpm, const struct surface *surface, const double *node,
-                       const int64_t at[3], const double f[3], double dt, struct ledger *ledger)
-{
-    if (f[0] == 0.0 && f[1] == 0.0 && f[2] == 0.0)
-        return;
-    double work = 0.0;
-    for (int c = 0; c < 3; c++)
-        work += dt * f[c] * (node[NODE_MOMENTUM + c] + 0.5 * dt * node[NODE_FORCE + c]) /
-                node[NODE_MASS];
-    const double impulse[3] = {dt * f[0], dt * f[1], dt * f[2]};
-    if (surface->outside)
-        surface->outside->pushed(surface->outside->of, at, impulse, work);
-    else
-        ledger_book(ledger, surface->load ? LEDGER_LOADS : LEDGER_OUTFLOWS, 0.0,
-                    vec3_scale(dt, vec3_make(f[0], f[1], f[2])),
-                    vec3_scale(mpm->edge, vec3_make((double)at[0], (double)at[1], (double)at[2])),
-                    work);
-}
-
-/* The same for the nodes of a block that are not near a wall, if this rank owns the block. */
-static void book_block(const struct mpm *mpm, const struct layer *layer,
-                       const struct surface *surface, int32_t block, double dt,
-                       struct ledger *ledger)
-{
-    if (mpm_is_far(mpm, layer, layer->grid.touch[block][0].bin))
-        return;
-    int64_t corner[3], at[3];
-    grid_corner(&layer->grid, block, corner);
-    for (int k = 0; k < BLOCK_CELLS; k++) {
-        mpm_node_index(layer->grid.dimension, corner, k, at);
-        if (!mpm_near_wall(mpm, layer, at))
-            book_force(mpm, surface, grid_node(&layer->main, block, k), at,
-                       grid_node(&layer->back, block, k), dt, ledger);
-    }
-}
-
 /* Applies the forces in the second field. Particles get the forces of their own nodes but move with
  * velocities that include the images at walls, so the forces near walls are saved before images are
  * added. */
 static void push_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
-                       const struct surface *surface, double dt)
+                       const struct surface *surface)
 {
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++)
         keep_surface(layer, surface, n);
-    for (int32_t w = 0; w < layer->walls; w++)
-        memcpy(layer->wall[w].pushed, layer->wall[w].back, sizeof layer->wall[w].pushed);
+    mpm_note_pushed(layer,
+                    surface->load      ? SURFACE_LOADS
+                    : surface->outflow ? SURFACE_OUTFLOWS
+                                       : SURFACE_OUTSIDE,
+                    simulation->threads);
     mpm_add_forces(mpm, simulation, layer);
-    for (int32_t w = 0; w < layer->walls; w++) {
-        const struct wall_node *wall = &layer->wall[w];
-        if (wall->booked)
-            book_force(mpm, surface, wall->node, wall->at, wall->pushed, dt, &simulation->ledger);
-    }
-#pragma omp parallel num_threads(surface->outside ? 1 : simulation->threads)
-    {
-        struct ledger own = {0};
-#pragma omp for schedule(static)
-        for (int32_t n = 0; n < layer->grid.blocks; n++)
-            book_block(mpm, layer, surface, n, dt, &own);
-#pragma omp critical(bolide_mpm_surface)
-        ledger_join(&simulation->ledger, &own);
-    }
 }
 
 static void push_surface(struct mpm *mpm, struct simulation *simulation,
@@ -388,7 +339,7 @@ static void push_surface(struct mpm *mpm, struct simulation *simulation,
             mpm_push_blast(mpm, layer, surface, simulation->threads);
         if (surface->outside)
             push_outside(layer, surface);
-        push_nodes(mpm, simulation, layer, surface, dt);
+        push_nodes(mpm, simulation, layer, surface);
     }
 }
 
@@ -416,6 +367,8 @@ struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, 
         [SHAPE_LINEAR] = 1.0, [SHAPE_GIMP] = 1.5, [SHAPE_QUADRATIC] = 1.5, [SHAPE_CUBIC] = 2.0};
     const struct simulation_case *input = simulation->problem->input;
     const double reach = reaches[mpm->parameters.shape];
+    for (int g = 0; g < mpm->layers; g++)
+        memset(mpm->layer[g].is_pushed, 0, sizeof mpm->layer[g].is_pushed);
     for (int i = 0; i < input->loads.count; i++) {
         const struct load_input *load = case_load(input, i);
         const bool part = load->between.count > 0;

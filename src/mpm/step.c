@@ -159,7 +159,7 @@ static void share_bins(struct mpm *mpm)
     }
 }
 
-static struct error *reserve_fields(struct mpm *mpm)
+static struct error *reserve_fields(struct mpm *mpm, const struct simulation *simulation)
 {
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];
@@ -180,6 +180,7 @@ static struct error *reserve_fields(struct mpm *mpm)
             return error_new(ERROR_SYSTEM, "out of memory for %d blocks",
                              mpm->layer[g].grid.blocks);
     TRY(mpm_reserve_order(mpm));
+    TRY(mpm_reserve_surfaces(mpm, simulation));
     if (mpm->layers > 1)
         TRY(mpm_find_meetings(mpm));
     if (mpm->halo.far)
@@ -195,7 +196,7 @@ static struct error *refresh_grid(struct mpm *mpm, struct simulation *simulation
         TRY(mpm_find_halo(mpm, simulation, error));
     else if (!error)
         share_bins(mpm);
-    return ranks_agree(simulation->ranks, error ? error : reserve_fields(mpm));
+    return ranks_agree(simulation->ranks, error ? error : reserve_fields(mpm, simulation));
 }
 
 /* Collective: mass, momentum and force of all nodes, and where shocks are. */
@@ -385,6 +386,7 @@ struct error *mpm_advance(void *solver, struct simulation *simulation, double dt
     TRY(mpm_push_surfaces(mpm, simulation, dt));
     if (mpm->layers > 1)
         mpm_meet(mpm, simulation, dt);
+    mpm_book_surfaces(mpm, simulation, dt);
     for (int g = 0; g < mpm->layers; g++)
         mpm_advance_nodes(mpm, simulation, &mpm->layer[g], dt);
     mpm_raise_order(mpm, simulation, dt, true);

@@ -34,4 +34,8 @@ struct surface {
 void mpm_push_blast(const struct mpm *mpm, struct layer *layer, const struct surface *surface,
                     int threads);
 
+/* Adds the forces in the second field of LAYER, in which walls have no part yet, to those that
+ * mpm_book_surfaces books under CAUSE. */
+void mpm_note_pushed(struct layer *layer, enum surface_cause cause, int threads);
+
 #endif

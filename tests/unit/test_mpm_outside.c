@@ -309,6 +309,40 @@ static void a_load_does_no_work_on_a_wall(void **state)
     end(run);
 }
 
+/* Two loads that meet at an edge, where another block strikes the pushed one. */
+static const char edged[] =
+    "format: 1\ndimension: 2\nresolution: 1 mm\nsolver: mpm\n" MATERIALS "bodies:\n"
+    "  block: {material: metal, box: {from: [0 mm, 0 mm], to: [20 mm, 10 mm]}}\n"
+    "  other: {material: metal, box: {from: [20 mm, 0 mm], to: [30 mm, 14 mm]}, velocity: [-100 "
+    "m/s, 0]}\n"
+    "contacts: {face: {between: [block, other], shear: slip, tension: none}}\n"
+    "loads:\n"
+    "  around: {on: block, pressure: 0.5 GPa}\n"
+    "  above: {on: block, traction: [100 MPa, -400 MPa], axis: y, between: [6 mm, 14 mm]}\n"
+    "run: {until: 1 s}\n";
+
+/* The work of one is that along the velocity which all forces give, contact included. */
+static void the_work_of_loads_that_meet_is_booked(void **state)
+{
+    (void)state;
+    struct running *run = begin_fresh(edged, &plain);
+    const struct totals start =
+        population_totals(simulation_population(&run->simulation), &run->ranks, -1);
+    for (int k = 0; k < 100; k++) {
+        step(run, 1);
+        const struct totals now =
+            population_totals(simulation_population(&run->simulation), &run->ranks, -1);
+        const struct totals loads =
+            ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_LOADS);
+        assert_near(now.entry[LEDGER_ENERGY] - loads.entry[LEDGER_ENERGY],
+                    start.entry[LEDGER_ENERGY], 1e-13 * start.entry[LEDGER_ENERGY]);
+    }
+    assert_true(
+        ledger_totals(&run->simulation.ledger, &run->ranks, LEDGER_LOADS).entry[LEDGER_ENERGY] !=
+        0.0);
+    end(run);
+}
+
 static uint64_t hash_of(const char *text, const struct variant *variant)
 {
     struct running *run = begin_fresh(text, variant->resumed ? &plain : variant);
@@ -345,6 +379,7 @@ int main(void)
         cmocka_unit_test(a_load_follows_the_time),
         cmocka_unit_test(a_load_that_is_not_finite_ends_the_run),
         cmocka_unit_test(a_load_does_no_work_on_a_wall),
+        cmocka_unit_test(the_work_of_loads_that_meet_is_booked),
         cmocka_unit_test(what_leaves_is_booked),
         cmocka_unit_test(a_fast_stream_leaves_as_it_came),
         cmocka_unit_test(axis_and_hoop_stress_are_booked),

@@ -1,0 +1,110 @@
+/* The impulse and work of what pushes on surfaces. The work of a force at a node in a step is that
+ * along the mean velocity of the step, which all forces on the node have a part in: it is booked
+ * after the last of them, contact. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "mpm/surface.h"
+
+struct error *mpm_reserve_surfaces(struct mpm *mpm, const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    const bool pushes[] = {[SURFACE_LOADS] = input->loads.count > 0,
+                           [SURFACE_OUTFLOWS] = input->outflows.count > 0,
+                           [SURFACE_OUTSIDE] = mpm->outside != NULL};
+    for (int g = 0; g < mpm->layers; g++)
+        for (int cause = 0; cause < SURFACE_CAUSES; cause++) {
+            struct layer *layer = &mpm->layer[g];
+            if (pushes[cause] && !layer->prescribed &&
+                !memory_reserve((void **)&layer->pushed[cause], &layer->pushed_capacity[cause],
+                                (int64_t)layer->grid.blocks * BLOCK_CELLS, 0,
+                                sizeof *layer->pushed[cause]))
+                return error_new(ERROR_SYSTEM, "out of memory for forces at %d blocks",
+                                 layer->grid.blocks);
+        }
+    return NULL;
+}
+
+void mpm_note_pushed(struct layer *layer, enum surface_cause cause, int threads)
+{
+    double(*pushed)[3] = layer->pushed[cause];
+    const bool first = !layer->is_pushed[cause];
+    layer->is_pushed[cause] = true;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t n = 0; n < layer->grid.blocks; n++)
+        for (int k = 0; k < BLOCK_CELLS; k++)
+            for (int c = 0; c < 3; c++) {
+                double *sum = &pushed[(int64_t)n * BLOCK_CELLS + k][c];
+                *sum = (first ? 0.0 : *sum) + grid_node(&layer->back, n, k)[c];
+            }
+    for (int32_t w = 0; w < layer->walls; w++)
+        for (int c = 0; c < 3; c++) {
+            double *sum = &layer->wall[w].pushed_by[cause][c];
+            *sum = (first ? 0.0 : *sum) + layer->wall[w].back[c];
+        }
+}
+
+/* Books the force F on a node in a step of DT. */
+static void book_force(const struct mpm *mpm, enum surface_cause cause, const double *node,
+                       const int64_t at[3], const double f[3], double dt, struct ledger *ledger)
+{
+    static const enum ledger_cause causes[] = {
+        [SURFACE_LOADS] = LEDGER_LOADS, [SURFACE_OUTFLOWS] = LEDGER_OUTFLOWS};
+    if (f[0] == 0.0 && f[1] == 0.0 && f[2] == 0.0)
+        return;
+    double work = 0.0;
+    for (int c = 0; c < 3; c++)
+        work += dt * f[c] * (node[NODE_MOMENTUM + c] + 0.5 * dt * node[NODE_FORCE + c]) /
+                node[NODE_MASS];
+    const double impulse[3] = {dt * f[0], dt * f[1], dt * f[2]};
+    if (cause == SURFACE_OUTSIDE)
+        mpm->outside->pushed(mpm->outside->of, at, impulse, work);
+    else
+        ledger_book(ledger, causes[cause], 0.0, vec3_make(impulse[0], impulse[1], impulse[2]),
+                    vec3_scale(mpm->edge, vec3_make((double)at[0], (double)at[1], (double)at[2])),
+                    work);
+}
+
+/* The same for the nodes of a block that are not near a wall, if this rank owns the block. */
+static void book_block(const struct mpm *mpm, const struct layer *layer, enum surface_cause cause,
+                       int32_t block, double dt, struct ledger *ledger)
+{
+    if (mpm_is_far(mpm, layer, layer->grid.touch[block][0].bin))
+        return;
+    int64_t corner[3], at[3];
+    grid_corner(&layer->grid, block, corner);
+    for (int k = 0; k < BLOCK_CELLS; k++) {
+        mpm_node_index(layer->grid.dimension, corner, k, at);
+        if (!mpm_near_wall(mpm, layer, at))
+            book_force(mpm, cause, grid_node(&layer->main, block, k), at,
+                       layer->pushed[cause][(int64_t)block * BLOCK_CELLS + k], dt, ledger);
+    }
+}
+
+static void book_layer(const struct mpm *mpm, struct simulation *simulation,
+                       const struct layer *layer, enum surface_cause cause, double dt)
+{
+    for (int32_t w = 0; w < layer->walls; w++) {
+        const struct wall_node *wall = &layer->wall[w];
+        if (wall->booked)
+            book_force(mpm, cause, wall->node, wall->at, wall->pushed_by[cause], dt,
+                       &simulation->ledger);
+    }
+#pragma omp parallel num_threads(cause == SURFACE_OUTSIDE ? 1 : simulation->threads)
+    {
+        struct ledger own = {0};
+#pragma omp for schedule(static)
+        for (int32_t n = 0; n < layer->grid.blocks; n++)
+            book_block(mpm, layer, cause, n, dt, &own);
+#pragma omp critical(bolide_mpm_surface)
+        ledger_join(&simulation->ledger, &own);
+    }
+}
+
+void mpm_book_surfaces(const struct mpm *mpm, struct simulation *simulation, double dt)
+{
+    for (int g = 0; g < mpm->layers; g++)
+        for (int cause = 0; cause < SURFACE_CAUSES; cause++)
+            if (!mpm->layer[g].prescribed && mpm->layer[g].is_pushed[cause])
+                book_layer(mpm, simulation, &mpm->layer[g], (enum surface_cause)cause, dt);
+}
