@@ -29,7 +29,7 @@ static void print_bodies(const struct simulation_case *input, const struct estim
         char diameter[48];
         readable(of->summary.diameter, "m", diameter, sizeof diameter);
         printf("  %-20s %-16s %12lld %10.5g %-5s %12s %7.5g %s %8.5g %s %8.5g %s\n",
-               input->bodies.names[i], body->material, (long long)of->summary.particles,
+               input->bodies.names[i], body->material, (long long)of->summary.counted,
                of->summary.mass, mass_unit(input), diameter, of->summary.fastest.density, "kg/m3",
                of->sound_long, "m/s", of->sound_shear, "m/s");
     }
@@ -112,8 +112,10 @@ static void print_run(const struct simulation_case *input, const struct estimate
     readable(input->run.until, "s", until, sizeof until);
     readable(estimate->bytes, "B", memory, sizeof memory);
     readable(estimate->seconds, "s", seconds, sizeof seconds);
-    printf("  %lld %s, %.6g %s; %d checks\n", (long long)estimate->particles, members_of(input),
-           estimate->mass, mass_unit(input), input->checks.count);
+    printf("  %lld %s, ", (long long)estimate->particles, members_of(input));
+    if (estimate->cells > 0.0)
+        printf("%.0f cells, ", estimate->cells);
+    printf("%.6g %s; %d checks\n", estimate->mass, mass_unit(input), input->checks.count);
     printf("  until %s; first step about %s (body %s); about %lld steps\n", until, step,
            input->bodies.names[estimate->step_body], (long long)estimate->steps);
     printf("  about %s of memory, roughly %s on %d thread%s\n", memory, seconds, threads,

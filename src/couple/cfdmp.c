@@ -271,5 +271,6 @@ const struct solver_class cfdmp_class = {.size = sizeof(struct cfdmp),
                                          .state = cfdmp_state,
                                          .destroy = cfdmp_destroy,
                                          .bytes = cfdmp_bytes,
+                                         .count = cfdmp_count,
                                          .step = cfdmp_step,
                                          .energy_lost = cfdmp_energy_lost};

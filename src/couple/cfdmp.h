@@ -57,6 +57,24 @@ struct cfdmp {
 struct error *cfdmp_make_parts(struct cfdmp *cfdmp, struct simulation *simulation);
 void cfdmp_free_parts(struct cfdmp *cfdmp);
 
+/* The depth of the band behind the overlap, in cells: sweeps along each axis look two ahead. */
+int64_t cfdmp_band_depth(int dimension);
+
+/* The edge of cells. */
+double cfdmp_edge(const struct cfdmp_parameters *parameters, const struct simulation_case *input);
+/* The places along AXIS between which the gas computes no cells, behind the band; the second may be
+ * below the first. */
+void cfdmp_blocked(const struct cfdmp *cfdmp, int axis, int64_t at[2]);
+
+/* The region, from the case, in cells of the domain of CELLS; then whether all bodies and obstacles
+ * of the case may be where they are. */
+struct error *cfdmp_find_region(struct cfdmp *cfdmp, const struct simulation_case *input,
+                                const struct cell_blocks *cells);
+/* As solver_class says. */
+void cfdmp_count(const void *parameters, const struct simulation_case *input,
+                 struct counted *counted);
+struct error *cfdmp_check_region(const struct cfdmp *cfdmp, const struct simulation_case *input);
+
 /* The cells of the band take what the particles there have. */
 struct error *cfdmp_fill_band(struct cfdmp *cfdmp);
 

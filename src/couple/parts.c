@@ -1,4 +1,4 @@
-/* The cases of both parts of a coupled run, the region and its faces. */
+/* The cases of both parts of a coupled run, and the faces and the band of its region. */
 
 #include <stdlib.h>
 
@@ -8,125 +8,15 @@
 #include "model/domain.h"
 #include "shape/kinds.h"
 
-/* The depth of the band behind the overlap: sweeps along each axis look two cells ahead. */
-static int64_t band_depth(int dimension) { return 2 * dimension; }
-
-/* What is wrong with the region as the case gives it. */
-static struct error *check_region(const struct cfdmp *cfdmp, const struct simulation *simulation,
-                                  const struct cell_blocks *cells)
-{
-    const struct simulation_case *input = simulation->problem->input;
-    const struct cfdmp_region *region = &cfdmp->parameters.region;
-    static const char key[] = "cfdmp.region";
-    if (region->low.count == 0 && region->high.count == 0)
-        return NULL;
-    if (region->low.count != cfdmp->dimension || region->high.count != cfdmp->dimension)
-        return input_error(input, "solver", key,
-                           "expected `low` and `high` with %d component%s each, one per dimension",
-                           cfdmp->dimension, cfdmp->dimension == 1 ? "" : "s");
-    for (int axis = 0; axis < cfdmp->dimension; axis++) {
-        const double low = region->low.at[axis], high = region->high.at[axis],
-                     domain[2] = {(double)cells->low[axis] * cfdmp->edge,
-                                  (double)cells->high[axis] * cfdmp->edge},
-                     slack = 1e-6 * cfdmp->edge;
-        if (!(low < high))
-            return input_error(input, "solver", key, "`low` is not below `high` along %c",
-                               "xyz"[axis]);
-        if (low < domain[0] - slack || high > domain[1] + slack)
-            return input_error(
-                input, "solver", key,
-                "it reaches from %.6g m to %.6g m along %c, beyond the domain, which "
-                "reaches from %.6g m to %.6g m",
-                low, high, "xyz"[axis], domain[0], domain[1]);
-    }
-    return NULL;
-}
-
-/* The region in cells of the domain of CELLS. */
-static struct error *find_region(struct cfdmp *cfdmp, const struct simulation *simulation,
-                                 const struct cell_blocks *cells)
-{
-    const struct simulation_case *input = simulation->problem->input;
-    const struct cfdmp_region *region = &cfdmp->parameters.region;
-    TRY(check_region(cfdmp, simulation, cells));
-    const int64_t margin = cfdmp->parameters.overlap + band_depth(cfdmp->dimension) + 3;
-    for (int axis = 0; axis < 3; axis++) {
-        double low = INFINITY, high = -INFINITY;
-        cfdmp->cut.low[axis] = cells->low[axis];
-        cfdmp->cut.high[axis] = cells->high[axis];
-        if (axis >= cfdmp->dimension)
-            continue;
-        for (int b = 0; b < input->bodies.count; b++) {
-            const struct body_input *body = case_body(input, b);
-            if (gas_computes(&simulation->problem->material[body->material_index]))
-                continue;
-            const struct bounds bounds = shape_bounds(&body->shape);
-            low = minimum(low, part_in(&bounds.low, axis) / cfdmp->edge - (double)margin);
-            high = maximum(high, part_in(&bounds.high, axis) / cfdmp->edge + (double)margin);
-        }
-        if (region->low.count > axis) {
-            low = region->low.at[axis] / cfdmp->edge;
-            high = region->high.at[axis] / cfdmp->edge;
-        }
-        if (!(low < high))
-            return input_error(input, "solver", "cfdmp",
-                               "no body is solid: give the `region` of the material points");
-        low = maximum(floor(low + 1e-6), (double)cells->low[axis]);
-        high = minimum(ceil(high - 1e-6), (double)cells->high[axis]);
-        cfdmp->cut.low[axis] = (int64_t)low;
-        cfdmp->cut.high[axis] = (int64_t)high;
-        for (int side = 0; side < 2; side++)
-            cfdmp->cut.open[axis][side] =
-                side ? cfdmp->cut.high[axis] < cells->high[axis] : low > (double)cells->low[axis];
-        if (high - low < (double)(cfdmp->parameters.overlap + band_depth(cfdmp->dimension)))
-            return input_error(input, "solver", "cfdmp",
-                               "the region of the material points has %.0f cells along %c: it "
-                               "needs %d for the overlap and what gas sees of it",
-                               high - low, "xyz"[axis],
-                               (int)(cfdmp->parameters.overlap + band_depth(cfdmp->dimension)));
-    }
-    return NULL;
-}
-
-/* Solids lie in the region, behind what gas sees of it. */
-static struct error *check_solids(const struct cfdmp *cfdmp, const struct simulation *simulation)
-{
-    const struct simulation_case *input = simulation->problem->input;
-    const double depth = (double)(cfdmp->parameters.overlap + band_depth(cfdmp->dimension));
-    struct error *error = NULL;
-    for (int b = 0; b < input->bodies.count; b++) {
-        const struct body_input *body = case_body(input, b);
-        if (gas_computes(&simulation->problem->material[body->material_index]))
-            continue;
-        const struct bounds bounds = shape_bounds(&body->shape);
-        for (int axis = 0; axis < cfdmp->dimension; axis++)
-            for (int side = 0; side < 2; side++) {
-                const double at = part_in(side ? &bounds.high : &bounds.low, axis) / cfdmp->edge,
-                             face = (double)(side ? cfdmp->cut.high : cfdmp->cut.low)[axis];
-                const double room = side ? face - at : at - face,
-                             wanted = cfdmp->cut.open[axis][side] ? depth : 0.0;
-                if (room < wanted - 1e-6)
-                    error = error_join(
-                        error,
-                        input_error(input, "bodies", input->bodies.names[b],
-                                    "this solid is %.6g m from the face %c = %.6g m of the region "
-                                    "of material points: it must be %.6g m inside, behind the "
-                                    "overlap; enlarge the region, or leave it out",
-                                    room * cfdmp->edge, "xyz"[axis], face * cfdmp -> edge,
-                                    wanted * cfdmp -> edge));
-            }
-    }
-    return error;
-}
-
 /* Blocks the cells behind the band. */
 static struct error *block_inside(struct cfdmp *cfdmp)
 {
-    const int64_t depth = cfdmp->parameters.overlap + band_depth(cfdmp->dimension);
     int64_t low[3], high[3];
     for (int axis = 0; axis < 3; axis++) {
-        low[axis] = cfdmp->cut.low[axis] + (cfdmp->cut.open[axis][0] ? depth : 0);
-        high[axis] = cfdmp->cut.high[axis] - (cfdmp->cut.open[axis][1] ? depth : 0);
+        int64_t at[2];
+        cfdmp_blocked(cfdmp, axis, at);
+        low[axis] = at[0];
+        high[axis] = at[1];
     }
     return part_block(&cfdmp->maker, &cfdmp->gas_part, low, high);
 }
@@ -144,8 +34,8 @@ static struct error *make_gas_part(struct cfdmp *cfdmp, const struct simulation 
         body->elsewhere = !gas_computes(&simulation->problem->material[body->material_index]);
     }
     const struct cell_blocks domain = part_domain(input, cfdmp->edge);
-    TRY(find_region(cfdmp, simulation, &domain));
-    TRY(check_solids(cfdmp, simulation));
+    TRY(cfdmp_find_region(cfdmp, input, &domain));
+    TRY(cfdmp_check_region(cfdmp, input));
     TRY(block_inside(cfdmp));
     TRY(part_create(&cfdmp->maker, part, simulation, &gas_class, &cfdmp->parameters.gas));
     cfdmp->gas = part->solver;
@@ -184,7 +74,7 @@ static int64_t depth_of(const struct cfdmp *cfdmp, const int64_t at[3])
 
 static struct error *find_band(struct cfdmp *cfdmp)
 {
-    const int64_t from = cfdmp->parameters.overlap, to = from + band_depth(cfdmp->dimension);
+    const int64_t from = cfdmp->parameters.overlap, to = from + cfdmp_band_depth(cfdmp->dimension);
     const int64_t *n = cfdmp->count;
     const int64_t all = n[0] * n[1] * n[2];
     cfdmp->band_of = owned_new(&cfdmp->owned, (size_t)all * sizeof *cfdmp->band_of);
@@ -239,8 +129,7 @@ struct error *cfdmp_make_parts(struct cfdmp *cfdmp, struct simulation *simulatio
         return input_error(input, "solver", NULL, "the solver cfdmp runs on one rank");
     cfdmp->dimension = simulation->problem->dimension;
     cfdmp->round = geometry_power(simulation->problem->geometry) > 0;
-    cfdmp->edge =
-        isnan(cfdmp->parameters.mpm.cell) ? 2.0 * input->resolution : cfdmp->parameters.mpm.cell;
+    cfdmp->edge = cfdmp_edge(&cfdmp->parameters, input);
     cfdmp->maker = (struct part_maker){&cfdmp->owned, cfdmp->edge, cfdmp->dimension};
     TRY(make_gas_part(cfdmp, simulation));
     TRY(make_mpm_part(cfdmp, simulation));

@@ -11,6 +11,7 @@
 #include "material/any.h"
 #include "material/material.h"
 #include "model/bodies.h"
+#include "model/domain.h"
 
 static const char *const form_names[] = {"richtmyer", "printed", NULL};
 static const char *const viscosity_names[] = {"faces", "cells", NULL};
@@ -434,6 +435,18 @@ static double gas_bytes(const void *parameters, int dimension)
     return bytes + layout.written * (double)sizeof(double);
 }
 
+/* Cells lie in the domain alone. */
+static void gas_count(const void *parameters, const struct simulation_case *input,
+                      struct counted *counted)
+{
+    (void)parameters;
+    double face[2][3] = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    for (int axis = 0; axis < input->dimension; axis++)
+        for (int side = 0; side < 2; side++)
+            face[side][axis] = domain_face(input, axis, side).at;
+    counted->box = (struct bounds){vector_at(face[0]), vector_at(face[1])};
+}
+
 static double gas_step(const void *parameters, int dimension, const struct material *material,
                        const struct point *point, double diameter)
 {
@@ -455,5 +468,6 @@ const struct solver_class gas_class = {.members = "cells",
                                        .state = gas_state,
                                        .destroy = gas_destroy,
                                        .bytes = gas_bytes,
+                                       .count = gas_count,
                                        .step = gas_step,
                                        .fields = field_tables};

@@ -103,8 +103,17 @@ static void explore_start(const struct simulation_case *input, int body, struct 
         note_state(case_material(input, of->material_index)->material, point, finding);
 }
 
+static bool is_in(const struct bounds *box, struct vec3 place, int64_t dimension)
+{
+    return place.x >= box->low.x && place.x <= box->high.x &&
+           (dimension < 2 || (place.y >= box->low.y && place.y <= box->high.y)) &&
+           (dimension < 3 || (place.z >= box->low.z && place.z <= box->high.z));
+}
+
+/* Of particles out of BOX, NULL: none are, less is asked. */
 static struct error *explore_body(const struct overlaps *overlaps, int body,
-                                  const struct ranks *ranks, struct finding *finding)
+                                  const struct bounds *box, const struct ranks *ranks,
+                                  struct finding *finding)
 {
     const struct simulation_case *input = overlaps->input;
     const struct range none = {NAN, NAN};
@@ -119,6 +128,9 @@ static struct error *explore_body(const struct overlaps *overlaps, int body,
         summary->particles++;
         finding->volume += walk.row.volume;
         explore_start(input, body, place, walk.row.volume * walk_depth(input, place), finding);
+        if (box && !is_in(box, place, input->dimension))
+            continue;
+        summary->counted++;
         if (finding->wall < 0) {
             finding->wall = wall_before(input, place);
             finding->wall_place = place;
@@ -181,8 +193,8 @@ static struct error *judge_body(const struct simulation_case *input, int body,
 }
 
 /* Collective: walks over all bodies; FINDINGS has an entry for each. */
-static struct error *explore(const struct simulation_case *input, const struct ranks *ranks,
-                             struct finding *findings)
+static struct error *explore(const struct simulation_case *input, const struct bounds *box,
+                             const struct ranks *ranks, struct finding *findings)
 {
     struct overlaps overlaps;
     TRY(walk_check_work(input, ranks)); /* the same on all ranks */
@@ -191,7 +203,7 @@ static struct error *explore(const struct simulation_case *input, const struct r
     int64_t total = 0;
     for (int body = 0; ready && body < input->bodies.count; body++)
         if (!case_body(input, body)->elsewhere)
-            error = error_join(error, explore_body(&overlaps, body, ranks, &findings[body]));
+            error = error_join(error, explore_body(&overlaps, body, box, ranks, &findings[body]));
     overlaps_free(&overlaps);
     TRY(ranks_agree(ranks, error));
     for (int body = 0; body < input->bodies.count; body++) {
@@ -212,7 +224,7 @@ struct error *generate_count(const struct simulation_case *input, const struct r
     struct finding *findings = memory_allocate((size_t)input->bodies.count * sizeof *findings);
     TRY(ranks_agree(ranks, findings ? NULL : error_new(ERROR_SYSTEM, "out of memory")));
     assert(findings);
-    struct error *error = explore(input, ranks, findings);
+    struct error *error = explore(input, NULL, ranks, findings);
     *particles = 0;
     for (int body = 0; !error && body < input->bodies.count; body++)
         *particles += findings[body].summary.particles;
@@ -220,13 +232,14 @@ struct error *generate_count(const struct simulation_case *input, const struct r
     return error;
 }
 
-struct error *generate_summary(const struct simulation_case *input, struct body_summary *summary)
+struct error *generate_summary(const struct simulation_case *input, const struct bounds *box,
+                               struct body_summary *summary)
 {
     const struct ranks alone = ranks_alone();
     struct finding *findings = memory_allocate((size_t)input->bodies.count * sizeof *findings);
     if (!findings)
         return error_new(ERROR_SYSTEM, "out of memory");
-    struct error *error = explore(input, &alone, findings);
+    struct error *error = explore(input, box, &alone, findings);
     for (int body = 0; body < input->bodies.count; body++) {
         const struct finding *finding = &findings[body];
         summary[body] = finding->summary;

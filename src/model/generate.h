@@ -13,6 +13,7 @@ struct range {
 /* What a body will be, for `bolide check`. */
 struct body_summary {
     int64_t particles;
+    int64_t counted; /* of these, in the box that was asked for */
     double mass;     /* kg, kg/m or kg/m^2 in 3-D, 2-D, 1-D */
     double diameter; /* of a particle, of the mean where they differ, m */
     struct range density, pressure, temperature,
@@ -49,7 +50,9 @@ double generate_work(const struct simulation_case *input, const struct ranks *ra
 #define GENERATE_LONG 0x1p31
 #define GENERATE_MOST 0x1p36
 
-/* Counts without making: SUMMARY has an entry for each body. */
-struct error *generate_summary(const struct simulation_case *input, struct body_summary *summary);
+/* Counts without making: SUMMARY has an entry for each body. Only particles in BOX, NULL:
+ * everywhere, are counted apart, and must not lie behind walls. */
+struct error *generate_summary(const struct simulation_case *input, const struct bounds *box,
+                               struct body_summary *summary);
 
 #endif

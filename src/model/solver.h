@@ -5,6 +5,7 @@
 
 #include "model/simulation.h"
 #include "particle/field_rows.h"
+#include "shape/shape.h"
 
 /* The largest step, what limits it, the id of the member where, and the time of the solver's next
  * event, which no step may pass: a body stops, a load begins. */
@@ -30,6 +31,13 @@ BOLIDE_INLINE struct limit limit_of_ranks(const struct ranks *ranks, struct rank
     return limit;
 }
 
+/* What `bolide check` counts: members of bodies in BOX alone, and CELLS beside them, of BYTES
+ * each. */
+struct counted {
+    struct bounds box;
+    double cells, bytes;
+};
+
 struct solver_class {
     const char *members; /* what it computes with: "cells"; NULL: particles */
     size_t size;         /* bytes of the solver's own state, zeroed before create */
@@ -51,6 +59,9 @@ struct solver_class {
     void (*destroy)(void *solver);
     /* Bytes a particle, for `bolide check`, at DIMENSION. */
     double (*bytes)(const void *parameters, int dimension);
+    /* Fills *counted from a case that may be wrong; NULL where all bodies become particles. */
+    void (*count)(const void *parameters, const struct simulation_case *input,
+                  struct counted *counted);
     /* The step that a particle of DIAMETER allows in state POINT at the start, for `bolide
      * check`. */
     double (*step)(const void *parameters, int dimension, const struct material *material,

@@ -30,7 +30,7 @@ static void add_body(const struct simulation_case *input, int index, struct esti
         estimate->step = step;
         estimate->step_body = index;
     }
-    estimate->particles += of->summary.particles;
+    estimate->particles += of->summary.counted;
     estimate->mass += of->summary.mass;
     estimate->material_mass[body->material_index] += of->summary.mass;
 }
@@ -83,8 +83,12 @@ struct error *estimate_run(const struct simulation_case *input, int threads,
     estimate->material_mass =
         memory_allocate(((size_t)input->materials.count + 1) * sizeof *estimate->material_mass);
     struct body_summary *summary = memory_allocate(((size_t)bodies + 1) * sizeof *summary);
+    const struct solver_class *class = input->solver.choice->thing;
+    struct counted counted = {.cells = 0.0};
+    if (class->count)
+        class->count(input->solver.value, input, &counted);
     struct error *error = estimate->body && estimate->material_mass && summary
-                              ? generate_summary(input, summary)
+                              ? generate_summary(input, class->count ? &counted.box : NULL, summary)
                               : error_new(ERROR_SYSTEM, "out of memory");
     error = error_join(error, run_validate(input));
     for (int i = 0; i < bodies && !error; i++) {
@@ -97,14 +101,15 @@ struct error *estimate_run(const struct simulation_case *input, int threads,
         return error;
     }
     find_mean_density(input, estimate);
-    const struct solver_class *class = input->solver.choice->thing;
+    estimate->cells = counted.cells;
     estimate->bytes =
         (double)estimate->particles *
-        (class->bytes(input->solver.value, (int)input->dimension) + history_bytes(input));
+            (class->bytes(input->solver.value, (int)input->dimension) + history_bytes(input)) +
+        counted.cells * counted.bytes;
     double steps = ceil(input->run.until / estimate->step);
     int64_t most = input->run.max_steps;
     estimate->steps = most > 0 && steps > (double)most ? most : (int64_t)minimum(steps, 1e18);
-    estimate->seconds = (double)estimate->steps * (double)estimate->particles /
+    estimate->seconds = (double)estimate->steps * ((double)estimate->particles + counted.cells) /
                         (expected_rate * maximum(threads, 1));
     return NULL;
 }
@@ -143,7 +148,7 @@ static struct error *strong_contacts(const struct simulation_case *input, double
     struct body_summary *summary = memory_allocate(((size_t)bodies + 1) * sizeof *summary);
     if (!summary)
         return error_new(ERROR_SYSTEM, "out of memory");
-    struct error *error = generate_summary(input, summary);
+    struct error *error = generate_summary(input, NULL, summary);
     struct error *warnings = NULL;
     for (int i = 0; i < bodies && !error; i++)
         for (int j = 0; j < i; j++) {

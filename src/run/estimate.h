@@ -14,13 +14,14 @@ struct estimate {
     int bodies;
     struct body_estimate *body;
     int64_t particles, steps;
+    double cells; /* beside them */
     double mass;
     double *material_mass; /* of each material of the case */
     struct bounds box;     /* of all bodies; on an axis with two walls what lies between them */
     double mean_density;   /* of that box, kg/m^3: voids count */
     double step;           /* s: the smallest that a body allows at the start */
     int step_body;         /* whose it is */
-    double bytes;          /* of all particles */
+    double bytes;          /* of all particles and cells */
     double seconds;        /* rough: a million updates a second and thread */
 };
 

@@ -283,6 +283,33 @@ static void particles_on_nodes_of_linear_functions_are_a_warning(void **state)
                    NULL);
 }
 
+/* In a tube of 100 cells, the 40 of the region have two particles each; of them 40 less 7 at either
+ * face are blocked for the gas. The body that lies beyond the wall is nobody's mistake. */
+static void a_coupled_case_counts_the_particles_of_the_region_and_the_cells(void **state)
+{
+    (void)state;
+    struct simulation_case *input = NULL;
+    struct estimate estimate;
+    struct error *error =
+        read_text("format: 1\ndimension: 1\nresolution: 5 mm\n"
+                  "materials: {gas: {eos: {ideal-gas: {density: 1 kg/m^3, gamma: 1.4}}}}\n"
+                  "bodies:\n"
+                  "  all: {material: gas, pressure: 1 bar, box: {from: [-1 m], to: [1 m]}}\n"
+                  "domain: {low: [0 m], high: [1 m]}\n"
+                  "walls: {low: {mirror: x, at: 0 m, side: low}}\n"
+                  "run: {until: 1 us}\n",
+                  "solver: {cfdmp: {region: {low: [0.4 m], high: [0.8 m]}}}\n", &input);
+    if (!error)
+        error = estimate_run(input, 1, &estimate);
+    if (error)
+        fail_msg("%s", error_message(error, 0));
+    assert_int_equal(estimate.particles, 80);
+    assert_float_equal(estimate.cells, 100.0 - (40.0 - 2.0 * 7.0), 1e-12);
+    assert_float_equal(estimate.mass, 2.0, 1e-9);
+    estimate_free(&estimate);
+    case_free(input);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -294,6 +321,7 @@ int main(void)
         cmocka_unit_test(a_plate_of_less_than_three_particles_is_a_warning),
         cmocka_unit_test(a_start_below_0_k_is_a_warning),
         cmocka_unit_test(particles_on_nodes_of_linear_functions_are_a_warning),
+        cmocka_unit_test(a_coupled_case_counts_the_particles_of_the_region_and_the_cells),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -83,7 +83,7 @@ static void a_grain_that_replaces_its_matrix_cuts_a_hole_of_its_own_form(void **
     }
 
     struct body_summary summary[2];
-    assert_null(generate_summary(&w.input, summary));
+    assert_null(generate_summary(&w.input, NULL, summary));
     for (int body = 0; body < 2; body++) {
         assert_int_equal(summary[body].particles, count_of_body(p, body));
         const double mass =

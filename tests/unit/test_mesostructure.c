@@ -16,7 +16,7 @@ static const double l = 0.4e-6; /* pore size or cell size, m */
 static void count_bodies(const struct workshop *w, int64_t *count)
 {
     struct body_summary summary[BODIES];
-    struct error *error = generate_summary(&w->input, summary);
+    struct error *error = generate_summary(&w->input, NULL, summary);
     if (error)
         fail_msg("%s", error_message(error, 0));
     for (int body = 0; body < w->input.bodies.count; body++)

@@ -134,7 +134,7 @@ static void every_particle_has_the_state_of_its_place(void **state)
     }
     end_simulation(&simulation);
     struct body_summary summary;
-    assert_null(generate_summary(&w.input, &summary));
+    assert_null(generate_summary(&w.input, NULL, &summary));
     assert_true(fabs(summary.mass / 2740.0 - 1.0) < 1e-14);
     assert_true(summary.density.low == 2700.0 && summary.density.high == 2780.0);
     assert_true(fabs(summary.temperature.high - 393.75) < 1e-9 &&

@@ -1,0 +1,208 @@
+/* The region of material points: where it is, and what is wrong with it. */
+#include <math.h>
+
+#include "couple/cfdmp.h"
+#include "material/material.h"
+#include "shape/kinds.h"
+
+int64_t cfdmp_band_depth(int dimension) { return 2 * dimension; }
+
+/* The faces of solids are so many cells behind an open face of the region: the gas sees none. */
+static int64_t solid_depth(const struct cfdmp *cfdmp)
+{
+    static const int64_t least = 3;
+    const int64_t band = cfdmp_band_depth(cfdmp->dimension);
+    return cfdmp->parameters.overlap + (band > least ? band : least);
+}
+
+static bool is_solid(const struct simulation_case *input, int body)
+{
+    return !gas_computes(case_material(input, case_body(input, body)->material_index)->material);
+}
+
+/* What is wrong with the region as the case gives it. */
+static struct error *check_given(const struct cfdmp *cfdmp, const struct simulation_case *input,
+                                 const struct cell_blocks *cells)
+{
+    const struct cfdmp_region *region = &cfdmp->parameters.region;
+    static const char key[] = "cfdmp.region";
+    if (region->low.count == 0 && region->high.count == 0)
+        return NULL;
+    if (region->low.count != cfdmp->dimension || region->high.count != cfdmp->dimension)
+        return input_error(input, "solver", key,
+                           "expected `low` and `high` with %d component%s each, one per dimension",
+                           cfdmp->dimension, cfdmp->dimension == 1 ? "" : "s");
+    for (int axis = 0; axis < cfdmp->dimension; axis++) {
+        const double low = region->low.at[axis], high = region->high.at[axis],
+                     domain[2] = {(double)cells->low[axis] * cfdmp->edge,
+                                  (double)cells->high[axis] * cfdmp->edge},
+                     slack = 1e-6 * cfdmp->edge;
+        if (!(low < high))
+            return input_error(input, "solver", key, "`low` is not below `high` along %c",
+                               "xyz"[axis]);
+        if (low < domain[0] - slack || high > domain[1] + slack)
+            return input_error(
+                input, "solver", key,
+                "it reaches from %.6g m to %.6g m along %c, beyond the domain, which "
+                "reaches from %.6g m to %.6g m",
+                low, high, "xyz"[axis], domain[0], domain[1]);
+    }
+    return NULL;
+}
+
+double cfdmp_edge(const struct cfdmp_parameters *parameters, const struct simulation_case *input)
+{
+    return isnan(parameters->mpm.cell) ? 2.0 * input->resolution : parameters->mpm.cell;
+}
+
+void cfdmp_blocked(const struct cfdmp *cfdmp, int axis, int64_t at[2])
+{
+    const int64_t depth = cfdmp->parameters.overlap + cfdmp_band_depth(cfdmp->dimension);
+    at[0] = cfdmp->cut.low[axis] + (cfdmp->cut.open[axis][0] ? depth : 0);
+    at[1] = cfdmp->cut.high[axis] - (cfdmp->cut.open[axis][1] ? depth : 0);
+}
+
+/* Room for the overlap behind each open face, and one band. */
+static struct error *check_extent(const struct cfdmp *cfdmp, const struct simulation_case *input)
+{
+    const int64_t overlap = cfdmp->parameters.overlap, band = cfdmp_band_depth(cfdmp->dimension);
+    bool open = false;
+    for (int axis = 0; axis < cfdmp->dimension; axis++) {
+        const int faces = cfdmp->cut.open[axis][0] + cfdmp->cut.open[axis][1];
+        const int64_t cells = cfdmp->cut.high[axis] - cfdmp->cut.low[axis],
+                      needed = faces * overlap + band;
+        open |= faces > 0;
+        if (faces > 0 && cells < needed)
+            return input_error(input, "solver", "cfdmp",
+                               "the region of the material points has %lld cells along %c: it "
+                               "needs %lld, for the overlap of %lld at %s and what gas sees of it",
+                               (long long)cells, "xyz"[axis], (long long)needed, (long long)overlap,
+                               faces == 1 ? "its open face" : "both faces");
+    }
+    return open ? NULL
+                : input_error(input, "solver", "cfdmp",
+                              "the region of the material points fills the domain: enlarge the "
+                              "domain, or use `solver: mpm`");
+}
+
+struct error *cfdmp_find_region(struct cfdmp *cfdmp, const struct simulation_case *input,
+                                const struct cell_blocks *cells)
+{
+    const struct cfdmp_region *region = &cfdmp->parameters.region;
+    const double margin =
+        (double)(cfdmp->parameters.overlap + cfdmp_band_depth(cfdmp->dimension) + 3);
+    TRY(check_given(cfdmp, input, cells));
+    for (int axis = 0; axis < 3; axis++) {
+        double low = INFINITY, high = -INFINITY;
+        cfdmp->cut.low[axis] = cells->low[axis];
+        cfdmp->cut.high[axis] = cells->high[axis];
+        if (axis >= cfdmp->dimension)
+            continue;
+        for (int b = 0; b < input->bodies.count; b++) {
+            if (!is_solid(input, b))
+                continue;
+            const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
+            low = minimum(low, part_in(&bounds.low, axis) / cfdmp->edge - margin);
+            high = maximum(high, part_in(&bounds.high, axis) / cfdmp->edge + margin);
+        }
+        if (region->low.count > axis) {
+            low = region->low.at[axis] / cfdmp->edge;
+            high = region->high.at[axis] / cfdmp->edge;
+        }
+        if (!(low < high))
+            return input_error(input, "solver", "cfdmp",
+                               "no body is solid: give the `region` of the material points");
+        low = maximum(floor(low + 1e-6), (double)cells->low[axis]);
+        high = minimum(ceil(high - 1e-6), (double)cells->high[axis]);
+        cfdmp->cut.low[axis] = (int64_t)low;
+        cfdmp->cut.high[axis] = (int64_t)high;
+        cfdmp->cut.open[axis][0] = cfdmp->cut.low[axis] > cells->low[axis];
+        cfdmp->cut.open[axis][1] = cfdmp->cut.high[axis] < cells->high[axis];
+    }
+    return check_extent(cfdmp, input);
+}
+
+/* Solids are in the region, behind what gas sees of it. */
+static struct error *check_solids(const struct cfdmp *cfdmp, const struct simulation_case *input)
+{
+    const double depth = (double)solid_depth(cfdmp);
+    struct error *error = NULL;
+    for (int b = 0; b < input->bodies.count; b++) {
+        if (!is_solid(input, b))
+            continue;
+        const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
+        for (int axis = 0; axis < cfdmp->dimension; axis++)
+            for (int side = 0; side < 2; side++) {
+                const double at = part_in(side ? &bounds.high : &bounds.low, axis) / cfdmp->edge,
+                             face = (double)(side ? cfdmp->cut.high : cfdmp->cut.low)[axis];
+                const double room = side ? face - at : at - face,
+                             wanted = cfdmp->cut.open[axis][side] ? depth : 0.0;
+                if (room >= wanted - 1e-6)
+                    continue;
+                error = error_join(
+                    error,
+                    input_error(input, "bodies", input->bodies.names[b],
+                                "this solid is %.6g m %s the face %c = %.6g m of the region of "
+                                "material points: it must be %.6g m inside, behind the overlap; "
+                                "enlarge the region, or leave it out",
+                                fabs(room) * cfdmp->edge, room < 0.0 ? "beyond" : "from",
+                                "xyz"[axis], face * cfdmp -> edge, wanted * cfdmp -> edge));
+            }
+    }
+    return error;
+}
+
+/* Particles go through obstacles, so that none may be among them. */
+static struct error *check_obstacles(const struct cfdmp *cfdmp, const struct simulation_case *input)
+{
+    const int64_t *low = cfdmp->cut.low, *high = cfdmp->cut.high;
+    const double h = cfdmp->edge;
+    struct error *error = NULL;
+    for (int k = 0; k < input->obstacles.count; k++) {
+        bool found = false;
+        for (int64_t c = low[2]; c < high[2]; c++)
+            for (int64_t b = low[1]; b < high[1]; b++)
+                for (int64_t a = low[0]; a < high[0] && !found; a++) {
+                    const double at[3] = {((double)a + 0.5) * h,
+                                          cfdmp->dimension > 1 ? ((double)b + 0.5) * h : 0.0,
+                                          cfdmp->dimension > 2 ? ((double)c + 0.5) * h : 0.0};
+                    found = shape_inside(&case_obstacle(input, k)->shape,
+                                         vec3_make(at[0], at[1], at[2]));
+                }
+        if (found)
+            error = error_join(
+                error, input_error(input, "obstacles", input->obstacles.names[k],
+                                   "it reaches into the region of material points, which pass "
+                                   "through it: make it a body with `driven: yes`, or a smaller "
+                                   "`region`"));
+    }
+    return error;
+}
+
+struct error *cfdmp_check_region(const struct cfdmp *cfdmp, const struct simulation_case *input)
+{
+    return error_join(check_solids(cfdmp, input), check_obstacles(cfdmp, input));
+}
+
+void cfdmp_count(const void *parameters, const struct simulation_case *input,
+                 struct counted *counted)
+{
+    struct cfdmp cfdmp = {.parameters = *(const struct cfdmp_parameters *)parameters,
+                          .dimension = (int)input->dimension};
+    cfdmp.edge = cfdmp_edge(&cfdmp.parameters, input);
+    const struct cell_blocks domain = part_domain(input, cfdmp.edge);
+    double low[3] = {0.0, 0.0, 0.0}, high[3] = {0.0, 0.0, 0.0}, blocked = 1.0;
+    *counted = (struct counted){.cells = 1.0,
+                                .bytes = gas_class.bytes(&cfdmp.parameters.gas, cfdmp.dimension)};
+    error_free(cfdmp_find_region(&cfdmp, input, &domain)); /* the run reports it */
+    for (int axis = 0; axis < cfdmp.dimension; axis++) {
+        int64_t inside[2];
+        low[axis] = (double)cfdmp.cut.low[axis] * cfdmp.edge;
+        high[axis] = (double)cfdmp.cut.high[axis] * cfdmp.edge;
+        cfdmp_blocked(&cfdmp, axis, inside);
+        counted->cells *= (double)(domain.high[axis] - domain.low[axis]);
+        blocked *= maximum((double)(inside[1] - inside[0]), 0.0);
+    }
+    counted->cells -= blocked;
+    counted->box = (struct bounds){vector_at(low), vector_at(high)};
+}
