@@ -226,6 +226,8 @@ static void fill_cell(struct filling *f, int32_t i)
     gas->u[GAS_SHOCK][i] = 0.0;
     if (gas->layout.blocked) {
         gas->open[i] = gas_in_obstacle(f->simulation->problem->input, place) ? 0.0 : 1.0;
+        if (gas->layout.lit && gas->open[i] == 0.0) /* nothing in it will ever burn */
+            gas->u[gas->layout.burnt][i] = 1.0;
         if (gas->open[i] == 0.0)
             return;
     }

@@ -194,6 +194,17 @@ static void a_gas_at_rest_stays_at_rest(void **state)
     }
 }
 
+static void an_explosive_beside_an_obstacle_burns_out(void **state)
+{
+    (void)state;
+    struct running *run = begin_fresh(charge, &plain);
+    assert_true(run->gas.unburnt);
+    while (run->simulation.time < 30e-6) /* the detonation takes 25 us from end to end */
+        step(run, 1);
+    assert_false(run->gas.unburnt);
+    end(run);
+}
+
 static void threads_and_resumes_change_no_bit(void **state)
 {
     (void)state;
@@ -239,6 +250,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sleeping_blocks_change_no_bit),
         cmocka_unit_test(a_gas_at_rest_stays_at_rest),
+        cmocka_unit_test(an_explosive_beside_an_obstacle_burns_out),
         cmocka_unit_test(threads_and_resumes_change_no_bit),
         cmocka_unit_test(nothing_is_lost),
     };
