@@ -114,7 +114,7 @@ struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
     }
     for (int64_t n = 0; n < cfdmp->band_cells && !error; n++) {
         int32_t block;
-        put_cell(&view, &sums[n], cfdmp_cell(view.cells, cfdmp->band[n], &block));
+        put_cell(&view, &sums[n], part_cell(view.cells, cfdmp->band[n], &block));
         cfdmp->changed[block] = true;
     }
     free(order);

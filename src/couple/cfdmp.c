@@ -9,22 +9,6 @@
 
 static const char *const transport_names[] = {"conservative", "printed", NULL};
 
-static const struct parameter region_table[] = {
-    {.key = "low",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct cfdmp_region, low),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .help = "its lowest corner"},
-    {.key = "high",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct cfdmp_region, high),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .help = "its highest corner"},
-    PARAMETER_END,
-};
-
 const struct parameter cfdmp_table[] = {
     {.key = "region",
      .kind = PARAMETER_TABLE,
@@ -86,29 +70,7 @@ static struct error *cfdmp_create(void *solver, struct simulation *simulation,
 /* Cells of the region are not the gas that counts. */
 static void hide_cells(struct cfdmp *cfdmp)
 {
-    struct cell_blocks *cells = gas_view(cfdmp->gas).cells;
-    const struct gas_cut *cut = &cfdmp->cut;
-    for (int32_t b = 0; b < cells->blocks; b++) {
-        const struct cell_block *block = &cells->block[b];
-        bool meets = true;
-        for (int axis = 0; axis < 3; axis++)
-            meets &= block->corner[axis] < cut->high[axis] &&
-                     block->corner[axis] + block->count[axis] > cut->low[axis];
-        if (!meets)
-            continue;
-        int32_t i = block->first;
-        for (int c = 0; c < block->count[2]; c++)
-            for (int j = 0; j < block->count[1]; j++)
-                for (int k = 0; k < block->count[0]; k++, i++) {
-                    const int64_t at[3] = {block->corner[0] + k, block->corner[1] + j,
-                                           block->corner[2] + c};
-                    bool inside = true;
-                    for (int axis = 0; axis < 3; axis++)
-                        inside &= at[axis] >= cut->low[axis] && at[axis] < cut->high[axis];
-                    if (inside)
-                        cells->mass[i] = 0.0;
-                }
-    }
+    part_hide_cells(gas_view(cfdmp->gas).cells, cfdmp->cut.low, cfdmp->cut.high);
 }
 
 static struct error *reserve_changed(struct cfdmp *cfdmp)

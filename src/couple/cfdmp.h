@@ -93,9 +93,6 @@ void cfdmp_lean(struct cfdmp *cfdmp, struct simulation *simulation);
 /* Has the gas push on the particles through the open faces of the region. */
 void cfdmp_surround(struct cfdmp *cfdmp);
 
-/* The cell AT of the gas; of this rank. */
-int32_t cfdmp_cell(const struct cell_blocks *cells, const int64_t at[3], int32_t *block);
-
 /* The gate of the face across AXIS on SIDE next to the cell AT, clamped to the region. */
 struct gate *cfdmp_gate(struct cfdmp *cfdmp, int axis, int side, const int64_t at[3]);
 

@@ -1,6 +1,7 @@
 /* Solvers that are made of others. cfdmp: gas on a grid and material points side by side, each in
- * its part of space. Source: Cui, dissertation (2014), chapter 4; Cui, Zhang, Zhou, Liu and Zhang,
- * CMES 98 (2014) 565. */
+ * its part of space. afdmp: material points, gas on a grid and material points again, one after
+ * another. Source: Cui, dissertation (2014), chapters 4 and 3; Cui, Zhang, Zhou, Liu and Zhang,
+ * CMES 98 (2014) 565; Cui, Zhang, Sze and Zhou, CMES 92 (2013) 507. */
 #ifndef BOLIDE_COUPLE_H
 #define BOLIDE_COUPLE_H
 
@@ -9,15 +10,16 @@
 
 enum cfdmp_transport { CFDMP_CONSERVATIVE, CFDMP_PRINTED };
 
-struct cfdmp_region {
+/* A box, with the key `region`. */
+struct couple_region {
     struct vector_value low, high;
 };
 
 struct cfdmp_parameters {
-    struct cfdmp_region region; /* of material points; not given: around the solids */
-    int64_t overlap;            /* cells */
-    int transport;              /* enum cfdmp_transport */
-    double wake;                /* ratio of pressures */
+    struct couple_region region; /* of material points; not given: around the solids */
+    int64_t overlap;             /* cells */
+    int transport;               /* enum cfdmp_transport */
+    double wake;                 /* ratio of pressures */
     struct mpm_parameters mpm;
     struct gas_parameters gas;
 };
@@ -25,5 +27,19 @@ struct cfdmp_parameters {
 /* `solver: {cfdmp: {...}}`. */
 extern const struct parameter cfdmp_table[];
 extern const struct solver_class cfdmp_class;
+
+enum afdmp_map { AFDMP_CONSERVATIVE, AFDMP_CONSISTENT, AFDMP_TEXT };
+
+struct afdmp_parameters {
+    struct couple_region region; /* of the solids; not given: around them */
+    int map;                     /* enum afdmp_map */
+    double wake;                 /* ratio of pressures */
+    struct mpm_parameters mpm;
+    struct gas_parameters gas;
+};
+
+/* `solver: {afdmp: {...}}`. */
+extern const struct parameter afdmp_table[];
+extern const struct solver_class afdmp_class;
 
 #endif

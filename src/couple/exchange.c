@@ -78,28 +78,6 @@ static bool take_out(struct cfdmp *cfdmp, struct particles *p, int32_t i, bool s
     return true;
 }
 
-/* The body whose particles those that come in belong to: the first of MATERIAL, or where the
- * products of another case have none, the first that is gas. */
-static int body_of(const struct cfdmp *cfdmp, int material)
-{
-    const struct simulation_case *input = &cfdmp->gas_part.input;
-    int first = -1;
-    for (int body = 0; body < input->bodies.count; body++) {
-        if (case_body(input, body)->material_index == material)
-            return body;
-        if (first < 0 && !case_body(input, body)->elsewhere)
-            first = body;
-    }
-    return first;
-}
-
-/* Particles of a layer along an axis, in a cell. */
-static int64_t particles_across(const struct cfdmp *cfdmp, int body)
-{
-    const double count = 0.5 / mpm_half_size(cfdmp->mpm, body);
-    return count < 1.0 ? 1 : (int64_t)(count + 0.5);
-}
-
 /* What comes in through a gate: of one material, at one state. */
 struct arrival {
     int axis, side, material;
@@ -132,8 +110,8 @@ static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
     struct particles *p = mpm_particles(cfdmp->mpm);
     const int axis = arrival->axis, side = arrival->side;
     struct gate *gate = &cfdmp->side[axis][side].gate[arrival->number];
-    const int body = body_of(cfdmp, arrival->material);
-    const int64_t each = particles_across(cfdmp, body);
+    const int body = part_body_of(&cfdmp->gas_part.input, arrival->material);
+    const int64_t each = part_particles_across(cfdmp->mpm, body);
     int64_t count = 1, at[3];
     int across[2];
     gate_axes(axis, across);
@@ -170,8 +148,7 @@ static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
                 cfdmp, arrival, across[n], p->position[i][across[n]], cfdmp->edge / (double)each);
         for (int n = 0; n < 3; n++)
             p->velocity[i][n] = arrival->velocity[n];
-        if (p->history[HISTORY_lighting_time])
-            p->history[HISTORY_lighting_time][i] = -1.0; /* it has burnt */
+        part_burn(p, i);
         mpm_welcome(cfdmp->mpm, &cfdmp->mpm_part.simulation, i);
     }
     gate->emitted++;
@@ -286,8 +263,8 @@ static struct error *settle(struct cfdmp *cfdmp, int axis, int side, int64_t num
     const struct gas_view view = gas_view(cfdmp->gas);
     struct gate *gate = &cfdmp->side[axis][side].gate[number];
     const struct beside beside = gate_beside(cfdmp, &view, axis, side, number);
-    const int body = body_of(cfdmp, view.material[0]);
-    const double layer = cfdmp->edge / (double)particles_across(cfdmp, body);
+    const int body = part_body_of(&cfdmp->gas_part.input, view.material[0]);
+    const double layer = cfdmp->edge / (double)part_particles_across(cfdmp->mpm, body);
     double difference[PASSES] = {0.0};
     int64_t outside[3];
     gate_cell(cfdmp, axis, side, number, false, outside);

@@ -3,17 +3,6 @@
 
 #include "material/material.h"
 
-int32_t cfdmp_cell(const struct cell_blocks *cells, const int64_t at[3], int32_t *block)
-{
-    const struct cell_block *found = cell_block_find(cells, cell_block_key(cells->dimension, at));
-    assert(found);
-    int32_t i = found->first;
-    for (int axis = 0; axis < cells->dimension; axis++)
-        i += (int32_t)(at[axis] - found->corner[axis]) * cell_stride(found, axis);
-    *block = (int32_t)(found - cells->block);
-    return i;
-}
-
 void gate_axes(int axis, int across[2])
 {
     across[0] = axis == 0 ? 1 : 0;
@@ -166,7 +155,7 @@ void gate_give(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t a
 {
     enum { HALVINGS = 10 };
     int32_t block;
-    const int32_t i = cfdmp_cell(view->cells, at, &block);
+    const int32_t i = part_cell(view->cells, at, &block);
     const struct content before = content_of(view, i);
     double part = 1.0 / part_cell_volume(&cfdmp->maker, cfdmp->round, at), values[PASSES];
     const double all = part;
@@ -201,7 +190,7 @@ struct beside gate_beside(const struct cfdmp *cfdmp, const struct gas_view *view
         int64_t at[3];
         int32_t block;
         gate_cell(cfdmp, axis, side, number, inside, at);
-        const int32_t i = cfdmp_cell(view->cells, at, &block);
+        const int32_t i = part_cell(view->cells, at, &block);
         const double second = view->layout->two ? view->u[GAS_SECOND][i] : 0.0,
                      fraction = view->layout->two ? view->u[GAS_FRACTION][i] : 0.0;
         beside.density += 0.5 * view->cells->density[i];

@@ -1,6 +1,7 @@
 /* Cases of the parts of a coupling, see part.h. */
 #include "couple/part.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -213,4 +214,115 @@ double part_cell_volume(const struct part_maker *maker, bool round, const int64_
     for (int axis = 0; axis < maker->dimension; axis++)
         volume *= maker->edge;
     return volume;
+}
+
+int part_body_of(const struct simulation_case *input, int material)
+{
+    int first = -1;
+    for (int body = 0; body < input->bodies.count; body++) {
+        if (case_body(input, body)->material_index == material)
+            return body;
+        if (first < 0 && !case_body(input, body)->elsewhere)
+            first = body;
+    }
+    return first;
+}
+
+int64_t part_particles_across(const struct mpm *mpm, int body)
+{
+    const double count = 0.5 / mpm_half_size(mpm, body);
+    return count < 1.0 ? 1 : (int64_t)(count + 0.5);
+}
+
+void part_burn(struct particles *particles, int32_t i)
+{
+    if (particles->history[HISTORY_lighting_time])
+        particles->history[HISTORY_lighting_time][i] = -1.0;
+    if (particles->history[HISTORY_burnt])
+        particles->history[HISTORY_burnt][i] = 1.0;
+}
+
+int32_t part_cell(const struct cell_blocks *cells, const int64_t at[3], int32_t *block)
+{
+    const struct cell_block *found = cell_block_find(cells, cell_block_key(cells->dimension, at));
+    assert(found);
+    int32_t i = found->first;
+    for (int axis = 0; axis < cells->dimension; axis++)
+        i += (int32_t)(at[axis] - found->corner[axis]) * cell_stride(found, axis);
+    *block = (int32_t)(found - cells->block);
+    return i;
+}
+
+const struct parameter region_table[] = {
+    {.key = "low",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct couple_region, low),
+     .unit = "m",
+     .standard = PARAMETER_OPTIONAL,
+     .help = "its lowest corner"},
+    {.key = "high",
+     .kind = PARAMETER_VECTOR,
+     .offset = offsetof(struct couple_region, high),
+     .unit = "m",
+     .standard = PARAMETER_OPTIONAL,
+     .help = "its highest corner"},
+    PARAMETER_END,
+};
+
+struct error *region_check(const struct couple_region *region, const char *key,
+                           const struct simulation_case *input, const struct cell_blocks *cells)
+{
+    if (region->low.count == 0 && region->high.count == 0)
+        return NULL;
+    if (region->low.count != cells->dimension || region->high.count != cells->dimension)
+        return input_error(input, "solver", key,
+                           "expected `low` and `high` with %d component%s each, one per dimension",
+                           cells->dimension, cells->dimension == 1 ? "" : "s");
+    for (int axis = 0; axis < cells->dimension; axis++) {
+        const double low = region->low.at[axis], high = region->high.at[axis],
+                     domain[2] = {(double)cells->low[axis] * cells->edge,
+                                  (double)cells->high[axis] * cells->edge},
+                     slack = 1e-6 * cells->edge;
+        if (!(low < high))
+            return input_error(input, "solver", key, "`low` is not below `high` along %c",
+                               "xyz"[axis]);
+        if (low < domain[0] - slack || high > domain[1] + slack)
+            return input_error(
+                input, "solver", key,
+                "it reaches from %.6g m to %.6g m along %c, beyond the domain, which "
+                "reaches from %.6g m to %.6g m",
+                low, high, "xyz"[axis], domain[0], domain[1]);
+    }
+    return NULL;
+}
+
+/* Whether a block meets the box from LOW to HIGH. */
+static bool meets(const struct cell_block *block, const int64_t low[3], const int64_t high[3])
+{
+    bool meets = true;
+    for (int axis = 0; axis < 3; axis++)
+        meets &= block->corner[axis] < high[axis] &&
+                 block->corner[axis] + block->count[axis] > low[axis];
+    return meets;
+}
+
+void part_hide_cells(struct cell_blocks *cells, const int64_t low[3], const int64_t high[3])
+{
+    for (int32_t b = 0; b < cells->blocks; b++) {
+        const struct cell_block *block = &cells->block[b];
+        if (!meets(block, low, high))
+            continue;
+        int32_t i = block->first;
+        for (int c = 0; c < block->count[2]; c++)
+            for (int j = 0; j < block->count[1]; j++)
+                for (int k = 0; k < block->count[0]; k++, i++) {
+                    const int64_t at[3] = {block->corner[0] + k, block->corner[1] + j,
+                                           block->corner[2] + c};
+                    bool inside = true;
+                    for (int axis = 0; axis < 3; axis++)
+                        inside &= at[axis] >= low[axis] && at[axis] < high[axis];
+                    if (inside)
+                        cells->mass[i] = 0.0;
+                }
+    }
 }

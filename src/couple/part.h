@@ -3,6 +3,7 @@
 #ifndef BOLIDE_PART_H
 #define BOLIDE_PART_H
 
+#include "couple/couple.h"
 #include "gas/gas_phases.h"
 #include "mpm/mpm_phases.h"
 
@@ -64,6 +65,28 @@ struct cell_blocks part_domain(const struct simulation_case *input, double edge)
 
 /* The volume of the cell AT, ROUND: of a radian. */
 double part_cell_volume(const struct part_maker *maker, bool round, const int64_t at[3]);
+
+/* The body of INPUT to which particles of MATERIAL belong that are made in a run: the first of it,
+ * or where the products of another case have none, the first of the case. */
+int part_body_of(const struct simulation_case *input, int material);
+
+/* Particles of a BODY along an axis, in a cell. */
+int64_t part_particles_across(const struct mpm *mpm, int body);
+
+/* The explosive of particle I has burnt. */
+void part_burn(struct particles *particles, int32_t i);
+
+/* The cell AT of the gas; of this rank. */
+int32_t part_cell(const struct cell_blocks *cells, const int64_t at[3], int32_t *block);
+
+/* Cells from LOW to HIGH are not those that count: they have no mass. */
+void part_hide_cells(struct cell_blocks *cells, const int64_t low[3], const int64_t high[3]);
+
+/* The key `region`; and what is wrong with it at KEY of the solver, for cells whose domain, edge
+ * and dimension CELLS has. */
+extern const struct parameter region_table[];
+struct error *region_check(const struct couple_region *region, const char *key,
+                           const struct simulation_case *input, const struct cell_blocks *cells);
 
 /* A component of a vector. */
 BOLIDE_INLINE double part_in(const struct vec3 *v, int axis)

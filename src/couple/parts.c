@@ -1,5 +1,4 @@
 /* The cases of both parts of a coupled run, and the faces and the band of its region. */
-
 #include <stdlib.h>
 
 #include "base/memory.h"

@@ -88,7 +88,7 @@ static double pressure_outside(const struct cfdmp *cfdmp, const struct gas_view 
     int64_t at[3];
     int32_t block;
     gate_cell(cfdmp, axis, side, number, false, at);
-    return view->cells->pressure[cfdmp_cell(view->cells, at, &block)];
+    return view->cells->pressure[part_cell(view->cells, at, &block)];
 }
 
 void cfdmp_note_rest(struct cfdmp *cfdmp)

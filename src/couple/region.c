@@ -20,36 +20,6 @@ static bool is_solid(const struct simulation_case *input, int body)
     return !gas_computes(case_material(input, case_body(input, body)->material_index)->material);
 }
 
-/* What is wrong with the region as the case gives it. */
-static struct error *check_given(const struct cfdmp *cfdmp, const struct simulation_case *input,
-                                 const struct cell_blocks *cells)
-{
-    const struct cfdmp_region *region = &cfdmp->parameters.region;
-    static const char key[] = "cfdmp.region";
-    if (region->low.count == 0 && region->high.count == 0)
-        return NULL;
-    if (region->low.count != cfdmp->dimension || region->high.count != cfdmp->dimension)
-        return input_error(input, "solver", key,
-                           "expected `low` and `high` with %d component%s each, one per dimension",
-                           cfdmp->dimension, cfdmp->dimension == 1 ? "" : "s");
-    for (int axis = 0; axis < cfdmp->dimension; axis++) {
-        const double low = region->low.at[axis], high = region->high.at[axis],
-                     domain[2] = {(double)cells->low[axis] * cfdmp->edge,
-                                  (double)cells->high[axis] * cfdmp->edge},
-                     slack = 1e-6 * cfdmp->edge;
-        if (!(low < high))
-            return input_error(input, "solver", key, "`low` is not below `high` along %c",
-                               "xyz"[axis]);
-        if (low < domain[0] - slack || high > domain[1] + slack)
-            return input_error(
-                input, "solver", key,
-                "it reaches from %.6g m to %.6g m along %c, beyond the domain, which "
-                "reaches from %.6g m to %.6g m",
-                low, high, "xyz"[axis], domain[0], domain[1]);
-    }
-    return NULL;
-}
-
 double cfdmp_edge(const struct cfdmp_parameters *parameters, const struct simulation_case *input)
 {
     return isnan(parameters->mpm.cell) ? 2.0 * input->resolution : parameters->mpm.cell;
@@ -88,10 +58,10 @@ static struct error *check_extent(const struct cfdmp *cfdmp, const struct simula
 struct error *cfdmp_find_region(struct cfdmp *cfdmp, const struct simulation_case *input,
                                 const struct cell_blocks *cells)
 {
-    const struct cfdmp_region *region = &cfdmp->parameters.region;
+    const struct couple_region *region = &cfdmp->parameters.region;
     const double margin =
         (double)(cfdmp->parameters.overlap + cfdmp_band_depth(cfdmp->dimension) + 3);
-    TRY(check_given(cfdmp, input, cells));
+    TRY(region_check(region, "cfdmp.region", input, cells));
     for (int axis = 0; axis < 3; axis++) {
         double low = INFINITY, high = -INFINITY;
         cfdmp->cut.low[axis] = cells->low[axis];

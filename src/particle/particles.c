@@ -1,6 +1,7 @@
 /* The particle store; see particles.h. */
 #include "particle/particles.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -45,8 +46,11 @@ struct error *particles_create(int dimension, double cell, const struct field_de
     assert(COUNT_OF(core_fields) + (size_t)count <= PARTICLES_FIELDS);
     static const struct ranks alone = {0, 1, false};
     static const int one = 1;
-    *particles =
-        (struct particles){.dimension = dimension, .cell = cell, .ranks = &alone, .threads = &one};
+    *particles = (struct particles){.name = "particles",
+                                    .dimension = dimension,
+                                    .cell = cell,
+                                    .ranks = &alone,
+                                    .threads = &one};
     for (size_t k = 0; k < COUNT_OF(core_fields); k++)
         particles->field[particles->fields++].declaration = core_fields[k];
     for (int k = 0; k < count; k++)
@@ -133,9 +137,11 @@ static struct error *visit_count(struct particles *particles, struct visitor *vi
 {
     const struct ranks *ranks = particles->ranks;
     int64_t before = ranks_sum(ranks, particles->count), total = before;
-    TRY(visitor->visit(visitor, "particles/count", NUMBER_INT64, &total, 1, 1));
+    char name[64];
+    snprintf(name, sizeof name, "%s/count", particles->name);
+    TRY(visitor->visit(visitor, name, NUMBER_INT64, &total, 1, 1));
     if (total < 0 || (visitor->most && total > visitor->most))
-        return error_new(ERROR_SYSTEM, "particles/count is %lld: a file of this size has 0 to %lld",
+        return error_new(ERROR_SYSTEM, "%s is %lld: a file of this size has 0 to %lld", name,
                          (long long)total, (long long)visitor->most);
     visitor->first = ranks_before(ranks, particles->count);
     visitor->total = total;
@@ -155,7 +161,7 @@ struct error *particles_visit(struct particles *particles, struct visitor *visit
 {
     struct error *error = visit_count(particles, visitor);
     if (!error)
-        error = fields_visit("particles", particles->field, particles->fields, particles->count,
+        error = fields_visit(particles->name, particles->field, particles->fields, particles->count,
                              visitor);
     visitor->first = visitor->total = 0;
     return error;

@@ -19,6 +19,7 @@
 enum { PARTICLES_FIELDS = 48 };
 
 struct particles {
+    const char *name; /* of its arrays in a checkpoint: "particles" unless told */
     int dimension;
     int32_t count, pending; /* owned; appended since the last commit, behind them */
     int32_t deleted;        /* marked since then */
@@ -101,7 +102,7 @@ struct error *particles_distribute(struct particles *particles, bool recut);
 /* The key of the block that X lies in. */
 uint64_t particles_block_key(const struct particles *particles, const double x[3]);
 
-/* Loads or saves: count first, then every STATE field, as "particles/NAME". */
+/* Loads or saves: count first, then every STATE field, as "particles/FIELD". */
 struct error *particles_visit(struct particles *particles, struct visitor *visitor);
 
 /* Collective: one number for the bits of all STATE fields, whatever the order of storage. */

@@ -24,6 +24,8 @@ static const struct choice solver_choices[] = {
      sizeof(struct gas_parameters), &gas_class},
     {"cfdmp", "gas on a grid and material points side by side, for blasts on structures",
      cfdmp_table, sizeof(struct cfdmp_parameters), &cfdmp_class},
+    {"afdmp", "material points for a detonation, then gas on a grid, then material points again",
+     afdmp_table, sizeof(struct afdmp_parameters), &afdmp_class},
 };
 
 static const struct choice_list lists[] = {

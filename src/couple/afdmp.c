@@ -1,0 +1,244 @@
+/* The solver afdmp as the run loop sees it: each stage is a step of one part; at the end of a step
+ * the next stage may begin. */
+#include "couple/afdmp.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "material/material.h"
+
+const char afdmp_nest_name[] = "detonation";
+
+static const char *const map_names[] = {"conservative", "consistent", "text", NULL};
+
+const struct parameter afdmp_table[] = {
+    {.key = "region",
+     .kind = PARAMETER_TABLE,
+     .offset = offsetof(struct afdmp_parameters, region),
+     .standard = PARAMETER_OPTIONAL,
+     .table = region_table,
+     .help = "the box of the solids, which is at rest until a wave comes; default: 10 cells around "
+             "all of them"},
+    {.key = "map",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct afdmp_parameters, map),
+     .standard = "conservative",
+     .names = map_names,
+     .help = "what cells get of the particles of the detonation; consistent: mass, momentum and "
+             "internal energy of each material through the nodes, so that kinetic energy is lost; "
+             "conservative: cells get that as heat; text: as printed in the source, internal "
+             "energy of the particles within each cell"},
+    {.key = "wake",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct afdmp_parameters, wake),
+     .standard = "1.1",
+     .above = 1.0,
+     .below = INFINITY,
+     .help = "the last stage begins when the pressure of the gas beside the region has changed by "
+             "this factor"},
+    {.key = "mpm",
+     .kind = PARAMETER_TABLE,
+     .offset = offsetof(struct afdmp_parameters, mpm),
+     .standard = PARAMETER_OPTIONAL,
+     .table = mpm_table,
+     .help = "options of the material points; the gas has cells of the same edge"},
+    {.key = "gas",
+     .kind = PARAMETER_TABLE,
+     .offset = offsetof(struct afdmp_parameters, gas),
+     .standard = PARAMETER_OPTIONAL,
+     .table = gas_table,
+     .help = "options of the gas"},
+    PARAMETER_END,
+};
+
+static struct error *afdmp_create(void *solver, struct simulation *simulation,
+                                  const void *parameters)
+{
+    struct afdmp *afdmp = solver;
+    afdmp->parameters = *(const struct afdmp_parameters *)parameters;
+    TRY(afdmp_make_parts(afdmp, simulation));
+    afdmp->stage = afdmp->nest_mpm ? AFDMP_DETONATION : AFDMP_PROPAGATION;
+    if (afdmp->last_mpm)
+        part_show(simulation, &afdmp->last);
+    part_show(simulation, &afdmp->gas_part);
+    if (afdmp->nest_mpm) {
+        const struct population_source *own = &afdmp->nest.simulation.population[0];
+        simulation_add_population(simulation, afdmp_nest_name, own->type, own->store);
+    }
+    return NULL;
+}
+
+/* Calls FUNCTION for both parts of material points, where they are. */
+static struct error *each_mpm(struct afdmp *afdmp,
+                              struct error *(*function)(void *, struct simulation *))
+{
+    if (afdmp->last_mpm)
+        TRY(function(afdmp->last_mpm, &afdmp->last.simulation));
+    return afdmp->nest_mpm ? function(afdmp->nest_mpm, &afdmp->nest.simulation) : NULL;
+}
+
+static struct error *afdmp_fill(void *solver, struct simulation *simulation)
+{
+    struct afdmp *afdmp = solver;
+    (void)simulation;
+    TRY(gas_class.fill(afdmp->gas, &afdmp->gas_part.simulation));
+    return each_mpm(afdmp, mpm_class.fill);
+}
+
+static void share_time(struct afdmp *afdmp, const struct simulation *simulation)
+{
+    part_share_time(&afdmp->gas_part, simulation);
+    part_share_time(&afdmp->nest, simulation);
+    part_share_time(&afdmp->last, simulation);
+}
+
+static bool note_rest(void *context, int64_t number, const int64_t at[3])
+{
+    struct afdmp *afdmp = context;
+    const struct cell_blocks *cells = gas_view(afdmp->gas).cells;
+    int32_t block;
+    afdmp->rest[number] = cells->pressure[part_cell(cells, at, &block)];
+    return true;
+}
+
+static struct error *afdmp_start(void *solver, struct simulation *simulation)
+{
+    struct afdmp *afdmp = solver;
+    share_time(afdmp, simulation);
+    TRY(gas_class.start(afdmp->gas, &afdmp->gas_part.simulation));
+    TRY(each_mpm(afdmp, mpm_class.start));
+    if (simulation->step == 0 && afdmp->last_mpm)
+        afdmp_each_beside(afdmp, &afdmp->region, note_rest, afdmp);
+    afdmp_hide_cells(afdmp);
+    return NULL;
+}
+
+/* What computes the stage: its part, of the class TYPE. */
+static struct part *part_now(struct afdmp *afdmp, const struct solver_class **type)
+{
+    *type = afdmp->stage == (double)AFDMP_PROPAGATION ? &gas_class : &mpm_class;
+    return afdmp->stage == (double)AFDMP_DETONATION    ? &afdmp->nest
+           : afdmp->stage == (double)AFDMP_PROPAGATION ? &afdmp->gas_part
+                                                       : &afdmp->last;
+}
+
+static struct error *afdmp_prepare(void *solver, struct simulation *simulation, struct limit *limit)
+{
+    struct afdmp *afdmp = solver;
+    const struct solver_class *type;
+    struct part *part = part_now(afdmp, &type);
+    share_time(afdmp, simulation);
+    simulation_start_phase(&part->simulation);
+    TRY(type->prepare(part->solver, &part->simulation, limit));
+    part_gather(simulation, part);
+    return NULL;
+}
+
+/* Whether all explosives of the nest have burnt. */
+static bool has_burnt(const struct afdmp *afdmp)
+{
+    const struct particles *p = mpm_particles(afdmp->nest_mpm);
+    const struct problem *problem = afdmp->nest.simulation.problem;
+    const double *burnt = p->history[HISTORY_burnt];
+    for (int32_t i = 0; i < p->count && burnt; i++)
+        if (burnt[i] < 1.0 && material_is_lit(&problem->material[p->material[i]]))
+            return false;
+    return true;
+}
+
+/* A walk over the cells beside the region, which ends where the pressure has changed. */
+struct looking {
+    const struct afdmp *afdmp;
+    bool stirs;
+};
+
+static bool look(void *context, int64_t number, const int64_t at[3])
+{
+    struct looking *looking = context;
+    const struct afdmp *afdmp = looking->afdmp;
+    const struct cell_blocks *cells = gas_view(afdmp->gas).cells;
+    const double wake = afdmp->parameters.wake, rest = afdmp->rest[number];
+    int32_t block;
+    const double now = cells->pressure[part_cell(cells, at, &block)];
+    looking->stirs = !(now < wake * rest && rest < wake * now);
+    return !looking->stirs;
+}
+
+static bool has_come(const struct afdmp *afdmp)
+{
+    struct looking looking = {afdmp, false};
+    if (afdmp->last_mpm)
+        afdmp_each_beside(afdmp, &afdmp->region, look, &looking);
+    return looking.stirs;
+}
+
+static struct error *begin(struct afdmp *afdmp, struct simulation *simulation,
+                           enum afdmp_stage stage)
+{
+    afdmp->stage = (double)stage;
+    TRY(stage == AFDMP_PROPAGATION ? afdmp_map_to_gas(afdmp, simulation)
+                                   : afdmp_map_to_points(afdmp, simulation));
+    afdmp_hide_cells(afdmp);
+    return NULL;
+}
+
+static struct error *afdmp_advance(void *solver, struct simulation *simulation, double dt)
+{
+    struct afdmp *afdmp = solver;
+    const struct solver_class *type;
+    struct part *part = part_now(afdmp, &type);
+    struct error *error = NULL;
+    simulation_start_phase(&part->simulation);
+    TRY(type->advance(part->solver, &part->simulation, dt));
+    part_gather(simulation, part);
+    if (afdmp->stage == (double)AFDMP_DETONATION && has_burnt(afdmp))
+        error = begin(afdmp, simulation, AFDMP_PROPAGATION);
+    else if (afdmp->stage == (double)AFDMP_PROPAGATION && has_come(afdmp))
+        error = begin(afdmp, simulation, AFDMP_INTERACTION);
+    simulation_end_phase(simulation, PHASE_SHARED, "coupling");
+    return error;
+}
+
+static struct error *afdmp_state(void *solver, struct visitor *visitor)
+{
+    struct afdmp *afdmp = solver;
+    TRY(visitor->visit(visitor, "afdmp/stage", NUMBER_DOUBLE, &afdmp->stage, 1, 1));
+    if (afdmp->last_mpm)
+        TRY(visitor->visit(visitor, "afdmp/rest", NUMBER_DOUBLE, afdmp->rest, afdmp->beside, 1));
+    const struct solver_class *type;
+    const struct part *part = part_now(afdmp, &type);
+    return type->state(part->solver, visitor);
+}
+
+static void afdmp_destroy(void *solver) { afdmp_free_parts(solver); }
+
+static double afdmp_bytes(const void *parameters, int dimension)
+{
+    const struct afdmp_parameters *of = parameters;
+    return mpm_class.bytes(&of->mpm, dimension);
+}
+
+static double afdmp_step(const void *parameters, int dimension, const struct material *material,
+                         const struct point *point, double diameter)
+{
+    const struct afdmp_parameters *of = parameters;
+    return mpm_class.step(&of->mpm, dimension, material, point, diameter);
+}
+
+static const char *afdmp_energy_lost(const void *parameters)
+{
+    const struct afdmp_parameters *of = parameters;
+    return mpm_class.energy_lost(&of->mpm);
+}
+
+const struct solver_class afdmp_class = {.size = sizeof(struct afdmp),
+                                         .create = afdmp_create,
+                                         .fill = afdmp_fill,
+                                         .start = afdmp_start,
+                                         .prepare = afdmp_prepare,
+                                         .advance = afdmp_advance,
+                                         .state = afdmp_state,
+                                         .destroy = afdmp_destroy,
+                                         .bytes = afdmp_bytes,
+                                         .step = afdmp_step,
+                                         .energy_lost = afdmp_energy_lost};

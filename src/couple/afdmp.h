@@ -1,0 +1,56 @@
+/* The state of the solver afdmp and the parts of its run. Private to couple/.
+ *
+ * A run has up to three stages, each computed by one part. Detonation: material points in a box
+ * around the charges, the nest, until all of them have burnt. Propagation: gas on a grid in the
+ * whole domain but the region, a box around the solids, which is at rest; until a wave comes to the
+ * region. Interaction: material points everywhere. What counts is the part that computes, and what
+ * is at rest: the region until the last stage, and in the first the gas outside the nest. */
+#ifndef BOLIDE_AFDMP_H
+#define BOLIDE_AFDMP_H
+
+#include "couple/couple.h"
+#include "couple/part.h"
+
+enum afdmp_stage { AFDMP_DETONATION = 1, AFDMP_PROPAGATION, AFDMP_INTERACTION };
+
+struct afdmp {
+    struct afdmp_parameters parameters;
+    double stage;                    /* enum afdmp_stage, as checkpoints have it */
+    struct part nest, gas_part;      /* of the first two stages; */
+    struct part last;                /* of the last, and the region's before it */
+    struct mpm *nest_mpm, *last_mpm; /* NULL: there is no charge, no region */
+    struct gas *gas;
+    int dimension;
+    bool round; /* x is a radius */
+    double edge;
+    struct gas_cut nest_cut, region; /* without what passes through faces */
+    struct mpm_outside outside;      /* of the nest: gas at rest */
+    double *rest;                    /* pressures of the cells beside the region at the start, Pa */
+    int64_t beside;                  /* their number */
+    struct owned owned;
+    struct part_maker maker;
+};
+
+/* The population of the nest. */
+extern const char afdmp_nest_name[];
+
+/* Makes the cases of the parts, and their solvers; finds the nest and the region. */
+struct error *afdmp_make_parts(struct afdmp *afdmp, struct simulation *simulation);
+void afdmp_free_parts(struct afdmp *afdmp);
+
+/* Calls ACT for each cell beside an open face of BOX, outside it, in one order; ends where ACT
+ * returns false. */
+void afdmp_each_beside(const struct afdmp *afdmp, const struct gas_cut *box,
+                       bool (*act)(void *context, int64_t number, const int64_t at[3]),
+                       void *context);
+
+/* Cells of gas get what the particles of the nest have; these are deleted. */
+struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulation);
+
+/* The last part gets particles for what the cells of gas have. */
+struct error *afdmp_map_to_points(struct afdmp *afdmp, struct simulation *simulation);
+
+/* Cells that do not count have no mass: all in the last stage, in the first those of the nest. */
+void afdmp_hide_cells(struct afdmp *afdmp);
+
+#endif

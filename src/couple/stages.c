@@ -1,0 +1,381 @@
+/* The cases of the parts of afdmp: the nest of the charges, the region of the solids, and the gas
+ * between them. */
+#include <stdlib.h>
+#include <string.h>
+
+
+#include "case/internal.h"
+#include "couple/afdmp.h"
+#include "material/material.h"
+#include "model/problem.h"
+#include "shape/shape.h"
+
+static bool is_solid(const struct simulation *simulation, int body)
+{
+    const struct body_input *of = case_body(simulation->problem->input, body);
+    return !gas_computes(&simulation->problem->material[of->material_index]);
+}
+
+static bool is_charge(const struct simulation *simulation, int body)
+{
+    const struct body_input *of = case_body(simulation->problem->input, body);
+    return material_is_lit(&simulation->problem->material[of->material_index]);
+}
+
+static int count_bodies(const struct simulation *simulation,
+                        bool (*is)(const struct simulation *, int body))
+{
+    int count = 0;
+    for (int b = 0; b < simulation->problem->input->bodies.count; b++)
+        count += is(simulation, b);
+    return count;
+}
+
+/* A box from LOW to HIGH, in cells, cut to the DOMAIN, becomes CUT. */
+static void cut_to_domain(const struct afdmp *afdmp, const struct cell_blocks *domain,
+                          const double low[3], const double high[3], struct gas_cut *cut)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        cut->low[axis] = domain->low[axis];
+        cut->high[axis] = domain->high[axis];
+        if (axis >= afdmp->dimension)
+            continue;
+        cut->low[axis] = (int64_t)maximum(floor(low[axis] + 1e-6), (double)domain->low[axis]);
+        cut->high[axis] = (int64_t)minimum(ceil(high[axis] - 1e-6), (double)domain->high[axis]);
+        cut->open[axis][0] = cut->low[axis] > domain->low[axis];
+        cut->open[axis][1] = cut->high[axis] < domain->high[axis];
+    }
+}
+
+/* The bounds of all bodies that ARE, in cells, MARGIN wider. */
+static void find_bounds(const struct afdmp *afdmp, const struct simulation *simulation,
+                        bool (*are)(const struct simulation *, int body), double margin,
+                        double low[3], double high[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = INFINITY;
+        high[axis] = -INFINITY;
+        for (int b = 0; b < simulation->problem->input->bodies.count; b++) {
+            if (!are(simulation, b))
+                continue;
+            const struct bounds bounds =
+                shape_bounds(&case_body(simulation->problem->input, b)->shape);
+            low[axis] = minimum(low[axis], part_in(&bounds.low, axis) / afdmp->edge - margin);
+            high[axis] = maximum(high[axis], part_in(&bounds.high, axis) / afdmp->edge + margin);
+        }
+    }
+}
+
+/* Whether BODY moves at the start, in its middle. */
+static bool moves(const struct simulation *simulation, int body)
+{
+    const struct body_input *of = case_body(simulation->problem->input, body);
+    const struct bounds bounds = shape_bounds(&of->shape);
+    const struct vec3 middle = vec3_scale(0.5, vec3_add(bounds.low, bounds.high));
+    double velocity[3] = {0.0};
+    struct point point;
+    const char *key = "";
+    body_start_at(of, &simulation->problem->material[of->material_index], middle, &point, velocity,
+                  &key);
+    return velocity[0] != 0.0 || velocity[1] != 0.0 || velocity[2] != 0.0;
+}
+
+/* The region of the solids. */
+static struct error *find_region(struct afdmp *afdmp, const struct simulation *simulation,
+                                 const struct cell_blocks *domain)
+{
+    static const double margin = 10.0;
+    const struct simulation_case *input = simulation->problem->input;
+    const struct couple_region *given = &afdmp->parameters.region;
+    double low[3], high[3];
+    TRY(region_check(given, "afdmp.region", input, domain));
+    find_bounds(afdmp, simulation, is_solid, margin, low, high);
+    for (int axis = 0; axis < afdmp->dimension && given->low.count > 0; axis++) {
+        low[axis] = given->low.at[axis] / afdmp->edge;
+        high[axis] = given->high.at[axis] / afdmp->edge;
+    }
+    cut_to_domain(afdmp, domain, low, high, &afdmp->region);
+    struct error *error = NULL;
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct body_input *body = case_body(input, b);
+        const struct bounds bounds = shape_bounds(&body->shape);
+        bool outside = false;
+        for (int axis = 0; axis < afdmp->dimension; axis++)
+            outside |=
+                part_in(&bounds.low, axis) / afdmp->edge < (double)afdmp->region.low[axis] - 1e-6 ||
+                part_in(&bounds.high, axis) / afdmp->edge > (double)afdmp->region.high[axis] + 1e-6;
+        if (is_solid(simulation, b) && outside)
+            error = error_join(error, input_error(input, "bodies", input->bodies.names[b],
+                                                  "this solid reaches beyond the region of the "
+                                                  "solids: enlarge the region, or leave it out"));
+        if (is_solid(simulation, b) && moves(simulation, b))
+            error = error_join(
+                error, input_error(input, "bodies", input->bodies.names[b],
+                                   "the solver afdmp computes solids from when on a wave of the "
+                                   "gas comes to them: this one must be at rest before; the "
+                                   "solvers cfdmp and mpm move it from the start"));
+    }
+    return error;
+}
+
+/* How long the surfaces of the charges burn: from when the detonation comes to the first place of
+ * them until the last of them has burnt, s. Places where the domain ends are no surface. */
+struct burning_time {
+    double first, last;
+};
+
+static void look_at_charge(const struct afdmp *afdmp, const struct simulation_case *input, int body,
+                           const struct cell_blocks *domain, struct burning_time *time)
+{
+    enum { ACROSS = 32 };
+    const struct body_input *of = case_body(input, body);
+    const struct bounds bounds = shape_bounds(&of->shape);
+    int count[3] = {1, 1, 1};
+    double from[3] = {0.0}, step[3] = {0.0};
+    for (int axis = 0; axis < afdmp->dimension; axis++) {
+        const double low = maximum(part_in(&bounds.low, axis),
+                                   (double)domain->low[axis] * afdmp->edge),
+                     high = minimum(part_in(&bounds.high, axis),
+                                    (double)domain->high[axis] * afdmp->edge);
+        count[axis] = ACROSS;
+        step[axis] = (high - low) / ACROSS;
+        from[axis] = low + 0.5 * step[axis];
+    }
+    for (int c = 0; c < count[2]; c++)
+        for (int b = 0; b < count[1]; b++)
+            for (int a = 0; a < count[0]; a++) {
+                const double at[3] = {from[0] + a * step[0], from[1] + b * step[1],
+                                      from[2] + c * step[2]};
+                const struct vec3 place = vec3_make(at[0], at[1], at[2]);
+                if (!shape_inside(&of->shape, place))
+                    continue;
+                const double arrival = detonation_arrival(input, body, place);
+                time->last = maximum(time->last, arrival);
+                for (int face = 0; face < 2 * afdmp->dimension; face++) {
+                    double next[3] = {at[0], at[1], at[2]};
+                    const int axis = face / 2;
+                    next[axis] += face % 2 ? step[axis] : -step[axis];
+                    const double cell = next[axis] / afdmp->edge;
+                    if (cell > (double)domain->low[axis] && cell < (double)domain->high[axis] &&
+                        !shape_inside(&of->shape, vec3_make(next[0], next[1], next[2])))
+                        time->first = minimum(time->first, arrival);
+                }
+            }
+}
+
+/* The nest: the charges and as much room as their products need until all have burnt. */
+static struct error *find_nest(struct afdmp *afdmp, const struct simulation *simulation,
+                               const struct cell_blocks *domain)
+{
+    static const double cells = 8.0, faster = 1.3; /* than the detonation */
+    const struct simulation_case *input = simulation->problem->input;
+    struct burning_time time = {INFINITY, 0.0};
+    double low[3], high[3], speed = 0.0;
+    for (int b = 0; b < input->bodies.count; b++)
+        if (is_charge(simulation, b)) {
+            const struct material *material =
+                &simulation->problem->material[case_body(input, b)->material_index];
+            look_at_charge(afdmp, input, b, domain, &time);
+            speed = maximum(speed, material_detonation_speed(material));
+        }
+    const double margin =
+        cells + faster * speed * maximum(time.last - time.first, 0.0) / afdmp->edge;
+    find_bounds(afdmp, simulation, is_charge, margin, low, high);
+    cut_to_domain(afdmp, domain, low, high, &afdmp->nest_cut);
+    bool meets = count_bodies(simulation, is_solid) > 0;
+    for (int axis = 0; axis < afdmp->dimension && meets; axis++)
+        meets = afdmp->nest_cut.low[axis] < afdmp->region.high[axis] &&
+                afdmp->nest_cut.high[axis] > afdmp->region.low[axis];
+    if (meets)
+        return input_error(input, "solver", "afdmp",
+                           "while the charge burns its products need %.4g m of gas around it, and "
+                           "the region of the solids is nearer: use the solver cfdmp or mpm, or "
+                           "give a smaller `region`",
+                           margin * afdmp->edge);
+    return NULL;
+}
+
+static struct error *make_gas_part(struct afdmp *afdmp, const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    struct part *part = &afdmp->gas_part;
+    part->input = *input;
+    part->input.resolution = afdmp->edge;
+    part->input.outflows = part->input.contacts = part->input.loads = (struct named_map){0};
+    TRY(part_copy_bodies(&afdmp->maker, part));
+    for (int b = 0; b < input->bodies.count; b++) {
+        struct body_input *body = case_body(&part->input, b);
+        body->elsewhere = is_solid(simulation, b);
+        body->resolution = NAN;
+    }
+    if (count_bodies(simulation, is_solid) > 0)
+        TRY(part_block(&afdmp->maker, part, afdmp->region.low, afdmp->region.high));
+    TRY(part_create(&afdmp->maker, part, simulation, &gas_class, &afdmp->parameters.gas));
+    afdmp->gas = part->solver;
+    return NULL;
+}
+
+/* A part of material points, whose bodies reach to the faces of BOX, and which ends where the
+ * domain does. Solids are in it or not. */
+static struct error *make_mpm_part(struct afdmp *afdmp, const struct simulation *simulation,
+                                   struct part *part, const struct gas_cut *box,
+                                   const struct gas_cut *ends, bool solids)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    part->input = *input;
+    part->input.boundaries = part->input.obstacles = (struct named_map){0};
+    part->input.domain = (struct domain_input){0};
+    part->input.start = (struct start_input){0};
+    TRY(part_copy_bodies(&afdmp->maker, part));
+    for (int b = 0; b < input->bodies.count; b++)
+        case_body(&part->input, b)->elsewhere = is_solid(simulation, b) && !solids;
+    TRY(part_cut_bodies(&afdmp->maker, part, box->low, box->high));
+    TRY(part_close_faces(&afdmp->maker, part, ends, &afdmp->gas_part.simulation.problem->mirrors));
+    return part_create(&afdmp->maker, part, simulation, &mpm_class, &afdmp->parameters.mpm);
+}
+
+/* What the solver cannot do of the case. */
+static struct error *refuse(const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    struct error *error = NULL;
+    if (simulation->ranks->size > 1)
+        error = input_error(input, "solver", NULL, "the solver afdmp runs on one rank");
+    if (input->obstacles.count > 0)
+        error = error_join(error, input_error(input, "obstacles", input->obstacles.names[0],
+                                              "material points of the solver afdmp know no "
+                                              "obstacles: make it a body"));
+    if (input->loads.count > 0)
+        error = error_join(error, input_error(input, "loads", input->loads.names[0],
+                                              "the solver afdmp computes solids from when on a "
+                                              "wave of the gas comes to them: use the solver mpm "
+                                              "or cfdmp"));
+    for (int k = 0; k < input->boundaries.count; k++)
+        if (case_boundary(input, k)->kind == BOUNDARY_INFLOW ||
+            case_boundary(input, k)->kind == BOUNDARY_PERIODIC)
+            error =
+                error_join(error, input_error(input, "boundaries", input->boundaries.names[k],
+                                              "material points of the solver afdmp know no inflow "
+                                              "and no periodic faces"));
+    return error;
+}
+
+static bool count_beside(void *context, int64_t number, const int64_t at[3])
+{
+    int64_t *count = context;
+    (void)at;
+    *count = number + 1;
+    return true;
+}
+
+void afdmp_each_beside(const struct afdmp *afdmp, const struct gas_cut *box,
+                       bool (*act)(void *context, int64_t number, const int64_t at[3]),
+                       void *context)
+{
+    int64_t number = 0;
+    for (int axis = 0; axis < afdmp->dimension; axis++)
+        for (int side = 0; side < 2; side++) {
+            const int one = axis == 0 ? 1 : 0, other = axis == 2 ? 1 : 2;
+            int64_t at[3];
+            if (!box->open[axis][side])
+                continue;
+            at[axis] = side ? box->high[axis] : box->low[axis] - 1;
+            for (at[other] = box->low[other]; at[other] < box->high[other]; at[other]++)
+                for (at[one] = box->low[one]; at[one] < box->high[one]; at[one]++)
+                    if (!act(context, number++, at))
+                        return;
+        }
+}
+
+/* The gas outside the nest is at rest: its pressure at the node AT. */
+static double pressure_outside(void *of, const int64_t at[3], int component)
+{
+    const struct afdmp *afdmp = of;
+    const struct gas_cut *cut = &afdmp->nest_cut;
+    const struct gas_view view = gas_view(afdmp->gas);
+    int64_t cell[3] = {0, 0, 0};
+    int32_t block;
+    (void)component;
+    for (int axis = 0; axis < afdmp->dimension; axis++) {
+        const int64_t low = cut->low[axis] - cut->open[axis][0],
+                      high = cut->high[axis] - !cut->open[axis][1];
+        cell[axis] = at[axis] < low ? low : at[axis] > high ? high : at[axis];
+    }
+    return view.cells->pressure[part_cell(view.cells, cell, &block)] -
+           mpm_gauge(afdmp->nest_mpm, view.material[0]);
+}
+
+static void take_push(void *of, const int64_t at[3], const double impulse[3], double work)
+{
+    struct afdmp *afdmp = of;
+    ledger_book(&afdmp->nest.simulation.ledger, LEDGER_EXCHANGE, 0.0,
+                vec3_make(impulse[0], impulse[1], impulse[2]),
+                vec3_make((double)at[0] * afdmp->edge, (double)at[1] * afdmp->edge,
+                          (double)at[2] * afdmp->edge),
+                work);
+}
+
+static void surround_nest(struct afdmp *afdmp)
+{
+    struct mpm_outside *outside = &afdmp->outside;
+    for (int axis = 0; axis < 3; axis++) {
+        outside->low[axis] = afdmp->nest_cut.low[axis];
+        outside->high[axis] = afdmp->nest_cut.high[axis];
+        for (int side = 0; side < 2; side++)
+            outside->open[axis][side] = afdmp->nest_cut.open[axis][side];
+    }
+    outside->of = afdmp;
+    outside->pressure = pressure_outside;
+    outside->pushed = take_push;
+    mpm_surround(afdmp->nest_mpm, outside);
+}
+
+struct error *afdmp_make_parts(struct afdmp *afdmp, struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    afdmp->dimension = simulation->problem->dimension;
+    afdmp->round = geometry_power(simulation->problem->geometry) > 0;
+    afdmp->edge =
+        isnan(afdmp->parameters.mpm.cell) ? 2.0 * input->resolution : afdmp->parameters.mpm.cell;
+    afdmp->maker = (struct part_maker){&afdmp->owned, afdmp->edge, afdmp->dimension};
+    TRY(refuse(simulation));
+    const struct cell_blocks domain = part_domain(input, afdmp->edge);
+    struct gas_cut all = {.open = {{false}}};
+    memcpy(all.low, domain.low, sizeof all.low);
+    memcpy(all.high, domain.high, sizeof all.high);
+    const bool solids = count_bodies(simulation, is_solid) > 0,
+               charges = count_bodies(simulation, is_charge) > 0 && !input->start.input;
+    if (!solids && !charges)
+        return input_error(input, "solver", "afdmp",
+                           "no body is an explosive that is lit, and none is solid: use the solver "
+                           "gas");
+    if (solids)
+        TRY(find_region(afdmp, simulation, &domain));
+    if (charges)
+        TRY(find_nest(afdmp, simulation, &domain));
+    TRY(make_gas_part(afdmp, simulation));
+    if (solids) {
+        TRY(make_mpm_part(afdmp, simulation, &afdmp->last, &afdmp->region, &all, true));
+        afdmp->last_mpm = afdmp->last.solver;
+        afdmp_each_beside(afdmp, &afdmp->region, count_beside, &afdmp->beside);
+        afdmp->rest = owned_new(&afdmp->owned, (size_t)afdmp->beside * sizeof *afdmp->rest);
+        if (!afdmp->rest)
+            return owned_error();
+    }
+    if (charges) {
+        TRY(make_mpm_part(afdmp, simulation, &afdmp->nest, &afdmp->nest_cut, &afdmp->nest_cut,
+                          false));
+        afdmp->nest_mpm = afdmp->nest.solver;
+        mpm_particles(afdmp->nest_mpm)->name = afdmp_nest_name;
+        surround_nest(afdmp);
+    }
+    return NULL;
+}
+
+void afdmp_free_parts(struct afdmp *afdmp)
+{
+    part_free(&afdmp->gas_part, &gas_class);
+    part_free(&afdmp->nest, &mpm_class);
+    part_free(&afdmp->last, &mpm_class);
+    owned_free(&afdmp->owned);
+}
