@@ -60,7 +60,8 @@ int case_find_name(struct checking *checking, const struct named_map *map, const
 
 void case_find_members(struct checking *checking, const char *of)
 {
-    if (of && strcmp(of, "particles") != 0 && strcmp(of, "gas") != 0)
+    if (of && strcmp(of, "particles") != 0 && strcmp(of, "gas") != 0 &&
+        strcmp(of, "detonation") != 0)
         case_find_name(checking, &checking->input->bodies, "body", of, "of");
 }
 

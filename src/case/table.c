@@ -347,20 +347,22 @@ const struct parameter case_table[] = {
      .offset = offsetof(struct simulation_case, domain),
      .standard = PARAMETER_OPTIONAL,
      .table = case_domain_table,
-     .help = "the box that is computed (gas, cfdmp)"},
+     .help = "the box that is computed (gas, cfdmp, afdmp)"},
     {.key = "start",
      .kind = PARAMETER_TABLE,
      .offset = offsetof(struct simulation_case, start),
      .standard = PARAMETER_OPTIONAL,
      .table = case_start_table,
-     .help = "a blast that another case computes in 1-D, as the start of this one (gas, cfdmp)"},
+     .help =
+         "a blast that another case computes in 1-D, as the start of this one (gas, cfdmp, afdmp)"},
     {.key = "boundaries",
      .kind = PARAMETER_MAP,
      .offset = offsetof(struct simulation_case, boundaries),
      .standard = PARAMETER_OPTIONAL,
      .table = case_boundary_table,
      .size = sizeof(struct boundary_input),
-     .help = "what is outside the faces of the domain, by name (gas, cfdmp); a face with a wall is "
+     .help = "what is outside the faces of the domain, by name (gas, cfdmp, afdmp); a face with a "
+             "wall is "
              "reflecting, one without either is transmitting"},
     {.key = "obstacles",
      .kind = PARAMETER_MAP,

@@ -106,6 +106,8 @@ static struct error *afdmp_start(void *solver, struct simulation *simulation)
     struct afdmp *afdmp = solver;
     share_time(afdmp, simulation);
     TRY(gas_class.start(afdmp->gas, &afdmp->gas_part.simulation));
+    if (afdmp->stage != (double)AFDMP_DETONATION)
+        afdmp_burn_all(afdmp);
     TRY(each_mpm(afdmp, mpm_class.start));
     if (simulation->step == 0 && afdmp->last_mpm)
         afdmp_each_beside(afdmp, &afdmp->region, note_rest, afdmp);

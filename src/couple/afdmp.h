@@ -44,6 +44,9 @@ void afdmp_each_beside(const struct afdmp *afdmp, const struct gas_cut *box,
                        bool (*act)(void *context, int64_t number, const int64_t at[3]),
                        void *context);
 
+/* Nothing burns in cells, blocked ones included. */
+void afdmp_burn_all(struct afdmp *afdmp);
+
 /* Cells of gas get what the particles of the nest have; these are deleted. */
 struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulation);
 

@@ -16,6 +16,13 @@ static bool all(void *context, int32_t i)
     return true;
 }
 
+void afdmp_burn_all(struct afdmp *afdmp)
+{
+    const struct gas_view view = gas_view(afdmp->gas);
+    for (int32_t i = 0; i < view.cells->count && view.layout->lit; i++)
+        view.u[view.layout->burnt][i] = 1.0;
+}
+
 /* Energy of particles by the cell that they lie in. */
 static void sum_energy(const struct smear *smear, int32_t i, double *energy)
 {
@@ -52,8 +59,6 @@ static double put_cell(const struct afdmp *afdmp, const struct gas_view *view,
         view->u[GAS_SECOND][i] = sums->mass[1] / volume;
         view->u[GAS_FRACTION][i] = sums->volume[1] / filled;
     }
-    if (view->layout->lit)
-        view->u[view->layout->burnt][i] = 1.0;
     return energy + sums->kinetic - own;
 }
 
@@ -114,6 +119,7 @@ struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulatio
         }
         for (int32_t i = 0; i < p->count; i++)
             particles_delete(p, i);
+        afdmp_burn_all(afdmp);
         put_cells(afdmp, simulation, &smear, sums, internal, changed);
         error = gas_refresh(afdmp->gas, &afdmp->gas_part.simulation, changed);
     } else
@@ -130,35 +136,69 @@ struct share {
     double mass, density, energy; /* kg, kg/m^3, J/kg */
 };
 
-/* The shares of both materials of cell I of VOLUME: of one of which there is next to nothing the
- * other one has it. */
+/* The specific energies beyond those at which materials of MASS and DENSITY bear no pressure:
+ * of each, that of its SHARE at one pressure with ENERGY together; returns their mean. */
+static double find_heat(const struct gas_view *view, const double mass[2], const double density[2],
+                        double energy, double heat[2])
+{
+    const struct shared shared = gate_share(view, mass, density, energy);
+    for (int m = 0; m < 2; m++)
+        heat[m] = shared.pressure / shared.slope[m];
+    return (mass[0] * heat[0] + mass[1] * heat[1]) / (mass[0] + mass[1]);
+}
+
+/* The densities of two materials of MASS in VOLUME which have ENERGY together, one pressure and the
+ * same heat. */
+static void share_evenly(const struct gas_view *view, const double mass[2], double energy,
+                         double volume, double density[2])
+{
+    enum { HALVINGS = 60 };
+    double low = 0.0, high = 1.0; /* of the second */
+    for (int k = 0; k < HALVINGS; k++) {
+        const double at = 0.5 * (low + high);
+        double heat[2];
+        density[0] = mass[0] / ((1.0 - at) * volume);
+        density[1] = mass[1] / (at * volume);
+        find_heat(view, mass, density, energy, heat);
+        if (heat[1] < heat[0]) /* the denser, the less it needs for the pressure */
+            low = at;
+        else
+            high = at;
+    }
+}
+
+/* The shares of both materials of cell I of VOLUME. Of a trace the other one has the mass.
+ * Fractions of volume that diffuse on the grid leave a little of one material far too hot for
+ * particles of its own: such a cell is divided so that both have the same heat. */
 static void split_cell(const struct gas_view *view, int32_t i, double volume, struct share share[2])
 {
-    static const double trace_volume = 1e-3, trace_mass = 1e-2;
+    static const double trace = 1e-3, factor = 10.0;
     const double density = view->u[GAS_DENSITY][i];
     const double second = view->layout->two ? view->u[GAS_SECOND][i] : 0.0,
                  fraction = view->layout->two ? view->u[GAS_FRACTION][i] : 0.0;
-    double kinetic = 0.0;
+    double kinetic = 0.0, heat[2];
     for (int axis = 0; axis < 3; axis++)
         kinetic += 0.5 * square(view->u[GAS_MOMENTUM + axis][i]) / density;
-    const double energy = view->u[GAS_ENERGY][i] - kinetic;
-    const double part[2] = {1.0 - fraction, fraction}, mass[2] = {density - second, second};
+    const double energy = (view->u[GAS_ENERGY][i] - kinetic) * volume;
+    const double part[2] = {1.0 - fraction, fraction},
+                 mass[2] = {(density - second) * volume, second * volume};
     int only = -1;
     for (int m = 0; m < 2; m++)
-        if (!(mass[m] > 0.0) || part[m] <= 0.0 ||
-            (part[m] < trace_volume && mass[m] < trace_mass * density))
+        if (!(mass[m] > trace * density * volume && part[m] > 0.0))
             only = 1 - m;
     share[0] = share[1] = (struct share){0.0, 0.0, 0.0};
     if (only >= 0) {
-        share[only] = (struct share){density * volume, density, energy / density};
+        share[only] = (struct share){density * volume, density, energy / (density * volume)};
         return;
     }
-    const double own[2] = {mass[0] / part[0], mass[1] / part[1]},
-                 all[2] = {mass[0] * volume, mass[1] * volume};
-    const struct shared shared = gate_share(view, all, own, energy * volume);
+    double own[2] = {mass[0] / (part[0] * volume), mass[1] / (part[1] * volume)};
+    const double mean = find_heat(view, mass, own, energy, heat);
+    if (maximum(heat[0], heat[1]) > factor * mean)
+        share_evenly(view, mass, energy, volume, own);
+    const struct shared shared = gate_share(view, mass, own, energy);
     for (int m = 0; m < 2; m++)
         share[m] =
-            (struct share){all[m], own[m], (shared.pressure - shared.cold[m]) / shared.slope[m]};
+            (struct share){mass[m], own[m], (shared.pressure - shared.cold[m]) / shared.slope[m]};
 }
 
 /* Particles of the gas solver's material WHICH in cell I at AT, which get SHARE of it. */

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-
 #include "case/internal.h"
 #include "couple/afdmp.h"
 #include "material/material.h"

@@ -76,19 +76,25 @@ static bool is_possible(const struct particles *p, const struct point_loop *loop
 
 /* A gas that expands into vacuum converts all of its internal energy to kinetic energy, and a
  * little more: the work of the stresses uses the energy of half a step earlier. Such a particle
- * gets a small positive energy in its state, and the deficit stays in its conserved energy. */
+ * gets a small positive pressure in its state, and the deficit stays in its conserved energy. */
 static void restore_overdrawn(const struct mpm *mpm, const struct simulation *simulation,
                               const struct point_loop *loop, int32_t i)
 {
     const double little = 0.1, least = 1e-3, *u = loop->velocity[i];
     const double motion = 0.5 * (square(u[0]) + square(u[1]) + square(u[2]));
     struct particles *p = mpm->particles;
-    if (!loop->at_state || !(loop->at_state[i] < 0.0 && -loop->at_state[i] < little * motion))
+    const struct material *material = &simulation->problem->material[p->material[i]];
+    struct point point = {.density = p->density[i]};
+    if (!loop->at_state || !(point.density > 0.0))
         return;
-    struct point point = {.density = p->density[i], .energy = -least * loop->at_state[i]};
     particle_load_history(p, i, point.history);
-    const struct response r =
-        any_material_evaluate(&simulation->problem->material[p->material[i]], &point);
+    const struct eos_value value =
+        eos_evaluate(&material->eos, point.density, loop->at_state[i], point.history);
+    const double deficit = -value.pressure / value.dp_de;
+    if (!(deficit > 0.0 && deficit < little * motion))
+        return;
+    point.energy = loop->at_state[i] + (1.0 + least) * deficit;
+    const struct response r = any_material_evaluate(material, &point);
     loop->at_state[i] = point.energy;
     loop->pressure[i] = point.pressure;
     loop->sound[i] = r.sound_long;

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Gas and material points side by side: the same bits on any number of threads and after a kill, and
+# Gas and material points side by side, and one after another: the same bits on any number of threads and after a kill, and
 # what a coupled case refuses.
 set -u
 status=0
@@ -23,16 +23,35 @@ done
 same one two || fail "2 threads differ from one"
 same one four || fail "4 threads differ from one"
 
-# Killed half-way, when material is passing the faces, and resumed on another number of threads.
-"$BOLIDE" run "$case" --threads 2 --output killed >killed.log 2>&1 &
-runner=$!
-while [ ! -e killed/snapshots/000002.vtkhdf ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
-kill -KILL $runner 2>/dev/null
-wait $runner 2>/dev/null
-[ ! -e killed/checks.csv ] || fail "the killed run came to its end"
-"$BOLIDE" run "$case" --threads 1 --output killed --resume >resumed.log 2>&1 ||
-    fail "resuming after a kill: $(cat resumed.log)"
-grep -q "^resumed at step" resumed.log || fail "nothing was resumed: $(cat resumed.log)"
-same one killed || fail "a killed and resumed run differs"
+# Killed when snapshot $1 of $case is there, into the folder $2, and resumed on another number of
+# threads: the run in the folder $3 was not.
+kill_and_resume() {
+    rm -rf "$2"
+    "$BOLIDE" run "$case" --threads 2 --output "$2" >killed.log 2>&1 &
+    local runner=$!
+    while [ ! -e "$2/snapshots/$1.vtkhdf" ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+    sleep 0.05
+    kill -KILL $runner 2>/dev/null
+    wait $runner 2>/dev/null
+    [ ! -e "$2/checks.csv" ] || fail "the run killed at snapshot $1 came to its end"
+    "$BOLIDE" run "$case" --threads 1 --output "$2" --resume >resumed.log 2>&1 ||
+        fail "resuming after snapshot $1: $(cat resumed.log)"
+    grep -q "^resumed at step" resumed.log || fail "nothing was resumed: $(cat resumed.log)"
+    same "$3" "$2" || fail "a run killed after snapshot $1 and resumed differs"
+}
+
+# When material is passing the faces.
+kill_and_resume 000002 killed one
+
+# One method after another: in each of the three stages.
+case=$BOLIDE_SOURCE_DIR/tests/data/everything-alternating.yaml
+rm -rf one two four
+for threads in 1:one 2:two 4:four; do
+    "$BOLIDE" run "$case" --threads "${threads%:*}" --output "${threads#*:}" >run.log 2>&1 ||
+        fail "one method after another on ${threads%:*} threads: $(cat run.log)"
+done
+same one two || fail "one method after another: 2 threads differ from one"
+same one four || fail "one method after another: 4 threads differ from one"
+for snapshot in 000001 000005 000017; do kill_and_resume $snapshot killed one; done
 
 exit $status
