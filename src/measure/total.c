@@ -1,5 +1,8 @@
-/* total: a sum over the particles of a body or of all.
+/* total: a sum over the particles of a body or of all, or of those among them that are `between`.
  * decay: the rate at which a total falls, ln(Q(0)/Q(t))/t: that of an exponential through both. */
+#include <stdlib.h>
+
+#include "base/memory.h"
 #include "measure/measure.h"
 
 /* The order of enum ledger_entry, then what is no entry of the ledger. */
@@ -55,17 +58,37 @@ static double volume_of(const struct ranks *ranks, const struct population *p, i
     return exact_sum_value(&sum);
 }
 
-static struct error *total(const struct measurement *measurement, double *value)
+/* Of the members of BODY in POPULATION. */
+static double sum_of(const struct measurement *measurement, const struct population *population,
+                     int body)
 {
     const struct measure_total *parameters = measurement->check->measure.value;
-    const struct simulation *simulation = measurement->simulation;
-    const struct totals totals =
-        population_totals(*measurement->population, simulation->ranks, measure_body(measurement));
-    *value = parameters->quantity == TOTAL_KINETIC    ? totals.kinetic
-             : parameters->quantity == TOTAL_INTERNAL ? totals.internal
-             : parameters->quantity == TOTAL_VOLUME
-                 ? volume_of(simulation->ranks, measurement->population, measure_body(measurement))
-                 : totals.entry[parameters->quantity];
+    const struct ranks *ranks = measurement->simulation->ranks;
+    const struct totals totals = population_totals(*population, ranks, body);
+    return parameters->quantity == TOTAL_KINETIC    ? totals.kinetic
+           : parameters->quantity == TOTAL_INTERNAL ? totals.internal
+           : parameters->quantity == TOTAL_VOLUME   ? volume_of(ranks, population, body)
+                                                    : totals.entry[parameters->quantity];
+}
+
+static struct error *total(const struct measurement *measurement, double *value)
+{
+    const int body = measure_body(measurement);
+    struct population population = *measurement->population;
+    *value = NAN;
+    if (!measurement->check->between.count) {
+        *value = sum_of(measurement, &population, body);
+        return NULL;
+    }
+    uint16_t *other = memory_allocate(((size_t)population.count + 1) * sizeof *other);
+    TRY(ranks_agree(measurement->simulation->ranks,
+                    other ? NULL : error_new(ERROR_SYSTEM, "out of memory for a total")));
+    assert(other);
+    for (int32_t i = 0; i < population.count; i++)
+        other[i] = !measure_takes(measurement, body, i);
+    population.body = other;
+    *value = sum_of(measurement, &population, 0);
+    free(other);
     return NULL;
 }
 
@@ -84,7 +107,6 @@ static struct error *decay(const struct measurement *measurement, double *value)
     return NULL;
 }
 
-const struct measure_class measure_total = {
-    .unit = total_unit, .measure = total, .of_bodies = true};
+const struct measure_class measure_total = {.unit = total_unit, .measure = total};
 const struct measure_class measure_decay = {
     .unit = decay_unit, .measure = decay, .of_bodies = true, .start = total};

@@ -51,13 +51,17 @@ static void a_total_is_that_of_a_body(void **state)
     stage_begin(&s, case_text,
                 "  push: {total: momentum.y, of: right, at_most: 1 kg/s}\n"
                 "  spin: {total: angular_momentum.z, at_most: 1 kg*m/s}\n"
-                "  motion: {total: kinetic_energy, of: left, at_most: 1 J/m}\n");
+                "  motion: {total: kinetic_energy, of: left, at_most: 1 J/m}\n"
+                "  part: {total: kinetic_energy, of: left, between: [-1 m, 1 m], at_most: 1 J/m}\n"
+                "  none: {total: mass, of: left, between: [1 m, 2 m], at_most: 1 kg/m}\n");
     struct particles *p = particles_of(&s.simulation);
     for (int32_t i = 0; i < p->count; i++)
         p->velocity[i][1] = p->body[i] == 1 ? 3.0 : p->body[i] == 0 ? -2.0 : 0.0;
     assert_float_equal(stage_value(&s, 0), 3.0 * 2e-4, 1e-16);
     assert_float_equal(stage_value(&s, 1), 5.0 * 2e-4 * 5.5e-3, 1e-17);
     assert_float_equal(stage_value(&s, 2), 0.5 * 4.0 * 2e-4, 1e-16);
+    assert_float_equal(stage_value(&s, 3), 0.5 * 4.0 * 2e-4, 1e-16);
+    assert_true(stage_value(&s, 4) == 0.0);
     stage_close(&s);
 }
 
