@@ -1,6 +1,7 @@
 /* The solver cfdmp as the run loop sees it: a step of the gas, then one of the particles, which the
  * gas pushes, then what passes between them. */
 #include "couple/cfdmp.h"
+#include "couple/coarse.h"
 
 #include <string.h>
 
@@ -218,6 +219,11 @@ static double cfdmp_step(const void *parameters, int dimension, const struct mat
     return mpm_class.step(&of->mpm, dimension, material, point, diameter);
 }
 
+static struct error *cfdmp_coarse(const void *parameters, const struct simulation_case *input)
+{
+    return coarse_cells(input, cfdmp_edge(parameters, input));
+}
+
 static const char *cfdmp_energy_lost(const void *parameters)
 {
     const struct cfdmp_parameters *of = parameters;
@@ -234,5 +240,7 @@ const struct solver_class cfdmp_class = {.size = sizeof(struct cfdmp),
                                          .destroy = cfdmp_destroy,
                                          .bytes = cfdmp_bytes,
                                          .count = cfdmp_count,
+                                         .room = cfdmp_room,
+                                         .coarse = cfdmp_coarse,
                                          .step = cfdmp_step,
                                          .energy_lost = cfdmp_energy_lost};

@@ -73,6 +73,8 @@ struct error *cfdmp_find_region(struct cfdmp *cfdmp, const struct simulation_cas
 /* As solver_class says. */
 void cfdmp_count(const void *parameters, const struct simulation_case *input,
                  struct counted *counted);
+bool cfdmp_room(const void *parameters, const struct simulation_case *input, int material,
+                struct bounds *room);
 struct error *cfdmp_check_region(const struct cfdmp *cfdmp, const struct simulation_case *input);
 
 /* The cells of the band take what the particles there have. */

@@ -92,31 +92,80 @@ struct error *cfdmp_find_region(struct cfdmp *cfdmp, const struct simulation_cas
     return check_extent(cfdmp, input);
 }
 
+/* Bounds of SHAPE from places inside, APART from each other: a shape that others cut may have wide
+ * bounds of its own. */
+static struct bounds sampled_bounds(const struct one_of *shape, int dimension, double apart)
+{
+    const struct bounds wide = shape_bounds(shape);
+    struct bounds found = {vec3_make(INFINITY, INFINITY, INFINITY),
+                           vec3_make(-INFINITY, -INFINITY, -INFINITY)};
+    int64_t count[3] = {1, 1, 1}, k[3];
+    for (int axis = 0; axis < dimension; axis++)
+        count[axis] = 1 + (int64_t)((part_in(&wide.high, axis) - part_in(&wide.low, axis)) / apart);
+    for (k[2] = 0; k[2] < count[2]; k[2]++)
+        for (k[1] = 0; k[1] < count[1]; k[1]++)
+            for (k[0] = 0; k[0] < count[0]; k[0]++) {
+                double at[3] = {0.0, 0.0, 0.0};
+                for (int axis = 0; axis < dimension; axis++)
+                    at[axis] = part_in(&wide.low, axis) + ((double)k[axis] + 0.5) * apart;
+                const struct vec3 place = vector_at(at);
+                if (shape_inside(shape, place))
+                    found = bounds_around(found, (struct bounds){place, place});
+            }
+    const struct vec3 half = vec3_make(0.5 * apart, 0.5 * apart, 0.5 * apart);
+    return (struct bounds){vec3_sub(found.low, half), vec3_add(found.high, half)};
+}
+
+/* How far a solid within BOUNDS is from the face of the region across AXIS on SIDE, in cells, less
+ * what it must be; where the face is closed, all of it must not be beyond. */
+static double room_to_spare(const struct cfdmp *cfdmp, const struct bounds *bounds, int axis,
+                            int side, double *room)
+{
+    const double low = part_in(&bounds->low, axis) / cfdmp->edge,
+                 high = part_in(&bounds->high, axis) / cfdmp->edge,
+                 face = (double)(side ? cfdmp->cut.high : cfdmp->cut.low)[axis];
+    const bool open = cfdmp->cut.open[axis][side];
+    *room = side ? face - (open ? high : low) : (open ? low : high) - face;
+    return *room - (open ? (double)solid_depth(cfdmp) : 0.0) + 1e-6;
+}
+
+static bool has_room(const struct cfdmp *cfdmp, const struct bounds *bounds)
+{
+    bool has = true;
+    double room;
+    for (int axis = 0; axis < cfdmp->dimension; axis++)
+        for (int side = 0; side < 2; side++)
+            has &= room_to_spare(cfdmp, bounds, axis, side, &room) >= 0.0;
+    return has;
+}
+
 /* Solids are in the region, behind what gas sees of it. */
 static struct error *check_solids(const struct cfdmp *cfdmp, const struct simulation_case *input)
 {
-    const double depth = (double)solid_depth(cfdmp);
     struct error *error = NULL;
     for (int b = 0; b < input->bodies.count; b++) {
+        const struct one_of *shape = &case_body(input, b)->shape;
         if (!is_solid(input, b))
             continue;
-        const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
+        struct bounds bounds = shape_bounds(shape);
+        if (has_room(cfdmp, &bounds))
+            continue;
+        bounds = sampled_bounds(shape, cfdmp->dimension, 0.5 * cfdmp->edge);
         for (int axis = 0; axis < cfdmp->dimension; axis++)
             for (int side = 0; side < 2; side++) {
-                const double at = part_in(side ? &bounds.high : &bounds.low, axis) / cfdmp->edge,
-                             face = (double)(side ? cfdmp->cut.high : cfdmp->cut.low)[axis];
-                const double room = side ? face - at : at - face,
-                             wanted = cfdmp->cut.open[axis][side] ? depth : 0.0;
-                if (room >= wanted - 1e-6)
+                double room;
+                if (room_to_spare(cfdmp, &bounds, axis, side, &room) >= 0.0)
                     continue;
                 error = error_join(
                     error,
-                    input_error(input, "bodies", input->bodies.names[b],
-                                "this solid is %.6g m %s the face %c = %.6g m of the region of "
-                                "material points: it must be %.6g m inside, behind the overlap; "
-                                "enlarge the region, or leave it out",
-                                fabs(room) * cfdmp->edge, room < 0.0 ? "beyond" : "from",
-                                "xyz"[axis], face * cfdmp -> edge, wanted * cfdmp -> edge));
+                    input_error(
+                        input, "bodies", input->bodies.names[b],
+                        "this solid is %.6g m %s the face %c = %.6g m of the region of material "
+                        "points: it must be %.6g m inside, behind the overlap; enlarge the region, "
+                        "or leave it out",
+                        fabs(room) * cfdmp->edge, room < 0.0 ? "beyond" : "from", "xyz"[axis],
+                        (double)(side ? cfdmp->cut.high : cfdmp->cut.low)[axis] * cfdmp -> edge,
+                        (double)solid_depth(cfdmp) * cfdmp -> edge));
             }
     }
     return error;
@@ -154,17 +203,43 @@ struct error *cfdmp_check_region(const struct cfdmp *cfdmp, const struct simulat
     return error_join(check_solids(cfdmp, input), check_obstacles(cfdmp, input));
 }
 
-void cfdmp_count(const void *parameters, const struct simulation_case *input,
-                 struct counted *counted)
+/* The region of INPUT, which may be wrong: the run reports it. */
+static struct cfdmp region_of(const void *parameters, const struct simulation_case *input,
+                              struct cell_blocks *domain)
 {
     struct cfdmp cfdmp = {.parameters = *(const struct cfdmp_parameters *)parameters,
                           .dimension = (int)input->dimension};
     cfdmp.edge = cfdmp_edge(&cfdmp.parameters, input);
-    const struct cell_blocks domain = part_domain(input, cfdmp.edge);
+    *domain = part_domain(input, cfdmp.edge);
+    error_free(cfdmp_find_region(&cfdmp, input, domain));
+    return cfdmp;
+}
+
+bool cfdmp_room(const void *parameters, const struct simulation_case *input, int material,
+                struct bounds *room)
+{
+    struct cell_blocks domain;
+    const struct cfdmp cfdmp = region_of(parameters, input, &domain);
+    const int64_t depth = solid_depth(&cfdmp);
+    double end[2][3] = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+    for (int axis = 0; axis < cfdmp.dimension; axis++) {
+        if (cfdmp.cut.open[axis][0])
+            end[0][axis] = (double)(cfdmp.cut.low[axis] + depth) * cfdmp.edge;
+        if (cfdmp.cut.open[axis][1])
+            end[1][axis] = (double)(cfdmp.cut.high[axis] - depth) * cfdmp.edge;
+    }
+    *room = (struct bounds){vector_at(end[0]), vector_at(end[1])};
+    return !gas_computes(case_material(input, material)->material);
+}
+
+void cfdmp_count(const void *parameters, const struct simulation_case *input,
+                 struct counted *counted)
+{
+    struct cell_blocks domain;
+    const struct cfdmp cfdmp = region_of(parameters, input, &domain);
     double low[3] = {0.0, 0.0, 0.0}, high[3] = {0.0, 0.0, 0.0}, blocked = 1.0;
     *counted = (struct counted){.cells = 1.0,
                                 .bytes = gas_class.bytes(&cfdmp.parameters.gas, cfdmp.dimension)};
-    error_free(cfdmp_find_region(&cfdmp, input, &domain)); /* the run reports it */
     for (int axis = 0; axis < cfdmp.dimension; axis++) {
         int64_t inside[2];
         low[axis] = (double)cfdmp.cut.low[axis] * cfdmp.edge;

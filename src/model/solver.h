@@ -77,6 +77,13 @@ struct solver_class {
     /* What is no mistake of INPUT but may be none of the user's wishes with this solver, as
      * generate_warnings; NULL where there is nothing. */
     struct error *(*warnings)(const void *parameters, const struct simulation_case *input);
+    /* Fills *room with where MATERIAL must stay so that the solver can compute it, infinite where
+     * nothing bounds it, and returns true; false, or NULL, where it may be anywhere. */
+    bool (*room)(const void *parameters, const struct simulation_case *input, int material,
+                 struct bounds *room);
+    /* What of INPUT the resolution is too coarse for, as `warnings`; a run repeats it in its
+     * verdict. */
+    struct error *(*coarse)(const void *parameters, const struct simulation_case *input);
     /* In 2-D and 3-D bodies in lasting tension creep and come apart, whatever their strength; see
      * run/warnings_tension.c. */
     bool loses_tension;

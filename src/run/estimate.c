@@ -204,6 +204,8 @@ struct error *estimate_warnings(const struct simulation_case *input)
     struct error *warnings = error_join(generate_warnings(input), wrong_detonations(input));
     if (class->warnings)
         warnings = error_join(warnings, class->warnings(input->solver.value, input));
+    if (class->coarse)
+        warnings = error_join(warnings, class->coarse(input->solver.value, input));
     return isfinite(largest) ? error_join(warnings, strong_contacts(input, largest)) : warnings;
 }
 

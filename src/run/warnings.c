@@ -56,12 +56,24 @@ static void find_limits(struct material_watch *watch, const struct material *mat
     watch->limit[WARNING_INSTABILITY] = 1.0;
     watch->limit[WARNING_DENSITY] =
         eos_traits(&material->eos).largest_compression * material_density(material);
+    watch->limit[WARNING_REGION] = INFINITY;
     watch->warm = !heat_wrong(&material->heat, &material->eos);
     if (!watch->warm)
         return;
     watch->limit[WARNING_TEMPERATURE] = 0.0;
     for (int k = 0; k < COLDEST; k++)
         watch->coldest[k] = coldest(material, k * COLDEST_STEP * material_density(material));
+}
+
+/* What the solver of the case says of it. */
+static void ask_solver(struct warnings *w, const struct simulation_case *input)
+{
+    const struct solver_class *class = input->solver.choice->thing;
+    for (int m = 0; m < w->materials; m++)
+        if (class->room && class->room(input->solver.value, input, m, &w->watch[m].room))
+            w->watch[m].limit[WARNING_REGION] = 0.0;
+    if (class->coarse)
+        w->coarse = class->coarse(input->solver.value, input);
 }
 
 struct warnings *warnings_create(const struct simulation *simulation)
@@ -83,6 +95,7 @@ struct warnings *warnings_create(const struct simulation *simulation)
     for (int m = 0; m < materials; m++)
         find_limits(&w->watch[m], &simulation->problem->material[m],
                     case_material(simulation->problem->input, m)->tensile_strength);
+    ask_solver(w, simulation->problem->input);
     for (int b = 0; b < simulation->problem->input->bodies.count; b++)
         w->prescribed[b] = body_is_prescribed(simulation, b);
     return w;
@@ -92,6 +105,7 @@ void warnings_free(struct warnings *warnings)
 {
     if (!warnings)
         return;
+    error_free(warnings->coarse);
     free(warnings->watch);
     free(warnings->memory);
     free(warnings->prescribed);
@@ -131,11 +145,15 @@ static double released_speed(const struct simulation *simulation, const struct p
 
 void warnings_start(struct warnings *warnings, const struct simulation *simulation)
 {
-    const struct population population = simulation_population(simulation), *p = &population;
     double largest = 0.0;
-    for (int32_t i = 0; i < p->count; i++)
-        if (population_has(p, i) && !population_is_mixed(p, i))
-            largest = maximum(largest, maximum(speed_of(p, i), released_speed(simulation, p, i)));
+    for (int k = 0; k < simulation->populations; k++) {
+        const struct population population = simulation_population_at(simulation, k),
+                                *p = &population;
+        for (int32_t i = 0; i < p->count; i++)
+            if (population_has(p, i) && !population_is_mixed(p, i))
+                largest =
+                    maximum(largest, maximum(speed_of(p, i), released_speed(simulation, p, i)));
+    }
     warnings->speed = ranks_maximum(simulation->ranks, largest);
 }
 
@@ -202,6 +220,18 @@ static void keep(struct found *found, double value, uint64_t id, int32_t index)
         found->worst = own;
 }
 
+/* How far member I is outside ROOM, m. */
+static double beyond(const struct bounds *room, const struct population *p, int32_t i)
+{
+    const double *x = p->position[i];
+    const double low[3] = {room->low.x, room->low.y, room->low.z},
+                 high[3] = {room->high.x, room->high.y, room->high.z};
+    double most = 0.0;
+    for (int axis = 0; axis < p->dimension; axis++)
+        most = maximum(most, maximum(low[axis] - x[axis], x[axis] - high[axis]));
+    return most;
+}
+
 static void look_at(const struct warnings *w, const struct simulation *simulation,
                     const struct population *p, int32_t i, struct found *all)
 {
@@ -215,6 +245,8 @@ static void look_at(const struct warnings *w, const struct simulation *simulatio
         [WARNING_DENSITY] = population_is_mixed(p, i) ? 0.0 : p->density[i],
         [WARNING_INSTABILITY] = tension_of(w, p, i),
     };
+    if (watch->limit[WARNING_REGION] < INFINITY)
+        value[WARNING_REGION] = beyond(&watch->room, p, i);
     if (watch->warm && !population_is_mixed(p, i))
         value[WARNING_TEMPERATURE] =
             coldness(watch, &simulation->problem->material[m], p->density[i], p->energy[i]);

@@ -2,6 +2,7 @@
 #ifndef BOLIDE_RUN_WARNINGS_INTERNAL_H
 #define BOLIDE_RUN_WARNINGS_INTERNAL_H
 
+#include "model/solver.h"
 #include "run/warnings.h"
 
 /* Densities at which the energy of 0 K is tabulated, in steps of this fraction of the reference
@@ -13,6 +14,7 @@ struct material_watch {
     double limit[WARNING_ENERGY]; /* INFINITY: none */
     bool estimated;               /* the tension: no strength is known */
     bool warm;                    /* it has a temperature */
+    struct bounds room;           /* where it may be */
     double coldest[COLDEST];      /* J/kg */
 };
 
@@ -37,9 +39,10 @@ struct warnings {
     int materials, of_energy, memories; /* the index of that of the energy; how many */
     struct material_watch *watch;
     struct warning_memory *memory;
-    bool *prescribed;   /* by body: it has a prescribed motion */
-    double speed;       /* the largest that needs no warning, so far, m/s */
-    bool loses_tension; /* of the solver, in the dimension of the case */
+    struct error *coarse; /* what the resolution is too coarse for; NULL: nothing */
+    bool *prescribed;     /* by body: it has a prescribed motion */
+    double speed;         /* the largest that needs no warning, so far, m/s */
+    bool loses_tension;   /* of the solver, in the dimension of the case */
     int bodies;
     struct body_tension *tension;
     struct tension_watch *tension_watch;

@@ -23,8 +23,10 @@ static const struct {
          "SPH bodies creep and break in lasting tension, without a physical cause and with energy "
          "conserved: use `solver: mpm`",
          1.0},
+    [WARNING_REGION] = {"region", "m", "a solid", "enlarge the `region` of the solver", 1.0},
     [WARNING_ENERGY] = {"energy", "", NULL, NULL, 1.0},
     [WARNING_TRACER] = {"tracer", "", NULL, NULL, 1.0},
+    [WARNING_COARSE] = {"coarse", "", NULL, NULL, 1.0},
 };
 
 const char *warning_kind_name(enum warning_kind kind)
@@ -77,6 +79,10 @@ static void put_limit(const struct warnings *warnings, const struct simulation *
         break;
     case WARNING_INSTABILITY:
         snprintf(text, size, "more than the 1 that SPH can hold");
+        break;
+    case WARNING_REGION:
+        snprintf(text, size,
+                 "in the cells behind the overlap of a coupling, which the gas sees without it");
         break;
     default:
         snprintf(text, size, "below 0 K");
@@ -215,6 +221,20 @@ char *warning_line(const struct warnings *warnings, const struct simulation *sim
     return line;
 }
 
+static bool add_coarse(const struct warnings *warnings, const struct simulation *simulation,
+                       int index, struct warning_results *results)
+{
+    const char *reason = expected(simulation->problem->input, WARNING_COARSE, -1);
+    struct warning *warning = &results->item[results->count++];
+    *warning = (struct warning){.kind = WARNING_COARSE,
+                                .name = text_copy(kinds[WARNING_COARSE].name),
+                                .text = text_format("%s: %s", kinds[WARNING_COARSE].name,
+                                                    error_message(warnings->coarse, index)),
+                                .expected = reason ? text_copy(reason) : NULL};
+    results->unexpected += !reason;
+    return warning->name && warning->text && (warning->expected || !reason);
+}
+
 static bool add(const struct warnings *warnings, const struct simulation *simulation, int index,
                 struct warning_results *results)
 {
@@ -239,13 +259,16 @@ struct error *warnings_conclude(const struct warnings *warnings,
     *results = (struct warning_results){0};
     for (int k = 0; k < warnings->memories; k++)
         happened += warnings->memory[k].count > 0.0;
-    if (!happened)
+    const int coarse = warnings->coarse ? error_count(warnings->coarse) : 0;
+    if (!happened && !coarse)
         return NULL;
-    results->item = memory_allocate((size_t)happened * sizeof *results->item);
+    results->item = memory_allocate((size_t)(happened + coarse) * sizeof *results->item);
     done = results->item != NULL;
     for (int k = 0; k < warnings->memories && done; k++)
         if (warnings->memory[k].count > 0.0)
             done = add(warnings, simulation, k, results);
+    for (int k = 0; k < coarse && done; k++)
+        done = add_coarse(warnings, simulation, k, results);
     return done ? NULL : error_new(ERROR_SYSTEM, "out of memory for warnings");
 }
 

@@ -1,0 +1,193 @@
+/* What of a blast on a structure cells are too coarse for; see coarse.h. */
+#include "couple/coarse.h"
+
+#include <math.h>
+
+#include "couple/part.h"
+#include "gas/gas_phases.h"
+#include "material/material.h"
+#include "model/domain.h"
+#include "shape/shape.h"
+
+/* Cells through a plate below which it hardly bends, and shares its cells with the gas on both
+ * sides. */
+static const double PLATE = 3.0;
+/* Cells below which the pressure of a detonation, and of what it sends through the air before a
+ * solid, comes out too low. */
+static const double RADIUS = 10.0, STAND_OFF = 10.0;
+
+/* The bounds of a body in the domain, and at how many of its ends along AXIS the domain ends:
+ * behind a mirror there the body goes on. */
+static struct bounds bounds_of(const struct simulation_case *input, int body)
+{
+    double face[2][3] = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+    for (int axis = 0; axis < input->dimension; axis++)
+        for (int side = 0; side < 2; side++)
+            face[side][axis] = domain_face(input, axis, side).at;
+    return bounds_common(shape_bounds(&case_body(input, body)->shape),
+                         (struct bounds){vector_at(face[0]), vector_at(face[1])});
+}
+
+static void find_ends(const struct simulation_case *input, const struct bounds *bounds, int axis,
+                      double edge, bool ends[2])
+{
+    ends[0] = part_in(&bounds->low, axis) <= domain_face(input, axis, 0).at + 0.5 * edge;
+    ends[1] = part_in(&bounds->high, axis) >= domain_face(input, axis, 1).at - 0.5 * edge;
+}
+
+/* Lines through a shape along one axis: STEP apart along each, COUNT of them and of places. */
+struct lines {
+    const struct one_of *shape;
+    int axis;
+    double low[3], step[3];
+    int64_t count[3];
+    bool ends[2]; /* whether the body goes on there */
+};
+
+/* What line NUMBER has in common with the shape; twice as much where it goes on at one end, nothing
+ * where at both. */
+static double length_within(const struct lines *lines, int64_t number)
+{
+    const int axis = lines->axis, a = (axis + 1) % 3, b = (axis + 2) % 3;
+    const int64_t count = lines->count[axis];
+    double at[3], within = 0.0;
+    bool goes_on[2] = {false, false};
+    at[a] = lines->low[a] + ((double)(number % lines->count[a]) + 0.5) * lines->step[a];
+    at[b] = lines->low[b] + ((double)(number / lines->count[a]) + 0.5) * lines->step[b];
+    for (int64_t k = 0; k < count; k++) {
+        at[axis] = lines->low[axis] + ((double)k + 0.5) * lines->step[axis];
+        const bool inside = shape_inside(lines->shape, vector_at(at));
+        within += inside ? lines->step[axis] : 0.0;
+        goes_on[0] |= inside && k == 0 && lines->ends[0];
+        goes_on[1] |= inside && k == count - 1 && lines->ends[1];
+    }
+    return goes_on[0] && goes_on[1] ? 0.0 : goes_on[0] || goes_on[1] ? 2.0 * within : within;
+}
+
+/* The mean length of lines along AXIS in a body, for a plate at an angle, too; 0 where there are
+ * none. At most MOST lines along each other axis are looked at. */
+static double thickness(const struct simulation_case *input, int body, int axis, double edge)
+{
+    enum { MOST = 64, PLACES = 8 };
+    const struct bounds bounds = bounds_of(input, body);
+    struct lines lines = {.shape = &case_body(input, body)->shape, .axis = axis};
+    double sum = 0.0;
+    int64_t number = 0, all = 1;
+    find_ends(input, &bounds, axis, edge, lines.ends);
+    for (int k = 0; k < 3; k++) {
+        lines.count[k] = 1;
+        if (k >= input->dimension)
+            continue;
+        const double extent = part_in(&bounds.high, k) - part_in(&bounds.low, k),
+                     wanted = ceil(PLACES * extent / edge);
+        lines.low[k] = part_in(&bounds.low, k);
+        lines.count[k] = (int64_t)minimum(maximum(wanted, 1.0), k == axis ? 1e6 : (double)MOST);
+        lines.step[k] = extent / (double)lines.count[k];
+        all *= k == axis ? 1 : lines.count[k];
+    }
+    for (int64_t line = 0; line < all; line++) {
+        const double length = length_within(&lines, line);
+        sum += length;
+        number += length > 0.0;
+    }
+    return number ? sum / (double)number : 0.0;
+}
+
+static struct error *judge_solid(const struct simulation_case *input, int body, double edge)
+{
+    for (int axis = 0; axis < input->dimension; axis++) {
+        const double cells = thickness(input, body, axis, edge) / edge;
+        if (cells > PLATE - 0.1 || cells == 0.0)
+            continue;
+        return input_error(input, "bodies", input->bodies.names[body],
+                           "%.2g cells thick along %c: with fewer than %.0f it hardly bends, and "
+                           "shares its cells with the gas on both sides; refine it",
+                           cells, "xyz"[axis], PLATE);
+    }
+    return NULL;
+}
+
+/* Half the smallest extent. */
+static double radius_of(const struct simulation_case *input, int body, double edge)
+{
+    const struct bounds bounds = bounds_of(input, body);
+    struct radii radii;
+    double least = INFINITY;
+    if (shape_radii(&case_body(input, body)->shape, &radii))
+        return radii.outer;
+    for (int axis = 0; axis < input->dimension; axis++) {
+        bool ends[2];
+        find_ends(input, &bounds, axis, edge, ends);
+        const double extent = part_in(&bounds.high, axis) - part_in(&bounds.low, axis);
+        if (!(ends[0] && ends[1]))
+            least = minimum(least, ends[0] || ends[1] ? extent : 0.5 * extent);
+    }
+    return least;
+}
+
+static struct error *judge_charge(const struct simulation_case *input, int body, double edge)
+{
+    const double cells = radius_of(input, body, edge) / edge;
+    if (cells > RADIUS - 1e-6 || !isfinite(cells))
+        return NULL;
+    return input_error(input, "bodies", input->bodies.names[body],
+                       "this charge has %.2g cells in its radius: with fewer than %.0f its blast "
+                       "is too weak; refine it, or compute it in 1-D and `start` from that",
+                       cells, RADIUS);
+}
+
+/* The length of the part of BETWEEN that is positive. */
+static double distance(const double between[3])
+{
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        sum += square(maximum(between[axis], 0.0));
+    return sqrt(sum);
+}
+
+/* The gap between a charge and a solid, by their bounds, or from the surface of a round charge. */
+static double gap_between(const struct simulation_case *input, int charge, int solid)
+{
+    const struct bounds of = bounds_of(input, solid), own = bounds_of(input, charge);
+    struct radii radii;
+    const bool round = shape_radii(&case_body(input, charge)->shape, &radii);
+    double between[3] = {0.0, 0.0, 0.0};
+    for (int axis = 0; axis < input->dimension; axis++) {
+        const double low = round ? part_in(&radii.center, axis) : part_in(&own.low, axis),
+                     high = round ? part_in(&radii.center, axis) : part_in(&own.high, axis);
+        between[axis] = maximum(part_in(&of.low, axis) - high, low - part_in(&of.high, axis));
+    }
+    return distance(between) - (round ? radii.outer : 0.0);
+}
+
+static struct error *judge_stand_off(const struct simulation_case *input, int charge, int solid,
+                                     double edge)
+{
+    static const double touches = 0.5; /* cells */
+    const double cells = gap_between(input, charge, solid) / edge;
+    if (cells <= touches || cells > STAND_OFF - 1e-6)
+        return NULL;
+    return input_error(input, "bodies", input->bodies.names[charge],
+                       "there are %.2g cells between this charge and \"%s\": with fewer than %.0f "
+                       "the shock before the products is not resolved; refine it",
+                       cells, input->bodies.names[solid], STAND_OFF);
+}
+
+struct error *coarse_cells(const struct simulation_case *input, double edge)
+{
+    struct error *error = NULL;
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct material *material =
+            case_material(input, case_body(input, b)->material_index)->material;
+        if (!gas_computes(material))
+            error = error_join(error, judge_solid(input, b, edge));
+        if (!material_burns(material))
+            continue;
+        error = error_join(error, judge_charge(input, b, edge));
+        for (int solid = 0; solid < input->bodies.count; solid++)
+            if (!gas_computes(
+                    case_material(input, case_body(input, solid)->material_index)->material))
+                error = error_join(error, judge_stand_off(input, b, solid, edge));
+    }
+    return error;
+}

@@ -1,0 +1,40 @@
+#!/bin/bash
+# What a run with gas beside material points warns of: solids near the gas, cells that are too coarse.
+set -u
+status=0
+fail() {
+    echo "FAILED: $*"
+    status=1
+}
+rm -rf near far into thin
+
+# A piston that comes to the gas at the open face of the region: a warning, in the verdict too; then
+# an error. Cells that are too coarse are repeated in the verdict.
+cat >piston.yaml <<'END'
+format: 1
+dimension: 1
+resolution: 5 mm
+materials:
+  air: {eos: {ideal-gas: {density: 1.2 kg/m^3, gamma: 1.4}}}
+  steel: {library: steel-1006}
+bodies:
+  piston: {material: steel, velocity: [100 m/s], driven: yes, box: {from: [0 m], to: [0.2 m]}}
+  air: {material: air, pressure: 1 bar, box: {from: [0.2 m], to: [1 m]}}
+solver: {cfdmp: {region: {low: [0 m], high: [0.4 m]}}}
+run: {until: 1.45 ms}
+output: {history: 0.1 ms, snapshots: no}
+END
+"$BOLIDE" run piston.yaml --output near >near.log 2>&1 || fail "a piston near the face: $(cat near.log)"
+tail -n 5 near.log | grep -q "warning: region in steel: a solid .* in body \"piston\"" ||
+    fail "no verdict on a piston near the face: $(cat near.log)"
+"$BOLIDE" run piston.yaml --set run.until="1 ms" --output far >far.log 2>&1 &&
+    ! grep -q "region in" far.log || fail "a piston far from the face: $(cat far.log)"
+"$BOLIDE" run piston.yaml --set run.until="3 ms" --output into >into.log 2>&1
+[ $? = 3 ] && grep -q "the solid \"piston\" has come to" into.log ||
+    fail "a piston in the overlap: $(cat into.log)"
+"$BOLIDE" run piston.yaml --set bodies.piston.box.from="[0.18 m]" --set domain="{low: [0 m], high: [1 m]}" \
+    --set run.until="0.1 ms" --output thin >thin.log 2>&1
+tail -n 5 thin.log | grep -q "warning: coarse: .*bodies.piston: 2 cells thick along x" ||
+    fail "no verdict on a thin plate: $(cat thin.log)"
+
+exit $status
