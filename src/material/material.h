@@ -47,15 +47,24 @@ BOLIDE_INLINE bool material_is_lit(const struct material *material)
     return material_burns(material) && !burn_is_kinetic(&material->burn);
 }
 
+/* The heat that the reaction of an explosive frees, J/kg, by which energies of its products are
+ * less than those of the explosive; zero where nothing reacts by a rate or a threshold. */
+BOLIDE_INLINE double material_reaction_heat(const struct material *material)
+{
+    const struct eos *eos = &material->eos;
+    if (!burn_is_kinetic(&material->burn))
+        return 0.0;
+    return (eos->kind == EOS_blended_jwl ? eos->of.blended_jwl.energy
+                                         : eos->of.reactive_jwl.energy) /
+           material_density(material);
+}
+
 /* The speed of its detonation, m/s; of one that burns by a rate an estimate from its heat, that of
  * products with a ratio of specific heats of 3. Zero where there is none. */
 BOLIDE_INLINE double material_detonation_speed(const struct material *material)
 {
-    const struct eos *eos = &material->eos;
     if (burn_is_kinetic(&material->burn))
-        return 4.0 * sqrt((eos->kind == EOS_blended_jwl ? eos->of.blended_jwl.energy
-                                                        : eos->of.reactive_jwl.energy) /
-                          material_density(material));
+        return 4.0 * sqrt(material_reaction_heat(material));
     return material_burns(material) ? material->burn.of.speed : 0.0;
 }
 

@@ -107,12 +107,16 @@ struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulati
     const struct simulation_case *input = simulation->problem->input;
     mpm->half_size = memory_allocate((size_t)input->bodies.count * sizeof *mpm->half_size);
     mpm->gauge = memory_allocate((size_t)simulation->problem->materials * sizeof *mpm->gauge);
-    if (!mpm->half_size || !mpm->gauge)
+    mpm->reaction = memory_allocate((size_t)simulation->problem->materials * sizeof *mpm->reaction);
+    if (!mpm->half_size || !mpm->gauge || !mpm->reaction)
         return error_new(ERROR_SYSTEM, "out of memory");
     struct error *error = NULL;
-    for (int m = 0; m < simulation->problem->materials; m++)
-        if (!material_has_strength(&simulation->problem->material[m]))
+    for (int m = 0; m < simulation->problem->materials; m++) {
+        const struct material *material = &simulation->problem->material[m];
+        mpm->reaction[m] = material_reaction_heat(material);
+        if (!material_has_strength(material))
             mpm->gauge[m] = mpm->parameters.gauge_pressure;
+    }
     for (int b = 0; b < input->bodies.count; b++) {
         const double size =
             diameter_of_volume(body_lattice(input, b).volume, simulation->problem->dimension);

@@ -145,6 +145,7 @@ static void mpm_destroy(void *solver)
     particles_drop(mpm->particles);
     free(mpm->half_size);
     free(mpm->gauge);
+    free(mpm->reaction);
     free(mpm->layer_of_body);
     free(mpm->layer_at_rest);
     free(mpm->block);

@@ -73,6 +73,7 @@ struct mpm {
     double edge;       /* of a cell, m */
     double *half_size; /* of the particles of each body, in cells */
     double *gauge;     /* of each material, Pa */
+    double *reaction;  /* heat of each, J/kg */
     double least_mass; /* of a node whose velocity counts in strain, kg */
     int64_t plane[3][2];
     bool has_plane[3][2]; /* node index of the low and the high wall across each axis */

@@ -108,7 +108,8 @@ const struct parameter mpm_table[] = {
      .above = 0.0,
      .below = 1e3,
      .closed = true,
-     .help = "b1 of the artificial viscosity; default: 0.06, and up to 0.2 in shocks in solids"},
+     .help = "b1 of the artificial viscosity; default: 0.06, and up to 0.2 in shocks in solids "
+             "and in explosives that burn by a rate"},
     {.key = "viscosity_unresolved",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, viscosity_unresolved),

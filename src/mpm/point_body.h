@@ -52,7 +52,9 @@ BOLIDE_INLINE void point_advance(const struct point_loop *loop, const struct mat
         point.history[slot] = loop->history[slot] ? loop->history[slot][i] : 0.0;
     /* an explosive that has yet to burn has no viscosity */
     const bool inert = material_is_lit(material) && point.history[HISTORY_burnt] == 0.0;
-    const struct point_flow flow = {solid, motion.density, loop->sound[i], divergence, filtered};
+    /* the shock that lights an explosive overshoots as that in a solid does */
+    const bool stiff = solid || burn_is_kinetic(&material->burn);
+    const struct point_flow flow = {stiff, motion.density, loop->sound[i], divergence, filtered};
     const double viscosity = inert ? 0.0 : point_viscosity(loop, &flow);
     motion.viscous_pressure = 0.5 * (loop->viscosity[i] + viscosity);
     if (loop->jaumann) {

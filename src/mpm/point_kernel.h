@@ -52,16 +52,17 @@ BOLIDE_INLINE double point_unresolved(const struct point_loop *loop, bool solid,
     return solid ? w * minimum(1.0, loop->edge * fabs(w) / (full * sound)) : 0.0;
 }
 
-/* What the viscosity of a particle follows from: whether it has strength; its new density; the
- * sound speed before; the divergence that changes its volume, and what is filtered of it. */
+/* What the viscosity of a particle follows from: whether it is a solid or an explosive; its new
+ * density; the sound speed before; the divergence that changes its volume, and what is filtered
+ * of it. */
 struct point_flow {
     bool solid;
     double density, sound, divergence, filtered;
 };
 
 /* q = rho h (b2 h d^2 - b1 c d) in compression, d < 0, and -rho h b3 c w of what is filtered, w. In
- * solids b1 grows with h |d|/c up to 0.001, so that a shock is without overshoot and sound goes
- * on. */
+ * solids, and in explosives that burn by a rate or a threshold, b1 grows with h |d|/c up to 0.001,
+ * so that a shock is without overshoot and sound goes on. */
 BOLIDE_INLINE double point_viscosity(const struct point_loop *loop, const struct point_flow *flow)
 {
     const double d = minimum(flow->divergence, 0.0), h = loop->edge, c = flow->sound;

@@ -51,6 +51,8 @@ struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *
                              .shock = fields.shock,
                              .half_size = mpm->half_size,
                              .gauge = mpm->gauge,
+                             .burnt = p->history[HISTORY_burnt],
+                             .reaction = mpm->reaction,
                              .ambient = fields.ambient};
 }
 

@@ -70,6 +70,8 @@ struct transfer {
 
     const double *half_size; /* of the particles of each body, in cells */
     const double *gauge;     /* pressure that does not count, of each material */
+    const double *burnt;     /* of each particle; NULL where nothing reacts */
+    const double *reaction;  /* the heat that burning frees, of each material, J/kg */
     /* of each particle, the work of that pressure per mass; NULL where there is none */
     double *ambient;
 };

@@ -5,6 +5,13 @@
 
 #include "mpm/transfer_body.h"
 
+/* The energy of particle I with the heat that its products have set free: as energies count from
+ * the explosive at rest, products are that much below it at the same temperature. */
+BOLIDE_INLINE double heat_of(const struct transfer *t, int32_t i)
+{
+    return t->burnt ? t->energy[i] + t->burnt[i] * t->reaction[t->material[i]] : t->energy[i];
+}
+
 BOLIDE_INLINE void bin_heat(const struct transfer *t, struct kind kind, int32_t bin)
 {
     double *patch = grid_patch(t->grid, t->back, bin);
@@ -25,7 +32,8 @@ BOLIDE_INLINE void bin_heat(const struct transfer *t, struct kind kind, int32_t 
                 const int32_t i = chunk.index[lane];
                 const double mass = lane < chunk.count ? t->mass[i] : 0.0,
                              number = (double)t->material[i];
-                const vector4 of = {mass * t->energy[i], mass * number, mass * square(number), 0.0};
+                const vector4 of = {mass * heat_of(t, i), mass * number, mass * square(number),
+                                    0.0};
                 record[lane] = of;
             }
             add_records4(kind, nodes_of(kind), weight, record, sum);
@@ -54,7 +62,7 @@ BOLIDE_INLINE void gather_heat(const struct transfer *t, struct kind kind,
     const double(*w)[LANES] = weight;
     find_weights(kind, chunk, weight);
     FOR_LANES (kind, lane) {
-        energy[lane] = t->energy[chunk->index[lane]];
+        energy[lane] = heat_of(t, chunk->index[lane]);
         gain[lane] = 0.0;
     }
     FOR_NODES (kind, a, b, c) {

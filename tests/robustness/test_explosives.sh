@@ -1,6 +1,6 @@
 #!/bin/bash
-# Explosives that burn: the same bits on any number of threads and after a kill, of particles and of
-# cells. test_ranks.sh compares ranks.
+# Explosives that burn: the same bits on any number of threads and after a kill, of particles with
+# both solvers and of cells. test_ranks.sh compares ranks.
 set -u
 status=0
 fail() {
@@ -16,11 +16,13 @@ same() {
 # The same where particles were sorted at other times: snapshots hold them in the order of storage.
 same_but_for_order() { same "$1" "$2" -x snapshots; }
 
-for name in everything-explosives everything-gas-two; do
-    case=$BOLIDE_SOURCE_DIR/tests/data/$name.yaml
+for name in everything-explosives everything-explosives-mpm everything-gas-two; do
+    case=$BOLIDE_SOURCE_DIR/tests/data/${name%-mpm}.yaml
+    settings=()
+    [ "$name" = "${name%-mpm}" ] || settings=(--set solver=mpm)
     rm -rf one two four killed
     for threads in 1:one 2:two 4:four; do
-        "$BOLIDE" run "$case" --threads "${threads%:*}" --output "${threads#*:}" >run.log 2>&1 ||
+        "$BOLIDE" run "$case" "${settings[@]}" --threads "${threads%:*}" --output "${threads#*:}" >run.log 2>&1 ||
             fail "$name on ${threads%:*} threads: $(cat run.log)"
     done
     grep -q "check FAILED" one/run.log && fail "$name: $(grep "check FAILED" one/run.log)"
@@ -28,13 +30,13 @@ for name in everything-explosives everything-gas-two; do
     same one four || fail "$name: 4 threads differ from one"
 
     # Killed while the explosive burns, and resumed on another number of threads.
-    "$BOLIDE" run "$case" --threads 2 --output killed >killed.log 2>&1 &
+    "$BOLIDE" run "$case" "${settings[@]}" --threads 2 --output killed >killed.log 2>&1 &
     runner=$!
     while [ ! -e killed/snapshots/000002.vtkhdf ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
     kill -KILL $runner 2>/dev/null
     wait $runner 2>/dev/null
     [ ! -e killed/checks.csv ] || fail "$name: the killed run came to its end"
-    "$BOLIDE" run "$case" --threads 1 --output killed --resume >resumed.log 2>&1 ||
+    "$BOLIDE" run "$case" "${settings[@]}" --threads 1 --output killed --resume >resumed.log 2>&1 ||
         fail "$name, resuming after a kill: $(cat resumed.log)"
     grep -q "^resumed at step" resumed.log || fail "$name: nothing was resumed: $(cat resumed.log)"
     same_but_for_order one killed || fail "$name: a killed and resumed run differs"

@@ -5,6 +5,7 @@
  *   p_s: that of mie_grueneisen.h, or after Murnaghan, without energy,
  *   p_s = rho_0 C^2/n [(rho/rho_0)^n - 1],  n = 4 S - 1, which has the same sound and slope at rest
  *
+ * where p_s counts only in compression once F > 0, as products between grains carry no tension.
  * Both parts have the density and energy of the whole: no more than an interpolation between an
  * explosive that has not burnt and one that has. Source: Parshikov (2013), (1.63)-(1.68), (5.17),
  * (5.18), whose isentrope is that of a JWL; with Murnaghan the JWL++ of Souers, Anderson, Mercer,
@@ -78,6 +79,8 @@ BOLIDE_INLINE struct eos_value eos_blended_jwl(const struct eos_blended_jwl *ble
     struct eos_value value = {0.0, 0.0, 0.0, 0};
     if (left > 0.0) {
         value = blended_explosive(blend, density, energy);
+        if (burnt > 0.0 && value.pressure < 0.0) /* products between its grains carry no tension */
+            value.pressure = value.dp_drho = value.dp_de = 0.0;
         value.pressure *= left;
         value.dp_drho *= left;
         value.dp_de *= left;
