@@ -28,18 +28,17 @@ static void put_cell(const struct gas_view *view, const struct smear_sums *sums,
         view->u[view->layout->burnt][i] = 1.0;
 }
 
-/* Whether a particle at X may count for the band. */
-static bool is_near(const struct cfdmp *cfdmp, const double x[3])
+/* How far X is from the nearest open face, in cells. */
+static double depth_at(const struct cfdmp *cfdmp, const double x[3])
 {
-    enum { REACH = 3 };
-    const double depth = (double)(cfdmp->parameters.overlap + 2 * cfdmp->dimension + REACH);
-    bool near = false;
+    double least = INFINITY;
     for (int axis = 0; axis < cfdmp->dimension; axis++)
         for (int side = 0; side < 2; side++) {
             const double plane = (double)(side ? cfdmp->cut.high : cfdmp->cut.low)[axis];
-            near |= cfdmp->cut.open[axis][side] && fabs(x[axis] / cfdmp->edge - plane) < depth;
+            if (cfdmp->cut.open[axis][side])
+                least = minimum(least, fabs(x[axis] / cfdmp->edge - plane));
         }
-    return near;
+    return least;
 }
 
 /* The error of a solid particle that has come to the overlap: gas computes no solids. */
@@ -78,10 +77,14 @@ static bool counts(void *context, int32_t i)
 {
     struct looking *looking = context;
     const struct particles *p = mpm_particles(looking->cfdmp->mpm);
-    if (looking->error || !is_near(looking->cfdmp, p->position[i]))
+    enum { REACH = 3 }; /* of a particle, in cells */
+    const double depth = depth_at(looking->cfdmp, p->position[i]),
+                 band = (double)looking->cfdmp->parameters.overlap;
+    if (looking->error ||
+        !(depth < band + (double)(cfdmp_band_depth(looking->cfdmp->dimension) + REACH)))
         return false;
     if (p->material[i] == looking->material[0] || p->material[i] == looking->material[1])
-        return true;
+        return depth > band - REACH;
     looking->error = check_solid(looking->cfdmp, i);
     return false;
 }

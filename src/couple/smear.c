@@ -47,8 +47,8 @@ void smear_particle(const struct smear *smear, int32_t i, int which, double half
                 weight(smear->shape, place - floor(place) - 0.5 - (double)(k - REACH), half);
     }
     for (int c = 0; c < span[2]; c++)
-        for (int b = 0; b < span[1]; b++)
-            for (int a = 0; a < span[0]; a++) {
+        for (int b = 0; b < span[1] && w[2][c] != 0.0; b++)
+            for (int a = 0; a < span[0] && w[1][b] != 0.0; a++) {
                 const double part = w[0][a] * w[1][b] * w[2][c];
                 int64_t at[3] = {cell[0] + a - reach[0], cell[1] + b - reach[1],
                                  cell[2] + c - reach[2]};

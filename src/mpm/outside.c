@@ -146,16 +146,16 @@ static struct given by_outflow(const struct mpm *mpm, const struct simulation *s
                                const struct surface *surface, int32_t i)
 {
     const struct particles *p = mpm->particles;
-    const struct mpm_fields fields = mpm_fields_of(mpm);
     const double gauge = mpm->gauge[p->material[i]], volume = p->mass[i] / p->density[i];
     const double sign = surface->outflow->side == WALL_HIGH ? 1.0 : -1.0;
     const int axis = surface->axis;
     struct given given = {{{0.0}}, {axis, axis, axis}, {0.0}};
     given.by_slope[FACE_AREA][axis] = sign * volume;
-    given.by_slope[FACE_IMPEDANCE][axis] = sign * p->mass[i] * fields.sound_long[i];
+    given.by_slope[FACE_IMPEDANCE][axis] = sign * p->mass[i] * surface->sound[i];
     given.by_slope[FACE_PUSH][axis] =
         isnan(surface->outflow->pressure)
-            ? sign * volume * (p->pressure[i] + fields.viscosity[i] - gauge - p->deviator[i][axis])
+            ? sign * volume *
+                  (p->pressure[i] + surface->viscosity[i] - gauge - p->deviator[i][axis])
             : sign * volume * (surface->outflow->pressure - gauge);
     for (int n = 0; n < 3; n++)
         given.around[n] = axis == 0 && simulation->problem->geometry == GEOMETRY_AXISYMMETRIC
@@ -164,14 +164,22 @@ static struct given by_outflow(const struct mpm *mpm, const struct simulation *s
     return given;
 }
 
-/* Whether particles of a bin may contribute to nodes of the surface. */
-static bool is_near(const struct layer *layer, const struct surface *surface, int32_t b)
+/* Whether nodes from FIRST, COUNT of them along each axis, may be on the surface. */
+static bool is_near(const struct surface *surface, const int64_t first[3], int count)
 {
-    int64_t corner[3];
-    const int cells = block_cells(layer->grid.dimension), reach = layer->grid.reach;
-    block_coordinates(layer->bins.bin[b].key, corner);
-    const double first = (double)(corner[surface->axis] * cells);
-    return first + cells + reach >= surface->low && first - reach <= surface->high;
+    const struct mpm_outside *outside = surface->outside;
+    if (!outside)
+        return (double)(first[surface->axis] + count - 1) >= surface->low &&
+               (double)first[surface->axis] <= surface->high;
+    bool near = false;
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = 0; side < 2; side++) {
+            const double plane = (double)(side ? outside->high : outside->low)[axis];
+            near |= outside->open[axis][side] &&
+                    (double)(first[axis] + count - 1) >= plane - surface->reach &&
+                    (double)first[axis] <= plane + surface->reach;
+        }
+    return near;
 }
 
 static void give_bin(const struct mpm *mpm, const struct simulation *simulation,
@@ -184,16 +192,20 @@ static void give_bin(const struct mpm *mpm, const struct simulation *simulation,
     const double *fill =
         mpm_is_by_faces(&mpm->parameters) ? grid_patch(&layer->grid, &layer->fill, b) : NULL;
     memset(patch, 0, (size_t)(layer->grid.patch * BACK_STRIDE) * sizeof *patch);
-    if (!is_near(layer, surface, b))
-        return;
-    int64_t corner[3];
+    const int cells = block_cells(dimension), window = 1 + layer->grid.reach + layer->grid.after;
+    int64_t corner[3], node[3];
     block_coordinates(bin->key, corner);
+    for (int axis = 0; axis < 3; axis++)
+        node[axis] = corner[axis] * cells - layer->grid.reach;
+    if (!is_near(surface, node, cells + window))
+        return;
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         struct reached reached;
         bin_cell_place(dimension, cell, reached.place);
         for (int axis = 0; axis < 3; axis++)
-            reached.first[axis] =
-                corner[axis] * block_cells(dimension) + reached.place[axis] - layer->grid.reach;
+            reached.first[axis] = node[axis] + reached.place[axis];
+        if (surface->outside && !is_near(surface, reached.first, window))
+            continue;
         for (int32_t k = bin->cell[cell]; k < bin->cell[cell + 1]; k++) {
             const int32_t i = layer->bins.list[bin->first + k];
             const struct given given = surface->of(mpm, simulation, surface, i);
@@ -395,9 +407,12 @@ struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, 
                                         .reach = reach};
         push_surface(mpm, simulation, &surface, dt);
     }
+    const struct mpm_fields fields = mpm_fields_of(mpm);
     for (int i = 0; i < input->outflows.count; i++) {
         const struct outflow_input *outflow = case_outflow(input, i);
         const struct surface surface = {.body = -1,
+                                        .sound = fields.sound_long,
+                                        .viscosity = fields.viscosity,
                                         .low = outflow->at / mpm->edge - reach,
                                         .high = outflow->at / mpm->edge + reach,
                                         .axis = outflow->axis,

@@ -26,6 +26,7 @@ struct surface {
     double pressure, traction[3]; /* of the load in the middle of the step */
     double time, density;         /* of a blast: that middle; of the body at the start */
     const struct outflow_input *outflow;
+    const double *sound, *viscosity; /* of particles, at an outflow */
     const struct mpm_outside *outside;
     double reach; /* how far from a face its surface may be, in nodes */
 };
