@@ -63,7 +63,7 @@ static bool take_out(struct cfdmp *cfdmp, struct particles *p, int32_t i, bool s
             }
         }
     }
-    if (through < 0)
+    if (through < 0 || particles_is_deleted(p, i)) /* gone through an outflow */
         return false;
     struct gate *gate = cfdmp_gate(cfdmp, through, at_side, at);
     double kinetic = 0.0;

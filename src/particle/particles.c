@@ -113,6 +113,11 @@ void particles_delete(struct particles *particles, int32_t index)
     particles->body[index] = BODY_DELETED;
 }
 
+bool particles_is_deleted(const struct particles *particles, int32_t index)
+{
+    return particles->body[index] == BODY_DELETED;
+}
+
 struct error *particles_commit(struct particles *particles)
 {
     int32_t total = particles->count + particles->pending, kept = 0;

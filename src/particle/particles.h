@@ -79,6 +79,8 @@ struct error *particles_append(struct particles *particles, int32_t count, int32
 
 /* Marks a particle for deletion at the next commit. */
 void particles_delete(struct particles *particles, int32_t index);
+/* Whether it is marked so. */
+bool particles_is_deleted(const struct particles *particles, int32_t index);
 
 /* Takes appended particles in and deleted ones out, then sorts. */
 struct error *particles_commit(struct particles *particles);
