@@ -269,7 +269,9 @@ struct error *gas_plan(struct gas *gas, struct simulation *simulation)
 {
     struct cell_blocks *cells = gas->cells;
     struct error *error = NULL;
-    for (int n = 0; n < gas->layout.written && cells->count > gas->room; n++) {
+    for (int n = 0; n < gas->layout.written; n++) {
+        if (gas->other[n] && cells->count <= gas->room) /* a rank may have no cell */
+            continue;
         free(gas->other[n]);
         gas->other[n] = memory_allocate(((size_t)cells->count + 1) * sizeof(double));
         if (!gas->other[n])
@@ -337,8 +339,9 @@ static struct error *gas_prepare(void *solver, struct simulation *simulation, st
     const double edge = gas->cells->edge;
     if (gas->unburnt)
         gas->fastest = maximum(gas->fastest, gas->detonation);
-    const struct ranked own = {start_part(gas, simulation->step) * gas->parameters.courant * edge /
-                                   gas->fastest,
+    const double most = start_part(gas, simulation->step) * gas->parameters.courant * edge;
+    /* a rank may have no open cell */
+    const struct ranked own = {gas->fastest > 0.0 ? most / gas->fastest : (double)INFINITY,
                                gas->fastest_id, 0};
     *limit = limit_of_ranks(simulation->ranks, own, reasons);
     simulation_end_phase(simulation, PHASE_SHARED, "time step");
