@@ -84,13 +84,12 @@ static struct error *reserve_changed(struct cfdmp *cfdmp)
     return NULL;
 }
 
-/* Cells that have changed get what follows from their state. */
+/* Collective: cells that have changed get what follows from their state. */
 static struct error *refresh(struct cfdmp *cfdmp)
 {
     struct error *error = gas_refresh(cfdmp->gas, &cfdmp->gas_part.simulation, cfdmp->changed);
-    memset(cfdmp->changed, 0, (size_t)gas_view(cfdmp->gas).cells->blocks * sizeof *cfdmp->changed);
     hide_cells(cfdmp);
-    return error;
+    return ranks_agree(cfdmp->ranks, error);
 }
 
 static struct error *cfdmp_fill(void *solver, struct simulation *simulation)
@@ -101,7 +100,7 @@ static struct error *cfdmp_fill(void *solver, struct simulation *simulation)
     return mpm_class.fill(cfdmp->mpm, &cfdmp->mpm_part.simulation);
 }
 
-/* Whether something other than the gas outside moves the particles. */
+/* Collective: whether something other than the gas outside moves the particles. */
 static bool moves_itself(const struct cfdmp *cfdmp)
 {
     const struct simulation_case *input = &cfdmp->mpm_part.input;
@@ -113,10 +112,16 @@ static bool moves_itself(const struct cfdmp *cfdmp)
         moves |= !body->elsewhere && ((body->driven && body->velocity.count > 0) || body->varies ||
                                       material_burns(&problem->material[body->material_index]));
     }
-    for (int32_t i = 0; i < p->count && !moves; i++)
+    double high = -(double)INFINITY, low = (double)INFINITY;
+    for (int32_t i = 0; i < p->count; i++) {
         for (int axis = 0; axis < 3; axis++)
-            moves |= p->velocity[i][axis] != 0.0 || p->pressure[i] != p->pressure[0];
-    return moves;
+            moves |= p->velocity[i][axis] != 0.0;
+        high = maximum(high, p->pressure[i]);
+        low = minimum(low, p->pressure[i]);
+    }
+    high = ranks_maximum(cfdmp->ranks, high);
+    low = ranks_minimum(cfdmp->ranks, low);
+    return ranks_maximum(cfdmp->ranks, moves) > 0.0 || high > low;
 }
 
 static struct error *cfdmp_start(void *solver, struct simulation *simulation)
@@ -126,7 +131,6 @@ static struct error *cfdmp_start(void *solver, struct simulation *simulation)
     part_share_time(&cfdmp->gas_part, simulation);
     TRY(gas_class.start(cfdmp->gas, &cfdmp->gas_part.simulation));
     TRY(mpm_class.start(cfdmp->mpm, &cfdmp->mpm_part.simulation));
-    TRY(reserve_changed(cfdmp));
     hide_cells(cfdmp);
     if (simulation->step == 0) {
         cfdmp_note_rest(cfdmp);
@@ -148,6 +152,7 @@ static struct error *cfdmp_prepare(void *solver, struct simulation *simulation, 
         simulation_start_phase(&cfdmp->mpm_part.simulation);
         TRY(mpm_class.prepare(cfdmp->mpm, &cfdmp->mpm_part.simulation, limit));
         part_gather(simulation, &cfdmp->mpm_part);
+        TRY(ranks_agree(simulation->ranks, reserve_changed(cfdmp)));
         TRY(cfdmp_fill_band(cfdmp));
         TRY(refresh(cfdmp));
     }
@@ -155,6 +160,7 @@ static struct error *cfdmp_prepare(void *solver, struct simulation *simulation, 
     simulation_start_phase(&cfdmp->gas_part.simulation);
     TRY(gas_class.prepare(cfdmp->gas, &cfdmp->gas_part.simulation, &of_gas));
     part_gather(simulation, &cfdmp->gas_part);
+    hide_cells(cfdmp); /* which may have come from other ranks */
     const double event = minimum(limit->event, of_gas.event);
     if (of_gas.dt < limit->dt)
         *limit = of_gas;
@@ -171,16 +177,19 @@ static struct error *cfdmp_advance(void *solver, struct simulation *simulation, 
                 memset(cfdmp->cut.passed[axis][side], 0,
                        (size_t)(cfdmp->side[axis][side].gates * GAS_PASSED) * sizeof(double));
     simulation_start_phase(&cfdmp->gas_part.simulation);
-    TRY(gas_class.advance(cfdmp->gas, &cfdmp->gas_part.simulation, dt));
+    TRY(ranks_agree(simulation->ranks,
+                    gas_class.advance(cfdmp->gas, &cfdmp->gas_part.simulation, dt)));
     part_gather(simulation, &cfdmp->gas_part);
     cfdmp_find_pressures(cfdmp, dt);
     simulation_end_phase(simulation, PHASE_SHARED, "coupling");
     if (cfdmp->awake > 0.0) {
         simulation_start_phase(&cfdmp->mpm_part.simulation);
-        TRY(mpm_class.advance(cfdmp->mpm, &cfdmp->mpm_part.simulation, dt));
+        TRY(ranks_agree(simulation->ranks,
+                        mpm_class.advance(cfdmp->mpm, &cfdmp->mpm_part.simulation, dt)));
         part_gather(simulation, &cfdmp->mpm_part);
     } else
         cfdmp_lean(cfdmp, simulation);
+    TRY(ranks_agree(simulation->ranks, reserve_changed(cfdmp)));
     TRY(cfdmp_transport(cfdmp, simulation, dt));
     struct error *error = refresh(cfdmp);
     simulation_end_phase(simulation, PHASE_SHARED, "coupling");

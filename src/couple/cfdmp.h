@@ -26,9 +26,17 @@ struct gate {
     double emitted;         /* layers of particles so far */
 };
 
+/* A cell of gas beside a gate. */
+struct flank {
+    double density, energy, pressure, sound, velocity[3], second, fraction;
+};
+
+/* On all ranks alike. */
 struct side {
     struct gate *gate; /* in the order of struct gas_cut */
     int64_t gates;
+    struct flank (*flank)[2]; /* of each gate, outside and inside: as cfdmp_look has left them */
+    double (*rest)[PASSES];   /* of each: what a cell is to get, then what it cannot bear */
 };
 
 struct cfdmp {
@@ -43,12 +51,16 @@ struct cfdmp {
     struct gas_cut cut; /* the region */
     struct mpm_outside outside;
     struct side side[3][2];
-    int64_t count[3];   /* cells of the region */
-    int64_t band_cells; /* so many cells get what particles have */
-    int64_t (*band)[3]; /* their places */
-    int32_t *band_of;   /* of each cell of the region, its number among these; -1: none */
-    bool *changed;      /* of each block of cells */
-    int64_t changed_capacity;
+    int64_t count[3];      /* cells of the region */
+    int64_t band_cells;    /* so many cells get what particles have */
+    int64_t (*band)[3];    /* their places */
+    int32_t *band_of;      /* of each cell of the region, its number among these; -1: none */
+    bool *changed;         /* of each block of cells */
+    struct mpm_push *push; /* what this rank's nodes have got in this step */
+    int64_t changed_capacity, pushes, push_capacity;
+    bool pushes_lost; /* for want of memory */
+    int64_t *bits;    /* room for those of a side's numbers */
+    const struct ranks *ranks;
     struct owned owned;
     struct part_maker maker;
 };
@@ -77,20 +89,29 @@ bool cfdmp_room(const void *parameters, const struct simulation_case *input, int
                 struct bounds *room);
 struct error *cfdmp_check_region(const struct cfdmp *cfdmp, const struct simulation_case *input);
 
-/* The cells of the band take what the particles there have. */
+/* Collective: cells beside gates as they are now; COUNT numbers of which each is zero on all ranks
+ * but one become that one's; what nodes of all ranks have got in this step of the particles. */
+void cfdmp_look(struct cfdmp *cfdmp);
+void cfdmp_unite(const struct cfdmp *cfdmp, double *values, int64_t count);
+struct error *cfdmp_gather_pushes(struct cfdmp *cfdmp);
+
+/* Collective: the cells of the band take what the particles there have. */
 struct error *cfdmp_fill_band(struct cfdmp *cfdmp);
 
-/* Before and after the particles' step of DT: what has passed as pressure, and what material
- * has. */
+/* Collective, before and after the particles' step of DT: what has passed as pressure, and what
+ * material has. */
 void cfdmp_find_pressures(struct cfdmp *cfdmp, double dt);
 struct error *cfdmp_transport(struct cfdmp *cfdmp, struct simulation *simulation, double dt);
 
-/* Notes the pressures outside the region at the start; whether they have changed so far that the
- * particles must be computed. */
+/* Collective: notes the pressures outside the region at the start; whether they have changed so far
+ * that the particles must be computed. */
 void cfdmp_note_rest(struct cfdmp *cfdmp);
 bool cfdmp_stirs(const struct cfdmp *cfdmp);
 /* What the gas has pushed in a step while the particles rest. */
 void cfdmp_lean(struct cfdmp *cfdmp, struct simulation *simulation);
+
+/* Collective: the gates note what particles have got in their step. */
+struct error *cfdmp_take_pushes(struct cfdmp *cfdmp);
 
 /* Has the gas push on the particles through the open faces of the region. */
 void cfdmp_surround(struct cfdmp *cfdmp);

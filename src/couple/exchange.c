@@ -3,6 +3,10 @@
  * pushes on the particles, and the flow of material, which is kept at the face until it makes a
  * layer of particles. Particles that leave are kept there likewise, and the gas, which had taken
  * the flow already, gets the difference little by little. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
 #include "couple/gates.h"
 #include "material/material.h"
 
@@ -34,48 +38,95 @@ static void split(struct cfdmp *cfdmp, int axis, int side, int64_t number,
 
 void cfdmp_find_pressures(struct cfdmp *cfdmp, double dt)
 {
-    const struct gas_view view = gas_view(cfdmp->gas);
+    cfdmp_look(cfdmp);
     for (int axis = 0; axis < cfdmp->dimension; axis++)
-        for (int side = 0; side < 2; side++)
-            for (int64_t n = 0; n < cfdmp->side[axis][side].gates; n++) {
-                const struct beside beside = gate_beside(cfdmp, &view, axis, side, n);
-                split(cfdmp, axis, side, n, &beside, dt);
+        for (int s = 0; s < 2; s++) {
+            const struct side *side = &cfdmp->side[axis][s];
+            if (side->gates)
+                cfdmp_unite(cfdmp, cfdmp->cut.passed[axis][s], side->gates * GAS_PASSED);
+            for (int64_t n = 0; n < side->gates; n++) {
+                const struct beside beside = gate_beside(cfdmp, axis, s, n);
+                split(cfdmp, axis, s, n, &beside, dt);
             }
+        }
 }
 
-/* A particle that has left through an open face of the region waits there. */
-static bool take_out(struct cfdmp *cfdmp, struct particles *p, int32_t i, bool second)
+/* A particle that has left through an open face of the region. */
+struct leaver {
+    uint64_t id;
+    int64_t axis, side, at[3];
+    double values[PASSES];
+};
+
+/* Whether particle I has left, and what it takes along: of the second material or the first. */
+static bool has_left(const struct cfdmp *cfdmp, int32_t i, bool second, struct leaver *leaver)
 {
+    const struct particles *p = mpm_particles(cfdmp->mpm);
     const double *x = p->position[i], *u = p->velocity[i], m = p->mass[i];
-    int64_t at[3] = {0, 0, 0};
-    double most = 0.0;
-    int through = -1, at_side = 0;
+    double most = 0.0, kinetic = 0.0;
+    *leaver = (struct leaver){.id = p->id[i], .axis = -1};
     for (int axis = 0; axis < cfdmp->dimension; axis++) {
         const double place = x[axis] / cfdmp->edge;
-        at[axis] = (int64_t)floor(place);
+        leaver->at[axis] = (int64_t)floor(place);
         for (int side = 0; side < 2; side++) {
             const double beyond =
                 side ? place - (double)cfdmp->cut.high[axis] : (double)cfdmp->cut.low[axis] - place;
             if (cfdmp->cut.open[axis][side] && beyond > most) {
                 most = beyond;
-                through = axis;
-                at_side = side;
+                leaver->axis = axis;
+                leaver->side = side;
             }
         }
     }
-    if (through < 0 || particles_is_deleted(p, i)) /* gone through an outflow */
-        return false;
-    struct gate *gate = cfdmp_gate(cfdmp, through, at_side, at);
-    double kinetic = 0.0;
     for (int k = 0; k < 3; k++) {
-        gate->pending[PASS_MOMENTUM + k] += m * u[k];
-        kinetic += 0.5 * u[k] * u[k];
+        leaver->values[PASS_MOMENTUM + k] = m * u[k];
+        kinetic += 0.5 * square(u[k]);
     }
-    gate->pending[PASS_MASS] += m;
-    gate->pending[PASS_ENERGY] += m * (p->energy[i] + kinetic);
-    gate->pending[PASS_SECOND] += second ? m : 0.0;
-    particles_delete(p, i);
-    return true;
+    leaver->values[PASS_MASS] = m;
+    leaver->values[PASS_ENERGY] = m * (p->energy[i] + kinetic);
+    leaver->values[PASS_SECOND] = second ? m : 0.0;
+    return leaver->axis >= 0 && !particles_is_deleted(p, i); /* gone through an outflow */
+}
+
+static int by_id(const void *left, const void *right)
+{
+    const struct leaver *a = left, *b = right;
+    return (a->id > b->id) - (a->id < b->id);
+}
+
+/* Collective: particles that have left wait at their gates, taken in the order of their ids. */
+static struct error *take_out(struct cfdmp *cfdmp)
+{
+    const struct gas_view view = gas_view(cfdmp->gas);
+    struct particles *p = mpm_particles(cfdmp->mpm);
+    struct leaver *own = NULL, *all = NULL, leaver;
+    int64_t count = 0, capacity = 0;
+    struct error *error = NULL;
+    for (int32_t i = 0; i < p->count && !error; i++) {
+        const bool second = view.layout->two && p->material[i] == view.material[1];
+        if (!has_left(cfdmp, i, second, &leaver))
+            continue;
+        if (!memory_reserve((void **)&own, &capacity, count + 1, count, sizeof *own)) {
+            error = owned_error();
+            continue;
+        }
+        own[count++] = leaver;
+        particles_delete(p, i);
+    }
+    error = ranks_agree(cfdmp->ranks, error);
+    if (!error)
+        error = ranks_gather(cfdmp->ranks, -1, own, count, sizeof *own, (void **)&all, &count);
+    free(own);
+    if (error)
+        return error;
+    qsort(all, (size_t)count, sizeof *all, by_id);
+    for (int64_t k = 0; k < count; k++) {
+        struct gate *gate = cfdmp_gate(cfdmp, (int)all[k].axis, (int)all[k].side, all[k].at);
+        for (int n = 0; n < PASSES; n++)
+            gate->pending[n] += all[k].values[n];
+    }
+    free(all);
+    return NULL;
 }
 
 /* What comes in through a gate: of one material, at one state. */
@@ -105,6 +156,16 @@ static double drifted(const struct cfdmp *cfdmp, const struct arrival *arrival, 
     return minimum(maximum(place, low), high);
 }
 
+/* Whether this rank owns the particles of the cell AT. */
+static bool is_own(const struct cfdmp *cfdmp, const int64_t at[3])
+{
+    double x[3] = {0.0, 0.0, 0.0};
+    for (int axis = 0; axis < cfdmp->dimension; axis++)
+        x[axis] = ((double)at[axis] + 0.5) * cfdmp->edge;
+    return partition_owner(&cfdmp->mpm_part.simulation.partition,
+                           particles_block_key(mpm_particles(cfdmp->mpm), x)) == cfdmp->ranks->rank;
+}
+
 static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
 {
     struct particles *p = mpm_particles(cfdmp->mpm);
@@ -118,12 +179,15 @@ static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
     for (int k = 1; k < cfdmp->dimension; k++)
         count *= each;
     int32_t first;
-    TRY(particles_append(p, (int32_t)count, &first));
+    gate->emitted++;
     gate_cell(cfdmp, axis, side, arrival->number, true, at);
+    if (!is_own(cfdmp, at))
+        return NULL;
+    TRY(particles_append(p, (int32_t)count, &first));
     /* by layer, face and place */
     const int64_t emitted =
         (int64_t)PARTICLE_CREATED +
-        (((int64_t)gate->emitted * 6 + 2 * axis + side) * cfdmp->side[axis][side].gates +
+        ((((int64_t)gate->emitted - 1) * 6 + 2 * axis + side) * cfdmp->side[axis][side].gates +
          arrival->number) *
             count;
     const double sign = side ? -1.0 : 1.0,
@@ -151,7 +215,6 @@ static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
         part_burn(p, i);
         mpm_welcome(cfdmp->mpm, &cfdmp->mpm_part.simulation, i);
     }
-    gate->emitted++;
     return NULL;
 }
 
@@ -214,35 +277,37 @@ static struct error *emit_layers(struct cfdmp *cfdmp, int axis, int side, int64_
     return NULL;
 }
 
-/* A part of what waits goes to the gas. */
-static void pour(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t at[3],
-                 struct gate *gate, const struct beside *beside, double part)
+/* Settling has two halves: what both want to give the cell outside stands in the side's `rest`, of
+ * which comes back what it cannot bear. The first gives it what particles have not got of the
+ * pressure, or as printed in the source, particles that have left. */
+static void offer(struct cfdmp *cfdmp, int axis, int s, int64_t number)
 {
-    double values[PASSES];
-    for (int n = 0; n < PASSES; n++) {
-        values[n] = part * gate->pending[n];
-        gate->pending[n] -= values[n];
-    }
-    gate_give(cfdmp, view, at, values, beside->of);
+    const struct gas_view view = gas_view(cfdmp->gas);
+    const struct side *side = &cfdmp->side[axis][s];
+    const struct gate *gate = &side->gate[number];
+    const struct beside beside = gate_beside(cfdmp, axis, s, number);
+    double *rest = side->rest[number];
+    int64_t outside[3];
+    gate_cell(cfdmp, axis, s, number, false, outside);
     for (int n = 0; n < PASSES; n++)
-        gate->pending[n] += values[n];
+        rest[n] = cfdmp->parameters.transport == CFDMP_PRINTED ? gate->pending[n] : 0.0;
+    for (int k = 0; k < 3 && cfdmp->parameters.transport != CFDMP_PRINTED; k++)
+        rest[PASS_MOMENTUM + k] = gate->push[k] - gate->pushed[k];
+    if (cfdmp->parameters.transport != CFDMP_PRINTED)
+        rest[PASS_ENERGY] = gate->push[3] - gate->pushed[3];
+    gate_give(cfdmp, &view, outside, rest, beside.of);
 }
 
-/* As printed in the source (4-10) to (4-21): the mean state of the cells beside a gate flows into
- * the region, a layer of particles each step, and the cell outside gets the particles that have
- * left, beside what the gas solver's own step has moved. */
+/* The second, as printed in the source (4-10) to (4-21): the mean state of the cells beside a gate
+ * flows into the region, a layer of particles each step. */
 static struct error *settle_printed(struct cfdmp *cfdmp, int axis, int side, int64_t number,
                                     double dt)
 {
     const struct gas_view view = gas_view(cfdmp->gas);
-    struct gate *gate = &cfdmp->side[axis][side].gate[number];
-    const struct beside beside = gate_beside(cfdmp, &view, axis, side, number);
+    const struct beside beside = gate_beside(cfdmp, axis, side, number);
     const double area = gate_area(cfdmp, axis, side, number), sign = side ? -1.0 : 1.0;
     const double way = sign * beside.velocity[axis] * dt;
     const int m = view.layout->two && beside.of[0] == 0.0;
-    int64_t outside[3];
-    gate_cell(cfdmp, axis, side, number, false, outside);
-    gate_give(cfdmp, &view, outside, gate->pending, beside.of);
     const struct arrival arrival = {axis,
                                     side,
                                     view.material[m],
@@ -255,36 +320,62 @@ static struct error *settle_printed(struct cfdmp *cfdmp, int axis, int side, int
     return way > 0.0 ? emit(cfdmp, &arrival) : NULL;
 }
 
-static struct error *settle(struct cfdmp *cfdmp, int axis, int side, int64_t number, double dt)
+/* Of what waits, a layer becomes particles, or a part goes to the gas. */
+static struct error *settle(struct cfdmp *cfdmp, int axis, int s, int64_t number, double dt)
 {
     /* What waits goes to the gas over the time in which the flow crosses two cells. Much faster,
      * and each particle that leaves would be a pulse of sound. */
     static const double cells = 2.0;
     const struct gas_view view = gas_view(cfdmp->gas);
-    struct gate *gate = &cfdmp->side[axis][side].gate[number];
-    const struct beside beside = gate_beside(cfdmp, &view, axis, side, number);
+    const struct side *side = &cfdmp->side[axis][s];
+    struct gate *gate = &side->gate[number];
+    const struct beside beside = gate_beside(cfdmp, axis, s, number);
     const int body = part_body_of(&cfdmp->gas_part.input, view.material[0]);
     const double layer = cfdmp->edge / (double)part_particles_across(cfdmp->mpm, body);
-    double difference[PASSES] = {0.0};
-    int64_t outside[3];
-    gate_cell(cfdmp, axis, side, number, false, outside);
-    for (int k = 0; k < 3; k++)
-        difference[PASS_MOMENTUM + k] = gate->push[k] - gate->pushed[k];
-    difference[PASS_ENERGY] = gate->push[3] - gate->pushed[3];
-    gate_give(cfdmp, &view, outside, difference, beside.of);
-    for (int n = 0; n < PASSES; n++)
-        gate->pending[n] += difference[n];
+    double *rest = side->rest[number];
     if (gate->flow > 0.0 && gate->pending[PASS_MASS] > 0.0)
-        TRY(emit_layers(cfdmp, axis, side, number, &beside, layer));
-    else if (gate->flow < 0.0) {
-        const double part = dt * fabs(beside.velocity[axis]) / (cells * cfdmp->edge);
-        pour(cfdmp, &view, outside, gate, &beside, minimum(part, 1.0));
+        return emit_layers(cfdmp, axis, s, number, &beside, layer);
+    if (!(gate->flow < 0.0))
+        return NULL;
+    const double part = minimum(dt * fabs(beside.velocity[axis]) / (cells * cfdmp->edge), 1.0);
+    int64_t outside[3];
+    for (int n = 0; n < PASSES; n++) {
+        rest[n] = part * gate->pending[n];
+        gate->pending[n] -= rest[n];
     }
+    gate_cell(cfdmp, axis, s, number, false, outside);
+    gate_give(cfdmp, &view, outside, rest, beside.of);
     return NULL;
 }
 
 static struct error *(*const settle_of[])(struct cfdmp *, int axis, int side, int64_t number,
                                           double dt) = {settle, settle_printed};
+
+/* Collective: all gates of a side. */
+static struct error *settle_side(struct cfdmp *cfdmp, int axis, int s, double dt)
+{
+    const int transport = (int)cfdmp->parameters.transport;
+    const struct side *side = &cfdmp->side[axis][s];
+    struct error *error = NULL;
+    for (int64_t n = 0; n < side->gates; n++)
+        offer(cfdmp, axis, s, n);
+    cfdmp_unite(cfdmp, &side->rest[0][0], side->gates * PASSES);
+    for (int64_t n = 0; n < side->gates; n++) {
+        for (int k = 0; k < PASSES; k++) {
+            double *pending = &side->gate[n].pending[k];
+            *pending = (transport == CFDMP_PRINTED ? 0.0 : *pending) + side->rest[n][k];
+            side->rest[n][k] = 0.0;
+        }
+        if (!error)
+            error = settle_of[transport](cfdmp, axis, s, n, dt);
+    }
+    TRY(ranks_agree(cfdmp->ranks, error));
+    cfdmp_unite(cfdmp, &side->rest[0][0], side->gates * PASSES);
+    for (int64_t n = 0; n < side->gates; n++)
+        for (int k = 0; k < PASSES; k++)
+            side->gate[n].pending[k] += side->rest[n][k];
+    return NULL;
+}
 
 /* What waits at a gate is in neither part. */
 static void book(const struct cfdmp *cfdmp, struct simulation *simulation, int axis, int side,
@@ -304,24 +395,33 @@ static void book(const struct cfdmp *cfdmp, struct simulation *simulation, int a
         change[PASS_ENERGY]);
 }
 
+/* Books what has come to the gates of a side and gone since the last step. */
+static void book_side(struct cfdmp *cfdmp, struct simulation *simulation, int axis, int s)
+{
+    const struct side *side = &cfdmp->side[axis][s];
+    for (int64_t n = 0; n < side->gates; n++) {
+        if (cfdmp->ranks->rank == 0)
+            book(cfdmp, simulation, axis, s, n, side->gate[n].booked);
+        memcpy(side->gate[n].booked, side->gate[n].pending, sizeof side->gate[n].booked);
+    }
+}
+
 struct error *cfdmp_transport(struct cfdmp *cfdmp, struct simulation *simulation, double dt)
 {
-    const struct gas_view view = gas_view(cfdmp->gas);
-    struct particles *p = mpm_particles(cfdmp->mpm);
     const bool awake = cfdmp->awake > 0.0; /* else what little comes waits */
-    for (int32_t i = 0; i < p->count && awake; i++)
-        take_out(cfdmp, p, i, view.layout->two && p->material[i] == view.material[1]);
+    if (awake) {
+        TRY(cfdmp_take_pushes(cfdmp));
+        TRY(take_out(cfdmp));
+        cfdmp_look(cfdmp);
+    }
     for (int axis = 0; axis < cfdmp->dimension; axis++)
-        for (int side = 0; side < 2; side++)
-            for (int64_t n = 0; n < cfdmp->side[axis][side].gates; n++) {
-                double *booked = cfdmp->side[axis][side].gate[n].booked;
-                if (awake)
-                    TRY(settle_of[cfdmp->parameters.transport](cfdmp, axis, side, n, dt));
-                if (cfdmp->parameters.transport == CFDMP_PRINTED)
-                    continue;
-                book(cfdmp, simulation, axis, side, n, booked);
-                for (int k = 0; k < PASSES; k++)
-                    booked[k] = cfdmp->side[axis][side].gate[n].pending[k];
-            }
+        for (int s = 0; s < 2; s++) {
+            if (cfdmp->side[axis][s].gates == 0)
+                continue;
+            if (awake)
+                TRY(settle_side(cfdmp, axis, s, dt));
+            if (cfdmp->parameters.transport != CFDMP_PRINTED)
+                book_side(cfdmp, simulation, axis, s);
+        }
     return NULL;
 }

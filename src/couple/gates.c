@@ -156,6 +156,11 @@ void gate_give(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t a
     enum { HALVINGS = 10 };
     int32_t block;
     const int32_t i = part_cell(view->cells, at, &block);
+    if (i < 0) {
+        for (int n = 0; n < PASSES; n++)
+            rest[n] = 0.0;
+        return;
+    }
     const struct content before = content_of(view, i);
     double part = 1.0 / part_cell_volume(&cfdmp->maker, cfdmp->round, at), values[PASSES];
     const double all = part;
@@ -180,29 +185,22 @@ void gate_give(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t a
     cfdmp->changed[block] = true;
 }
 
-struct beside gate_beside(const struct cfdmp *cfdmp, const struct gas_view *view, int axis,
-                          int side, int64_t number)
+struct beside gate_beside(const struct cfdmp *cfdmp, int axis, int side, int64_t number)
 {
     struct beside beside = {0.0, {0.0, 0.0, 0.0}, 0.0, 0.0, 0.0, {0.0, 0.0}};
-    const double *sound = cell_blocks_field(view->cells, "sound_long");
     double mass[2] = {0.0, 0.0}, volume[2] = {0.0, 0.0};
     for (int inside = 0; inside < 2; inside++) {
-        int64_t at[3];
-        int32_t block;
-        gate_cell(cfdmp, axis, side, number, inside, at);
-        const int32_t i = part_cell(view->cells, at, &block);
-        const double second = view->layout->two ? view->u[GAS_SECOND][i] : 0.0,
-                     fraction = view->layout->two ? view->u[GAS_FRACTION][i] : 0.0;
-        beside.density += 0.5 * view->cells->density[i];
-        beside.energy += 0.5 * view->cells->energy[i];
-        beside.pressure += 0.5 * view->cells->pressure[i];
-        beside.sound = maximum(beside.sound, sound[i]);
+        const struct flank *flank = &cfdmp->side[axis][side].flank[number][inside];
+        beside.density += 0.5 * flank->density;
+        beside.energy += 0.5 * flank->energy;
+        beside.pressure += 0.5 * flank->pressure;
+        beside.sound = maximum(beside.sound, flank->sound);
         for (int k = 0; k < 3; k++)
-            beside.velocity[k] += 0.5 * view->cells->velocity[i][k];
-        mass[0] += view->cells->density[i] - second;
-        mass[1] += second;
-        volume[0] += 1.0 - fraction;
-        volume[1] += fraction;
+            beside.velocity[k] += 0.5 * flank->velocity[k];
+        mass[0] += flank->density - flank->second;
+        mass[1] += flank->second;
+        volume[0] += 1.0 - flank->fraction;
+        volume[1] += flank->fraction;
     }
     for (int m = 0; m < 2; m++)
         beside.of[m] = volume[m] > 1e-6 && mass[m] > 0.0 ? mass[m] / volume[m] : 0.0;

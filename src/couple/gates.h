@@ -15,13 +15,12 @@ void gate_cell(const struct cfdmp *cfdmp, int axis, int side, int64_t number, bo
 /* The area of gate NUMBER, of a radian in axisymmetry. */
 double gate_area(const struct cfdmp *cfdmp, int axis, int side, int64_t number);
 
-/* The mean of the cells on both sides of a gate; the densities of both materials where they are, 0
- * where there is none. */
+/* The mean of the cells on both sides of a gate, as cfdmp_look has found them; the densities of
+ * both materials where they are, 0 where there is none. */
 struct beside {
     double density, velocity[3], energy, sound, pressure, of[2];
 };
-struct beside gate_beside(const struct cfdmp *cfdmp, const struct gas_view *view, int axis,
-                          int side, int64_t number);
+struct beside gate_beside(const struct cfdmp *cfdmp, int axis, int side, int64_t number);
 
 /* Materials at one pressure, where each has MASS, DENSITY and a pressure that grows in proportion
  * to its energy: that pressure, from their ENERGY together, and of each what it has without energy
@@ -35,7 +34,7 @@ struct shared gate_share(const struct gas_view *view, const double mass[2], cons
 
 /* Adds REST, conserved, to the cell AT outside a gate; materials have the densities OF, 0 where
  * they are not known. REST becomes what the cell cannot bear at once: it takes all, a half, a
- * quarter and so on. */
+ * quarter and so on. On ranks that do not have the cell it becomes zero. */
 void gate_give(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t at[3],
                double rest[PASSES], const double of[2]);
 

@@ -76,7 +76,7 @@ int64_t part_particles_across(const struct mpm *mpm, int body);
 /* The explosive of particle I has burnt. */
 void part_burn(struct particles *particles, int32_t i);
 
-/* The cell AT of the gas; of this rank. */
+/* The cell AT of the gas; -1 where another rank has it. */
 int32_t part_cell(const struct cell_blocks *cells, const int64_t at[3], int32_t *block);
 
 /* Cells from LOW to HIGH are not those that count: they have no mass. */

@@ -104,6 +104,7 @@ static struct error *find_band(struct cfdmp *cfdmp)
 
 static struct error *make_sides(struct cfdmp *cfdmp)
 {
+    int64_t most = 0;
     for (int axis = 0; axis < 3; axis++)
         for (int s = 0; s < 2; s++) {
             struct side *side = &cfdmp->side[axis][s];
@@ -115,17 +116,20 @@ static struct error *make_sides(struct cfdmp *cfdmp)
             side->gate = owned_new(&cfdmp->owned, (size_t)side->gates * sizeof *side->gate);
             cfdmp->cut.passed[axis][s] =
                 owned_new(&cfdmp->owned, (size_t)(side->gates * GAS_PASSED) * sizeof(double));
-            if (!side->gate || !cfdmp->cut.passed[axis][s])
+            side->flank = owned_new(&cfdmp->owned, (size_t)side->gates * sizeof *side->flank);
+            side->rest = owned_new(&cfdmp->owned, (size_t)side->gates * sizeof *side->rest);
+            if (!side->gate || !cfdmp->cut.passed[axis][s] || !side->flank || !side->rest)
                 return owned_error();
+            most = side->gates > most ? side->gates : most;
         }
-    return NULL;
+    cfdmp->bits = owned_new(&cfdmp->owned, (size_t)most * sizeof *cfdmp->side[0][0].flank);
+    return cfdmp->bits ? NULL : owned_error();
 }
 
 struct error *cfdmp_make_parts(struct cfdmp *cfdmp, struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->problem->input;
-    if (simulation->ranks->size > 1)
-        return input_error(input, "solver", NULL, "the solver cfdmp runs on one rank");
+    cfdmp->ranks = simulation->ranks;
     cfdmp->dimension = simulation->problem->dimension;
     cfdmp->round = geometry_power(simulation->problem->geometry) > 0;
     cfdmp->edge = cfdmp_edge(&cfdmp->parameters, input);
@@ -144,4 +148,5 @@ void cfdmp_free_parts(struct cfdmp *cfdmp)
     part_free(&cfdmp->mpm_part, &mpm_class);
     owned_free(&cfdmp->owned);
     free(cfdmp->changed);
+    free(cfdmp->push);
 }

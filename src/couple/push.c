@@ -1,5 +1,6 @@
 /* How the gas pushes on the particles through the open faces of the region, and what it pushes on
  * while they rest. */
+#include "base/memory.h"
 #include "couple/gates.h"
 
 /* Whether the node AT of the part across AXIS lies near the open face on SIDE. */
@@ -51,20 +52,39 @@ static double pressure_at(void *of, const int64_t at[3], int component)
     return sum - mpm_gauge(cfdmp->mpm, gas_view(cfdmp->gas).material[0]);
 }
 
-static void take_push(void *of, const int64_t at[3], const double impulse[3], double work)
+static void note_push(void *of, const struct mpm_push *push)
 {
     struct cfdmp *cfdmp = of;
+    if (memory_reserve((void **)&cfdmp->push, &cfdmp->push_capacity, cfdmp->pushes + 1,
+                       cfdmp->pushes, sizeof *push))
+        cfdmp->push[cfdmp->pushes++] = *push;
+    else
+        cfdmp->pushes_lost = true;
+}
+
+/* The gates around a node note what they have pushed there. */
+static void take_push(struct cfdmp *cfdmp, const struct mpm_push *push)
+{
     double strength = 0.0;
     for (int c = 0; c < 3; c++)
-        strength += fabs(impulse[c]);
+        strength += fabs(push->impulse[c]);
     for (int c = 0; c < 3; c++) {
         struct gate *gate[4];
-        const int count = gates_at(cfdmp, at, c, gate);
+        const int count = gates_at(cfdmp, push->at, c, gate);
         for (int k = 0; k < count; k++) {
-            gate[k]->pushed[c] += impulse[c] / count;
-            gate[k]->pushed[3] += work * fabs(impulse[c]) / (strength * count);
+            gate[k]->pushed[c] += push->impulse[c] / count;
+            gate[k]->pushed[3] += push->work * fabs(push->impulse[c]) / (strength * count);
         }
     }
+}
+
+struct error *cfdmp_take_pushes(struct cfdmp *cfdmp)
+{
+    TRY(cfdmp_gather_pushes(cfdmp));
+    for (int64_t k = 0; k < cfdmp->pushes; k++)
+        take_push(cfdmp, &cfdmp->push[k]);
+    cfdmp->pushes = 0;
+    return NULL;
 }
 
 void cfdmp_surround(struct cfdmp *cfdmp)
@@ -78,27 +98,17 @@ void cfdmp_surround(struct cfdmp *cfdmp)
     }
     outside->of = cfdmp;
     outside->pressure = pressure_at;
-    outside->pushed = take_push;
+    outside->pushed = note_push;
     mpm_surround(cfdmp->mpm, outside);
-}
-
-static double pressure_outside(const struct cfdmp *cfdmp, const struct gas_view *view, int axis,
-                               int side, int64_t number)
-{
-    int64_t at[3];
-    int32_t block;
-    gate_cell(cfdmp, axis, side, number, false, at);
-    return view->cells->pressure[part_cell(view->cells, at, &block)];
 }
 
 void cfdmp_note_rest(struct cfdmp *cfdmp)
 {
-    const struct gas_view view = gas_view(cfdmp->gas);
+    cfdmp_look(cfdmp);
     for (int axis = 0; axis < cfdmp->dimension; axis++)
         for (int side = 0; side < 2; side++)
             for (int64_t n = 0; n < cfdmp->side[axis][side].gates; n++)
-                cfdmp->side[axis][side].gate[n].rest =
-                    pressure_outside(cfdmp, &view, axis, side, n);
+                cfdmp->side[axis][side].gate[n].rest = cfdmp->side[axis][side].flank[n][0].pressure;
 }
 
 bool cfdmp_stirs(const struct cfdmp *cfdmp)
@@ -109,11 +119,17 @@ bool cfdmp_stirs(const struct cfdmp *cfdmp)
     for (int axis = 0; axis < cfdmp->dimension; axis++)
         for (int side = 0; side < 2; side++)
             for (int64_t n = 0; n < cfdmp->side[axis][side].gates && !stirs; n++) {
-                const double now = pressure_outside(cfdmp, &view, axis, side, n),
+                int64_t at[3];
+                int32_t block;
+                gate_cell(cfdmp, axis, side, n, false, at);
+                const int32_t i = part_cell(view.cells, at, &block);
+                if (i < 0)
+                    continue;
+                const double now = view.cells->pressure[i],
                              rest = cfdmp->side[axis][side].gate[n].rest;
                 stirs = !(now < wake * rest && rest < wake * now);
             }
-    return stirs;
+    return ranks_maximum(cfdmp->ranks, stirs) > 0.0;
 }
 
 void cfdmp_lean(struct cfdmp *cfdmp, struct simulation *simulation)
@@ -126,6 +142,8 @@ void cfdmp_lean(struct cfdmp *cfdmp, struct simulation *simulation)
                 gate_cell(cfdmp, axis, side, n, true, at);
                 for (int k = 0; k < 4; k++)
                     gate->pushed[k] = gate->push[k];
+                if (cfdmp->ranks->rank > 0)
+                    continue;
                 ledger_book(
                     &simulation->ledger, LEDGER_WALLS, 0.0,
                     vec3_make(-gate->push[0], -gate->push[1], -gate->push[2]),

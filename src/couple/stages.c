@@ -304,14 +304,15 @@ static double pressure_outside(void *of, const int64_t at[3], int component)
            mpm_gauge(afdmp->nest_mpm, view.material[0]);
 }
 
-static void take_push(void *of, const int64_t at[3], const double impulse[3], double work)
+static void take_push(void *of, const struct mpm_push *push)
 {
     struct afdmp *afdmp = of;
-    ledger_book(&afdmp->nest.simulation.ledger, LEDGER_EXCHANGE, 0.0,
-                vec3_make(impulse[0], impulse[1], impulse[2]),
-                vec3_make((double)at[0] * afdmp->edge, (double)at[1] * afdmp->edge,
-                          (double)at[2] * afdmp->edge),
-                work);
+    const double *impulse = push->impulse, h = afdmp->edge;
+    ledger_book(
+        &afdmp->nest.simulation.ledger, LEDGER_EXCHANGE, 0.0,
+        vec3_make(impulse[0], impulse[1], impulse[2]),
+        vec3_make((double)push->at[0] * h, (double)push->at[1] * h, (double)push->at[2] * h),
+        push->work);
 }
 
 static void surround_nest(struct afdmp *afdmp)

@@ -9,15 +9,24 @@
 
 struct mpm;
 
+/* The impulse and the work of a step at a node. Of all ranks together they are in ORDER, compared
+ * number by number. */
+struct mpm_push {
+    int64_t at[3];
+    double impulse[3], work;
+    uint64_t order[3];
+};
+
 /* A box of cells with a fluid outside its open faces, which pushes on the surface of the particles
  * there. Gives the pressure, less that of the gauge, at the node AT near an open face, of its force
- * along COMPONENT; takes down the impulse and the work of a step. Called by one thread. */
+ * along COMPONENT; takes down what this rank's nodes get in a step, in order. Called by one
+ * thread. */
 struct mpm_outside {
     int64_t low[3], high[3]; /* nodes of its faces */
     bool open[3][2];         /* faces */
     void *of;
     double (*pressure)(void *of, const int64_t at[3], int component);
-    void (*pushed)(void *of, const int64_t at[3], const double impulse[3], double work);
+    void (*pushed)(void *of, const struct mpm_push *push);
 };
 
 /* OUTSIDE must last; NULL: nothing is outside. */

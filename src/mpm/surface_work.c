@@ -44,25 +44,28 @@ void mpm_note_pushed(struct layer *layer, enum surface_cause cause, int threads)
         }
 }
 
-/* Books the force F on a node in a step of DT. */
+/* Books the force that PUSH has for an impulse on NODE in a step of DT. */
 static void book_force(const struct mpm *mpm, enum surface_cause cause, const double *node,
-                       const int64_t at[3], const double f[3], double dt, struct ledger *ledger)
+                       double dt, struct mpm_push *push, struct ledger *ledger)
 {
     static const enum ledger_cause causes[] = {
         [SURFACE_LOADS] = LEDGER_LOADS, [SURFACE_OUTFLOWS] = LEDGER_OUTFLOWS};
+    double *f = push->impulse;
     if (f[0] == 0.0 && f[1] == 0.0 && f[2] == 0.0)
         return;
-    double work = 0.0;
+    push->work = 0.0;
     for (int c = 0; c < 3; c++)
-        work += dt * f[c] * (node[NODE_MOMENTUM + c] + 0.5 * dt * node[NODE_FORCE + c]) /
-                node[NODE_MASS];
-    const double impulse[3] = {dt * f[0], dt * f[1], dt * f[2]};
+        push->work += dt * f[c] * (node[NODE_MOMENTUM + c] + 0.5 * dt * node[NODE_FORCE + c]) /
+                      node[NODE_MASS];
+    for (int c = 0; c < 3; c++)
+        f[c] *= dt;
+    const int64_t *at = push->at;
     if (cause == SURFACE_OUTSIDE)
-        mpm->outside->pushed(mpm->outside->of, at, impulse, work);
+        mpm->outside->pushed(mpm->outside->of, push);
     else
-        ledger_book(ledger, causes[cause], 0.0, vec3_make(impulse[0], impulse[1], impulse[2]),
+        ledger_book(ledger, causes[cause], 0.0, vec3_make(f[0], f[1], f[2]),
                     vec3_scale(mpm->edge, vec3_make((double)at[0], (double)at[1], (double)at[2])),
-                    work);
+                    push->work);
 }
 
 /* The same for the nodes of a block that are not near a wall, if this rank owns the block. */
@@ -71,25 +74,38 @@ static void book_block(const struct mpm *mpm, const struct layer *layer, enum su
 {
     if (mpm_is_far(mpm, layer, layer->grid.touch[block][0].bin))
         return;
-    int64_t corner[3], at[3];
+    int64_t corner[3];
     grid_corner(&layer->grid, block, corner);
     for (int k = 0; k < BLOCK_CELLS; k++) {
-        mpm_node_index(layer->grid.dimension, corner, k, at);
-        if (!mpm_near_wall(mpm, layer, at))
-            book_force(mpm, cause, grid_node(&layer->main, block, k), at,
-                       layer->pushed[cause][(int64_t)block * BLOCK_CELLS + k], dt, ledger);
+        struct mpm_push push = {
+            .order = {2 * (uint64_t)(layer - mpm->layer) + 1, layer->grid.key[block], (uint64_t)k}};
+        mpm_node_index(layer->grid.dimension, corner, k, push.at);
+        memcpy(push.impulse, layer->pushed[cause][(int64_t)block * BLOCK_CELLS + k],
+               sizeof push.impulse);
+        if (!mpm_near_wall(mpm, layer, push.at))
+            book_force(mpm, cause, grid_node(&layer->main, block, k), dt, &push, ledger);
     }
+}
+
+/* The same for a node near a wall. */
+static void book_wall(const struct mpm *mpm, const struct layer *layer, enum surface_cause cause,
+                      const struct wall_node *wall, double dt, struct ledger *ledger)
+{
+    const int64_t node = (wall->node - layer->main.node) / NODE_STRIDE;
+    struct mpm_push push = {.at = {wall->at[0], wall->at[1], wall->at[2]},
+                            .order = {2 * (uint64_t)(layer - mpm->layer),
+                                      layer->grid.key[node / BLOCK_CELLS],
+                                      (uint64_t)(node % BLOCK_CELLS)}};
+    memcpy(push.impulse, wall->pushed_by[cause], sizeof push.impulse);
+    if (wall->booked)
+        book_force(mpm, cause, wall->node, dt, &push, ledger);
 }
 
 static void book_layer(const struct mpm *mpm, struct simulation *simulation,
                        const struct layer *layer, enum surface_cause cause, double dt)
 {
-    for (int32_t w = 0; w < layer->walls; w++) {
-        const struct wall_node *wall = &layer->wall[w];
-        if (wall->booked)
-            book_force(mpm, cause, wall->node, wall->at, wall->pushed_by[cause], dt,
-                       &simulation->ledger);
-    }
+    for (int32_t w = 0; w < layer->walls; w++)
+        book_wall(mpm, layer, cause, &layer->wall[w], dt, &simulation->ledger);
 #pragma omp parallel num_threads(cause == SURFACE_OUTSIDE ? 1 : simulation->threads)
     {
         struct ledger own = {0};
