@@ -65,7 +65,8 @@ explosives=$BOLIDE_SOURCE_DIR/tests/data/everything-explosives.yaml
 until=snapshots/000002.vtkhdf
 kill_and_resume "$explosives"
 until=checkpoint.h5
-on 2 run "$explosives" --overwrite --output two >two.log 2>&1 || fail "2 ranks: $(cat two.log)"
+rm -rf two
+on 2 run "$explosives" --output two >two.log 2>&1 || fail "2 ranks: $(cat two.log)"
 same_but_for_order whole two || fail "$explosives on 2 ranks"
 for solver in mpm sph; do
     kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-failure.yaml" --set solver=$solver
