@@ -75,7 +75,10 @@ BOLIDE_INLINE void point_advance(const struct point_loop *loop, const struct mat
         loop->shock[i] = maximum(
             point_shock(viscosity, point.density, loop->sound[i], divergence,
                         norm_of(motion.strain_rate, spin)),
-            point_overdrawn(solid && !material_burns(material), point.energy, loop->sound[i]));
+            point_overdrawn(
+                burn_is_kinetic(&material->burn) || (solid && !material_burns(material)),
+                point.energy + point.history[HISTORY_burnt] * material_reaction_heat(material),
+                loop->sound[i]));
     loop->sound[i] = r.sound_long;
     sym3_store(point.deviator, s);
 }

@@ -86,7 +86,8 @@ BOLIDE_INLINE double point_shock(double viscosity, double density, double sound,
 
 /* The same of a solid that has given more ENERGY than it had, as a particle may that shares nodes
  * with much heavier ones: so that these give some back. From -0.01 c^2 on, all of it at twice that.
- * What burns has less energy than at the start, and fluids may count theirs from elsewhere. */
+ * Of an explosive that burns by a rate or a threshold ENERGY has the heat that was freed; other
+ * explosives have less energy than at the start, and fluids may count theirs from elsewhere. */
 BOLIDE_INLINE double point_overdrawn(bool solid, double energy, double sound)
 {
     const double soft = 1e-2;

@@ -51,7 +51,8 @@ struct eos_blended_jwl {
     NUMBER(T, products_omega, "", REQUIRED, POSITIVE, "Grueneisen coefficient of the products")   \
     NUMBER(T, energy, "J/m^3", REQUIRED, POSITIVE, "Q: heat of the reaction")
 
-/* The explosive alone. */
+/* The explosive alone. Energy below that at rest, which errors leave, pulls no further: the square
+ * of the sound speed would be negative. */
 BOLIDE_INLINE struct eos_value blended_explosive(const struct eos_blended_jwl *blend,
                                                  double density, double energy)
 {
@@ -65,8 +66,13 @@ BOLIDE_INLINE struct eos_value blended_explosive(const struct eos_blended_jwl *b
     }
     const struct eos_mie_grueneisen solid = {blend->density, blend->sound,        blend->slope,
                                              blend->gamma,   blend->bulk_modulus, EOS_EXTENDED};
-    const struct eos_value value = eos_mie_grueneisen(&solid, density, energy, none);
-    return value.status & POINT_BEYOND ? eos_mie_grueneisen_beyond(&solid, density, energy) : value;
+    const double heat = maximum(energy, 0.0);
+    struct eos_value value = eos_mie_grueneisen(&solid, density, heat, none);
+    if (value.status & POINT_BEYOND)
+        value = eos_mie_grueneisen_beyond(&solid, density, heat);
+    if (energy < 0.0)
+        value.dp_de = 0.0;
+    return value;
 }
 
 BOLIDE_INLINE struct eos_value eos_blended_jwl(const struct eos_blended_jwl *blend, double density,
