@@ -155,6 +155,13 @@ static const struct answer answers[] = {
      "m]}}}`\n"
      "(docs/blast.md). Explosive in contact with metal: bolide help burn.",
      "tasks/charge-in-air.md"},
+    {" charge.above.plate blast.on.plate blast.plate blast.on.structure cfdmp coupling coupled "
+     "gas.and.particles fluid.structure ",
+     "A charge above a plate that bends or breaks, with `solver: cfdmp`: gas on a grid, and\n"
+     "material points in a box around the plate, between which material passes. The detonation is\n"
+     "computed in 1-D, and `start` takes it over. A worked case is on the page below;\n"
+     "docs/coupling.md has the method.",
+     "tasks/charge-above-plate.md"},
     {" shock.tube sod gas.dynamics cfd euler wind.tunnel air grid cells fdm ",
      "`solver: gas` computes a gas in cells, with walls, inflow, outflow, periodic faces and "
      "rigid\n"

@@ -19,6 +19,7 @@ bodies: {block: {material: aluminium, box: {from: [0 mm, 0 mm], to: [4 mm, 4 mm]
 run: {until: 1 us}
 """
 CASE = re.compile(r"^```yaml\n(format: 1\n.*?)^```", re.DOTALL | re.MULTILINE)
+FILE = re.compile(r"^<!-- file: (\S+) -->\n```yaml\n(.*?)^```", re.DOTALL | re.MULTILINE)
 TABLE = re.compile(r"\b(solver: |solver=|method: )(?=\{)")
 PATH = re.compile(r"--set (solver\.[\w.]+=[\w.-]+)")
 WRONG = re.compile(r'unknown (key|choice|solver|scheme) "')
@@ -56,6 +57,8 @@ def main():
     for page in PAGES:
         text = page.read_text()
         name = page.relative_to(SOURCE)
+        for file, content in FILE.findall(text):  # of which another case may start
+            pathlib.Path(file).write_text(content)
         for shown in (match[1] for match in CASE.finditer(text) if "bodies:" in match[1]):
             cases += 1
             case.write_text(shown)
