@@ -38,13 +38,28 @@ static void sum_energy(const struct smear *smear, int32_t i, double *energy)
     energy[n] += p->mass[i] * p->energy[i];
 }
 
+/* The fraction of volume that the second material has when both have come to one pressure, each
+ * with HEAT more energy by its mass. */
+static double fraction_of(const struct gas_view *view, const struct smear_sums *sums, double heat,
+                          double volume)
+{
+    const double fraction = sums->volume[1] / (sums->volume[0] + sums->volume[1]);
+    double mass[2], energy[2];
+    for (int m = 0; m < 2; m++) {
+        mass[m] = sums->mass[m] / volume;
+        energy[m] = (sums->energy[m] + heat * sums->mass[m]) / volume;
+    }
+    if (!(mass[0] > 0.0 && mass[1] > 0.0))
+        return fraction;
+    return gas_relax(view->eos, mass, energy, fraction, 1.0);
+}
+
 /* Cell I of VOLUME gets what particles around it have; INTERNAL is its energy where the map is that
  * of the text. Returns the energy that it has not got, J. */
 static double put_cell(const struct afdmp *afdmp, const struct gas_view *view,
                        const struct smear_sums *sums, double internal, double volume, int32_t i)
 {
-    const double mass = sums->mass[0] + sums->mass[1], energy = sums->energy[0] + sums->energy[1],
-                 filled = sums->volume[0] + sums->volume[1];
+    const double mass = sums->mass[0] + sums->mass[1], energy = sums->energy[0] + sums->energy[1];
     double kinetic = 0.0, own = energy + sums->kinetic;
     for (int axis = 0; axis < 3; axis++) {
         view->u[GAS_MOMENTUM + axis][i] = sums->momentum[axis] / volume;
@@ -56,8 +71,9 @@ static double put_cell(const struct afdmp *afdmp, const struct gas_view *view,
     view->u[GAS_ENERGY][i] = own / volume;
     view->u[GAS_SHOCK][i] = 0.0;
     if (view->layout->two) {
+        const double heat = (own - kinetic - energy) / mass; /* of both alike */
         view->u[GAS_SECOND][i] = sums->mass[1] / volume;
-        view->u[GAS_FRACTION][i] = sums->volume[1] / filled;
+        view->u[GAS_FRACTION][i] = fraction_of(view, sums, heat, volume);
     }
     return energy + sums->kinetic - own;
 }

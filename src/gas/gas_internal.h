@@ -2,7 +2,7 @@
 #ifndef BOLIDE_GAS_INTERNAL_H
 #define BOLIDE_GAS_INTERNAL_H
 
-#include "gas/gas.h"
+#include "gas/gas_phases.h"
 #include "gas/sweep.h"
 #include "model/cell_population.h"
 
@@ -99,12 +99,6 @@ void gas_find_faces(const struct simulation *simulation, const struct cell_block
  * what flows in has no state. */
 struct error *gas_fill_planes(const struct gas *gas, const struct simulation *simulation, int axis,
                               double time);
-
-/* The fraction of volume of the second material of a cell, FRACTION, when both have come to one
- * pressure: the first without heat, the second, BURNT to this fraction, with the rest of the
- * energy. Masses and energies, those of the materials at rest, are per volume of the cell. */
-double gas_relax(const struct eos eos[2], const double mass[2], const double energy[2],
-                 double fraction, double burnt);
 
 /* Lays out what cells have; `written` and `fields` count it. */
 void gas_lay_out(struct gas_layout *layout);

@@ -25,6 +25,12 @@ void gas_watch(struct gas *gas, const struct gas_cut *cut);
  * BLOCKS, a flag each, may have changed. ERROR_STATE: one is impossible. */
 struct error *gas_refresh(struct gas *gas, const struct simulation *simulation, const bool *blocks);
 
+/* The fraction of volume of the second material of a cell, FRACTION, when both have come to one
+ * pressure: the first without heat, the second, BURNT to this fraction, with the rest of the
+ * energy. Masses and energies, those of the materials at rest, are per volume of the cell. */
+double gas_relax(const struct eos eos[2], const double mass[2], const double energy[2],
+                 double fraction, double burnt);
+
 /* Whether the solver computes MATERIAL. */
 bool gas_computes(const struct material *material);
 

@@ -113,7 +113,7 @@ struct row {
     const struct simulation *simulation;
     const char *members;
     double dt, drift;
-    int64_t count;
+    int64_t count, more[POPULATIONS_MAX]; /* of the first population, and of all that count */
     struct totals now, booked[LEDGER_CAUSES];
     struct range density, pressure, speed;
 };
@@ -125,18 +125,24 @@ static struct range over_ranks(const struct ranks *ranks, struct range range)
     return all.low <= all.high ? all : (struct range){NAN, NAN};
 }
 
+/* Of all populations, and how many members count in each. */
 static void find_extremes(const struct simulation *simulation, struct row *row)
 {
-    const struct population population = simulation_population(simulation),
-                            *particles = &population;
     struct range density = {INFINITY, -INFINITY}, pressure = density, speed = density;
-    for (int32_t i = 0; i < particles->count; i++) {
-        const double *u = particles->velocity[i];
-        if (!population_has(particles, i))
-            continue;
-        widen(&density, particles->density[i]);
-        widen(&pressure, particles->pressure[i]);
-        widen(&speed, sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+    for (int k = 0; k < simulation->populations; k++) {
+        const struct population population = simulation_population_at(simulation, k),
+                                *members = &population;
+        int64_t count = 0;
+        for (int32_t i = 0; i < members->count; i++) {
+            const double *u = members->velocity[i];
+            if (!population_has(members, i))
+                continue;
+            count++;
+            widen(&density, members->density[i]);
+            widen(&pressure, members->pressure[i]);
+            widen(&speed, sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+        }
+        row->more[k] = ranks_sum(simulation->ranks, count);
     }
     row->density = over_ranks(simulation->ranks, density);
     row->pressure = over_ranks(simulation->ranks, pressure);
@@ -178,6 +184,10 @@ static void write_line(FILE *file, bool head, const struct row *row)
         snprintf(prefix, sizeof prefix, "%s.", ledger_cause_name((enum ledger_cause)i));
         totals_columns(&line, prefix, &row->booked[i], simulation);
     }
+    if (simulation->populations > 1)
+        totals_columns(&line, "exchange.", &row->booked[LEDGER_EXCHANGE], simulation);
+    for (int k = 1; k < simulation->populations; k++)
+        column(&line, simulation->population[k].name, "", "", (double)row->more[k]);
     if (problem_afterburns(simulation->problem))
         column(&line, "afterburn.energy", "", joule,
                row->booked[LEDGER_AFTERBURN].entry[LEDGER_ENERGY]);
