@@ -362,8 +362,7 @@ const struct parameter case_table[] = {
      .table = case_boundary_table,
      .size = sizeof(struct boundary_input),
      .help = "what is outside the faces of the domain, by name (gas, cfdmp, afdmp); a face with a "
-             "wall is "
-             "reflecting, one without either is transmitting"},
+             "wall is reflecting, one without either is transmitting"},
     {.key = "obstacles",
      .kind = PARAMETER_MAP,
      .offset = offsetof(struct simulation_case, obstacles),

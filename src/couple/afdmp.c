@@ -2,9 +2,7 @@
  * the next stage may begin. */
 #include "couple/afdmp.h"
 
-#include <string.h>
-
-#include "base/memory.h"
+#include "couple/coarse.h"
 #include "material/material.h"
 
 const char afdmp_nest_name[] = "detonation";
@@ -179,7 +177,7 @@ static struct error *begin(struct afdmp *afdmp, struct simulation *simulation,
 {
     afdmp->stage = (double)stage;
     TRY(stage == AFDMP_PROPAGATION ? afdmp_map_to_gas(afdmp, simulation)
-                                   : afdmp_map_to_points(afdmp, simulation));
+                                   : afdmp_map_to_points(afdmp));
     afdmp_hide_cells(afdmp);
     return NULL;
 }
@@ -227,6 +225,12 @@ static double afdmp_step(const void *parameters, int dimension, const struct mat
     return mpm_class.step(&of->mpm, dimension, material, point, diameter);
 }
 
+static struct error *afdmp_coarse(const void *parameters, const struct simulation_case *input)
+{
+    const struct afdmp_parameters *of = parameters;
+    return coarse_cells(input, part_edge(&of->mpm, input));
+}
+
 static const char *afdmp_energy_lost(const void *parameters)
 {
     const struct afdmp_parameters *of = parameters;
@@ -243,4 +247,5 @@ const struct solver_class afdmp_class = {.size = sizeof(struct afdmp),
                                          .destroy = afdmp_destroy,
                                          .bytes = afdmp_bytes,
                                          .step = afdmp_step,
-                                         .energy_lost = afdmp_energy_lost};
+                                         .energy_lost = afdmp_energy_lost,
+                                         .coarse = afdmp_coarse};

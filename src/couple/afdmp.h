@@ -51,7 +51,7 @@ void afdmp_burn_all(struct afdmp *afdmp);
 struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulation);
 
 /* The last part gets particles for what the cells of gas have. */
-struct error *afdmp_map_to_points(struct afdmp *afdmp, struct simulation *simulation);
+struct error *afdmp_map_to_points(struct afdmp *afdmp);
 
 /* Cells that do not count have no mass: all in the last stage, in the first those of the nest. */
 void afdmp_hide_cells(struct afdmp *afdmp);

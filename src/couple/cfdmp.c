@@ -230,7 +230,8 @@ static double cfdmp_step(const void *parameters, int dimension, const struct mat
 
 static struct error *cfdmp_coarse(const void *parameters, const struct simulation_case *input)
 {
-    return coarse_cells(input, cfdmp_edge(parameters, input));
+    const struct cfdmp_parameters *of = parameters;
+    return coarse_cells(input, part_edge(&of->mpm, input));
 }
 
 static const char *cfdmp_energy_lost(const void *parameters)

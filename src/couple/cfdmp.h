@@ -72,8 +72,6 @@ void cfdmp_free_parts(struct cfdmp *cfdmp);
 /* The depth of the band behind the overlap, in cells: sweeps along each axis look two ahead. */
 int64_t cfdmp_band_depth(int dimension);
 
-/* The edge of cells. */
-double cfdmp_edge(const struct cfdmp_parameters *parameters, const struct simulation_case *input);
 /* The places along AXIS between which the gas computes no cells, behind the band; the second may be
  * below the first. */
 void cfdmp_blocked(const struct cfdmp *cfdmp, int axis, int64_t at[2]);

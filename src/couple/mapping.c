@@ -252,11 +252,10 @@ static struct error *make_particles(struct afdmp *afdmp, const struct gas_view *
     return NULL;
 }
 
-struct error *afdmp_map_to_points(struct afdmp *afdmp, struct simulation *simulation)
+struct error *afdmp_map_to_points(struct afdmp *afdmp)
 {
     const struct gas_view view = gas_view(afdmp->gas);
     const struct gas_cut *region = &afdmp->region;
-    (void)simulation;
     for (int32_t b = 0; b < view.cells->blocks; b++) {
         const struct cell_block *block = &view.cells->block[b];
         int32_t i = block->first;

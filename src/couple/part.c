@@ -195,6 +195,11 @@ void part_gather(struct simulation *simulation, struct part *part)
     simulation_take_phases(simulation, &part->simulation);
 }
 
+double part_edge(const struct mpm_parameters *mpm, const struct simulation_case *input)
+{
+    return isnan(mpm->cell) ? 2.0 * input->resolution : mpm->cell;
+}
+
 struct cell_blocks part_domain(const struct simulation_case *input, double edge)
 {
     struct cell_blocks cells = {.dimension = (int)input->dimension, .edge = edge};

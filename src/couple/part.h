@@ -48,7 +48,7 @@ struct error *part_block(const struct part_maker *maker, struct part *part, cons
 struct error *part_close_faces(const struct part_maker *maker, struct part *part,
                                const struct gas_cut *cut, const struct mirrors *mirrors);
 
-/* Makes the simulation of the part's case and its solver, of CLASS with PARAMETERS. */
+/* Makes the simulation of the part's case and its solver, of TYPE with PARAMETERS. */
 struct error *part_create(const struct part_maker *maker, struct part *part,
                           const struct simulation *simulation, const struct solver_class *type,
                           const void *parameters);
@@ -59,6 +59,9 @@ void part_free(struct part *part, const struct solver_class *type);
 void part_show(struct simulation *simulation, const struct part *part);
 void part_share_time(struct part *part, const struct simulation *simulation);
 void part_gather(struct simulation *simulation, struct part *part);
+
+/* The edge of the cells of all parts. */
+double part_edge(const struct mpm_parameters *mpm, const struct simulation_case *input);
 
 /* The domain of a case in cells of EDGE: its faces, rounded. */
 struct cell_blocks part_domain(const struct simulation_case *input, double edge);

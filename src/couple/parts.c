@@ -132,7 +132,7 @@ struct error *cfdmp_make_parts(struct cfdmp *cfdmp, struct simulation *simulatio
     cfdmp->ranks = simulation->ranks;
     cfdmp->dimension = simulation->problem->dimension;
     cfdmp->round = geometry_power(simulation->problem->geometry) > 0;
-    cfdmp->edge = cfdmp_edge(&cfdmp->parameters, input);
+    cfdmp->edge = part_edge(&cfdmp->parameters.mpm, input);
     cfdmp->maker = (struct part_maker){&cfdmp->owned, cfdmp->edge, cfdmp->dimension};
     TRY(make_gas_part(cfdmp, simulation));
     TRY(make_mpm_part(cfdmp, simulation));

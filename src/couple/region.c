@@ -20,11 +20,6 @@ static bool is_solid(const struct simulation_case *input, int body)
     return !gas_computes(case_material(input, case_body(input, body)->material_index)->material);
 }
 
-double cfdmp_edge(const struct cfdmp_parameters *parameters, const struct simulation_case *input)
-{
-    return isnan(parameters->mpm.cell) ? 2.0 * input->resolution : parameters->mpm.cell;
-}
-
 void cfdmp_blocked(const struct cfdmp *cfdmp, int axis, int64_t at[2])
 {
     const int64_t depth = cfdmp->parameters.overlap + cfdmp_band_depth(cfdmp->dimension);
@@ -209,7 +204,7 @@ static struct cfdmp region_of(const void *parameters, const struct simulation_ca
 {
     struct cfdmp cfdmp = {.parameters = *(const struct cfdmp_parameters *)parameters,
                           .dimension = (int)input->dimension};
-    cfdmp.edge = cfdmp_edge(&cfdmp.parameters, input);
+    cfdmp.edge = part_edge(&cfdmp.parameters.mpm, input);
     *domain = part_domain(input, cfdmp.edge);
     error_free(cfdmp_find_region(&cfdmp, input, domain));
     return cfdmp;

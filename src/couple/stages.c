@@ -1,6 +1,5 @@
 /* The cases of the parts of afdmp: the nest of the charges, the region of the solids, and the gas
  * between them. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "case/internal.h"
@@ -335,8 +334,7 @@ struct error *afdmp_make_parts(struct afdmp *afdmp, struct simulation *simulatio
     const struct simulation_case *input = simulation->problem->input;
     afdmp->dimension = simulation->problem->dimension;
     afdmp->round = geometry_power(simulation->problem->geometry) > 0;
-    afdmp->edge =
-        isnan(afdmp->parameters.mpm.cell) ? 2.0 * input->resolution : afdmp->parameters.mpm.cell;
+    afdmp->edge = part_edge(&afdmp->parameters.mpm, input);
     afdmp->maker = (struct part_maker){&afdmp->owned, afdmp->edge, afdmp->dimension};
     TRY(refuse(simulation));
     const struct cell_blocks domain = part_domain(input, afdmp->edge);
