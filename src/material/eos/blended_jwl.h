@@ -51,8 +51,9 @@ struct eos_blended_jwl {
     NUMBER(T, products_omega, "", REQUIRED, POSITIVE, "Grueneisen coefficient of the products")   \
     NUMBER(T, energy, "J/m^3", REQUIRED, POSITIVE, "Q: heat of the reaction")
 
-/* The explosive alone. Energy below that at rest, which errors leave, pulls no further: the square
- * of the sound speed would be negative. */
+/* The explosive alone. Energy far below that at rest, which errors leave, pulls no further: with
+ * ever less the square of the sound speed at rest would fall below a half of what it is, and then
+ * below zero. */
 BOLIDE_INLINE struct eos_value blended_explosive(const struct eos_blended_jwl *blend,
                                                  double density, double energy)
 {
@@ -66,11 +67,13 @@ BOLIDE_INLINE struct eos_value blended_explosive(const struct eos_blended_jwl *b
     }
     const struct eos_mie_grueneisen solid = {blend->density, blend->sound,        blend->slope,
                                              blend->gamma,   blend->bulk_modulus, EOS_EXTENDED};
-    const double heat = maximum(energy, 0.0);
+    const double wave = minimum(square(blend->sound), blend->bulk_modulus / blend->density),
+                 least = -0.5 * wave / (blend->gamma * (1.0 + blend->gamma)),
+                 heat = blend->gamma > 0.0 ? maximum(energy, least) : energy;
     struct eos_value value = eos_mie_grueneisen(&solid, density, heat, none);
     if (value.status & POINT_BEYOND)
         value = eos_mie_grueneisen_beyond(&solid, density, heat);
-    if (energy < 0.0)
+    if (energy < heat)
         value.dp_de = 0.0;
     return value;
 }
