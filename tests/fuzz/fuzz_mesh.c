@@ -1,8 +1,7 @@
-/* The readers of images and meshes under libFuzzer: whatever the bytes, they return a shape or say
- * what is wrong, and give all memory back. A shape can be asked what it holds. */
+/* The reader of meshes under libFuzzer: whatever the bytes, it returns a closed surface or says
+ * what is wrong, and frees all memory. A surface tells which points it encloses. */
 #include <stdlib.h>
 
-#include "shape/pixels.h"
 #include "shape/triangles.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -23,15 +22,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         bytes[i] = (char)data[i];
     bytes[size] = '\0';
 
-    struct pixels *pixels = NULL;
-    const char *text = pixels_read(bytes, size, &pixels);
-    insist(!text == !!pixels);
-    for (int64_t i = 0; pixels && i < pixels->width * pixels->height; i++)
-        insist(pixels->grey[i] >= PIXEL_CLEAR && pixels->grey[i] <= PIXEL_WHITE);
-    free(pixels);
-
     struct triangles *triangles = NULL;
-    text = stl_read(bytes, size, &triangles);
+    const char *text = stl_read(bytes, size, &triangles);
     insist(!text == !!triangles);
     for (int i = 0; triangles && i < 64; i++) {
         const struct vec3 low = triangles->bounds.low, high = triangles->bounds.high;
