@@ -160,6 +160,31 @@ static struct error *read_all(struct simulation_case *input, const char *path,
     return options->recording || options->convergence ? NULL : case_take_record(input, path);
 }
 
+/* Opens the case, with the files that run sweep_run of its sweep includes. */
+static struct error *open_case(const char *path, const struct case_options *options,
+                               struct document **document)
+{
+    TRY(document_open(path, options->settings, options->setting_count, options->form, document));
+    int runs, runs_with;
+    const struct node *include =
+        options->convergence ? NULL : case_swept_include(*document, options->sweep_run, &runs);
+    if (!include)
+        return NULL;
+    struct document *first = *document;
+    struct error *error = document_open_with(path, include, options->settings,
+                                             options->setting_count, options->form, document);
+    if (!error &&
+        !(case_swept_include(*document, options->sweep_run, &runs_with) && runs_with == runs)) {
+        error = place_error(include->place, "sweep.include",
+                            "with this the case has another sweep; write the sweep in the case "
+                            "itself");
+        document_free(*document);
+        *document = NULL;
+    }
+    document_free(first);
+    return error;
+}
+
 struct error *case_read(const char *path, const struct case_options *options,
                         const struct catalogue *catalogue, struct simulation_case **result)
 {
@@ -169,10 +194,8 @@ struct error *case_read(const char *path, const struct case_options *options,
         return out_of_memory();
     input->catalogue = catalogue;
     input->name = case_name(path);
-    struct error *error = input->name
-                              ? document_open(path, options->settings, options->setting_count,
-                                              options->form, &input->document)
-                              : out_of_memory();
+    struct error *error =
+        input->name ? open_case(path, options, &input->document) : out_of_memory();
     if (!error) {
         input->form = input->document->overlay ? input->document->overlay : "normal";
         error = read_all(input, path, options);

@@ -27,6 +27,10 @@ extern const struct parameter case_convergence_table[]; /* struct convergence_in
 /* Makes material->material, plain data, from what was read. */
 struct error *case_fill_material(struct material_input *material);
 
+/* What the case includes in run RUN of its sweep, a part of the document; NULL where the sweep does
+ * not vary that, or is wrong. *RUNS is the number of runs, 0 for a mistake. */
+const struct node *case_swept_include(const struct document *document, int run, int *runs);
+
 /* Takes the sweep out of the document and tells its mistakes; puts the values of its run RUN, 1 to
  * sweep_runs, where they belong. 0: none of them. */
 struct error *case_take_sweep(struct simulation_case *input, int run);

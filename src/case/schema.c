@@ -410,7 +410,7 @@ static void write_shaping_keys(struct writer *w)
 {
 #define SWEPT                                            \
     "{\"type\": \"array\", \"minItems\": 1, \"items\": " \
-    "{\"type\": [\"string\", \"number\", \"boolean\"], \"minLength\": 1}}"
+    "{\"type\": [\"string\", \"number\", \"boolean\", \"array\"], \"minLength\": 1}}"
     static const char *const schemas[][2] = {
         {"include", "\"anyOf\": [{\"type\": \"string\", \"minLength\": 1}, "
                     "{\"type\": \"array\", \"items\": {\"type\": \"string\", \"minLength\": 1}}]"},

@@ -22,7 +22,9 @@ const struct parameter case_shaping_table[] = {
     {.key = "sweep",
      .kind = PARAMETER_MAP,
      .standard = PARAMETER_OPTIONAL,
-     .help = "names of let, or paths, each with the values to run with: {speed: [1 km/s, 2 km/s]}; "
-             "those that change together in a map: {gas: {gamma: [1.4, 3], front: [2 mm, 3 mm]}}"},
+     .help =
+         "names of let, paths, or include, each with the values to run with: {speed: [1 km/s, 2 "
+         "km/s]}; those that change together in a map: {gas: {gamma: [1.4, 3], front: [2 mm, 3 "
+         "mm]}}"},
     PARAMETER_END,
 };

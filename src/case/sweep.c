@@ -10,7 +10,8 @@
 
 enum { SWEEP_RUNS_MAX = 10000, SWEEP_KEYS_MAX = 1000 };
 
-static const char sweep_key[] = "sweep", let_key[] = "let", study_key[] = "convergence";
+static const char sweep_key[] = "sweep", let_key[] = "let", study_key[] = "convergence",
+                  include_key[] = "include";
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
@@ -43,6 +44,13 @@ static struct error *find_target(const struct document *document, const char *ke
     near = nearest_name(key, names, count);
     return place_error(place, told, "\"%.60s\" is neither a name of let nor a path%s%s%s", key,
                        near ? " (did you mean \"" : "", near ? near : "", near ? "\"?)" : "");
+}
+
+/* True for the files that a case includes, unless a name of `let` is called so. */
+static bool is_include(const struct document *document, const char *key)
+{
+    const struct node *let = node_entry(document->root, let_key);
+    return !strcmp(key, include_key) && !(let && node_entry(let, key));
 }
 
 static struct error *check_values(const struct node *list, const char *told)
@@ -96,7 +104,7 @@ static int choice_of(const struct node *sweep, int index, int run)
     return (run - 1) / runs_below % values;
 }
 
-/* Puts a copy of VALUE, which keeps its place in the file, at PATH. */
+/* Puts a copy of VALUE, which keeps its place in the file, at PATH, unless that is NULL. */
 static struct error *take_value(struct simulation_case *input, int entry, const char *key,
                                 const char *path, const struct node *value)
 {
@@ -106,18 +114,20 @@ static struct error *take_value(struct simulation_case *input, int entry, const 
     taken->text = value_text(value);
     taken->quantity.value = NAN;
     struct node *copy = node_copy(value);
-    struct error *error = taken->key && taken->text && copy
-                              ? document_set(input->document, path, &copy)
-                              : out_of_memory();
+    struct error *error = taken->key && taken->text && copy ? NULL : out_of_memory();
+    if (!error && path)
+        error = document_set(input->document, path, &copy);
     node_free(copy);
     return error;
 }
 
 static struct error *check_list(const struct document *document, const struct node *list)
 {
-    char *path, told[512];
+    char *path = NULL, told[512];
     snprintf(told, sizeof told, "%s.%s", sweep_key, list->key);
-    struct error *error = find_target(document, list->key, list->key_place, told, &path);
+    struct error *error = is_include(document, list->key)
+                              ? NULL
+                              : find_target(document, list->key, list->key_place, told, &path);
     free(path);
     return error_join(error, check_values(list, told));
 }
@@ -139,8 +149,11 @@ static struct error *check_entry(const struct document *document, const struct n
     return error;
 }
 
-static struct error *check_entries(struct simulation_case *input, const struct node *sweep)
+/* *ALL is the number of runs, 0 for a mistake. */
+static struct error *check_entries(const struct document *document, const struct node *sweep,
+                                   int *all)
 {
+    *all = 0;
     struct error *error = NULL;
     double runs = 1.0;
     int lists = 0;
@@ -150,14 +163,14 @@ static struct error *check_entries(struct simulation_case *input, const struct n
         return place_error(sweep->key_place, sweep_key, "these are more than %d keys",
                            SWEEP_KEYS_MAX);
     for (int i = 0; i < sweep->count; i++) {
-        struct error *wrong = check_entry(input->document, sweep->child[i]);
+        struct error *wrong = check_entry(document, sweep->child[i]);
         runs *= wrong ? 1.0 : values_of(sweep->child[i]);
         error = error_join(error, wrong);
     }
     if (!error && runs > SWEEP_RUNS_MAX)
         error =
             place_error(sweep->key_place, sweep_key, "these are more than %d runs", SWEEP_RUNS_MAX);
-    input->sweep_runs = error ? 0 : (int)runs;
+    *all = error ? 0 : (int)runs;
     return error;
 }
 
@@ -167,7 +180,9 @@ static struct error *take_choice(struct simulation_case *input, int entry, const
 {
     char *path = NULL;
     struct error *error =
-        find_target(input->document, list->key, list->key_place, sweep_key, &path);
+        is_include(input->document, list->key)
+            ? NULL
+            : find_target(input->document, list->key, list->key_place, sweep_key, &path);
     if (!error)
         error = take_value(input, entry, list->key, path, list->child[choice]);
     free(path);
@@ -190,6 +205,21 @@ static struct error *take_values(struct simulation_case *input, const struct nod
     return error;
 }
 
+const struct node *case_swept_include(const struct document *document, int run, int *runs)
+{
+    const struct node *sweep = node_entry(document->root, sweep_key);
+    *runs = 0;
+    if (sweep && sweep->kind == NODE_MAP && sweep->count > 0)
+        error_free(check_entries(document, sweep, runs));
+    for (int i = 0; run > 0 && run <= *runs && i < sweep->count; i++)
+        for (int k = 0; k < lists_of(sweep->child[i]); k++) {
+            const struct node *list = list_of(sweep->child[i], k);
+            if (is_include(document, list->key))
+                return list->child[choice_of(sweep, i, run)];
+        }
+    return NULL;
+}
+
 struct error *case_take_sweep(struct simulation_case *input, int run)
 {
     struct node *root = input->document->root, *sweep = NULL;
@@ -200,7 +230,7 @@ struct error *case_take_sweep(struct simulation_case *input, int run)
         return NULL;
     struct error *error = NULL;
     if (sweep->kind == NODE_MAP && sweep->count > 0) {
-        error = check_entries(input, sweep);
+        error = check_entries(input->document, sweep, &input->sweep_runs);
         if (!error && run > 0 && run <= input->sweep_runs)
             error = take_values(input, sweep, run);
     } else if (sweep->kind != NODE_MAP && !node_is_empty(sweep)) {

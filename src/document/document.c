@@ -399,12 +399,19 @@ struct error *document_open_text(const char *text, const char *name, const char 
     return finish(error, settings, count, overlay, document);
 }
 
+struct error *document_open_with(const char *path, const struct node *include,
+                                 const char *const *settings, int count, const char *overlay,
+                                 struct document **document)
+{
+    TRY(document_new(document));
+    struct error *error = document_load(*document, path, include);
+    return finish(error, settings, count, overlay, document);
+}
+
 struct error *document_open(const char *path, const char *const *settings, int count,
                             const char *overlay, struct document **document)
 {
-    TRY(document_new(document));
-    struct error *error = document_load(*document, path);
-    return finish(error, settings, count, overlay, document);
+    return document_open_with(path, NULL, settings, count, overlay, document);
 }
 
 void document_free(struct document *document)

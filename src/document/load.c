@@ -31,6 +31,7 @@ struct source {
 
 struct loading {
     struct document *document;
+    const struct node *include; /* instead of that of the first file; NULL: its own */
     int included;
     size_t bytes;
 };
@@ -237,20 +238,19 @@ static struct error *include_all(struct loading *loading, const struct source *b
 static struct error *load(struct loading *loading, struct source *source, struct node **root)
 {
     TRY(read_source(loading, source, root));
-    for (int i = 0; i < (*root)->count; i++) {
-        if (strcmp((*root)->child[i]->key, include_key) != 0)
-            continue;
-        struct node *include = node_take(*root, i);
-        struct error *error = include_all(loading, source, include, *root);
-        node_free(include);
-        return error;
-    }
-    return NULL;
+    struct node *own = NULL;
+    for (int i = 0; i < (*root)->count && !own; i++)
+        if (!strcmp((*root)->child[i]->key, include_key))
+            own = node_take(*root, i);
+    const struct node *include = !source->by && loading->include ? loading->include : own;
+    struct error *error = include ? include_all(loading, source, include, *root) : NULL;
+    node_free(own);
+    return error;
 }
 
-struct error *document_load(struct document *document, const char *path)
+struct error *document_load(struct document *document, const char *path, const struct node *include)
 {
-    struct loading loading = {.document = document};
+    struct loading loading = {.document = document, .include = include};
     struct source source = {.path = path};
     return load(&loading, &source, &document->root);
 }

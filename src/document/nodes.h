@@ -71,8 +71,15 @@ bool node_is_empty(const struct node *node);
 const char *document_keep(struct document *document, char *text);
 
 /* Reads the file PATH, and the files that it includes below its own entries, into the document's
- * root. Mistakes of any of them come joined. */
-struct error *document_load(struct document *document, const char *path);
+ * root. Mistakes of any of them come joined. INCLUDE, a file or a list of files, replaces what the
+ * file PATH includes, unless it is NULL. */
+struct error *document_load(struct document *document, const char *path,
+                            const struct node *include);
+
+/* document_open with such an INCLUDE, which may be part of another document. */
+struct error *document_open_with(const char *path, const struct node *include,
+                                 const char *const *settings, int count, const char *overlay,
+                                 struct document **document);
 
 /* Puts the entries of OVER, which is emptied, over those of BASE; maps within maps merge. */
 struct error *node_merge(struct node *base, struct node *over);

@@ -32,13 +32,15 @@ static const char two_ways[] =
     HEAD "sweep: {speed: [2*slow, 10 m/s], bodies.all.energy: [1 J/kg, 3 kJ/kg]}\n"
          "short: {sweep: {speed: [7 m/s], bodies.all.energy: [4 J/kg]}}\n";
 
-static void write_case(const char *text)
+static void write_file(const char *path, const char *text)
 {
-    FILE *file = fopen("case.yaml", "w");
+    FILE *file = fopen(path, "w");
     assert_non_null(file);
     assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
     assert_int_equal(fclose(file), 0);
 }
+
+static void write_case(const char *text) { write_file("case.yaml", text); }
 
 static int enter_folder(void **state)
 {
@@ -121,6 +123,64 @@ static void a_value_may_be_a_list(void **state)
         const struct shape_box *box = case_body(input, 0)->shape.value;
         assert_true(box->to.at[0] == (run == 1 ? 10e-3 : 2e-3));
         case_free(input);
+    }
+}
+
+static void assert_run(int run, double density, double speed)
+{
+    struct simulation_case *input = NULL;
+    struct error *error = read_run(run, false, &input);
+    if (error)
+        fail_msg("%s", error_message(error, 0));
+    assert_true(case_body(input, 0)->density.constant == density);
+    assert_true(case_body(input, 0)->velocity.at[0].constant == speed);
+    case_free(input);
+}
+
+static void the_files_that_a_case_includes_may_change(void **state)
+{
+    (void)state;
+    write_file("thin.yaml", "bodies: {all: {density: 1 kg/m^3}}\n");
+    write_file("thick.yaml", "bodies: {all: {density: 7 kg/m^3}}\nlet: {speed: 6 m/s}\n");
+    write_case("include: thin.yaml\n" BODIES
+               "sweep: {include: [thin.yaml, thick.yaml, [thick.yaml, thin.yaml]], speed: [5 m/s, "
+               "20 m/s]}\n");
+    assert_run(0, 1.0, 5.0);
+    assert_run(1, 1.0, 5.0);
+    assert_run(2, 1.0, 20.0);
+    assert_run(3, 7.0, 5.0);
+    assert_run(4, 7.0, 20.0);
+    assert_run(6, 1.0, 20.0);
+
+    /* Values of the case stay above those of the files. */
+    write_case("include: thin.yaml\n" BODIES "sweep: {include: [thin.yaml, thick.yaml]}\n");
+    assert_run(2, 7.0, 5.0);
+}
+
+static void mistakes_of_swept_files_are_told(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *sweep, *text;
+    } wrong[] = {
+        {"{include: [thin.yaml, missing.yaml]}", "missing.yaml: No such file or directory"},
+        {"{include: [thin.yaml, swept.yaml]}", "with this the case has another sweep"},
+        {"{include: [thin.yaml, '']}", "expected a file or a list of files"},
+        {"{include: thick.yaml}", "expected a list of values"},
+    };
+    write_file("thin.yaml", "bodies: {all: {density: 1 kg/m^3}}\n");
+    write_file("swept.yaml", "sweep: {speed: [1 m/s, 2 m/s]}\n");
+    for (size_t i = 0; i < COUNT_OF(wrong); i++) {
+        struct simulation_case *input = NULL;
+        char *text = text_format("include: thin.yaml\n" BODIES "sweep: %s\n", wrong[i].sweep);
+        assert_non_null(text);
+        write_case(text);
+        free(text);
+        struct error *error = read_run(2, false, &input);
+        assert_non_null(error);
+        if (!strstr(error_message(error, 0), wrong[i].text))
+            fail_msg("%s", error_message(error, 0));
+        error_free(error);
     }
 }
 
@@ -416,6 +476,8 @@ int main(void)
         cmocka_unit_test(keys_that_change_together_are_one),
         cmocka_unit_test(a_value_may_be_a_list),
         cmocka_unit_test(keys_that_change_together_have_as_many_values),
+        cmocka_unit_test(the_files_that_a_case_includes_may_change),
+        cmocka_unit_test(mistakes_of_swept_files_are_told),
         cmocka_unit_test(a_run_knows_its_values),
         cmocka_unit_test(the_short_form_has_a_sweep_of_its_own),
         cmocka_unit_test(a_mistake_stands_where_its_value_does),
