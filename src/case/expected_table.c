@@ -3,8 +3,8 @@
 
 /* In the order of enum warning_kind. */
 static const char *const warning_names[] = {
-    "tension", "speed",  "temperature", "density", "tensile-instability",
-    "region",  "energy", "tracer",      "coarse",  NULL};
+    "tension", "speed",  "temperature", "density", "tensile-instability", "unlit", "region",
+    "energy",  "tracer", "coarse",      NULL};
 
 const struct parameter case_expected_table[] = {
     {.key = "warning",
@@ -14,8 +14,9 @@ const struct parameter case_expected_table[] = {
      .names = warning_names,
      .help = "what is expected: tension above the strength of a material; a speed above three "
              "times what the case can cause; a temperature below 0 K; a density outside the range "
-             "of the equation of state; tension for longer than SPH is reliable; a solid at "
-             "the edge of the region of a coupling; a drift of the total energy; a tracer whose "
+             "of the equation of state; tension for longer than SPH is reliable; an explosive "
+             "that is compressed before its detonation arrives; a solid at the edge of the region "
+             "of a coupling; a drift of the total energy; a tracer whose "
              "particle has failed; cells too coarse for a plate or a charge"},
     {.key = "of",
      .kind = PARAMETER_NAMES,

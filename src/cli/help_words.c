@@ -40,10 +40,10 @@ static const struct answer answers[] = {
     {" warning tensile.instability expected.warning ",
      "A run warns by name when something happens that its models do not cover: `tension`,\n"
      "`speed`, `temperature`, `density`, `tensile-instability` (SPH in lasting tension: use\n"
-     "`solver: mpm`), `energy`, `tracer` (its particle has failed), `region` (a solid of a\n"
-     "coupling near the gas) and `coarse` (its cells). The run goes on. `bolide verify` fails,\n"
-     "unless the case lists the warning in `expected_warnings` with the reason why its checks\n"
-     "hold.",
+     "`solver: mpm`), `unlit` (an explosive is compressed before its detonation arrives),\n"
+     "`energy`, `tracer` (its particle has failed), `region` (a solid of a coupling near the\n"
+     "gas) and `coarse` (its cells). The run goes on. `bolide verify` fails, unless the case\n"
+     "lists the warning in `expected_warnings` with the reason why its checks hold.",
      "case.md"},
     {" damage ",
      "The field `damage` is that of a failure model (`bolide help failure`) or of crushed\n"

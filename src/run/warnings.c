@@ -20,6 +20,10 @@ static const double SPEED_FACTOR = 3.0;
 /* The strength of an ideal crystal is about a tenth of its bulk modulus. */
 static const double TENSION_FRACTION = 1.0 / 20.0;
 
+/* The compression at which an explosive before its detonation should bear a pressure that matters,
+ * some 2 GPa; its products in the state of Chapman and Jouguet have 1.3 to 1.4. */
+static const double UNLIT_COMPRESSION = 1.1;
+
 static const double DRIFT_TO_WARN_OF = 0.05;
 
 /* The mean tension that the run takes as what MATERIAL bears. */
@@ -56,7 +60,8 @@ static void find_limits(struct material_watch *watch, const struct material *mat
     watch->limit[WARNING_INSTABILITY] = 1.0;
     watch->limit[WARNING_DENSITY] =
         eos_traits(&material->eos).largest_compression * material_density(material);
-    watch->limit[WARNING_REGION] = INFINITY;
+    if (material->burn.kind == BURN_programmed)
+        watch->limit[WARNING_UNLIT] = UNLIT_COMPRESSION * material_density(material);
     watch->warm = !heat_wrong(&material->heat, &material->eos);
     if (!watch->warm)
         return;
@@ -232,8 +237,17 @@ static double beyond(const struct bounds *room, const struct population *p, int3
     return most;
 }
 
+/* The fraction burnt of each member; NULL: the members have none. */
+static const double *burnt_of(const struct population *p)
+{
+    for (int k = 0; k < p->fields; k++)
+        if (!strcmp(p->field[k].declaration.name, "burnt"))
+            return p->field[k].data;
+    return NULL;
+}
+
 static void look_at(const struct warnings *w, const struct simulation *simulation,
-                    const struct population *p, int32_t i, struct found *all)
+                    const struct population *p, const double *burnt, int32_t i, struct found *all)
 {
     const int m = p->material[i];
     const struct material_watch *watch = &w->watch[m];
@@ -244,6 +258,7 @@ static void look_at(const struct warnings *w, const struct simulation *simulatio
         [WARNING_TEMPERATURE] = -1.0,
         [WARNING_DENSITY] = population_is_mixed(p, i) ? 0.0 : p->density[i],
         [WARNING_INSTABILITY] = tension_of(w, p, i),
+        [WARNING_UNLIT] = burnt && burnt[i] == 0.0 ? p->density[i] : 0.0,
     };
     if (watch->limit[WARNING_REGION] < INFINITY)
         value[WARNING_REGION] = beyond(&watch->room, p, i);
@@ -268,6 +283,7 @@ static void join(struct found *found, const struct found *own, int count)
 static bool search(const struct warnings *w, const struct simulation *simulation,
                    const struct population *p, struct found *found, int count)
 {
+    const double *burnt = burnt_of(p);
     bool failed = false;
 #pragma omp parallel num_threads(p->threads)
     {
@@ -275,7 +291,7 @@ static bool search(const struct warnings *w, const struct simulation *simulation
 #pragma omp for schedule(static)
         for (int32_t i = 0; i < p->count; i++)
             if (own && population_has(p, i))
-                look_at(w, simulation, p, i, own);
+                look_at(w, simulation, p, burnt, i, own);
 #pragma omp critical(bolide_warnings)
         {
             if (own)

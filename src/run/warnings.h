@@ -19,6 +19,7 @@ enum warning_kind {
     WARNING_TEMPERATURE, /* below 0 K */
     WARNING_DENSITY,     /* beyond the range of the equation of state */
     WARNING_INSTABILITY, /* tension that lasts longer than the method holds a body in it */
+    WARNING_UNLIT,       /* an explosive is compressed before its detonation arrives */
     WARNING_REGION,      /* a solid is near the open face of a region */
     WARNING_ENERGY,      /* of all members together: it is not conserved */
     WARNING_TRACER,      /* of a tracer: its particle has failed */

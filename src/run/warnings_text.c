@@ -23,6 +23,11 @@ static const struct {
          "SPH bodies creep and break in lasting tension, without a physical cause and with energy "
          "conserved: use `solver: mpm`",
          1.0},
+    [WARNING_UNLIT] =
+        {"unlit", "kg/m^3", "a density of",
+         "it has no pressure until then: use `burn: beta`, or an explosive that a shock starts "
+         "(docs/detonation.md)",
+         1.0},
     [WARNING_REGION] = {"region", "m", "a solid", "enlarge the `region` of the solver", 1.0},
     [WARNING_ENERGY] = {"energy", "", NULL, NULL, 1.0},
     [WARNING_TRACER] = {"tracer", "", NULL, NULL, 1.0},
@@ -75,6 +80,10 @@ static void put_limit(const struct warnings *warnings, const struct simulation *
         break;
     case WARNING_DENSITY:
         snprintf(text, size, "more than %.3g times that at rest, where its equation of state ends",
+                 limit / material_density(material));
+        break;
+    case WARNING_UNLIT:
+        snprintf(text, size, "more than %.3g times that at rest, before the detonation arrives",
                  limit / material_density(material));
         break;
     case WARNING_INSTABILITY:

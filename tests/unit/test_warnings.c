@@ -398,6 +398,17 @@ static void a_density_beyond_the_equation_of_state_is_named(void **state)
     "materials.metal.strength={perfect-plastic: {shear_modulus: 40 GPa, yield: 0.3 GPa}}", \
         "materials.metal.failure={spall: {strength: 1 GPa}}", "solver={nonsense: {damage: 1}}"
 
+static void an_explosive_compressed_before_it_is_lit_is_named(void **state)
+{
+    (void)state;
+    const char *const settings[] = {"solver={nonsense: {density: 1800 kg/m^3}}",
+                                    "materials.metal={library: tnt}",
+                                    "detonations={late: {at: [1 m], time: 1000 s}}", NULL};
+    const char *const words[] = {"1800 kg/m^3", "more than 1.1 times", "before the detonation",
+                                 "burn: beta", NULL};
+    expect_warning(settings, "unlit in metal", words);
+}
+
 static void a_tracer_is_named_when_its_particle_fails(void **state)
 {
     (void)state;
@@ -569,6 +580,7 @@ int main(void)
         cmocka_unit_test(a_prescribed_motion_may_move_others),
         cmocka_unit_test(a_temperature_below_zero_is_named),
         cmocka_unit_test(a_density_beyond_the_equation_of_state_is_named),
+        cmocka_unit_test(an_explosive_compressed_before_it_is_lit_is_named),
         cmocka_unit_test(a_tracer_is_named_when_its_particle_fails),
         cmocka_unit_test(a_tracer_of_another_particle_is_not_named),
         cmocka_unit_test(tension_that_lasts_is_named_for_its_body),
