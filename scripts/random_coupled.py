@@ -1,4 +1,5 @@
-"""Blasts on plates, drawn by a seed, for scripts/campaign-random: gas beside material points."""
+"""Blasts on plates, drawn by a seed, for scripts/campaign-random: gas beside material points, or one
+after the other."""
 import math
 import random
 
@@ -31,6 +32,9 @@ def blast(seed, number):
     overlap = draw.choice((3, 5, 8)) if dimension < 3 else 3
     radius = draw.randint(*{1: (10, 40), 2: (5, 12), 3: (3, 5)}[dimension])
     gap = draw.randint(*{1: (10, 120), 2: (8, 40), 3: (4, 9)}[dimension])
+    alternating = random.Random(f"{seed} method {number}").random() < 0.4
+    if alternating:  # the region of the plate, and the products of the charge while it burns
+        gap += 22
     thick = draw.randint(1, {1: 12, 2: 8, 3: 4}[dimension])
     material, state, density, speed = CHARGES[charge]
     until = draw.choice((1.2, 2, 3) if dimension < 3 else (1.2, 2)) * (gap + radius) * EDGE / speed
@@ -65,13 +69,15 @@ def blast(seed, number):
         inside, outside = list(low), list(high)
         inside[along], outside[along] = front - room, front + thick + behind
         region = f"region: {{low: {cells(inside)}, high: {cells(outside)}}}, "
+    solver = (f"{{afdmp: {{{region.rstrip(', ')}}}}}" if alternating else
+              f"{{cfdmp: {{{region}overlap: {overlap}}}}}")
     pressed = draw.choice((", pressure: 0.1 MPa", ""))
     text = f"""format: 1
 title: {charge} before {plate}, {geometry}, {gap} cells, plate of {thick}{", closed" if closed else ""}
 dimension: {dimension}
 {"geometry: axisymmetric" if geometry == "axisymmetric" else ""}
 resolution: {EDGE / 2} m
-solver: {{cfdmp: {{{region}overlap: {overlap}}}}}
+solver: {solver}
 materials: {{air: {{library: air}}, charge: {{{material}}}, plate: {{library: {plate}}}}}
 bodies:
   air: {{material: air, density: 1.2 kg/m^3, pressure: 0.1 MPa, {box(low, high)}}}
@@ -97,5 +103,5 @@ checks:
         if axis != along and draw.random() < 0.5:
             walls += f"  {name}1: {{mirror: {name}, at: {high[axis] * EDGE:.9g} m, side: high}}\n"
     text += f"walls:\n{walls}" if walls else ""
-    return text, (f"coupled {geometry}", f"coupled {charge}", f"coupled {plate}",
+    return text, (f"coupled {'afdmp' if alternating else 'cfdmp'}", f"coupled {geometry}", f"coupled {charge}", f"coupled {plate}",
                   f"coupled, region {'given' if region else 'derived'}")

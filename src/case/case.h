@@ -198,9 +198,10 @@ struct check_input {
     struct quantity is;        /* wanted value; NAN: none */
     struct quantity within;    /* allowed distance from `is`: a fraction of it, or a quantity */
     struct quantity at_most, at_least;
-    double at;       /* s, when it is measured; NAN: at the end */
-    char *minus;     /* the check whose value is subtracted; NULL: none */
-    int minus_check; /* filled by case_read: that check; -1: none */
+    double at;                  /* s, when it is measured; NAN: at the end */
+    char *minus;                /* the check whose value is subtracted; NULL: none */
+    int minus_check;            /* filled by case_read: that check; -1: none */
+    struct name_list mean_with; /* checks: the value is the mean with theirs */
     /* what the value is divided by: "start", its own then, or a check; NULL: nothing */
     char *relative;
     int relative_check;        /* filled by case_read: that check; -1: none */

@@ -59,6 +59,8 @@ static int find_other(struct checking *checking, const char *key, const char *na
         case_wrong(checking, key, "the check \"%s\" is relative itself", name);
     else if (other >= 0 && case_check(input, other)->minus)
         case_wrong(checking, key, "the check \"%s\" is a difference itself", name);
+    else if (other >= 0 && case_check(input, other)->mean_with.count > 0)
+        case_wrong(checking, key, "the check \"%s\" is a mean itself", name);
     return other;
 }
 
@@ -69,6 +71,8 @@ static void find_others(struct checking *checking, struct check_input *check, in
         check->relative_check = find_other(checking, "relative", check->relative, index);
     if (check->minus)
         check->minus_check = find_other(checking, "minus", check->minus, index);
+    for (int k = 0; k < check->mean_with.count; k++)
+        find_other(checking, "mean_with", check->mean_with.names[k], index);
 }
 
 void case_check_check(struct checking *checking, int index)

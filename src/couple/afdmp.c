@@ -7,6 +7,10 @@
 
 const char afdmp_nest_name[] = "detonation";
 
+/* Of the events by which stages begin. */
+static const char *const stage_names[] = {
+    [AFDMP_PROPAGATION] = "propagation", [AFDMP_INTERACTION] = "interaction"};
+
 static const char *const map_names[] = {"conservative", "consistent", "text", NULL};
 
 const struct parameter afdmp_table[] = {
@@ -56,8 +60,12 @@ static struct error *afdmp_create(void *solver, struct simulation *simulation,
     afdmp->parameters = *(const struct afdmp_parameters *)parameters;
     TRY(afdmp_make_parts(afdmp, simulation));
     afdmp->stage = afdmp->nest_mpm ? AFDMP_DETONATION : AFDMP_PROPAGATION;
-    if (afdmp->last_mpm)
+    if (afdmp->nest_mpm)
+        simulation_add_event(simulation, stage_names[AFDMP_PROPAGATION]);
+    if (afdmp->last_mpm) {
+        simulation_add_event(simulation, stage_names[AFDMP_INTERACTION]);
         part_show(simulation, &afdmp->last);
+    }
     part_show(simulation, &afdmp->gas_part);
     if (afdmp->nest_mpm) {
         const struct population_source *own = &afdmp->nest.simulation.population[0];
@@ -90,15 +98,6 @@ static void share_time(struct afdmp *afdmp, const struct simulation *simulation)
     part_share_time(&afdmp->last, simulation);
 }
 
-static bool note_rest(void *context, int64_t number, const int64_t at[3])
-{
-    struct afdmp *afdmp = context;
-    const struct cell_blocks *cells = gas_view(afdmp->gas).cells;
-    int32_t block;
-    afdmp->rest[number] = cells->pressure[part_cell(cells, at, &block)];
-    return true;
-}
-
 static struct error *afdmp_start(void *solver, struct simulation *simulation)
 {
     struct afdmp *afdmp = solver;
@@ -108,7 +107,9 @@ static struct error *afdmp_start(void *solver, struct simulation *simulation)
         afdmp_burn_all(afdmp);
     TRY(each_mpm(afdmp, mpm_class.start));
     if (simulation->step == 0 && afdmp->last_mpm)
-        afdmp_each_beside(afdmp, &afdmp->region, note_rest, afdmp);
+        afdmp_note_rest(afdmp, &afdmp->region, &afdmp->round_region);
+    if (afdmp->stage == (double)AFDMP_DETONATION)
+        afdmp_note_rest(afdmp, &afdmp->nest_cut, &afdmp->round_nest);
     afdmp_hide_cells(afdmp);
     return NULL;
 }
@@ -134,16 +135,16 @@ static struct error *afdmp_prepare(void *solver, struct simulation *simulation, 
     return NULL;
 }
 
-/* Whether all explosives of the nest have burnt. */
+/* Whether all explosives of the nest have burnt; collective. */
 static bool has_burnt(const struct afdmp *afdmp)
 {
     const struct particles *p = mpm_particles(afdmp->nest_mpm);
     const struct problem *problem = afdmp->nest.simulation.problem;
     const double *burnt = p->history[HISTORY_burnt];
-    for (int32_t i = 0; i < p->count && burnt; i++)
-        if (burnt[i] < 1.0 && material_is_lit(&problem->material[p->material[i]]))
-            return false;
-    return true;
+    bool burns = false;
+    for (int32_t i = 0; i < p->count && burnt && !burns; i++)
+        burns = burnt[i] < 1.0 && material_is_lit(&problem->material[p->material[i]]);
+    return ranks_maximum(afdmp->ranks, burns) == 0.0;
 }
 
 /* A walk over the cells beside the region, which ends where the pressure has changed. */
@@ -157,25 +158,30 @@ static bool look(void *context, int64_t number, const int64_t at[3])
     struct looking *looking = context;
     const struct afdmp *afdmp = looking->afdmp;
     const struct cell_blocks *cells = gas_view(afdmp->gas).cells;
-    const double wake = afdmp->parameters.wake, rest = afdmp->rest[number];
+    const double wake = afdmp->parameters.wake, rest = afdmp->round_region.rest[number];
     int32_t block;
-    const double now = cells->pressure[part_cell(cells, at, &block)];
+    const int32_t i = part_cell(cells, at, &block);
+    if (i < 0)
+        return true;
+    const double now = cells->pressure[i];
     looking->stirs = !(now < wake * rest && rest < wake * now);
     return !looking->stirs;
 }
 
+/* Collective. */
 static bool has_come(const struct afdmp *afdmp)
 {
     struct looking looking = {afdmp, false};
     if (afdmp->last_mpm)
         afdmp_each_beside(afdmp, &afdmp->region, look, &looking);
-    return looking.stirs;
+    return ranks_maximum(afdmp->ranks, looking.stirs) > 0.0;
 }
 
 static struct error *begin(struct afdmp *afdmp, struct simulation *simulation,
-                           enum afdmp_stage stage)
+                           enum afdmp_stage stage, double time)
 {
     afdmp->stage = (double)stage;
+    simulation_event(simulation, stage_names[stage], time);
     TRY(stage == AFDMP_PROPAGATION ? afdmp_map_to_gas(afdmp, simulation)
                                    : afdmp_map_to_points(afdmp));
     afdmp_hide_cells(afdmp);
@@ -189,12 +195,12 @@ static struct error *afdmp_advance(void *solver, struct simulation *simulation, 
     struct part *part = part_now(afdmp, &type);
     struct error *error = NULL;
     simulation_start_phase(&part->simulation);
-    TRY(type->advance(part->solver, &part->simulation, dt));
+    TRY(ranks_agree(simulation->ranks, type->advance(part->solver, &part->simulation, dt)));
     part_gather(simulation, part);
     if (afdmp->stage == (double)AFDMP_DETONATION && has_burnt(afdmp))
-        error = begin(afdmp, simulation, AFDMP_PROPAGATION);
+        error = begin(afdmp, simulation, AFDMP_PROPAGATION, simulation->time + dt);
     else if (afdmp->stage == (double)AFDMP_PROPAGATION && has_come(afdmp))
-        error = begin(afdmp, simulation, AFDMP_INTERACTION);
+        error = begin(afdmp, simulation, AFDMP_INTERACTION, simulation->time + dt);
     simulation_end_phase(simulation, PHASE_SHARED, "coupling");
     return error;
 }
@@ -204,7 +210,8 @@ static struct error *afdmp_state(void *solver, struct visitor *visitor)
     struct afdmp *afdmp = solver;
     TRY(visitor->visit(visitor, "afdmp/stage", NUMBER_DOUBLE, &afdmp->stage, 1, 1));
     if (afdmp->last_mpm)
-        TRY(visitor->visit(visitor, "afdmp/rest", NUMBER_DOUBLE, afdmp->rest, afdmp->beside, 1));
+        TRY(visitor->visit(visitor, "afdmp/rest", NUMBER_DOUBLE, afdmp->round_region.rest,
+                           afdmp->round_region.cells, 1));
     const struct solver_class *type;
     const struct part *part = part_now(afdmp, &type);
     return type->state(part->solver, visitor);

@@ -13,6 +13,13 @@
 
 enum afdmp_stage { AFDMP_DETONATION = 1, AFDMP_PROPAGATION, AFDMP_INTERACTION };
 
+/* The cells beside the open faces of a box, outside it, and their pressures at the start, Pa, which
+ * all ranks have. */
+struct afdmp_rim {
+    double *rest;
+    int64_t cells, *bits; /* as many */
+};
+
 struct afdmp {
     struct afdmp_parameters parameters;
     double stage;                    /* enum afdmp_stage, as checkpoints have it */
@@ -25,10 +32,10 @@ struct afdmp {
     double edge;
     struct gas_cut nest_cut, region; /* without what passes through faces */
     struct mpm_outside outside;      /* of the nest: gas at rest */
-    double *rest;                    /* pressures of the cells beside the region at the start, Pa */
-    int64_t beside;                  /* their number */
+    struct afdmp_rim round_region, round_nest;
     struct owned owned;
     struct part_maker maker;
+    const struct ranks *ranks;
 };
 
 /* The population of the nest. */
@@ -38,11 +45,14 @@ extern const char afdmp_nest_name[];
 struct error *afdmp_make_parts(struct afdmp *afdmp, struct simulation *simulation);
 void afdmp_free_parts(struct afdmp *afdmp);
 
-/* Calls ACT for each cell beside an open face of BOX, outside it, in one order; ends where ACT
- * returns false. */
+/* Calls ACT for each cell beside an open face of BOX, outside it, in one order, with its number;
+ * ends where ACT returns false. */
 void afdmp_each_beside(const struct afdmp *afdmp, const struct gas_cut *box,
                        bool (*act)(void *context, int64_t number, const int64_t at[3]),
                        void *context);
+
+/* Collective: notes the pressures of the gas in RIM of BOX, which is at rest. */
+void afdmp_note_rest(const struct afdmp *afdmp, const struct gas_cut *box, struct afdmp_rim *rim);
 
 /* Nothing burns in cells, blocked ones included. */
 void afdmp_burn_all(struct afdmp *afdmp);

@@ -89,51 +89,6 @@ static bool counts(void *context, int32_t i)
     return false;
 }
 
-/* A particle as other ranks get it. */
-struct shown {
-    uint64_t id;
-    double position[3], velocity[3], mass, density, energy, half;
-    int64_t which; /* of the materials of the gas */
-};
-
-static int by_id(const void *left, const void *right)
-{
-    const struct shown *a = left, *b = right;
-    return (a->id > b->id) - (a->id < b->id);
-}
-
-/* Collective: the particles of all ranks near the band, in the order of their ids; the caller frees
- * them. */
-static struct error *show_near(const struct cfdmp *cfdmp, struct shown **all, int64_t *count)
-{
-    const struct particles *p = mpm_particles(cfdmp->mpm);
-    const struct gas_view view = gas_view(cfdmp->gas);
-    struct looking looking = {cfdmp, {view.material[0], view.material[1]}, NULL};
-    struct shown *own = memory_allocate(((size_t)p->count + 1) * sizeof *own);
-    struct error *error = own ? NULL : owned_error();
-    int64_t near = 0;
-    for (int32_t i = 0; own && i < p->count; i++) {
-        if (!counts(&looking, i))
-            continue;
-        struct shown *shown = &own[near++];
-        *shown = (struct shown){.id = p->id[i],
-                                .mass = p->mass[i],
-                                .density = p->density[i],
-                                .energy = p->energy[i],
-                                .half = mpm_half_size(cfdmp->mpm, p->body[i]),
-                                .which = view.layout->two && p->material[i] == view.material[1]};
-        memcpy(shown->position, p->position[i], sizeof shown->position);
-        memcpy(shown->velocity, p->velocity[i], sizeof shown->velocity);
-    }
-    error = ranks_agree(cfdmp->ranks, error_join(error, looking.error));
-    if (!error)
-        error = ranks_gather(cfdmp->ranks, -1, own, near, sizeof *own, (void **)all, count);
-    free(own);
-    if (!error)
-        qsort(*all, (size_t)*count, sizeof **all, by_id);
-    return error;
-}
-
 struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
 {
     const struct gas_view view = gas_view(cfdmp->gas);
@@ -141,25 +96,20 @@ struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
                           .edge = cfdmp->edge,
                           .dimension = cfdmp->dimension,
                           .number = cfdmp->band_of};
-    struct shown *all = NULL;
+    struct looking looking = {cfdmp, {view.material[0], view.material[1]}, NULL};
+    struct smeared *all = NULL;
     int64_t count = 0;
     memcpy(smear.low, cfdmp->cut.low, sizeof smear.low);
     memcpy(smear.count, cfdmp->count, sizeof smear.count);
-    TRY(show_near(cfdmp, &all, &count));
-    struct smear_sums *sums = memory_allocate(((size_t)cfdmp->band_cells + 1) * sizeof *sums);
+    struct error *error =
+        smear_gather(cfdmp->mpm, &view, cfdmp->ranks, counts, &looking, &all, &count);
+    error = ranks_agree(cfdmp->ranks, error_join(error, looking.error));
+    struct smear_sums *sums =
+        error ? NULL : memory_allocate(((size_t)cfdmp->band_cells + 1) * sizeof *sums);
     for (int64_t n = 0; n < cfdmp->band_cells && sums; n++)
         sums[n] = (struct smear_sums){.kinetic = 0.0};
-    struct particles one = {.dimension = cfdmp->dimension}; /* a store of one */
-    smear.particles = &one;
-    for (int64_t k = 0; k < count && sums; k++) {
-        struct shown *shown = &all[k];
-        one.position = &shown->position;
-        one.velocity = &shown->velocity;
-        one.mass = &shown->mass;
-        one.density = &shown->density;
-        one.energy = &shown->energy;
-        smear_particle(&smear, 0, (int)shown->which, shown->half, sums);
-    }
+    for (int64_t k = 0; k < count && sums; k++)
+        smear_particle(&smear, &all[k], sums);
     for (int64_t n = 0; n < cfdmp->band_cells && sums; n++) {
         int32_t block;
         const int32_t i = part_cell(view.cells, cfdmp->band[n], &block);
@@ -168,7 +118,7 @@ struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
         put_cell(&view, &sums[n], i);
         cfdmp->changed[block] = true;
     }
-    struct error *error = sums ? NULL : owned_error();
+    error = sums || error ? error : owned_error();
     free(all);
     free(sums);
     return ranks_agree(cfdmp->ranks, error);

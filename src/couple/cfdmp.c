@@ -55,6 +55,9 @@ const struct parameter cfdmp_table[] = {
     PARAMETER_END,
 };
 
+/* The event by which the material points begin to move. */
+static const char interaction[] = "interaction";
+
 static struct error *cfdmp_create(void *solver, struct simulation *simulation,
                                   const void *parameters)
 {
@@ -63,6 +66,7 @@ static struct error *cfdmp_create(void *solver, struct simulation *simulation,
     TRY(cfdmp_make_parts(cfdmp, simulation));
     gas_watch(cfdmp->gas, &cfdmp->cut);
     cfdmp_surround(cfdmp);
+    simulation_add_event(simulation, interaction);
     part_show(simulation, &cfdmp->mpm_part);
     part_show(simulation, &cfdmp->gas_part);
     return NULL;
@@ -135,6 +139,8 @@ static struct error *cfdmp_start(void *solver, struct simulation *simulation)
     if (simulation->step == 0) {
         cfdmp_note_rest(cfdmp);
         cfdmp->awake = moves_itself(cfdmp) ? 1.0 : 0.0;
+        if (cfdmp->awake > 0.0)
+            simulation_event(simulation, interaction, simulation->time);
     }
     return NULL;
 }
@@ -146,8 +152,10 @@ static struct error *cfdmp_prepare(void *solver, struct simulation *simulation, 
     part_share_time(&cfdmp->mpm_part, simulation);
     part_share_time(&cfdmp->gas_part, simulation);
     *limit = limit_of_nothing();
-    if (cfdmp->awake == 0.0 && cfdmp_stirs(cfdmp))
+    if (cfdmp->awake == 0.0 && cfdmp_stirs(cfdmp)) {
         cfdmp->awake = 1.0;
+        simulation_event(simulation, interaction, simulation->time);
+    }
     if (cfdmp->awake > 0.0) {
         simulation_start_phase(&cfdmp->mpm_part.simulation);
         TRY(mpm_class.prepare(cfdmp->mpm, &cfdmp->mpm_part.simulation, limit));

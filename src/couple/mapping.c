@@ -24,18 +24,17 @@ void afdmp_burn_all(struct afdmp *afdmp)
 }
 
 /* Energy of particles by the cell that they lie in. */
-static void sum_energy(const struct smear *smear, int32_t i, double *energy)
+static void sum_energy(const struct smear *smear, const struct smeared *particle, double *energy)
 {
-    const struct particles *p = smear->particles;
     int64_t n = 0;
     for (int axis = 2; axis >= 0; axis--) {
         int64_t at = 0;
         if (axis < smear->dimension)
-            at = (int64_t)floor(p->position[i][axis] / smear->edge) - smear->low[axis];
+            at = (int64_t)floor(particle->position[axis] / smear->edge) - smear->low[axis];
         at = at < 0 ? 0 : at >= smear->count[axis] ? smear->count[axis] - 1 : at;
         n = n * smear->count[axis] + at;
     }
-    energy[n] += p->mass[i] * p->energy[i];
+    energy[n] += particle->mass * particle->energy;
 }
 
 /* The fraction of volume that the second material has when both have come to one pressure, each
@@ -92,6 +91,8 @@ static void put_cells(struct afdmp *afdmp, struct simulation *simulation, const 
                 for (int axis = 0; axis < 3; axis++)
                     at[axis] = smear->low[axis] + place[axis];
                 const int32_t i = part_cell(view.cells, at, &block);
+                if (i < 0)
+                    continue;
                 const double lost = put_cell(afdmp, &view, &sums[n], internal[n],
                                              part_cell_volume(&afdmp->maker, afdmp->round, at), i);
                 changed[block] = true;
@@ -105,8 +106,7 @@ struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulatio
 {
     struct particles *p = mpm_particles(afdmp->nest_mpm);
     const struct gas_view view = gas_view(afdmp->gas);
-    struct smear smear = {.particles = p,
-                          .shape = mpm_shape(afdmp->nest_mpm),
+    struct smear smear = {.shape = mpm_shape(afdmp->nest_mpm),
                           .edge = afdmp->edge,
                           .dimension = afdmp->dimension,
                           .keeps = true};
@@ -116,31 +116,33 @@ struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulatio
         smear.count[axis] = afdmp->nest_cut.high[axis] - afdmp->nest_cut.low[axis];
         cells *= (size_t)smear.count[axis];
     }
-    int32_t count;
-    int32_t *order = smear_order(p, all, NULL, &count);
+    struct smeared *each = NULL;
+    int64_t count = 0;
+    TRY(smear_gather(afdmp->nest_mpm, &view, afdmp->ranks, all, NULL, &each, &count));
     struct smear_sums *sums = memory_allocate(cells * sizeof *sums);
     double *internal = memory_allocate(cells * sizeof *internal);
     bool *changed = memory_allocate((size_t)view.cells->blocks + 1);
-    struct error *error = NULL;
-    if (order && sums && internal && changed) {
+    struct error *error = ranks_agree(
+        afdmp->ranks,
+        sums && internal && changed
+            ? NULL
+            : error_new(ERROR_SYSTEM, "out of memory for the map from particles to cells"));
+    if (!error) {
         memset(internal, 0, cells * sizeof *internal);
         memset(changed, 0, (size_t)view.cells->blocks + 1);
         for (size_t n = 0; n < cells; n++)
             sums[n] = (struct smear_sums){.kinetic = 0.0};
-        for (int32_t k = 0; k < count; k++) {
-            const int32_t i = order[k];
-            smear_particle(&smear, i, view.layout->two && p->material[i] == view.material[1],
-                           mpm_half_size(afdmp->nest_mpm, p->body[i]), sums);
-            sum_energy(&smear, i, internal);
+        for (int64_t k = 0; k < count; k++) {
+            smear_particle(&smear, &each[k], sums);
+            sum_energy(&smear, &each[k], internal);
         }
         for (int32_t i = 0; i < p->count; i++)
             particles_delete(p, i);
         afdmp_burn_all(afdmp);
         put_cells(afdmp, simulation, &smear, sums, internal, changed);
         error = gas_refresh(afdmp->gas, &afdmp->gas_part.simulation, changed);
-    } else
-        error = error_new(ERROR_SYSTEM, "out of memory for the map from particles to cells");
-    free(order);
+    }
+    free(each);
     free(sums);
     free(internal);
     free(changed);

@@ -332,3 +332,12 @@ void part_hide_cells(struct cell_blocks *cells, const int64_t low[3], const int6
                 }
     }
 }
+
+void part_unite(const struct ranks *ranks, int64_t *bits, double *values, int64_t count)
+{
+    if (ranks->size < 2)
+        return;
+    memcpy(bits, values, (size_t)count * sizeof *values);
+    ranks_sum_of(ranks, bits, (int)count);
+    memcpy(values, bits, (size_t)count * sizeof *values);
+}

@@ -82,6 +82,10 @@ void part_burn(struct particles *particles, int32_t i);
 /* The cell AT of the gas; -1 where another rank has it. */
 int32_t part_cell(const struct cell_blocks *cells, const int64_t at[3], int32_t *block);
 
+/* Collective: COUNT numbers, of which one rank alone has each and the others have 0, become those
+ * of all ranks, by sums of their BITS. */
+void part_unite(const struct ranks *ranks, int64_t *bits, double *values, int64_t count);
+
 /* Cells from LOW to HIGH are not those that count: they have no mass. */
 void part_hide_cells(struct cell_blocks *cells, const int64_t low[3], const int64_t high[3]);
 

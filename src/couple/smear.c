@@ -2,6 +2,7 @@
 #include "couple/smear.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 
@@ -24,12 +25,12 @@ static bool place_in(const struct smear *smear, int64_t at[3])
     return inside;
 }
 
-void smear_particle(const struct smear *smear, int32_t i, int which, double half,
+void smear_particle(const struct smear *smear, const struct smeared *particle,
                     struct smear_sums *sums)
 {
     enum { REACH = 2, SPAN = 2 * REACH + 1 };
-    const struct particles *p = smear->particles;
-    const double *x = p->position[i], *u = p->velocity[i];
+    const double *x = particle->position, *u = particle->velocity;
+    const int64_t which = particle->which;
     int64_t cell[3] = {0, 0, 0};
     double w[3][SPAN], speed = 0.0;
     int span[3] = {1, 1, 1}, reach[3] = {0, 0, 0};
@@ -43,8 +44,8 @@ void smear_particle(const struct smear *smear, int32_t i, int which, double half
         span[axis] = SPAN;
         reach[axis] = REACH;
         for (int k = 0; k < SPAN; k++)
-            w[axis][k] =
-                weight(smear->shape, place - floor(place) - 0.5 - (double)(k - REACH), half);
+            w[axis][k] = weight(smear->shape, place - floor(place) - 0.5 - (double)(k - REACH),
+                                particle->half);
     }
     for (int c = 0; c < span[2]; c++)
         for (int b = 0; b < span[1] && w[2][c] != 0.0; b++)
@@ -58,44 +59,47 @@ void smear_particle(const struct smear *smear, int32_t i, int which, double half
                 const int64_t k = smear->number ? smear->number[n] : n;
                 if (k < 0)
                     continue;
-                const double mass = part * p->mass[i];
-                sums[k].volume[which] += mass / p->density[i];
+                const double mass = part * particle->mass;
+                sums[k].volume[which] += mass / particle->density;
                 sums[k].mass[which] += mass;
-                sums[k].energy[which] += mass * p->energy[i];
+                sums[k].energy[which] += mass * particle->energy;
                 sums[k].kinetic += 0.5 * mass * speed;
                 for (int axis = 0; axis < 3; axis++)
                     sums[k].momentum[axis] += mass * u[axis];
             }
 }
 
-struct key {
-    uint64_t id;
-    int32_t i;
-};
-
 static int by_id(const void *left, const void *right)
 {
-    const struct key *a = left, *b = right;
+    const struct smeared *a = left, *b = right;
     return (a->id > b->id) - (a->id < b->id);
 }
 
-int32_t *smear_order(const struct particles *p, bool (*wanted)(void *context, int32_t i),
-                     void *context, int32_t *count)
+struct error *smear_gather(const struct mpm *mpm, const struct gas_view *view,
+                           const struct ranks *ranks, bool (*wanted)(void *context, int32_t i),
+                           void *context, struct smeared **all, int64_t *count)
 {
-    struct key *key = memory_allocate(((size_t)p->count + 1) * sizeof *key);
-    int32_t *order = memory_allocate(((size_t)p->count + 1) * sizeof *order);
-    *count = 0;
-    for (int32_t i = 0; key && order && i < p->count; i++)
-        if (wanted(context, i))
-            key[(*count)++] = (struct key){p->id[i], i};
-    if (key && order) {
-        qsort(key, (size_t)*count, sizeof *key, by_id);
-        for (int32_t k = 0; k < *count; k++)
-            order[k] = key[k].i;
-    } else {
-        free(order);
-        order = NULL;
+    const struct particles *p = mpm_particles(mpm);
+    struct smeared *own = memory_allocate(((size_t)p->count + 1) * sizeof *own);
+    int64_t taken = 0;
+    for (int32_t i = 0; own && i < p->count; i++) {
+        if (!wanted(context, i))
+            continue;
+        struct smeared *one = &own[taken++];
+        *one = (struct smeared){.id = p->id[i],
+                                .mass = p->mass[i],
+                                .density = p->density[i],
+                                .energy = p->energy[i],
+                                .half = mpm_half_size(mpm, p->body[i]),
+                                .which = view->layout->two && p->material[i] == view->material[1]};
+        memcpy(one->position, p->position[i], sizeof one->position);
+        memcpy(one->velocity, p->velocity[i], sizeof one->velocity);
     }
-    free(key);
-    return order;
+    struct error *error = ranks_agree(ranks, own ? NULL : owned_error());
+    if (!error)
+        error = ranks_gather(ranks, -1, own, taken, sizeof *own, (void **)all, count);
+    free(own);
+    if (!error)
+        qsort(*all, (size_t)*count, sizeof **all, by_id);
+    return error;
 }

@@ -11,8 +11,15 @@ struct smear_sums {
     double volume[2], mass[2], energy[2], momentum[3], kinetic;
 };
 
+/* A particle as all ranks get it. */
+struct smeared {
+    uint64_t id;
+    double position[3], velocity[3], mass, density, energy;
+    double half;   /* of its size, in cells */
+    int64_t which; /* of the materials of the gas */
+};
+
 struct smear {
-    const struct particles *particles;
     enum grid_shape shape;
     double edge;
     int dimension;
@@ -22,13 +29,14 @@ struct smear {
     bool keeps; /* what would go beyond the box goes to its border; else it is not summed */
 };
 
-/* Adds particle I of the gas solver's material WHICH, of half the size HALF in cells, to SUMS. */
-void smear_particle(const struct smear *smear, int32_t i, int which, double half,
+/* Adds what PARTICLE has to SUMS. */
+void smear_particle(const struct smear *smear, const struct smeared *particle,
                     struct smear_sums *sums);
 
-/* The indices of particles that WANTED takes, in the order of their ids; *count of them, which the
- * caller frees. NULL: out of memory. */
-int32_t *smear_order(const struct particles *particles, bool (*wanted)(void *context, int32_t i),
-                     void *context, int32_t *count);
+/* Collective: the particles of all ranks that WANTED takes, in the order of their ids; *count of
+ * them at *ALL, which the caller frees. */
+struct error *smear_gather(const struct mpm *mpm, const struct gas_view *view,
+                           const struct ranks *ranks, bool (*wanted)(void *context, int32_t i),
+                           void *context, struct smeared **all, int64_t *count);
 
 #endif

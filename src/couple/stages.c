@@ -237,12 +237,10 @@ static struct error *refuse(const struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
-    if (simulation->ranks->size > 1)
-        error = input_error(input, "solver", NULL, "the solver afdmp runs on one rank");
     if (input->obstacles.count > 0)
-        error = error_join(error, input_error(input, "obstacles", input->obstacles.names[0],
-                                              "material points of the solver afdmp know no "
-                                              "obstacles: make it a body"));
+        error = input_error(input, "obstacles", input->obstacles.names[0],
+                            "material points of the solver afdmp know no obstacles: make it a "
+                            "body");
     if (input->loads.count > 0)
         error = error_join(error, input_error(input, "loads", input->loads.names[0],
                                               "the solver afdmp computes solids from when on a "
@@ -285,22 +283,63 @@ void afdmp_each_beside(const struct afdmp *afdmp, const struct gas_cut *box,
         }
 }
 
-/* The gas outside the nest is at rest: its pressure at the node AT. */
+/* The number of the cell beside the open face of BOX that is nearest to the node AT. */
+static int64_t number_beside(const struct afdmp *afdmp, const struct gas_cut *box,
+                             const int64_t at[3])
+{
+    int64_t first = 0, number = 0, least = INT64_MAX;
+    for (int axis = 0; axis < afdmp->dimension; axis++)
+        for (int side = 0; side < 2; side++) {
+            const int one = axis == 0 ? 1 : 0, other = axis == 2 ? 1 : 2;
+            const int64_t plane = side ? box->high[axis] : box->low[axis],
+                          way = at[axis] > plane ? at[axis] - plane : plane - at[axis];
+            if (!box->open[axis][side])
+                continue;
+            int64_t place[2], count[2];
+            for (int k = 0; k < 2; k++) {
+                const int along = k ? other : one;
+                count[k] = box->high[along] - box->low[along];
+                place[k] = at[along] - box->low[along];
+                place[k] = place[k] < 0 ? 0 : place[k] >= count[k] ? count[k] - 1 : place[k];
+            }
+            if (way < least) {
+                least = way;
+                number = first + place[0] + count[0] * place[1];
+            }
+            first += count[0] * count[1];
+        }
+    return number;
+}
+
+struct noting {
+    const struct cell_blocks *cells;
+    double *rest;
+};
+
+static bool note(void *context, int64_t number, const int64_t at[3])
+{
+    const struct noting *noting = context;
+    int32_t block;
+    const int32_t i = part_cell(noting->cells, at, &block);
+    noting->rest[number] = i < 0 ? 0.0 : noting->cells->pressure[i];
+    return true;
+}
+
+void afdmp_note_rest(const struct afdmp *afdmp, const struct gas_cut *box, struct afdmp_rim *rim)
+{
+    struct noting noting = {gas_view(afdmp->gas).cells, rim->rest};
+    afdmp_each_beside(afdmp, box, note, &noting);
+    part_unite(afdmp->ranks, rim->bits, rim->rest, rim->cells);
+}
+
+/* The gas outside the nest is at rest: its pressure near the node AT. */
 static double pressure_outside(void *of, const int64_t at[3], int component)
 {
     const struct afdmp *afdmp = of;
-    const struct gas_cut *cut = &afdmp->nest_cut;
-    const struct gas_view view = gas_view(afdmp->gas);
-    int64_t cell[3] = {0, 0, 0};
-    int32_t block;
+    const int64_t number = number_beside(afdmp, &afdmp->nest_cut, at);
     (void)component;
-    for (int axis = 0; axis < afdmp->dimension; axis++) {
-        const int64_t low = cut->low[axis] - cut->open[axis][0],
-                      high = cut->high[axis] - !cut->open[axis][1];
-        cell[axis] = at[axis] < low ? low : at[axis] > high ? high : at[axis];
-    }
-    return view.cells->pressure[part_cell(view.cells, cell, &block)] -
-           mpm_gauge(afdmp->nest_mpm, view.material[0]);
+    return afdmp->round_nest.rest[number] -
+           mpm_gauge(afdmp->nest_mpm, gas_view(afdmp->gas).material[0]);
 }
 
 static void take_push(void *of, const struct mpm_push *push)
@@ -312,6 +351,14 @@ static void take_push(void *of, const struct mpm_push *push)
         vec3_make(impulse[0], impulse[1], impulse[2]),
         vec3_make((double)push->at[0] * h, (double)push->at[1] * h, (double)push->at[2] * h),
         push->work);
+}
+
+static struct error *make_rim(struct afdmp *afdmp, const struct gas_cut *box, struct afdmp_rim *rim)
+{
+    afdmp_each_beside(afdmp, box, count_beside, &rim->cells);
+    rim->rest = owned_new(&afdmp->owned, (size_t)rim->cells * sizeof *rim->rest);
+    rim->bits = owned_new(&afdmp->owned, (size_t)rim->cells * sizeof *rim->bits);
+    return rim->rest && rim->bits ? NULL : owned_error();
 }
 
 static void surround_nest(struct afdmp *afdmp)
@@ -332,6 +379,7 @@ static void surround_nest(struct afdmp *afdmp)
 struct error *afdmp_make_parts(struct afdmp *afdmp, struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->problem->input;
+    afdmp->ranks = simulation->ranks;
     afdmp->dimension = simulation->problem->dimension;
     afdmp->round = geometry_power(simulation->problem->geometry) > 0;
     afdmp->edge = part_edge(&afdmp->parameters.mpm, input);
@@ -355,16 +403,14 @@ struct error *afdmp_make_parts(struct afdmp *afdmp, struct simulation *simulatio
     if (solids) {
         TRY(make_mpm_part(afdmp, simulation, &afdmp->last, &afdmp->region, &all, true));
         afdmp->last_mpm = afdmp->last.solver;
-        afdmp_each_beside(afdmp, &afdmp->region, count_beside, &afdmp->beside);
-        afdmp->rest = owned_new(&afdmp->owned, (size_t)afdmp->beside * sizeof *afdmp->rest);
-        if (!afdmp->rest)
-            return owned_error();
+        TRY(make_rim(afdmp, &afdmp->region, &afdmp->round_region));
     }
     if (charges) {
         TRY(make_mpm_part(afdmp, simulation, &afdmp->nest, &afdmp->nest_cut, &afdmp->nest_cut,
                           false));
         afdmp->nest_mpm = afdmp->nest.solver;
         mpm_particles(afdmp->nest_mpm)->name = afdmp_nest_name;
+        TRY(make_rim(afdmp, &afdmp->nest_cut, &afdmp->round_nest));
         surround_nest(afdmp);
     }
     return NULL;

@@ -1,5 +1,5 @@
 /* What ranks tell each other of a coupling: all have all gates, and each some of the cells and
- * nodes beside them. Numbers of which one rank alone has each pass as sums of their bits. */
+ * nodes beside them. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,11 +8,7 @@
 
 void cfdmp_unite(const struct cfdmp *cfdmp, double *values, int64_t count)
 {
-    if (cfdmp->ranks->size < 2)
-        return;
-    memcpy(cfdmp->bits, values, (size_t)count * sizeof *values);
-    ranks_sum_of(cfdmp->ranks, cfdmp->bits, (int)count);
-    memcpy(values, cfdmp->bits, (size_t)count * sizeof *values);
+    part_unite(cfdmp->ranks, cfdmp->bits, values, count);
 }
 
 static struct flank flank_at(const struct gas_view *view, const int64_t at[3])

@@ -76,6 +76,8 @@ const struct choice measure_choices[MEASURES] = {
      sizeof(struct measure_recorded), &measure_recorded},
     {"blast", "peak, arrival, duration or impulse of a blast wave at a probe", measure_blast_table,
      sizeof(struct measure_blast), &measure_blast},
+    {"event", "time at which the solver does something that it does once: the stages of `afdmp`",
+     measure_event_table, sizeof(struct measure_event), &measure_event},
     {"finite", "number of particles whose field is not a finite number", FIELD, &measure_finite},
 };
 

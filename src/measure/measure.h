@@ -63,6 +63,9 @@ struct measure_width {
     char *field;
     struct quantity ahead, behind; /* of the field */
 };
+struct measure_event {
+    char *name;
+};
 struct measure_recorded {
     char *probe, *column;
     int take;             /* enum take of recorded.c */
@@ -166,7 +169,7 @@ struct measure_shear_layer {
 double conserved_change(const struct simulation *simulation, const struct totals *start,
                         enum conserved_total total);
 
-enum { MEASURES = 30 };
+enum { MEASURES = 31 };
 extern const struct choice measure_choices[MEASURES];
 
 extern const struct parameter measure_field_table[], measure_quantile_table[];
@@ -176,7 +179,7 @@ extern const struct parameter measure_total_table[], measure_extent_table[], mea
     measure_pieces_table[], measure_asymmetry_table[], measure_radius_table[],
     measure_shear_layer_table[], measure_recorded_table[], measure_fragments_table[],
     measure_largest_fragment_table[], measure_length_table[], measure_hole_table[],
-    measure_crater_table[], measure_bulge_table[], measure_blast_table[];
+    measure_crater_table[], measure_bulge_table[], measure_blast_table[], measure_event_table[];
 extern const struct measure_class measure_quantile, measure_total, measure_decay, measure_spread,
     measure_extent, measure_turn, measure_pieces, measure_asymmetry, measure_radius,
     measure_shear_layer;
@@ -184,7 +187,8 @@ extern const struct measure_class measure_fragments, measure_largest_fragment, m
     measure_hole, measure_crater, measure_bulge;
 extern const struct measure_class measure_mean, measure_minimum, measure_maximum, measure_l1,
     measure_rms, measure_max_error, measure_contact_max, measure_contact_rms, measure_front,
-    measure_width, measure_conserved, measure_finite, measure_recorded, measure_blast;
+    measure_width, measure_conserved, measure_finite, measure_recorded, measure_blast,
+    measure_event;
 
 /* One particle as a measure sees it. */
 struct sample {

@@ -56,6 +56,19 @@ void simulation_see(struct simulation *simulation)
         simulation->seen[k] = simulation_population_at(simulation, k);
 }
 
+void simulation_add_event(struct simulation *simulation, const char *name)
+{
+    assert(simulation->events < EVENTS_MAX);
+    simulation->event[simulation->events++] = (struct event){name, NAN};
+}
+
+void simulation_event(struct simulation *simulation, const char *name, double time)
+{
+    for (int k = 0; k < simulation->events; k++)
+        if (!strcmp(simulation->event[k].name, name))
+            simulation->event[k].time = time;
+}
+
 /* The number of the population OF, -1 for none and for bodies. */
 static int find_population(const struct simulation *simulation, const char *of)
 {
@@ -246,6 +259,13 @@ struct error *simulation_visit(struct simulation *simulation, struct visitor *vi
     TRY(visitor->visit(visitor, "time", NUMBER_DOUBLE, &simulation->time, 1, 1));
     TRY(visitor->visit(visitor, "step", NUMBER_INT64, &simulation->step, 1, 1));
     TRY(ledger_visit(&simulation->ledger, simulation->ranks, visitor));
+    double times[EVENTS_MAX];
+    for (int k = 0; k < simulation->events; k++)
+        times[k] = simulation->event[k].time;
+    if (simulation->events > 0)
+        TRY(visitor->visit(visitor, "events", NUMBER_DOUBLE, times, simulation->events, 1));
+    for (int k = 0; k < simulation->events; k++)
+        simulation->event[k].time = times[k];
     for (int k = 0; k < simulation->populations; k++)
         TRY(simulation->population[k].type->visit(simulation->population[k].store, visitor));
     return NULL;

@@ -31,6 +31,13 @@ struct population_source {
 };
 enum { POPULATIONS_MAX = 4 };
 
+/* What happens once in a run of a solver, such as the change to another method. */
+struct event {
+    const char *name;
+    double time; /* s; NAN: it has not happened */
+};
+enum { EVENTS_MAX = 2 };
+
 struct simulation {
     const struct problem *problem; /* owned; nothing changes it */
     const struct ranks *ranks;
@@ -40,6 +47,8 @@ struct simulation {
     struct population_source population[POPULATIONS_MAX];
     struct population seen[POPULATIONS_MAX]; /* by simulation_see */
     struct ledger ledger;
+    int events;
+    struct event event[EVENTS_MAX];
     double time;
     int64_t step;
     int phases;
@@ -78,6 +87,10 @@ int simulation_shown(const struct simulation *simulation, const struct populatio
 struct error *simulation_check_of(const struct simulation *simulation, const char *section,
                                   const char *name, const char *of);
 
+/* Adds an event that may happen; NAME must last as long. It happens at TIME. */
+void simulation_add_event(struct simulation *simulation, const char *name);
+void simulation_event(struct simulation *simulation, const char *name, double time);
+
 /* Of all populations: whether members are to be taken in or out; takes them in and out; brings each
  * to the rank that owns its block; a number for all their bits. Collective, but for the first
  * two. */
@@ -113,7 +126,7 @@ struct error *simulation_value_at(const struct simulation *simulation, double ti
                                   const struct field_value *field, const char *name,
                                   const char *key, double *value);
 
-/* Time, step, ledger and members. */
+/* Time, step, ledger, events and members. */
 struct error *simulation_visit(struct simulation *simulation, struct visitor *visitor);
 
 /* True when TIME has reached the next multiple of INTERVAL, of which DUE have been, and counts it.

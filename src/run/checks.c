@@ -186,6 +186,29 @@ static struct error *prepare_check(struct checks *checks, struct prepared_check 
     return solve_exact(checks, prepared);
 }
 
+/* The number of the check K of those that the check of M is the mean with. */
+static int mean_check(const struct measurement *m, int k)
+{
+    return named_map_find(&m->simulation->problem->input->checks, m->check->mean_with.names[k]);
+}
+
+/* Whether the check PREPARED has the unit of OTHER, which KEY names; that of one with a mistake
+ * that was reported is not known. */
+static struct error *match_unit(const struct prepared_check *prepared,
+                                const struct prepared_check *other, const char *key)
+{
+    struct unit unit, unlike;
+    if (!other->raw_unit)
+        return NULL;
+    TRY(unit_parse(prepared->raw_unit, &unit));
+    TRY(unit_parse(other->raw_unit, &unlike));
+    if (!dimension_equal(unit.dimension, unlike.dimension))
+        return measure_error(&prepared->measurement,
+                             "`%s`: the check \"%s\" is in %s, and this one in %s", key,
+                             other->measurement.name, other->raw_unit, prepared->raw_unit);
+    return NULL;
+}
+
 /* The unit of the result and its limits, when all checks know what they measure. */
 static struct error *prepare_limits(const struct checks *checks, struct prepared_check *prepared)
 {
@@ -197,14 +220,10 @@ static struct error *prepare_limits(const struct checks *checks, struct prepared
         return NULL;
     TRY(unit_parse(prepared->raw_unit, &unit));
     snprintf(prepared->unit, sizeof prepared->unit, "%s", prepared->raw_unit);
-    const char *subtracted =
-        m->check->minus_check < 0 ? NULL : checks->item[m->check->minus_check].raw_unit;
-    if (m->check->minus && subtracted) {
-        TRY(unit_parse(subtracted, &other));
-        if (!dimension_equal(unit.dimension, other.dimension))
-            return measure_error(m, "`minus`: the check \"%s\" is in %s, and this one in %s",
-                                 m->check->minus, subtracted, prepared->raw_unit);
-    }
+    if (m->check->minus_check >= 0)
+        TRY(match_unit(prepared, &checks->item[m->check->minus_check], "minus"));
+    for (int k = 0; k < m->check->mean_with.count; k++)
+        TRY(match_unit(prepared, &checks->item[mean_check(m, k)], "mean_with"));
     if (m->check->relative) {
         TRY(unit_parse(divided_by, &other));
         unit.dimension = dimension_quotient(unit.dimension, other.dimension);
@@ -372,6 +391,9 @@ static struct error *judge(const struct prepared_check *prepared, const struct c
     result->measured = memory[index].measured;
     if (check->minus)
         result->measured -= memory[check->minus_check].measured;
+    for (int k = 0; k < check->mean_with.count; k++)
+        result->measured += memory[mean_check(&prepared->measurement, k)].measured;
+    result->measured /= 1.0 + check->mean_with.count;
     if (relative_to_start(check))
         result->measured /= memory[index].start;
     else if (check->relative)

@@ -97,6 +97,20 @@ static struct error *watch_checks(struct run *run)
     return checks_watch(run->checks, &moment);
 }
 
+/* Takes a step, and says which events happened in it. */
+static struct error *take_step(struct run *run)
+{
+    const struct simulation *s = &run->simulation;
+    bool known[EVENTS_MAX];
+    for (int k = 0; k < s->events; k++)
+        known[k] = !isnan(s->event[k].time);
+    TRY(run_take_step(run));
+    for (int k = 0; k < s->events; k++)
+        if (!known[k] && !isnan(s->event[k].time))
+            run_say(run, "%s begins at t = %.6g s", s->event[k].name, s->event[k].time);
+    return NULL;
+}
+
 static struct error *loop(struct run *run)
 {
     const struct check_moment beginning = moment_of(run);
@@ -106,7 +120,7 @@ static struct error *loop(struct run *run)
     TRY(watch_checks(run));
     TRY(run_agree(run, NULL));
     while (!at_stop(run)) {
-        TRY(run_take_step(run));
+        TRY(take_step(run));
         adapt_threads(run);
         run_observe(run);
         TRY(run_watch(run, at_end(run)));

@@ -1,7 +1,7 @@
 /* summary.csv: what a run is and how it went, for the report and for other programs. Its columns:
- * about (run, body, material, method, phase, picture), name, quantity, value, unit ("text" where
- * the value is no number). Written at the beginning, so that a run that is killed has one too, and
- * at the end. */
+ * about (run, body, material, method, phase, event, picture), name, quantity, value, unit ("text"
+ * where the value is no number). Written at the beginning, so that a run that is killed has one
+ * too, and at the end. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -186,6 +186,8 @@ static void put_summary(FILE *file, const struct run *run, const char *status,
     put_materials(file, run->input);
     for (int i = 0; i < s->phases; i++)
         put_number(file, "phase", s->phase[i].name, "seconds", s->phase[i].seconds, "s");
+    for (int i = 0; i < s->events; i++)
+        put_number(file, "event", s->event[i].name, "time", s->event[i].time, "s");
     for (int64_t i = 0; i < run->snapshots; i++) {
         char number[32];
         snprintf(number, sizeof number, "%06lld", (long long)i);

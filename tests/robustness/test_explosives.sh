@@ -7,14 +7,7 @@ fail() {
     echo "FAILED: $*"
     status=1
 }
-hash_of() { grep -o '"hash","[0-9a-f]*"' "$1/summary.csv"; }
-# What two runs wrote, to the last bit, but for what tells of the running itself.
-same() {
-    [ -n "$(hash_of "$1")" ] && [ "$(hash_of "$1")" = "$(hash_of "$2")" ] || return 1
-    diff -rq -x summary.csv -x run.log -x report.html -x checkpoint.h5 -x case.yaml "${@:3}" "$1" "$2"
-}
-# The same where particles were sorted at other times: snapshots hold them in the order of storage.
-same_but_for_order() { same "$1" "$2" -x snapshots; }
+. "$BOLIDE_SOURCE_DIR/tests/robustness/same.sh"
 
 for name in everything-explosives everything-explosives-mpm everything-gas-two; do
     case=$BOLIDE_SOURCE_DIR/tests/data/${name%-mpm}.yaml

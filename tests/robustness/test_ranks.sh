@@ -12,14 +12,7 @@ on() {
     shift
     OMP_NUM_THREADS=1 $BOLIDE_MPIRUN -n "$ranks" "$BOLIDE" "$@" </dev/null
 }
-hash_of() { grep -o '"hash","[0-9a-f]*"' "$1/summary.csv"; }
-# What two runs wrote, to the last bit, but for what tells of the running itself.
-same() {
-    [ -n "$(hash_of "$1")" ] && [ "$(hash_of "$1")" = "$(hash_of "$2")" ] || return 1
-    diff -rq -x summary.csv -x run.log -x report.html -x checkpoint.h5 -x case.yaml "${@:3}" "$1" "$2"
-}
-# The same where particles were sorted at other times: snapshots hold them in the order of storage.
-same_but_for_order() { same "$1" "$2" -x snapshots; }
+. "$BOLIDE_SOURCE_DIR/tests/robustness/same.sh"
 
 # Every kind of case, a few steps each: what their checks say of so few does not count.
 names=$(grep -v '^#' "$BOLIDE_SOURCE_DIR/tests/data/kinds.txt")

@@ -29,7 +29,7 @@ for threads in 1 2 fixed; do
         --threads ${threads/fixed/2} --output $threads --overwrite >$threads.log 2>&1
     [ $? -le 1 ] || fail "$threads: $(cat $threads.log)"
 done
-hash_of() { grep -o '"hash","[0-9a-f]*"' "$1/summary.csv"; }
+. "$BOLIDE_SOURCE_DIR/tests/robustness/same.sh"
 [ -n "$(hash_of 1)" ] || fail "no hash: $(cat 1.log)"
 for threads in 2 fixed; do
     [ "$(hash_of $threads)" = "$(hash_of 1)" ] || fail "$threads: another hash"

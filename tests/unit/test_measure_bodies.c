@@ -392,7 +392,8 @@ static void a_value_is_compared_with_that_at_the_start_or_of_another_check(void 
                 "  way: {mean: position.x, of: left, at_most: 1 m}\n"
                 "  rate: {decay: mass, of: left, at_most: 1 s^-1}\n"
                 "  ahead: {mean: position.y, of: left, minus: way, is: 1 m, within: 100 m}\n"
-                "  gain: {mean: position.y, of: left, minus: way, relative: way, at_least: 1}\n");
+                "  gain: {mean: position.y, of: left, minus: way, relative: way, at_least: 1}\n"
+                "  middle: {mean: position.y, of: left, mean_with: [way], is: 1 m, within: 9 m}\n");
     struct particles *p = particles_of(&s.simulation);
     for (int32_t i = 0; i < p->count; i++) {
         const struct vec3 x = start_of(&s, i);
@@ -405,6 +406,7 @@ static void a_value_is_compared_with_that_at_the_start_or_of_another_check(void 
     assert_float_equal(stage_value(&s, 3), log(2.0) / 0.25, 1e-12);
     assert_float_equal(stage_value(&s, 4), 2.0 * stage_value(&s, 2), 1e-12);
     assert_float_equal(stage_value(&s, 5), 2.0, 1e-12);
+    assert_float_equal(stage_value(&s, 6), 2.0 * stage_value(&s, 2), 1e-12);
     assert_int_equal(s.results.item[0].verdict, CHECK_PASSED);
     assert_int_equal(s.results.item[1].verdict, CHECK_PASSED);
     assert_string_equal(s.results.item[0].unit, "");
@@ -425,6 +427,8 @@ static void what_makes_no_sense_of_a_body_is_told_before_the_run(void **state)
         {"  it: {total: mass, relative: start, at_most: 1 kg/m}\n", "`at_most` is in"},
         {"  it: {mean: pressure, relative: at, at_most: 1}\n  at: {mean: position.x, at_most: 1 m}",
          "`at_most` is in plain numbers, but `mean` is in kg/(m^2*s^2)"},
+        {"  it: {mean: pressure, mean_with: at, at_most: 1 Pa}\n  at: {mean: position.x}",
+         "`mean_with`: the check \"at\" is in m, and this one in Pa"},
     };
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         struct stage s;
