@@ -55,7 +55,8 @@ static const struct answer answers[] = {
      "tasks/whipple-shield.md"},
     {" crater hole plate ",
      "A projectile through a plate, with hole and debris cloud: a worked case is on the page\n"
-     "below. Checks measure `hole`, `crater`, `bulge` and `fragments`.",
+     "below. Checks measure `hole`, `crater`, `bulge`, `zone` and\n"
+     "`fragments`.",
      "tasks/impact-on-a-plate.md"},
     {" ballistic.limit ballistic limit.velocity v50 perforation perforate plug plugging bullet ",
      "`bolide search` finds a ballistic limit by bisection: give the plate a `failure` (bolide\n"

@@ -66,6 +66,8 @@ const struct choice measure_choices[MEASURES] = {
      measure_crater_table, sizeof(struct measure_crater), &measure_crater},
     {"bulge", "how far a body has been pushed out of one of its faces", measure_bulge_table,
      sizeof(struct measure_bulge), &measure_bulge},
+    {"zone", "diameter or shape of the part of a face in which a field reaches a value",
+     measure_zone_table, sizeof(struct measure_zone), &measure_zone},
     {"asymmetry", "largest difference of a field from its mirror image, over its largest value",
      measure_asymmetry_table, sizeof(struct measure_asymmetry), &measure_asymmetry},
     {"radius", "radius of a material circle or sphere, estimated from adjacent particles",

@@ -144,6 +144,13 @@ struct measure_bulge {
     double link;
 };
 
+struct measure_zone {
+    char *field;
+    double value;
+    int along, side, take;
+    struct vector_value center;
+};
+
 struct measure_asymmetry {
     char *field;
     int across, parity;
@@ -169,7 +176,7 @@ struct measure_shear_layer {
 double conserved_change(const struct simulation *simulation, const struct totals *start,
                         enum conserved_total total);
 
-enum { MEASURES = 31 };
+enum { MEASURES = 32 };
 extern const struct choice measure_choices[MEASURES];
 
 extern const struct parameter measure_field_table[], measure_quantile_table[];
@@ -179,12 +186,13 @@ extern const struct parameter measure_total_table[], measure_extent_table[], mea
     measure_pieces_table[], measure_asymmetry_table[], measure_radius_table[],
     measure_shear_layer_table[], measure_recorded_table[], measure_fragments_table[],
     measure_largest_fragment_table[], measure_length_table[], measure_hole_table[],
-    measure_crater_table[], measure_bulge_table[], measure_blast_table[], measure_event_table[];
+    measure_crater_table[], measure_bulge_table[], measure_zone_table[], measure_blast_table[],
+    measure_event_table[];
 extern const struct measure_class measure_quantile, measure_total, measure_decay, measure_spread,
     measure_extent, measure_turn, measure_pieces, measure_asymmetry, measure_radius,
     measure_shear_layer;
 extern const struct measure_class measure_fragments, measure_largest_fragment, measure_length,
-    measure_hole, measure_crater, measure_bulge;
+    measure_hole, measure_crater, measure_bulge, measure_zone;
 extern const struct measure_class measure_mean, measure_minimum, measure_maximum, measure_l1,
     measure_rms, measure_max_error, measure_contact_max, measure_contact_rms, measure_front,
     measure_width, measure_conserved, measure_finite, measure_recorded, measure_blast,

@@ -219,6 +219,81 @@ static void a_bulge_is_measured_from_the_face_at_the_start(void **state)
     stage_close(&s);
 }
 
+/* The damage of particles that stood within half the WIDTH of the axis ALONG, times 1 + ELLIPSE in
+ * x. */
+static void damage_about(struct stage *s, int along, double width, double ellipse)
+{
+    struct particles *p = particles_of(&s->simulation);
+    for (int32_t i = 0; i < p->count; i++) {
+        const double *x = p->position[i];
+        const double at = x[0] / (1.0 + ellipse), up = along == 1 ? x[2] : x[1];
+        p->history[HISTORY_damage][i] = square(at) + square(up) < square(0.5 * width) ? 1.0 : 0.5;
+        p->position[i][along] -= 1e-3; /* where they stood counts */
+    }
+}
+
+static void a_zone_has_the_size_of_its_circle(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        SPACE "bodies: {plate: {material: metal,\n"
+              "  box: {from: [-9 mm, -9 mm, 0 mm], to: [9 mm, 9 mm, 2 mm]}}}\n" CHECKS,
+        SPACE "bodies: {plate: {material: metal,\n"
+              "  box: {from: [0 mm, 0 mm, 0 mm], to: [9 mm, 9 mm, 2 mm]}}}\n"
+              "walls: {a: {mirror: x, at: 0 mm, side: low}, b: {mirror: y, at: 0 mm, side: "
+              "low}}\n" CHECKS};
+    for (size_t i = 0; i < COUNT_OF(texts); i++) {
+        struct stage s;
+        stage_begin(
+            &s, texts[i],
+            "  width: {zone: {field: damage, value: 1, along: z, side: high}, of: plate}\n"
+            "  all: {zone: {field: damage, value: 0.5, along: z, side: low}, of: plate}\n"
+            "  ratio: {zone: {field: damage, value: 1, along: z, side: high, take: ratio},\n"
+            "    of: plate}\n"
+            "  deviation: {zone: {field: damage, value: 1, along: z, side: low,\n"
+            "    take: deviation}, of: plate}\n");
+        damage_about(&s, 2, 14e-3, 0.0);
+        assert_float_equal(stage_value(&s, 0), 14e-3, 0.3e-3);
+        assert_float_equal(stage_value(&s, 1), 2.0 * sqrt(18e-3 * 18e-3 / M_PI), 1e-12);
+        assert_true(stage_value(&s, 2) >= 1.0 && stage_value(&s, 2) < 1.2);
+        assert_true(stage_value(&s, 3) < 0.1);
+        stage_close(&s);
+    }
+}
+
+static void a_zone_has_the_shape_of_its_ellipse(void **state)
+{
+    (void)state;
+    static const char text[] =
+        SPACE "bodies: {plate: {material: metal,\n"
+              "  box: {from: [-15 mm, -15 mm, 0 mm], to: [15 mm, 15 mm, 2 mm]}}}\n" CHECKS;
+    struct stage s;
+    stage_begin(&s, text,
+                "  ratio: {zone: {field: damage, value: 1, along: z, side: high, take: ratio},\n"
+                "    of: plate}\n");
+    damage_about(&s, 2, 14e-3, 1.0);
+    assert_float_equal(stage_value(&s, 0), 2.0, 0.15);
+    stage_close(&s);
+}
+
+static void a_zone_about_the_axis_of_symmetry(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        ROUND
+        "bodies: {plate: {material: metal, box: {from: [0 mm, 0 mm], to: [9 mm, 2 mm]}}}\n" CHECKS,
+        PLANE "bodies: {plate: {material: metal, box: {from: [-9 mm, 0 mm], to: [9 mm, 2 "
+              "mm]}}}\n" CHECKS};
+    for (size_t i = 0; i < COUNT_OF(texts); i++) {
+        struct stage s;
+        stage_begin(&s, texts[i],
+                    "  width: {zone: {field: damage, value: 1, along: y, side: low}, of: plate}\n");
+        damage_about(&s, 1, 14e-3, 0.0);
+        assert_float_equal(stage_value(&s, 0), 14e-3, 1e-9);
+        stage_close(&s);
+    }
+}
+
 static void mistakes_are_told_before_the_run(void **state)
 {
     (void)state;
@@ -242,6 +317,11 @@ static void mistakes_are_told_before_the_run(void **state)
         {disc, "  it: {hole: x, of: plate, at_most: 1 m}", "`along` must be y"},
         {disc, "  it: {hole: {along: y, center: [2 mm, 0 mm]}, of: plate, at_most: 1 m}",
          "the axis of symmetry is at x = 0"},
+        {disc, "  it: {zone: {field: pressure, value: 1, along: y, side: low}, of: plate}",
+         "`field` must be one without a unit"},
+        {disc,
+         "  it: {zone: {field: damage, value: 1, along: y, side: low, take: ratio}, of: plate}",
+         "only a face in 3-D has a shape"},
     };
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         struct stage s;
@@ -267,6 +347,9 @@ int main(void)
         cmocka_unit_test(a_crater_about_the_axis_of_symmetry),
         cmocka_unit_test(a_crater_in_a_plane_has_an_area),
         cmocka_unit_test(a_bulge_is_measured_from_the_face_at_the_start),
+        cmocka_unit_test(a_zone_has_the_size_of_its_circle),
+        cmocka_unit_test(a_zone_has_the_shape_of_its_ellipse),
+        cmocka_unit_test(a_zone_about_the_axis_of_symmetry),
         cmocka_unit_test(mistakes_are_told_before_the_run),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
