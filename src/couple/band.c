@@ -77,7 +77,7 @@ static bool counts(void *context, int32_t i)
 {
     struct looking *looking = context;
     const struct particles *p = mpm_particles(looking->cfdmp->mpm);
-    enum { REACH = 3 }; /* of a particle, in cells */
+    enum { REACH = 2 }; /* of a particle, in cells */
     const double depth = depth_at(looking->cfdmp, p->position[i]),
                  band = (double)looking->cfdmp->parameters.overlap;
     if (looking->error ||
@@ -98,18 +98,19 @@ struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
                           .number = cfdmp->band_of};
     struct looking looking = {cfdmp, {view.material[0], view.material[1]}, NULL};
     struct smeared *all = NULL;
+    struct keyed *order = NULL;
     int64_t count = 0;
     memcpy(smear.low, cfdmp->cut.low, sizeof smear.low);
     memcpy(smear.count, cfdmp->count, sizeof smear.count);
     struct error *error =
-        smear_gather(cfdmp->mpm, &view, cfdmp->ranks, counts, &looking, &all, &count);
+        smear_gather(cfdmp->mpm, &view, cfdmp->ranks, counts, &looking, &all, &count, &order);
     error = ranks_agree(cfdmp->ranks, error_join(error, looking.error));
     struct smear_sums *sums =
         error ? NULL : memory_allocate(((size_t)cfdmp->band_cells + 1) * sizeof *sums);
     for (int64_t n = 0; n < cfdmp->band_cells && sums; n++)
         sums[n] = (struct smear_sums){.kinetic = 0.0};
     for (int64_t k = 0; k < count && sums; k++)
-        smear_particle(&smear, &all[k], sums);
+        smear_particle(&smear, &all[order[k].index], sums);
     for (int64_t n = 0; n < cfdmp->band_cells && sums; n++) {
         int32_t block;
         const int32_t i = part_cell(view.cells, cfdmp->band[n], &block);
@@ -120,6 +121,7 @@ struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
     }
     error = sums || error ? error : owned_error();
     free(all);
+    free(order);
     free(sums);
     return ranks_agree(cfdmp->ranks, error);
 }

@@ -117,8 +117,9 @@ struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulatio
         cells *= (size_t)smear.count[axis];
     }
     struct smeared *each = NULL;
+    struct keyed *order = NULL;
     int64_t count = 0;
-    TRY(smear_gather(afdmp->nest_mpm, &view, afdmp->ranks, all, NULL, &each, &count));
+    TRY(smear_gather(afdmp->nest_mpm, &view, afdmp->ranks, all, NULL, &each, &count, &order));
     struct smear_sums *sums = memory_allocate(cells * sizeof *sums);
     double *internal = memory_allocate(cells * sizeof *internal);
     bool *changed = memory_allocate((size_t)view.cells->blocks + 1);
@@ -133,8 +134,9 @@ struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulatio
         for (size_t n = 0; n < cells; n++)
             sums[n] = (struct smear_sums){.kinetic = 0.0};
         for (int64_t k = 0; k < count; k++) {
-            smear_particle(&smear, &each[k], sums);
-            sum_energy(&smear, &each[k], internal);
+            const struct smeared *particle = &each[order[k].index];
+            smear_particle(&smear, particle, sums);
+            sum_energy(&smear, particle, internal);
         }
         for (int32_t i = 0; i < p->count; i++)
             particles_delete(p, i);
@@ -143,6 +145,7 @@ struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulatio
         error = gas_refresh(afdmp->gas, &afdmp->gas_part.simulation, changed);
     }
     free(each);
+    free(order);
     free(sums);
     free(internal);
     free(changed);

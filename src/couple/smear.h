@@ -5,6 +5,7 @@
 #define BOLIDE_SMEAR_H
 
 #include "couple/part.h"
+#include "particle/radix.h"
 
 /* Sums over the particles of a cell; the materials are those of the gas solver. */
 struct smear_sums {
@@ -33,10 +34,11 @@ struct smear {
 void smear_particle(const struct smear *smear, const struct smeared *particle,
                     struct smear_sums *sums);
 
-/* Collective: the particles of all ranks that WANTED takes, in the order of their ids; *count of
- * them at *ALL, which the caller frees. */
+/* Collective: the particles of all ranks that WANTED takes, *count of them at *ALL, and the ORDER of
+ * their ids, in which they are to be summed; the caller frees both. */
 struct error *smear_gather(const struct mpm *mpm, const struct gas_view *view,
                            const struct ranks *ranks, bool (*wanted)(void *context, int32_t i),
-                           void *context, struct smeared **all, int64_t *count);
+                           void *context, struct smeared **all, int64_t *count,
+                           struct keyed **order);
 
 #endif

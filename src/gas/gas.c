@@ -228,7 +228,7 @@ void gas_bind(struct gas *gas, const struct cell_blocks *cells)
     }
 }
 
-struct error *gas_derive(struct gas *gas, const struct simulation *simulation)
+struct error *gas_derive(struct gas *gas, const struct simulation *simulation, const bool *blocks)
 {
     const struct cell_blocks *cells = gas->cells;
     struct gas_look look = {.cells = cells,
@@ -248,7 +248,7 @@ struct error *gas_derive(struct gas *gas, const struct simulation *simulation)
 #pragma omp for schedule(static)
         for (int32_t b = 0; b < cells->blocks; b++) {
             struct gas_block *block = &gas->block[b];
-            if (block->awake)
+            if (blocks ? blocks[b] : block->awake)
                 block->fastest = gas_look_at_block(&look, b);
             block->awake = gas->sleepless || !block->fastest.still || block->burns;
             const struct gas_fastest fastest = block->fastest;
@@ -300,7 +300,7 @@ static struct error *gas_start(void *solver, struct simulation *simulation)
     gas->cells->threads = simulation->threads;
     TRY(gas_plan(gas, simulation));
     TRY(gas_burn(gas, simulation, simulation->time));
-    return gas_derive(gas, simulation);
+    return gas_derive(gas, simulation, NULL);
 }
 
 /* Blocks go to other ranks where the case has space divided anew, or one has worked longer. */
@@ -318,7 +318,7 @@ static struct error *balance(struct gas *gas, struct simulation *simulation)
         return NULL;
     gas->room = 0; /* all of them may have moved */
     TRY(gas_plan(gas, simulation));
-    return ranks_agree(simulation->ranks, gas_derive(gas, simulation));
+    return ranks_agree(simulation->ranks, gas_derive(gas, simulation, NULL));
 }
 
 /* The part of the step that the first steps of two materials take: products that begin to expand
@@ -398,7 +398,7 @@ static struct error *gas_advance(void *solver, struct simulation *simulation, do
     gas_afterburn(gas, simulation, dt);
     simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
     TRY(gas_burn(gas, simulation, simulation->time + dt));
-    struct error *error = gas_derive(gas, simulation);
+    struct error *error = gas_derive(gas, simulation, NULL);
     gas_map(gas, simulation, dt);
     simulation_end_phase(simulation, PHASE_BLOCKS, "states");
     return error;

@@ -62,9 +62,9 @@ struct gas {
     uint64_t fastest_id;
 };
 
-/* Collective: derived fields of the blocks that are awake, which of them are still, and the fastest
- * cell. */
-struct error *gas_derive(struct gas *gas, const struct simulation *simulation);
+/* Collective: derived fields of BLOCKS, a flag each, or with NULL of those that are awake; which of
+ * them are still, and the fastest cell. */
+struct error *gas_derive(struct gas *gas, const struct simulation *simulation, const bool *blocks);
 
 /* Keeps the maps of a blast after a step of DT. */
 void gas_map(const struct gas *gas, const struct simulation *simulation, double dt);

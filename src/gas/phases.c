@@ -22,5 +22,5 @@ struct error *gas_refresh(struct gas *gas, const struct simulation *simulation, 
             gas->block[b].awake = true;
             gas->block[b].same = false;
         }
-    return gas_derive(gas, simulation);
+    return gas_derive(gas, simulation, blocks);
 }
