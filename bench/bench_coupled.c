@@ -1,6 +1,7 @@
-/* Gas and material points in one run, and material points alone: a blast on a slab with both side by
- * side, and a round blast with one after the other. The time of the whole case on one thread, what
- * share each phase takes, and the memory of the process; the median of repeats that take turns.
+/* Gas and material points in one run, and material points alone: a blast on a slab with both side
+ * by side, and a round blast with one after the other. The time of the whole case on one thread,
+ * what share each phase takes, and the memory of the process; the median of repeats that take
+ * turns.
  *
  * Usage: bench_coupled [--quick] [--csv FILE] [coupled] */
 #include <sys/resource.h>

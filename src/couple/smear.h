@@ -34,8 +34,8 @@ struct smear {
 void smear_particle(const struct smear *smear, const struct smeared *particle,
                     struct smear_sums *sums);
 
-/* Collective: the particles of all ranks that WANTED takes, *count of them at *ALL, and the ORDER of
- * their ids, in which they are to be summed; the caller frees both. */
+/* Collective: the particles of all ranks that WANTED takes, *count of them at *ALL, and the ORDER
+ * of their ids, in which they are to be summed; the caller frees both. */
 struct error *smear_gather(const struct mpm *mpm, const struct gas_view *view,
                            const struct ranks *ranks, bool (*wanted)(void *context, int32_t i),
                            void *context, struct smeared **all, int64_t *count,
