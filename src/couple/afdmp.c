@@ -253,6 +253,7 @@ const struct solver_class afdmp_class = {.size = sizeof(struct afdmp),
                                          .state = afdmp_state,
                                          .destroy = afdmp_destroy,
                                          .bytes = afdmp_bytes,
+                                         .count = afdmp_count,
                                          .step = afdmp_step,
                                          .energy_lost = afdmp_energy_lost,
                                          .coarse = afdmp_coarse};

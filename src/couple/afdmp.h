@@ -63,6 +63,10 @@ struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulatio
 /* The last part gets particles for what the cells of gas have. */
 struct error *afdmp_map_to_points(struct afdmp *afdmp);
 
+/* Particles as in the last stage, or without solids in the first, and the cells of the domain. */
+void afdmp_count(const void *parameters, const struct simulation_case *input,
+                 struct counted *counted);
+
 /* Cells that do not count have no mass: all in the last stage, in the first those of the nest. */
 void afdmp_hide_cells(struct afdmp *afdmp);
 

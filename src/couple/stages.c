@@ -8,24 +8,27 @@
 #include "model/problem.h"
 #include "shape/shape.h"
 
-static bool is_solid(const struct simulation *simulation, int body)
+static const struct material *material_of(const struct simulation_case *input, int body)
 {
-    const struct body_input *of = case_body(simulation->problem->input, body);
-    return !gas_computes(&simulation->problem->material[of->material_index]);
+    return case_material(input, case_body(input, body)->material_index)->material;
 }
 
-static bool is_charge(const struct simulation *simulation, int body)
+static bool is_solid(const struct simulation_case *input, int body)
 {
-    const struct body_input *of = case_body(simulation->problem->input, body);
-    return material_is_lit(&simulation->problem->material[of->material_index]);
+    return !gas_computes(material_of(input, body));
 }
 
-static int count_bodies(const struct simulation *simulation,
-                        bool (*is)(const struct simulation *, int body))
+static bool is_charge(const struct simulation_case *input, int body)
+{
+    return material_is_lit(material_of(input, body));
+}
+
+static int count_bodies(const struct simulation_case *input,
+                        bool (*is)(const struct simulation_case *, int body))
 {
     int count = 0;
-    for (int b = 0; b < simulation->problem->input->bodies.count; b++)
-        count += is(simulation, b);
+    for (int b = 0; b < input->bodies.count; b++)
+        count += is(input, b);
     return count;
 }
 
@@ -46,18 +49,17 @@ static void cut_to_domain(const struct afdmp *afdmp, const struct cell_blocks *d
 }
 
 /* The bounds of all bodies that ARE, in cells, MARGIN wider. */
-static void find_bounds(const struct afdmp *afdmp, const struct simulation *simulation,
-                        bool (*are)(const struct simulation *, int body), double margin,
+static void find_bounds(const struct afdmp *afdmp, const struct simulation_case *input,
+                        bool (*are)(const struct simulation_case *, int body), double margin,
                         double low[3], double high[3])
 {
     for (int axis = 0; axis < 3; axis++) {
         low[axis] = INFINITY;
         high[axis] = -INFINITY;
-        for (int b = 0; b < simulation->problem->input->bodies.count; b++) {
-            if (!are(simulation, b))
+        for (int b = 0; b < input->bodies.count; b++) {
+            if (!are(input, b))
                 continue;
-            const struct bounds bounds =
-                shape_bounds(&case_body(simulation->problem->input, b)->shape);
+            const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
             low[axis] = minimum(low[axis], part_in(&bounds.low, axis) / afdmp->edge - margin);
             high[axis] = maximum(high[axis], part_in(&bounds.high, axis) / afdmp->edge + margin);
         }
@@ -87,7 +89,7 @@ static struct error *find_region(struct afdmp *afdmp, const struct simulation *s
     const struct couple_region *given = &afdmp->parameters.region;
     double low[3], high[3];
     TRY(region_check(given, "afdmp.region", input, domain));
-    find_bounds(afdmp, simulation, is_solid, margin, low, high);
+    find_bounds(afdmp, input, is_solid, margin, low, high);
     for (int axis = 0; axis < afdmp->dimension && given->low.count > 0; axis++) {
         low[axis] = given->low.at[axis] / afdmp->edge;
         high[axis] = given->high.at[axis] / afdmp->edge;
@@ -102,11 +104,11 @@ static struct error *find_region(struct afdmp *afdmp, const struct simulation *s
             outside |=
                 part_in(&bounds.low, axis) / afdmp->edge < (double)afdmp->region.low[axis] - 1e-6 ||
                 part_in(&bounds.high, axis) / afdmp->edge > (double)afdmp->region.high[axis] + 1e-6;
-        if (is_solid(simulation, b) && outside)
+        if (is_solid(input, b) && outside)
             error = error_join(error, input_error(input, "bodies", input->bodies.names[b],
                                                   "this solid reaches beyond the region of the "
                                                   "solids: enlarge the region, or leave it out"));
-        if (is_solid(simulation, b) && moves(simulation, b))
+        if (is_solid(input, b) && moves(simulation, b))
             error = error_join(
                 error, input_error(input, "bodies", input->bodies.names[b],
                                    "the solver afdmp computes solids from when on a wave of the "
@@ -162,25 +164,22 @@ static void look_at_charge(const struct afdmp *afdmp, const struct simulation_ca
 }
 
 /* The nest: the charges and as much room as their products need until all have burnt. */
-static struct error *find_nest(struct afdmp *afdmp, const struct simulation *simulation,
+static struct error *find_nest(struct afdmp *afdmp, const struct simulation_case *input,
                                const struct cell_blocks *domain)
 {
     static const double cells = 8.0, faster = 1.3; /* than the detonation */
-    const struct simulation_case *input = simulation->problem->input;
     struct burning_time time = {INFINITY, 0.0};
     double low[3], high[3], speed = 0.0;
     for (int b = 0; b < input->bodies.count; b++)
-        if (is_charge(simulation, b)) {
-            const struct material *material =
-                &simulation->problem->material[case_body(input, b)->material_index];
+        if (is_charge(input, b)) {
             look_at_charge(afdmp, input, b, domain, &time);
-            speed = maximum(speed, material_detonation_speed(material));
+            speed = maximum(speed, material_detonation_speed(material_of(input, b)));
         }
     const double margin =
         cells + faster * speed * maximum(time.last - time.first, 0.0) / afdmp->edge;
-    find_bounds(afdmp, simulation, is_charge, margin, low, high);
+    find_bounds(afdmp, input, is_charge, margin, low, high);
     cut_to_domain(afdmp, domain, low, high, &afdmp->nest_cut);
-    bool meets = count_bodies(simulation, is_solid) > 0;
+    bool meets = count_bodies(input, is_solid) > 0;
     for (int axis = 0; axis < afdmp->dimension && meets; axis++)
         meets = afdmp->nest_cut.low[axis] < afdmp->region.high[axis] &&
                 afdmp->nest_cut.high[axis] > afdmp->region.low[axis];
@@ -203,10 +202,10 @@ static struct error *make_gas_part(struct afdmp *afdmp, const struct simulation 
     TRY(part_copy_bodies(&afdmp->maker, part));
     for (int b = 0; b < input->bodies.count; b++) {
         struct body_input *body = case_body(&part->input, b);
-        body->elsewhere = is_solid(simulation, b);
+        body->elsewhere = is_solid(input, b);
         body->resolution = NAN;
     }
-    if (count_bodies(simulation, is_solid) > 0)
+    if (count_bodies(input, is_solid) > 0)
         TRY(part_block(&afdmp->maker, part, afdmp->region.low, afdmp->region.high));
     TRY(part_create(&afdmp->maker, part, simulation, &gas_class, &afdmp->parameters.gas));
     afdmp->gas = part->solver;
@@ -226,7 +225,7 @@ static struct error *make_mpm_part(struct afdmp *afdmp, const struct simulation 
     part->input.start = (struct start_input){0};
     TRY(part_copy_bodies(&afdmp->maker, part));
     for (int b = 0; b < input->bodies.count; b++)
-        case_body(&part->input, b)->elsewhere = is_solid(simulation, b) && !solids;
+        case_body(&part->input, b)->elsewhere = is_solid(input, b) && !solids;
     TRY(part_cut_bodies(&afdmp->maker, part, box->low, box->high));
     TRY(part_close_faces(&afdmp->maker, part, ends, &afdmp->gas_part.simulation.problem->mirrors));
     return part_create(&afdmp->maker, part, simulation, &mpm_class, &afdmp->parameters.mpm);
@@ -376,6 +375,26 @@ static void surround_nest(struct afdmp *afdmp)
     mpm_surround(afdmp->nest_mpm, outside);
 }
 
+void afdmp_count(const void *parameters, const struct simulation_case *input,
+                 struct counted *counted)
+{
+    struct afdmp afdmp = {.parameters = *(const struct afdmp_parameters *)parameters,
+                          .dimension = (int)input->dimension};
+    afdmp.edge = part_edge(&afdmp.parameters.mpm, input);
+    const struct cell_blocks domain = part_domain(input, afdmp.edge);
+    double low[3] = {0.0, 0.0, 0.0}, high[3] = {0.0, 0.0, 0.0};
+    const bool solids = count_bodies(input, is_solid) > 0;
+    *counted = (struct counted){.cells = 1.0,
+                                .bytes = gas_class.bytes(&afdmp.parameters.gas, afdmp.dimension)};
+    error_free(find_nest(&afdmp, input, &domain));
+    for (int axis = 0; axis < afdmp.dimension; axis++) {
+        low[axis] = afdmp.edge * (double)(solids ? domain.low : afdmp.nest_cut.low)[axis];
+        high[axis] = afdmp.edge * (double)(solids ? domain.high : afdmp.nest_cut.high)[axis];
+        counted->cells *= (double)(domain.high[axis] - domain.low[axis]);
+    }
+    counted->box = (struct bounds){vector_at(low), vector_at(high)};
+}
+
 struct error *afdmp_make_parts(struct afdmp *afdmp, struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->problem->input;
@@ -389,8 +408,8 @@ struct error *afdmp_make_parts(struct afdmp *afdmp, struct simulation *simulatio
     struct gas_cut all = {.open = {{false}}};
     memcpy(all.low, domain.low, sizeof all.low);
     memcpy(all.high, domain.high, sizeof all.high);
-    const bool solids = count_bodies(simulation, is_solid) > 0,
-               charges = count_bodies(simulation, is_charge) > 0 && !input->start.input;
+    const bool solids = count_bodies(input, is_solid) > 0,
+               charges = count_bodies(input, is_charge) > 0 && !input->start.input;
     if (!solids && !charges)
         return input_error(input, "solver", "afdmp",
                            "no body is an explosive that is lit, and none is solid: use the solver "
@@ -398,7 +417,7 @@ struct error *afdmp_make_parts(struct afdmp *afdmp, struct simulation *simulatio
     if (solids)
         TRY(find_region(afdmp, simulation, &domain));
     if (charges)
-        TRY(find_nest(afdmp, simulation, &domain));
+        TRY(find_nest(afdmp, input, &domain));
     TRY(make_gas_part(afdmp, simulation));
     if (solids) {
         TRY(make_mpm_part(afdmp, simulation, &afdmp->last, &afdmp->region, &all, true));
