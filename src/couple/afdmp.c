@@ -183,7 +183,7 @@ static struct error *begin(struct afdmp *afdmp, struct simulation *simulation,
     afdmp->stage = (double)stage;
     simulation_event(simulation, stage_names[stage], time);
     TRY(stage == AFDMP_PROPAGATION ? afdmp_map_to_gas(afdmp, simulation)
-                                   : afdmp_map_to_points(afdmp));
+                                   : afdmp_map_to_points(afdmp, simulation));
     afdmp_hide_cells(afdmp);
     return NULL;
 }

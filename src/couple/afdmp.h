@@ -61,7 +61,7 @@ void afdmp_burn_all(struct afdmp *afdmp);
 struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulation);
 
 /* The last part gets particles for what the cells of gas have. */
-struct error *afdmp_map_to_points(struct afdmp *afdmp);
+struct error *afdmp_map_to_points(struct afdmp *afdmp, struct simulation *simulation);
 
 /* Particles as in the last stage, or without solids in the first, and the cells of the domain. */
 void afdmp_count(const void *parameters, const struct simulation_case *input,

@@ -93,12 +93,20 @@ static void put_cells(struct afdmp *afdmp, struct simulation *simulation, const 
                 const int32_t i = part_cell(view.cells, at, &block);
                 if (i < 0)
                     continue;
-                const double lost = put_cell(afdmp, &view, &sums[n], internal[n],
+                struct smear_sums own = sums[n];
+                double heat = 0.0;
+                for (int m = 0; m < 2; m++) {
+                    own.energy[m] += view.heat[m] * own.mass[m];
+                    heat += view.heat[m] * own.mass[m];
+                }
+                const double lost = put_cell(afdmp, &view, &own, internal[n] + heat,
                                              part_cell_volume(&afdmp->maker, afdmp->round, at), i);
                 changed[block] = true;
-                if (lost != 0.0 && afdmp->parameters.map != AFDMP_CONSERVATIVE)
+                if (afdmp->parameters.map != AFDMP_CONSERVATIVE)
+                    heat -= lost;
+                if (heat != 0.0)
                     ledger_book(&simulation->ledger, LEDGER_EXCHANGE, 0.0, vec3_make(0.0, 0.0, 0.0),
-                                vec3_make(0.0, 0.0, 0.0), -lost);
+                                vec3_make(0.0, 0.0, 0.0), heat);
             }
 }
 
@@ -142,7 +150,13 @@ struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulatio
             particles_delete(p, i);
         afdmp_burn_all(afdmp);
         put_cells(afdmp, simulation, &smear, sums, internal, changed);
-        error = gas_refresh(afdmp->gas, &afdmp->gas_part.simulation, changed);
+        gas_forget_markers(afdmp->gas);
+        for (int64_t k = 0; k < count && !error; k++)
+            error = gas_add_marker(afdmp->gas, each[k].position, each[k].which != 0);
+        if (!error)
+            error = gas_settle_markers(afdmp->gas);
+        if (!error)
+            error = gas_refresh(afdmp->gas, &afdmp->gas_part.simulation, changed);
     }
     free(each);
     free(order);
@@ -257,7 +271,7 @@ static struct error *make_particles(struct afdmp *afdmp, const struct gas_view *
     return NULL;
 }
 
-struct error *afdmp_map_to_points(struct afdmp *afdmp)
+struct error *afdmp_map_to_points(struct afdmp *afdmp, struct simulation *simulation)
 {
     const struct gas_view view = gas_view(afdmp->gas);
     const struct gas_cut *region = &afdmp->region;
@@ -276,9 +290,16 @@ struct error *afdmp_map_to_points(struct afdmp *afdmp)
                     if (inside)
                         continue;
                     split_cell(&view, i, part_cell_volume(&afdmp->maker, afdmp->round, at), share);
-                    for (int m = 0; m < 2; m++)
-                        if (share[m].mass > 0.0)
-                            TRY(make_particles(afdmp, &view, m, &share[m], i, at));
+                    for (int m = 0; m < 2; m++) {
+                        if (!(share[m].mass > 0.0))
+                            continue;
+                        share[m].energy -= view.heat[m];
+                        if (view.heat[m] != 0.0)
+                            ledger_book(&simulation->ledger, LEDGER_EXCHANGE, 0.0,
+                                        vec3_make(0.0, 0.0, 0.0), vec3_make(0.0, 0.0, 0.0),
+                                        -view.heat[m] * share[m].mass);
+                        TRY(make_particles(afdmp, &view, m, &share[m], i, at));
+                    }
                 }
     }
     return NULL;

@@ -207,6 +207,7 @@ static struct error *make_gas_part(struct afdmp *afdmp, const struct simulation 
     }
     if (count_bodies(input, is_solid) > 0)
         TRY(part_block(&afdmp->maker, part, afdmp->region.low, afdmp->region.high));
+    afdmp->parameters.gas.burnt = true;
     TRY(part_create(&afdmp->maker, part, simulation, &gas_class, &afdmp->parameters.gas));
     afdmp->gas = part->solver;
     return NULL;

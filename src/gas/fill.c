@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "case/internal.h"
 #include "gas/gas_internal.h"
+#include "gas/markers.h"
 #include "material/material.h"
 #include "shape/shape.h"
 
@@ -102,13 +103,14 @@ static void add_state(struct filling *f, int body, struct vec3 place, double wei
         point.energy +=
             f->around /
             eos_evaluate(&f->gas->eos[f->gas->layout.explosive], point.density, 0.0, none).dp_de;
+    const bool second = f->gas->layout.two && of->material_index == f->gas->material[1];
+    point.energy += f->gas->heat[second];
     sum[GAS_DENSITY] += weight * point.density;
     for (int axis = 0; axis < 3; axis++) {
         sum[GAS_MOMENTUM + axis] += weight * point.density * velocity[axis];
         kinetic += 0.5 * square(velocity[axis]);
     }
     sum[GAS_ENERGY] += weight * point.density * (point.energy + kinetic);
-    const bool second = f->gas->layout.two && of->material_index == f->gas->material[1];
     sum[FILL_ENERGY + second] += weight * point.density * point.energy;
     if (second) {
         sum[GAS_SECOND] += weight * point.density;
@@ -313,5 +315,6 @@ struct error *gas_fill(void *solver, struct simulation *simulation)
     free(f.near);
     free(f.here);
     TRY(ranks_agree(simulation->ranks, error ? error : f.error));
-    return gas_start_from(gas, simulation);
+    TRY(gas_start_from(gas, simulation));
+    return gas->layout.marked ? gas_make_markers(gas) : NULL;
 }

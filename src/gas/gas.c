@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "gas/gas_internal.h"
+#include "gas/markers.h"
 #include "material/any.h"
 #include "material/material.h"
 #include "model/bodies.h"
@@ -15,6 +16,8 @@
 
 static const char *const form_names[] = {"richtmyer", "printed", NULL};
 static const char *const viscosity_names[] = {"faces", "cells", NULL};
+
+static const char *const mixing_names[] = {"conservative", "printed", NULL};
 
 static const struct parameter muscl_hancock_table[] = {PARAMETER_END};
 
@@ -40,13 +43,21 @@ static const struct parameter lax_wendroff_table[] = {
      .names = form_names,
      .help = "richtmyer: two steps; printed: as printed in the source, without the Jacobian, which "
              "does not converge"},
+    {.key = "mixing",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct lax_wendroff_options, mixing),
+     .standard = "conservative",
+     .names = mixing_names,
+     .help = "how two materials share the energy of a cell that both are in; printed: as printed "
+             "in the source, which does not conserve it"},
     PARAMETER_END,
 };
 
 const struct choice gas_method_choices[GAS_METHODS] = {
     {"muscl-hancock", "second order, positive: limited slopes and HLLC fluxes", muscl_hancock_table,
      0, NULL},
-    {"lax-wendroff", "Lax-Wendroff with adaptive viscosity (Cui 2014, 2.6), restored",
+    {"lax-wendroff",
+     "Lax-Wendroff with adaptive viscosity, and markers between two materials (Cui 2014), restored",
      lax_wendroff_table, sizeof(struct lax_wendroff_options), NULL},
 };
 
@@ -94,6 +105,7 @@ static const struct field_row field_rows[] = {
     {.field = {"burnt", "1", "burnt fraction of the explosive", NUMBER_DOUBLE, 1, FIELD_STATE}},
     {.field = {"open", NULL, "1, or 0 where an obstacle blocks the cell", NUMBER_DOUBLE, 1,
                FIELD_STATE}},
+    {.field = {"gamma", NULL, "pressure over energy per volume", NUMBER_DOUBLE, 1, FIELD_STATE}},
     {.field = {"peak_overpressure", "Pa",
                "largest overpressure over the `ambient` pressure of the solver until now",
                NUMBER_DOUBLE, 1, FIELD_STATE}},
@@ -107,6 +119,7 @@ enum {
     FIELD_AFTERBURNT = 8,
     FIELD_BURNT,
     FIELD_OPEN,
+    FIELD_GAMMA,
     FIELD_MAPS,
     OWN_FIELDS = FIELD_MAPS + 3
 };
@@ -119,6 +132,7 @@ void gas_lay_out(struct gas_layout *layout)
     layout->fields = layout->written;
     layout->burnt = layout->lit ? layout->fields++ : -1;
     layout->open = layout->blocked ? layout->fields++ : -1;
+    layout->gamma = layout->marked ? layout->fields++ : -1;
 }
 
 static struct error *make_store(struct cell_blocks *cells, const struct gas_layout *layout)
@@ -130,6 +144,7 @@ static struct error *make_store(struct cell_blocks *cells, const struct gas_layo
                                  : k == FIELD_AFTERBURNT ? layout->afterburns
                                  : k == FIELD_BURNT      ? layout->lit
                                  : k == FIELD_OPEN       ? layout->blocked
+                                 : k == FIELD_GAMMA      ? layout->marked
                                                          : layout->maps))
             own[count++] = field_rows[k].field;
     return cell_blocks_create(cells, own, count);
@@ -148,6 +163,7 @@ static void choose_scheme(struct gas *gas)
     gas->second_order = gas->parameters.method.index == GAS_MUSCL_HANCOCK;
     if (gas->second_order)
         return;
+    gas->mixing = options->mixing;
     gas->scheme = (struct lax_wendroff){.form = options->form,
                                         .viscosity = options->viscosity_of,
                                         .eta = options->viscosity,
@@ -174,11 +190,14 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     }
     gas->unburnt = gas->layout.lit;
     gas->layout.two = gas->material[1] != gas->material[0];
+    gas->layout.marked = gas->layout.two && !gas->second_order;
     gas->layout.blocked = input->obstacles.count > 0;
     gas->afterburn = simulation->problem->material[gas->material[1]].afterburn;
     gas->layout.afterburns = gas->layout.two && gas->afterburn.energy > 0.0;
     gas->layout.explosive = gas->layout.two ? gas->layout.explosive : 0;
     gas->layout.maps = !isnan(gas->parameters.ambient);
+    if (gas->layout.marked)
+        gas_count_heat(gas);
     gas_lay_out(&gas->layout);
     gas->round = geometry_power(simulation->problem->geometry);
     gas->sleepless = problem_has_gravity(simulation->problem);
@@ -220,6 +239,8 @@ void gas_bind(struct gas *gas, const struct cell_blocks *cells)
     gas->open = gas->layout.blocked ? cell_blocks_field(cells, "open") : NULL;
     if (gas->open)
         gas->u[gas->layout.open] = gas->open;
+    if (gas->layout.marked)
+        gas->u[gas->layout.gamma] = cell_blocks_field(cells, "gamma");
     gas->sound = cell_blocks_field(cells, "sound_long");
     if (gas->layout.maps) {
         gas->map.overpressure = cell_blocks_field(cells, "peak_overpressure");
@@ -397,6 +418,8 @@ static struct error *gas_advance(void *solver, struct simulation *simulation, do
         pull(gas, simulation, 0.5 * dt);
     gas_afterburn(gas, simulation, dt);
     simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
+    if (gas->layout.marked)
+        TRY(gas_move_markers(gas, simulation, dt));
     TRY(gas_burn(gas, simulation, simulation->time + dt));
     struct error *error = gas_derive(gas, simulation, NULL);
     gas_map(gas, simulation, dt);
@@ -406,15 +429,15 @@ static struct error *gas_advance(void *solver, struct simulation *simulation, do
 
 static struct error *gas_state(void *solver, struct visitor *visitor)
 {
-    (void)solver;
-    (void)visitor;
-    return NULL;
+    struct gas *gas = solver;
+    return gas->layout.marked ? gas_visit_markers(gas, visitor) : NULL;
 }
 
 static void gas_destroy(void *solver)
 {
     struct gas *gas = solver;
     gas_free_strips(gas);
+    gas_free_markers(gas);
     cell_halo_free(&gas->halo);
     for (int n = 0; n < GAS_FIELDS; n++)
         free(gas->other[n]);

@@ -9,6 +9,7 @@
 struct lax_wendroff_options {
     int form, viscosity_of; /* enum lax_wendroff_form, _viscosity */
     double viscosity;       /* NAN: by the speed of waves */
+    int mixing;             /* enum gas_mixing */
 };
 
 /* Strips of an axis, those that need no planes of other ranks or faces first. */
@@ -33,6 +34,7 @@ struct gas {
     struct cell_blocks *cells;
     bool second_order;
     struct lax_wendroff scheme;
+    int mixing; /* enum gas_mixing */
     struct eos eos[2];
     int material[2]; /* the same twice: there is one */
     struct gas_layout layout;
@@ -55,6 +57,8 @@ struct gas {
     double *other[GAS_FIELDS]; /* where sweeps write */
     double *open;              /* NULL: all cells are */
     double *sound;
+    double heat[2]; /* of the materials, where energies count from cold gas: see markers.h; J/kg */
+    struct gas_markers *markers; /* of the interface of two materials; NULL: there are none */
     struct {
         double *overpressure, *impulse, *sum; /* see maps.c; NULL: there are none */
     } map;

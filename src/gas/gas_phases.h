@@ -15,6 +15,7 @@ struct gas_view {
     const struct gas_layout *layout;
     const struct eos *eos; /* of both materials, the same twice where there is one */
     const int *material;
+    const double *heat; /* of both: what energies in cells are higher by than elsewhere, J/kg */
 };
 struct gas_view gas_view(const struct gas *gas);
 
@@ -24,6 +25,12 @@ void gas_watch(struct gas *gas, const struct gas_cut *cut);
 /* Collective: finds what follows from the state of cells after a coupling has changed it; cells of
  * BLOCKS, a flag each, may have changed. ERROR_STATE: one is impossible. */
 struct error *gas_refresh(struct gas *gas, const struct simulation *simulation, const bool *blocks);
+
+/* Where markers divide two materials: none is left; there is one more at AT, of the second material
+ * or of the first; cells get their states by all of them. Nothing happens where they do not. */
+void gas_forget_markers(struct gas *gas);
+struct error *gas_add_marker(struct gas *gas, const double at[3], bool second);
+struct error *gas_settle_markers(struct gas *gas);
 
 /* The fraction of volume of the second material of a cell, FRACTION, when both have come to one
  * pressure: the first without heat, the second, BURNT to this fraction, with the rest of the

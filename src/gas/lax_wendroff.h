@@ -38,6 +38,29 @@ BOLIDE_INLINE void row_theta(const struct gas_numbers *u, int first, int last, d
     }
 }
 
+/* Pressures of the cells FIRST to LAST of a row, or where FACES is 1 of what flows through the
+ * faces below them. With two materials, in mixed cells and between different ones, p = Gamma rho e
+ * with the Gamma that cells had before the step, at faces the mean of both. */
+BOLIDE_INLINE void row_wendroff_pressures(const struct gas_row *row, const struct gas_numbers *u,
+                                          int first, int last, int faces, double *pressure)
+{
+    double second[ROW_ROOM], energy[ROW_ROOM] = {0.0};
+    row_pressures(row->eos, u, first, last, pressure);
+    if (!row->other)
+        return;
+    row_pressures(row->other, u, first, last, second);
+    row_energies(u, first, last, energy);
+    FOR_ROW (k, first, last) {
+        const double below = row->part[PART_FRACTION][k - faces],
+                     above = row->part[PART_FRACTION][k];
+        const double mixed =
+            0.5 * (row->gamma[k - faces] + row->gamma[k]) * u->of[GAS_DENSITY][k] * energy[k];
+        pressure[k] = below == 0.0 && above == 0.0   ? pressure[k]
+                      : below == 1.0 && above == 1.0 ? second[k]
+                                                     : mixed;
+    }
+}
+
 /* Smooths cells -2 .. cells + 1 of a row. SMOOTHED may not be its own numbers. What the viscosity
  * carries through the faces -1 .. cells + 1, per area and time, goes to FLUX; nothing where it is
  * that of cells. */
@@ -101,7 +124,7 @@ BOLIDE_INLINE void row_through(const struct gas_row *row, const struct lax_wendr
                 half.of[n][k] -= 0.5 * r * spread * (double)row->round / row_radius(row, k);
             }
         }
-    row_pressures(row->eos, &half, -1, cells + 1, middle);
+    row_wendroff_pressures(row, &half, -1, cells + 1, 1, middle);
     row_flows(&half, middle, row->axis, -1, cells + 1, through);
     FOR_ROW (k, -1, cells)
         push[k] = 0.5 * (middle[k] + middle[k + 1]);
@@ -126,8 +149,8 @@ BOLIDE_INLINE bool gas_is_lost(const struct gas_numbers *from, const struct gas_
 /* Puts Lax and Friedrichs' fluxes through both faces of the cells -1 .. cells that are lost;
  * whether there are any. */
 BOLIDE_INLINE bool row_guard(const struct gas_row *row, const struct gas_numbers *smoothed,
-                             const struct gas_numbers *flow, const struct gas_numbers *to,
-                             struct gas_numbers *through)
+                             const struct gas_numbers *flow, const double *pressure,
+                             const struct gas_numbers *to, struct gas_numbers *through)
 {
     const double none[POINT_HISTORY] = {0.0};
     bool any = false;
@@ -148,7 +171,8 @@ BOLIDE_INLINE bool row_guard(const struct gas_row *row, const struct gas_numbers
             const double energy = smoothed->of[GAS_ENERGY][side] / density - kinetic;
             const struct eos_value value = eos_evaluate(row->eos, density, energy, none);
             const double sound =
-                eos_sound_square(value.pressure, value.dp_drho, value.dp_de, density);
+                row->other ? 4.0 * fabs(pressure[side]) / density /* above any of products */
+                           : eos_sound_square(value.pressure, value.dp_drho, value.dp_de, density);
             speed = maximum(speed, fabs(u) + sqrt(maximum(sound, 0.0)));
         }
         for (int n = 0; n < GAS_NUMBERS; n++)
@@ -167,11 +191,11 @@ BOLIDE_INLINE void row_lax_wendroff(struct gas_row *row, const struct lax_wendro
     struct gas_numbers smoothed, flow, through, to;
     double pressure[ROW_ROOM], push[ROW_ROOM];
     row_smooth(row, scheme, r, &smoothed, flux);
-    row_pressures(row->eos, &smoothed, -2, cells + 1, pressure);
+    row_wendroff_pressures(row, &smoothed, -2, cells + 1, 0, pressure);
     row_flows(&smoothed, pressure, row->axis, -2, cells + 1, &flow);
     row_through(row, scheme, r, &smoothed, &flow, pressure, &through, push);
     row_advance(row, &smoothed, &through, push, r, -more, cells - 1 + more, &to);
-    if (scheme->guarded && row_guard(row, &smoothed, &flow, &to, &through))
+    if (scheme->guarded && row_guard(row, &smoothed, &flow, pressure, &to, &through))
         row_advance(row, &smoothed, &through, push, r, 0, cells - 1, &to);
     row_keep_push(row, push);
     for (int n = 0; n < GAS_NUMBERS; n++) {

@@ -7,8 +7,11 @@
 
 struct gas_view gas_view(const struct gas *gas)
 {
-    struct gas_view view = {
-        .cells = gas->cells, .layout = &gas->layout, .eos = gas->eos, .material = gas->material};
+    struct gas_view view = {.cells = gas->cells,
+                            .layout = &gas->layout,
+                            .eos = gas->eos,
+                            .material = gas->material,
+                            .heat = gas->heat};
     memcpy(view.u, gas->u, sizeof view.u);
     return view;
 }

@@ -137,17 +137,29 @@ static struct error *refuse_materials(const struct simulation *simulation,
             error_join(error, input_error(input, "materials", input->materials.names[material[0]],
                                           "products burn in a second material, the air: leave "
                                           "`afterburn` out, or fill the space around them"));
-    if (!two && lit[0] && parameters->method.index != GAS_MUSCL_HANCOCK)
+    const bool marked = parameters->method.index == GAS_LAX_WENDROFF;
+    if ((lit[0] || lit[1]) && marked && !parameters->burnt)
         error = error_join(error, input_error(input, "solver", NULL,
                                               "lax-wendroff does not burn explosives: leave the "
                                               "method out"));
-    if (two && parameters->method.index != GAS_MUSCL_HANCOCK)
-        error =
-            error_join(error, input_error(input, "solver", NULL,
-                                          "lax-wendroff computes one material: leave the method "
-                                          "out"));
+    if (two && marked && of[material[1]].afterburn.energy > 0.0)
+        error = error_join(error, input_error(input, "solver", NULL,
+                                              "lax-wendroff does not burn products in the air: "
+                                              "leave the method or `afterburn` out"));
+    if (two && marked && input->start.input)
+        error = error_join(error, input_error(input, "start", NULL,
+                                              "lax-wendroff with two materials begins with bodies: "
+                                              "leave the method or `start` out"));
+    if (two && marked && simulation->ranks->size > 1)
+        error = error_join(error, input_error(input, "solver", NULL,
+                                              "lax-wendroff with two materials runs on one rank"));
     for (int b = 0; two && b < input->boundaries.count; b++)
-        if (case_boundary(input, b)->kind == BOUNDARY_INFLOW)
+        if (case_boundary(input, b)->kind == BOUNDARY_PERIODIC && marked)
+            error = error_join(error,
+                               input_error(input, "boundaries", input->boundaries.names[b],
+                                           "no periodic faces with lax-wendroff and two materials: "
+                                           "leave the method out"));
+        else if (case_boundary(input, b)->kind == BOUNDARY_INFLOW)
             error = error_join(
                 error, input_error(input, "boundaries", input->boundaries.names[b],
                                    "no inflow beside a second material: leave one of the two "

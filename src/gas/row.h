@@ -39,6 +39,7 @@ struct gas_row {
     bool crossed; /* some of `shock` may not be zero; else it is zero in cells -2 .. cells + 1 */
     bool shocked; /* found by a sweep: a strong shock runs along the row */
     double part[PARTS][ROW_ROOM]; /* of the second material, where there are two */
+    double gamma[ROW_ROOM];       /* p/(rho e), where markers divide them (markers.h) */
     bool afterburns;              /* it burns in the first */
     double afterburnt[ROW_ROOM];  /* its mass per volume of the cell that has */
     bool watched;                 /* who sweeps wants to know */

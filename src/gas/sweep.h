@@ -9,27 +9,28 @@
 /* Conserved numbers of a cell, and behind them the axes of strong shocks in it, as sweeps left
  * them; with two materials the mass per volume and the fraction of volume of the second, and the
  * mass per volume that has burnt in the air where it does. Sweeps write these. Behind them, where a
- * case has them: the fraction burnt of the explosive here, and whether the cell is open, 1, or
- * blocked, 0. */
+ * case has them: the fraction burnt of the explosive here, whether the cell is open, 1, or
+ * blocked, 0, and p/(rho e) where markers divide two materials. */
 enum {
     GAS_SHOCK = GAS_NUMBERS,
     GAS_SECOND,
     GAS_FRACTION,
     GAS_AFTERBURNT,
-    GAS_FIELDS = GAS_AFTERBURNT + 3
+    GAS_FIELDS = GAS_AFTERBURNT + 4
 };
 
 /* What cells have, and where. */
 struct gas_layout {
-    bool two;        /* materials */
-    bool afterburns; /* the second burns in the first */
-    bool lit;        /* one is an explosive that is lit */
-    bool blocked;    /* some cells are */
-    bool maps;       /* of a blast are kept, see maps.c */
-    int explosive;   /* which of the materials is lit */
-    int written;     /* fields that sweeps write */
-    int burnt, open; /* where these fields are, -1: nowhere */
-    int fields;      /* all of them */
+    bool two;               /* materials */
+    bool afterburns;        /* the second burns in the first */
+    bool lit;               /* one is an explosive that is lit */
+    bool blocked;           /* some cells are */
+    bool marked;            /* markers divide two materials */
+    bool maps;              /* of a blast are kept, see maps.c */
+    int explosive;          /* which of the materials is lit */
+    int written;            /* fields that sweeps write */
+    int burnt, open, gamma; /* where these fields are, -1: nowhere */
+    int fields;             /* all of them */
 };
 
 /* A box of cells, whose faces on SIDEs that are open a coupling watches: what passes through each

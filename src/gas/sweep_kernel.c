@@ -98,7 +98,7 @@ static void store_row(const struct gather *g, const struct gas_row *row, int fir
 
 static void sweep_row(const struct gas_sweep *sweep, struct gas_row *row, struct gas_numbers *flux)
 {
-    if (row->other)
+    if (row->other && sweep->second_order)
         row_two_materials(row, sweep->r, flux);
     else if (sweep->second_order)
         row_muscl_hancock(row, sweep->r, flux);
@@ -118,6 +118,8 @@ static void copy_cell(double (*all)[ROW_ROOM], const struct gas_layout *layout, 
         to->afterburnt[k] = all[GAS_AFTERBURNT][from];
     if (to->lit)
         to->burnt[k] = all[layout->burnt][from];
+    if (layout->marked)
+        to->gamma[k] = all[layout->gamma][from];
     for (int n = 0; n < GAS_NUMBERS; n++)
         to->u.of[n][k] = turned && n == GAS_MOMENTUM + axis ? -all[n][from] : all[n][from];
 }
@@ -247,6 +249,8 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
                 load_row(&g, GAS_AFTERBURNT, GAS_AFTERBURNT + 1, &row.afterburnt);
             if (!layout->blocked && row.lit)
                 load_row(&g, layout->burnt, layout->burnt + 1, &row.burnt);
+            if (!layout->blocked && layout->marked)
+                load_row(&g, layout->gamma, layout->gamma + 1, &row.gamma);
             if (layout->blocked) {
                 if (any_blocked(all[layout->open], cells, sweep->halo->depth)) {
                     for (int n = 0; n < GAS_NUMBERS; n++)
@@ -301,6 +305,13 @@ static void evaluate_run(const struct gas_look *look, const struct run *run,
             values->pressure[k] = of_second.pressure[k];
             values->dp_drho[k] = of_second.dp_drho[k];
             values->dp_de[k] = of_second.dp_de[k];
+        } else if (fraction > 0.0 && layout->marked) {
+            const double density = run->density[k],
+                         gamma = look->u[layout->gamma][run->first + k - ROW_GHOSTS],
+                         pressure = gamma * density * run->energy[k];
+            values->pressure[k] = pressure;
+            values->dp_drho[k] = 4.0 * fabs(pressure) / density; /* above that of both */
+            values->dp_de[k] = 0.0;
         } else if (fraction > 0.0) {
             const double density[2] = {
                 mixture_density(eos[0], run->density[k] - mass, 1.0 - fraction),
