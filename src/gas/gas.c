@@ -1,5 +1,5 @@
-/* The gas solver as the run loop sees it: its parameters, its parts from create to destroy, and the
- * forecast of `bolide check`. The sweeps themselves are in strips.c. */
+/* The gas solver as the run loop sees it: its parts from create to destroy, and the forecast of
+ * `bolide check`. The sweeps themselves are in strips.c. */
 #include "gas/gas.h"
 
 #include <stdlib.h>
@@ -13,78 +13,6 @@
 #include "material/material.h"
 #include "model/bodies.h"
 #include "model/domain.h"
-
-static const char *const form_names[] = {"richtmyer", "printed", NULL};
-static const char *const viscosity_names[] = {"faces", "cells", NULL};
-
-static const char *const mixing_names[] = {"conservative", "printed", NULL};
-
-static const struct parameter muscl_hancock_table[] = {PARAMETER_END};
-
-static const struct parameter lax_wendroff_table[] = {
-    {.key = "viscosity",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct lax_wendroff_options, viscosity),
-     .standard = "0.25",
-     .below = 1.0,
-     .closed = true,
-     .help = "eta, the factor of the adaptive viscosity"},
-    {.key = "viscosity_of",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct lax_wendroff_options, viscosity_of),
-     .standard = "faces",
-     .names = viscosity_names,
-     .help = "faces: the larger of both cells' theta; cells: each cell's own, as printed in the "
-             "source, which does not conserve"},
-    {.key = "form",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct lax_wendroff_options, form),
-     .standard = "richtmyer",
-     .names = form_names,
-     .help = "richtmyer: two steps; printed: as printed in the source, without the Jacobian, which "
-             "does not converge"},
-    {.key = "mixing",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct lax_wendroff_options, mixing),
-     .standard = "conservative",
-     .names = mixing_names,
-     .help = "how two materials share the energy of a cell that both are in; printed: as printed "
-             "in the source, which does not conserve it"},
-    PARAMETER_END,
-};
-
-const struct choice gas_method_choices[GAS_METHODS] = {
-    {"muscl-hancock", "second order, positive: limited slopes and HLLC fluxes", muscl_hancock_table,
-     0, NULL},
-    {"lax-wendroff",
-     "Lax-Wendroff with adaptive viscosity, and markers between two materials (Cui 2014), restored",
-     lax_wendroff_table, sizeof(struct lax_wendroff_options), NULL},
-};
-
-const struct parameter gas_table[] = {
-    {.key = "method",
-     .kind = PARAMETER_ONE_OF,
-     .offset = offsetof(struct gas_parameters, method),
-     .standard = "muscl-hancock",
-     .kind_of_thing = "gas-method",
-     .help = "the method of the sweeps along the axes: its name, or {NAME: {options}}"},
-    {.key = "courant",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct gas_parameters, courant),
-     .standard = PARAMETER_OPTIONAL,
-     .above = 1e-6, /* a smaller step adds less than rounding takes, and no run of it ends */
-     .below = 1.0,
-     .help = "K of dt = min K h/(|u_i| + c); default: 0.8, with lax-wendroff 0.2"},
-    {.key = "ambient",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct gas_parameters, ambient),
-     .unit = "Pa",
-     .standard = PARAMETER_OPTIONAL,
-     .below = INFINITY,
-     .help = "pressure of the air before a blast, for the fields `peak_overpressure` and "
-             "`peak_impulse`; default: without these fields"},
-    PARAMETER_END,
-};
 
 static const struct field_row field_rows[] = {
     {.field = {"sound_long", "m/s", "longitudinal sound speed", NUMBER_DOUBLE, 1, FIELD_DERIVED}},
@@ -402,7 +330,8 @@ static void pull(const struct gas *gas, struct simulation *simulation, double dt
 }
 
 /* MUSCL-Hancock sweeps along the axes in one order and in the next step back (Strang, SIAM J.
- * Numer. Anal. 5 (1968) 506); Lax-Wendroff in both halves of each step (2-52). */
+ * Numer. Anal. 5 (1968) 506); Lax-Wendroff in both halves of each step (2-52), along the first axis
+ * too: the viscosity of a sweep does not depend on its duration, and acts alike along all axes. */
 static struct error *gas_advance(void *solver, struct simulation *simulation, double dt)
 {
     struct gas *gas = solver;
@@ -412,8 +341,10 @@ static struct error *gas_advance(void *solver, struct simulation *simulation, do
         pull(gas, simulation, 0.5 * dt);
     for (int k = 0; k <= last && gas->second_order; k++)
         TRY(gas_sweep(gas, simulation, simulation->step % 2 ? last - k : k, dt));
-    for (int k = -last; k <= last && !gas->second_order; k++)
-        TRY(gas_sweep(gas, simulation, k < 0 ? -k : k, k == 0 ? dt : 0.5 * dt));
+    for (int k = last; k >= 0 && !gas->second_order && last > 0; k--)
+        TRY(gas_sweep(gas, simulation, k, 0.5 * dt));
+    for (int k = 0; k <= last && !gas->second_order; k++)
+        TRY(gas_sweep(gas, simulation, k, last > 0 ? 0.5 * dt : dt));
     if (heavy)
         pull(gas, simulation, 0.5 * dt);
     gas_afterburn(gas, simulation, dt);
