@@ -194,7 +194,8 @@ struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *
 /* Whether any of the blocks that the patch of a bin covers is one OF which is set. */
 bool mpm_covers(const struct layer *layer, int32_t bin, const bool *of);
 
-/* Finds the planes of nodes that the walls lie on; a located error when they lie between. */
+/* Finds the planes of nodes that the walls lie on; a located error when they lie between, and where
+ * a load is between planes that are too near each other. */
 struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulation);
 
 /* Collective, by faces: patches of stresses become forces in those of nodes, see fill.c. */

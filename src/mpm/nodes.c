@@ -34,9 +34,29 @@ static struct error *between_planes(const struct simulation_case *input, int axi
                        at, edge, below + 0.0, above + 0.0 /* no -0 */, advice);
 }
 
-struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulation)
+/* A load between planes that are so near each other that some of its force is lost. */
+static struct error *too_near(const struct simulation_case *input, double edge)
 {
     struct error *error = NULL;
+    for (int i = 0; i < input->loads.count; i++) {
+        const struct vector_value *between = &case_load(input, i)->between;
+        char key[160];
+        if (between->count == 0 || between->at[1] - between->at[0] > (2.0 - 1e-6) * edge)
+            continue;
+        snprintf(key, sizeof key, "%.120s.between", input->loads.names[i]);
+        error = error_join(error,
+                           input_error(input, "loads", key,
+                                       "%.6g m is less than two cells of the solver mpm, of %.6g "
+                                       "m: widen it to hold the face and a cell on both sides of "
+                                       "it, or some of the load is lost",
+                                       between->at[1] - between->at[0], edge));
+    }
+    return error;
+}
+
+struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulation)
+{
+    struct error *error = too_near(simulation->problem->input, mpm->edge);
     for (int axis = 0; axis < simulation->problem->dimension; axis++)
         for (int side = 0; side < 2; side++) {
             const double at = side ? simulation->problem->mirrors.high[axis]
