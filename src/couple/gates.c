@@ -104,18 +104,31 @@ static double pressure_of(const struct gas_view *view, const struct content *con
     return gate_share(view, mass, density, energy).pressure;
 }
 
+/* The volume of MASS of a material that comes at the density OF, 0 where it is not known, to a cell
+ * that has it at OWN, or is taken from there. Of what is much denser than beside the gate as much
+ * volume goes as it fills: at OF more than that would go, and the rest would get denser with each
+ * step. */
+static double volume_of(double mass, double of, double own)
+{
+    static const double most = 5.0;
+    if (mass < 0.0 && of > 0.0 && own > most * of)
+        return mass / own;
+    return of > 0.0 ? mass / of : 0.0;
+}
+
 /* CONTENT with VALUES per volume more; materials have the densities OF, 0 where they are not
  * known. */
 static struct content content_with(const struct gas_view *view, struct content content,
                                    const double values[PASSES], const double of[2])
 {
+    const double own[2] = {density_in(&content, 0), density_in(&content, 1)};
     for (int n = 0; n < GAS_NUMBERS; n++)
         content.u[n] += values[n];
     if (!view->layout->two)
         return content;
     const double given[2] = {values[PASS_MASS] - values[PASS_SECOND], values[PASS_SECOND]};
-    const double volume[2] = {of[0] > 0.0 ? given[0] / of[0] : 0.0,
-                              of[1] > 0.0 ? given[1] / of[1] : 0.0};
+    const double volume[2] = {volume_of(given[0], of[0], own[0]),
+                              volume_of(given[1], of[1], own[1])};
     content.second += given[1];
     content.fraction = (content.fraction + volume[1]) / (1.0 + volume[0] + volume[1]);
     const double all = content.u[GAS_DENSITY], trace = 1e-8;
