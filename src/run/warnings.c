@@ -20,9 +20,9 @@ static const double SPEED_FACTOR = 3.0;
 /* The strength of an ideal crystal is about a tenth of its bulk modulus. */
 static const double TENSION_FRACTION = 1.0 / 20.0;
 
-/* The compression at which an explosive before its detonation should bear a pressure that matters,
- * some 2 GPa; its products in the state of Chapman and Jouguet have 1.3 to 1.4. */
-static const double UNLIT_COMPRESSION = 1.1;
+/* The compression that an explosive before its detonation does not come to at the foot of a wave in
+ * time: that of products in the state of Chapman and Jouguet is 1.3 to 1.4. */
+static const double UNLIT_COMPRESSION = 1.5;
 
 static const double DRIFT_TO_WARN_OF = 0.05;
 
