@@ -176,18 +176,22 @@ struct error *gas_make_markers(struct gas *gas)
 
 void gas_forget_markers(struct gas *gas)
 {
-    if (gas->layout.marked)
+    if (gas->markers)
         gas->markers->count = 0;
 }
 
 struct error *gas_add_marker(struct gas *gas, const double at[3], bool second)
 {
-    return gas->layout.marked ? marker_add(gas->markers, at, second) : NULL;
+    if (!gas->layout.marked)
+        return NULL;
+    if (!gas->markers) /* resumed before there were any */
+        TRY(reserve(gas));
+    return marker_add(gas->markers, at, second);
 }
 
 struct error *gas_settle_markers(struct gas *gas)
 {
-    if (!gas->layout.marked)
+    if (!gas->markers)
         return NULL;
     const struct marker_grid grid = marker_grid_of(gas);
     struct gas_markers *markers = gas->markers;

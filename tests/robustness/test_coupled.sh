@@ -24,7 +24,8 @@ kill_and_resume() {
     "$BOLIDE" run "$case" "${settings[@]}" --threads 1 --output killed --resume >resumed.log 2>&1 ||
         fail "$name: resuming after snapshot $1: $(cat resumed.log)"
     grep -q "^resumed at step" resumed.log || fail "$name: nothing was resumed: $(cat resumed.log)"
-    same one killed || fail "$name: a run killed after snapshot $1 and resumed differs"
+    # Particles may be sorted at other times than without the kill.
+    same_but_for_order one killed || fail "$name: a run killed after snapshot $1 and resumed differs"
 }
 
 # Runs the case $1 in every way; the others are the snapshots after which it is killed.
@@ -63,6 +64,6 @@ compare everything-alternating 000001 000005 000010
 
 # With markers between the gases, on one rank.
 settings=(--set solver.afdmp.gas.method=lax-wendroff)
-BOLIDE_MPIRUN= compare everything-alternating 000005
+BOLIDE_MPIRUN= compare everything-alternating 000001 000005
 
 exit $status
