@@ -1,5 +1,5 @@
-"""Blasts on plates, drawn by a seed, for scripts/campaign-random: gas beside material points, or one
-after the other."""
+"""Blasts on plates, drawn by a seed, for scripts/campaign-random: gas beside
+material points, or one after the other."""
 import math
 import random
 
@@ -103,5 +103,6 @@ checks:
         if axis != along and draw.random() < 0.5:
             walls += f"  {name}1: {{mirror: {name}, at: {high[axis] * EDGE:.9g} m, side: high}}\n"
     text += f"walls:\n{walls}" if walls else ""
-    return text, (f"coupled {'afdmp' if alternating else 'cfdmp'}", f"coupled {geometry}", f"coupled {charge}", f"coupled {plate}",
+    return text, (f"coupled {'afdmp' if alternating else 'cfdmp'}",
+                  f"coupled {geometry}", f"coupled {charge}", f"coupled {plate}",
                   f"coupled, region {'given' if region else 'derived'}")
