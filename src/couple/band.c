@@ -1,11 +1,9 @@
 /* From particles to the cells that the gas looks at (4-1) to (4-6): means over the particles around
  * each, over the volume that the same weights give (smear.h). */
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "couple/cfdmp.h"
-#include "couple/smear.h"
 #include "material/material.h"
 
 static void put_cell(const struct gas_view *view, const struct smear_sums *sums, int32_t i)
@@ -42,7 +40,7 @@ static double depth_at(const struct cfdmp *cfdmp, const double x[3])
 }
 
 /* The error of a solid particle that has come to the overlap: gas computes no solids. */
-static struct error *check_solid(const struct cfdmp *cfdmp, int32_t i)
+static struct error *solid_error(const struct cfdmp *cfdmp, int32_t i)
 {
     const struct particles *p = mpm_particles(cfdmp->mpm);
     const struct simulation_case *input = &cfdmp->mpm_part.input;
@@ -65,12 +63,11 @@ static struct error *check_solid(const struct cfdmp *cfdmp, int32_t i)
     return NULL;
 }
 
-/* Of a walk over the particles near the band: those that the gas computes count; solids must not
- * be here. */
+/* A walk over the particles near the band: those that the gas computes count. */
 struct looking {
     const struct cfdmp *cfdmp;
     int material[2];
-    struct error *error;
+    bool solid; /* has been seen there, where none must be */
 };
 
 static bool counts(void *context, int32_t i)
@@ -80,48 +77,65 @@ static bool counts(void *context, int32_t i)
     enum { REACH = 2 }; /* of a particle, in cells */
     const double depth = depth_at(looking->cfdmp, p->position[i]),
                  band = (double)looking->cfdmp->parameters.overlap;
-    if (looking->error ||
-        !(depth < band + (double)(cfdmp_band_depth(looking->cfdmp->dimension) + REACH)))
+    if (!(depth < band + (double)(cfdmp_band_depth(looking->cfdmp->dimension) + REACH)))
         return false;
     if (p->material[i] == looking->material[0] || p->material[i] == looking->material[1])
         return depth > band - REACH;
-    looking->error = check_solid(looking->cfdmp, i);
+    if (depth < band)
+#pragma omp atomic write
+        looking->solid = true;
     return false;
 }
 
-struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
+/* The error of the first solid particle that is in the overlap. */
+static struct error *find_solid(const struct looking *looking)
+{
+    const struct particles *p = mpm_particles(looking->cfdmp->mpm);
+    struct error *error = NULL;
+    for (int32_t i = 0; i < p->count && !error; i++)
+        if (p->material[i] != looking->material[0] && p->material[i] != looking->material[1])
+            error = solid_error(looking->cfdmp, i);
+    return error;
+}
+
+/* The cells of the band take what SUMS have. */
+static void put_band(struct cfdmp *cfdmp, const struct smear_sums *sums, int threads)
 {
     const struct gas_view view = gas_view(cfdmp->gas);
-    struct smear smear = {.shape = mpm_shape(cfdmp->mpm),
-                          .edge = cfdmp->edge,
-                          .dimension = cfdmp->dimension,
-                          .number = cfdmp->band_of};
-    struct looking looking = {cfdmp, {view.material[0], view.material[1]}, NULL};
-    struct smeared *all = NULL;
-    struct keyed *order = NULL;
-    int64_t count = 0;
-    memcpy(smear.low, cfdmp->cut.low, sizeof smear.low);
-    memcpy(smear.count, cfdmp->count, sizeof smear.count);
-    struct error *error =
-        smear_gather(cfdmp->mpm, &view, cfdmp->ranks, counts, &looking, &all, &count, &order);
-    error = ranks_agree(cfdmp->ranks, error_join(error, looking.error));
-    struct smear_sums *sums =
-        error ? NULL : memory_allocate(((size_t)cfdmp->band_cells + 1) * sizeof *sums);
-    for (int64_t n = 0; n < cfdmp->band_cells && sums; n++)
-        sums[n] = (struct smear_sums){.kinetic = 0.0};
-    for (int64_t k = 0; k < count && sums; k++)
-        smear_particle(&smear, &all[order[k].index], sums);
-    for (int64_t n = 0; n < cfdmp->band_cells && sums; n++) {
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int64_t n = 0; n < cfdmp->band_cells; n++) {
         int32_t block;
         const int32_t i = part_cell(view.cells, cfdmp->band[n], &block);
         if (i < 0)
             continue;
         put_cell(&view, &sums[n], i);
+#pragma omp atomic write
         cfdmp->changed[block] = true;
     }
-    error = sums || error ? error : owned_error();
-    free(all);
-    free(order);
-    free(sums);
-    return ranks_agree(cfdmp->ranks, error);
+}
+
+struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
+{
+    const struct simulation *simulation = &cfdmp->mpm_part.simulation;
+    const struct gas_view view = gas_view(cfdmp->gas);
+    const int threads = simulation->threads;
+    struct smear smear = {.shape = mpm_shape(cfdmp->mpm),
+                          .edge = cfdmp->edge,
+                          .dimension = cfdmp->dimension,
+                          .number = cfdmp->band_of};
+    struct looking looking = {cfdmp, {view.material[0], view.material[1]}, false};
+    memcpy(smear.low, cfdmp->cut.low, sizeof smear.low);
+    memcpy(smear.count, cfdmp->count, sizeof smear.count);
+    TRY(crowd_gather(&cfdmp->crowd, cfdmp->mpm, &view, simulation, counts, &looking));
+    struct error *error = looking.solid ? find_solid(&looking) : NULL;
+    if (!error && !memory_reserve((void **)&cfdmp->sums, &cfdmp->sums_capacity,
+                                  cfdmp->band_cells + 1, 0, sizeof *cfdmp->sums))
+        error = owned_error();
+    TRY(ranks_agree(cfdmp->ranks, error));
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int64_t n = 0; n < cfdmp->band_cells; n++)
+        cfdmp->sums[n] = (struct smear_sums){.kinetic = 0.0};
+    smear_crowd(&smear, &cfdmp->crowd, threads, cfdmp->sums);
+    put_band(cfdmp, cfdmp->sums, threads);
+    return NULL;
 }

@@ -9,6 +9,7 @@
 
 #include "couple/couple.h"
 #include "couple/part.h"
+#include "couple/smear.h"
 
 /* Conserved numbers that pass from one part to the other: mass, momentum, energy, and the mass of
  * the gas solver's second material. */
@@ -51,13 +52,16 @@ struct cfdmp {
     struct gas_cut cut; /* the region */
     struct mpm_outside outside;
     struct side side[3][2];
-    int64_t count[3];      /* cells of the region */
-    int64_t band_cells;    /* so many cells get what particles have */
-    int64_t (*band)[3];    /* their places */
-    int32_t *band_of;      /* of each cell of the region, its number among these; -1: none */
-    bool *changed;         /* of each block of cells */
-    struct mpm_push *push; /* what this rank's nodes have got in this step */
-    int64_t changed_capacity, pushes, push_capacity;
+    int64_t count[3];        /* cells of the region */
+    int64_t band_cells;      /* so many cells get what particles have */
+    int64_t (*band)[3];      /* their places */
+    int32_t *band_of;        /* of each cell of the region, its number among these; -1: none */
+    struct crowd crowd;      /* what gives to them, and */
+    struct smear_sums *sums; /* how much */
+    struct picked leaving;   /* particles */
+    bool *changed;           /* of each block of cells */
+    struct mpm_push *push;   /* what this rank's nodes have got in this step */
+    int64_t changed_capacity, sums_capacity, pushes, push_capacity;
     bool pushes_lost; /* for want of memory */
     int64_t *bits;    /* room for those of a side's numbers */
     const struct ranks *ranks;

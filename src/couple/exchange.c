@@ -58,34 +58,49 @@ struct leaver {
     double values[PASSES];
 };
 
-/* Whether particle I has left, and what it takes along: of the second material or the first. */
-static bool has_left(const struct cfdmp *cfdmp, int32_t i, bool second, struct leaver *leaver)
+/* Whether particle I of the coupling OF has left the region through an open face, and maybe through
+ * an outflow since. */
+static bool has_left(void *of, int32_t i)
+{
+    const struct cfdmp *cfdmp = of;
+    const double *x = mpm_particles(cfdmp->mpm)->position[i];
+    bool left = false;
+    for (int axis = 0; axis < cfdmp->dimension; axis++) {
+        const double place = x[axis] / cfdmp->edge;
+        left |= (cfdmp->cut.open[axis][0] && place < (double)cfdmp->cut.low[axis]) ||
+                (cfdmp->cut.open[axis][1] && place > (double)cfdmp->cut.high[axis]);
+    }
+    return left;
+}
+
+/* What particle I, which has left, takes along: of the SECOND material or the first. */
+static struct leaver leaver_of(const struct cfdmp *cfdmp, int32_t i, bool second)
 {
     const struct particles *p = mpm_particles(cfdmp->mpm);
     const double *x = p->position[i], *u = p->velocity[i], m = p->mass[i];
     double most = 0.0, kinetic = 0.0;
-    *leaver = (struct leaver){.id = p->id[i], .axis = -1};
+    struct leaver leaver = {.id = p->id[i], .axis = -1};
     for (int axis = 0; axis < cfdmp->dimension; axis++) {
         const double place = x[axis] / cfdmp->edge;
-        leaver->at[axis] = (int64_t)floor(place);
+        leaver.at[axis] = (int64_t)floor(place);
         for (int side = 0; side < 2; side++) {
             const double beyond =
                 side ? place - (double)cfdmp->cut.high[axis] : (double)cfdmp->cut.low[axis] - place;
             if (cfdmp->cut.open[axis][side] && beyond > most) {
                 most = beyond;
-                leaver->axis = axis;
-                leaver->side = side;
+                leaver.axis = axis;
+                leaver.side = side;
             }
         }
     }
     for (int k = 0; k < 3; k++) {
-        leaver->values[PASS_MOMENTUM + k] = m * u[k];
+        leaver.values[PASS_MOMENTUM + k] = m * u[k];
         kinetic += 0.5 * square(u[k]);
     }
-    leaver->values[PASS_MASS] = m;
-    leaver->values[PASS_ENERGY] = m * (p->energy[i] + kinetic);
-    leaver->values[PASS_SECOND] = second ? m : 0.0;
-    return leaver->axis >= 0 && !particles_is_deleted(p, i); /* gone through an outflow */
+    leaver.values[PASS_MASS] = m;
+    leaver.values[PASS_ENERGY] = m * (p->energy[i] + kinetic);
+    leaver.values[PASS_SECOND] = second ? m : 0.0;
+    return leaver;
 }
 
 static int by_id(const void *left, const void *right)
@@ -99,18 +114,18 @@ static struct error *take_out(struct cfdmp *cfdmp)
 {
     const struct gas_view view = gas_view(cfdmp->gas);
     struct particles *p = mpm_particles(cfdmp->mpm);
-    struct leaver *own = NULL, *all = NULL, leaver;
-    int64_t count = 0, capacity = 0;
+    struct leaver *own = NULL, *all = NULL;
+    int64_t count = 0;
     struct error *error = NULL;
-    for (int32_t i = 0; i < p->count && !error; i++) {
-        const bool second = view.layout->two && p->material[i] == view.material[1];
-        if (!has_left(cfdmp, i, second, &leaver))
+    if (!part_pick(&cfdmp->leaving, p->count, cfdmp->mpm_part.simulation.threads, has_left, cfdmp))
+        error = owned_error();
+    else if (!(own = memory_allocate(((size_t)cfdmp->leaving.count + 1) * sizeof *own)))
+        error = owned_error();
+    for (int64_t k = 0; own && k < cfdmp->leaving.count; k++) {
+        const int32_t i = cfdmp->leaving.index[k];
+        if (particles_is_deleted(p, i)) /* gone through an outflow */
             continue;
-        if (!memory_reserve((void **)&own, &capacity, count + 1, count, sizeof *own)) {
-            error = owned_error();
-            continue;
-        }
-        own[count++] = leaver;
+        own[count++] = leaver_of(cfdmp, i, view.layout->two && p->material[i] == view.material[1]);
         particles_delete(p, i);
     }
     error = ranks_agree(cfdmp->ranks, error);

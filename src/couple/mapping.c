@@ -124,10 +124,8 @@ struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulatio
         smear.count[axis] = afdmp->nest_cut.high[axis] - afdmp->nest_cut.low[axis];
         cells *= (size_t)smear.count[axis];
     }
-    struct smeared *each = NULL;
-    struct keyed *order = NULL;
-    int64_t count = 0;
-    TRY(smear_gather(afdmp->nest_mpm, &view, afdmp->ranks, all, NULL, &each, &count, &order));
+    struct crowd crowd = {.count = 0};
+    TRY(crowd_gather(&crowd, afdmp->nest_mpm, &view, simulation, all, NULL));
     struct smear_sums *sums = memory_allocate(cells * sizeof *sums);
     double *internal = memory_allocate(cells * sizeof *internal);
     bool *changed = memory_allocate((size_t)view.cells->blocks + 1);
@@ -141,25 +139,23 @@ struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulatio
         memset(changed, 0, (size_t)view.cells->blocks + 1);
         for (size_t n = 0; n < cells; n++)
             sums[n] = (struct smear_sums){.kinetic = 0.0};
-        for (int64_t k = 0; k < count; k++) {
-            const struct smeared *particle = &each[order[k].index];
-            smear_particle(&smear, particle, sums);
-            sum_energy(&smear, particle, internal);
-        }
+        smear_crowd(&smear, &crowd, simulation->threads, sums);
+        for (int64_t k = 0; k < crowd.count; k++)
+            sum_energy(&smear, &crowd.particle[crowd.order[k].index], internal);
         for (int32_t i = 0; i < p->count; i++)
             particles_delete(p, i);
         afdmp_burn_all(afdmp);
         put_cells(afdmp, simulation, &smear, sums, internal, changed);
         gas_forget_markers(afdmp->gas);
-        for (int64_t k = 0; k < count && !error; k++)
-            error = gas_add_marker(afdmp->gas, each[k].position, each[k].which != 0);
+        for (int64_t k = 0; k < crowd.count && !error; k++)
+            error = gas_add_marker(afdmp->gas, crowd.particle[k].position,
+                                   crowd.particle[k].which != 0);
         if (!error)
             error = gas_settle_markers(afdmp->gas);
         if (!error)
             error = gas_refresh(afdmp->gas, &afdmp->gas_part.simulation, changed);
     }
-    free(each);
-    free(order);
+    crowd_free(&crowd);
     free(sums);
     free(internal);
     free(changed);

@@ -333,6 +333,33 @@ void part_hide_cells(struct cell_blocks *cells, const int64_t low[3], const int6
     }
 }
 
+bool part_pick(struct picked *picked, int32_t count, int threads,
+               bool (*wanted)(void *context, int32_t i), void *context)
+{
+    enum { RUN = 4096 }; /* members, whose picks stand at their beginning first */
+    const int32_t runs = (count + RUN - 1) / RUN;
+    if (!memory_reserve((void **)&picked->index, &picked->capacity, (int64_t)count + runs + 1, 0,
+                        sizeof *picked->index))
+        return false;
+    int32_t *of = picked->index + count; /* each run's number of picks */
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t run = 0; run < runs; run++) {
+        const int32_t begin = run * RUN, end = begin + RUN < count ? begin + RUN : count;
+        int32_t taken = 0;
+        for (int32_t i = begin; i < end; i++)
+            if (wanted(context, i))
+                picked->index[begin + taken++] = i;
+        of[run] = taken;
+    }
+    picked->count = 0;
+    for (int32_t run = 0; run < runs; run++) {
+        memmove(picked->index + picked->count, picked->index + (size_t)run * RUN,
+                (size_t)of[run] * sizeof *picked->index);
+        picked->count += of[run];
+    }
+    return true;
+}
+
 void part_unite(const struct ranks *ranks, int64_t *bits, double *values, int64_t count)
 {
     if (ranks->size < 2)

@@ -82,6 +82,16 @@ void part_burn(struct particles *particles, int32_t i);
 /* The cell AT of the gas; -1 where another rank has it. */
 int32_t part_cell(const struct cell_blocks *cells, const int64_t at[3], int32_t *block);
 
+/* Members picked from many, in their order; its memory stays for the next time. */
+struct picked {
+    int32_t *index;
+    int64_t count, capacity;
+};
+
+/* Those of COUNT members that WANTED takes, called by THREADS threads. False when memory is out. */
+bool part_pick(struct picked *picked, int32_t count, int threads,
+               bool (*wanted)(void *context, int32_t i), void *context);
+
 /* Collective: COUNT numbers, of which one rank alone has each and the others have 0, become those
  * of all ranks, by sums of their BITS. */
 void part_unite(const struct ranks *ranks, int64_t *bits, double *values, int64_t count);

@@ -147,6 +147,9 @@ void cfdmp_free_parts(struct cfdmp *cfdmp)
     part_free(&cfdmp->gas_part, &gas_class);
     part_free(&cfdmp->mpm_part, &mpm_class);
     owned_free(&cfdmp->owned);
+    crowd_free(&cfdmp->crowd);
+    free(cfdmp->sums);
+    free(cfdmp->leaving.index);
     free(cfdmp->changed);
     free(cfdmp->push);
 }

@@ -6,133 +6,195 @@
 
 #include "base/memory.h"
 
-/* The weight of a particle at R, in cells from the centre of the cell, along one axis. */
-static double weight(enum grid_shape shape, double r, double half)
-{
-    return 0.5 * (shape_value(shape, r - 0.5, half) + shape_value(shape, r + 0.5, half));
-}
-
-/* The place AT in the box; false where it has none. */
-static bool place_in(const struct smear *smear, int64_t at[3])
-{
-    bool inside = true;
-    for (int axis = 0; axis < 3; axis++) {
-        const int64_t last = smear->count[axis] - 1;
-        if (smear->keeps)
-            at[axis] = at[axis] < 0 ? 0 : at[axis] > last ? last : at[axis];
-        inside &= at[axis] >= 0 && at[axis] <= last;
-    }
-    return inside;
-}
-
 enum { REACH = 2, SPAN = 2 * REACH + 1 };
 
-/* The cells along an axis that a particle at PLACE, in cells, gives to, and its weights. */
+/* Cells of the box along one axis. */
+struct range {
+    int axis;
+    int64_t from, to;
+};
+
+/* The cells of the box along an axis that a particle gives to, and its weights. */
 struct span {
-    int64_t first;
     int count;
+    int64_t cell[SPAN];
     double weight[SPAN];
 };
 
-static struct span span_at(const struct smear *smear, double place, double half)
+/* Those of RANGE for a particle at PLACE, in cells. */
+static struct span span_at(const struct smear *smear, const struct range *range, double place,
+                           double half)
 {
-    struct span span = {(int64_t)floor(place) - REACH, 0, {0.0}};
+    const int64_t last = smear->count[range->axis] - 1,
+                  first = (int64_t)floor(place) - REACH - smear->low[range->axis];
     const double within = place - floor(place) - 0.5;
+    struct span span = {.count = 0};
+    double node[SPAN + 1]; /* before each cell, and behind the last */
+    for (int k = 0; k <= SPAN; k++)
+        node[k] = shape_value(smear->shape, within + 0.5 - (double)(k - REACH), half);
     for (int k = 0; k < SPAN; k++) {
-        const double w = weight(smear->shape, within - (double)(k - REACH), half);
-        if (w == 0.0 && span.count == 0)
-            span.first++;
-        else if (w != 0.0)
-            span.weight[span.count++] = w;
+        const double w = 0.5 * (node[k] + node[k + 1]);
+        int64_t cell = first + k;
+        if (smear->keeps)
+            cell = cell < 0 ? 0 : cell > last ? last : cell;
+        if (w == 0.0 || cell < range->from || cell >= range->to)
+            continue;
+        span.cell[span.count] = cell;
+        span.weight[span.count++] = w;
     }
     return span;
 }
 
-void smear_particle(const struct smear *smear, const struct smeared *particle,
-                    struct smear_sums *sums)
+/* Adds what PARTICLE has to SUMS, of the cells in RANGE. */
+static void smear_particle(const struct smear *smear, const struct smeared *particle,
+                           const struct range range[3], struct smear_sums *sums)
 {
+    enum { NUMBERS = sizeof(struct smear_sums) / sizeof(double) };
     const double *u = particle->velocity, m = particle->mass;
-    const int64_t which = particle->which;
-    struct span span[3];
-    for (int axis = 0; axis < 3; axis++)
-        span[axis] = axis < smear->dimension
-                         ? span_at(smear, particle->position[axis] / smear->edge, particle->half)
-                         : (struct span){smear->low[axis], 1, {1.0}};
-    const struct smear_sums own = {.kinetic =
-                                       0.5 * m * (square(u[0]) + square(u[1]) + square(u[2])),
-                                   .momentum = {m * u[0], m * u[1], m * u[2]}};
-    const double volume = m / particle->density, energy = m * particle->energy;
+    struct smear_sums own = {.momentum = {m * u[0], m * u[1], m * u[2]},
+                             .kinetic = 0.5 * m * (square(u[0]) + square(u[1]) + square(u[2]))};
+    own.volume[particle->which] = m / particle->density;
+    own.mass[particle->which] = m;
+    own.energy[particle->which] = m * particle->energy;
+    double number[NUMBERS];
+    memcpy(number, &own, sizeof own);
+    struct span span[3] = {[2] = {1, {0}, {1.0}}, [1] = {1, {0}, {1.0}}};
+    for (int axis = 0; axis < smear->dimension; axis++)
+        span[axis] =
+            span_at(smear, &range[axis], particle->position[axis] / smear->edge, particle->half);
     for (int c = 0; c < span[2].count; c++)
-        for (int b = 0; b < span[1].count; b++)
+        for (int b = 0; b < span[1].count; b++) {
+            const int64_t row =
+                smear->count[0] * (span[1].cell[b] + smear->count[1] * span[2].cell[c]);
             for (int a = 0; a < span[0].count; a++) {
                 const double part = span[0].weight[a] * span[1].weight[b] * span[2].weight[c];
-                int64_t at[3] = {span[0].first + a - smear->low[0],
-                                 span[1].first + b - smear->low[1],
-                                 span[2].first + c - smear->low[2]};
-                if (!place_in(smear, at))
-                    continue;
-                const int64_t n = at[0] + smear->count[0] * (at[1] + smear->count[1] * at[2]);
-                const int64_t k = smear->number ? smear->number[n] : n;
+                const int64_t n = row + span[0].cell[a], k = smear->number ? smear->number[n] : n;
                 if (k < 0)
                     continue;
-                struct smear_sums *sum = &sums[k];
-                sum->volume[which] += part * volume;
-                sum->mass[which] += part * m;
-                sum->energy[which] += part * energy;
-                sum->kinetic += part * own.kinetic;
-                for (int axis = 0; axis < 3; axis++)
-                    sum->momentum[axis] += part * own.momentum[axis];
+                double *sum = (double *)&sums[k];
+#pragma omp simd
+                for (int q = 0; q < NUMBERS; q++)
+                    sum[q] += part * number[q];
             }
+        }
 }
 
-/* The order of the ids of COUNT particles at ALL, which the caller frees. */
-static struct error *find_order(const struct smeared *all, int64_t count, struct keyed **order)
+/* Asks for the K-th particle, if there is one: they lie in another order than that of the sums. */
+static void crowd_fetch(const struct crowd *crowd, int64_t k)
 {
-    struct keyed *key = memory_allocate(((size_t)count + 1) * sizeof *key);
-    struct keyed *scratch = memory_allocate(((size_t)count + 1) * sizeof *scratch);
-    for (int64_t k = 0; k < count && key && scratch; k++)
-        key[k] = (struct keyed){all[k].id, (int32_t)k};
-    struct error *error = key && scratch ? NULL : owned_error();
-    if (!error)
-        radix_sort(key, scratch, count, 1);
-    free(scratch);
-    *order = key;
-    return error;
+    if (k < crowd->count)
+        __builtin_prefetch(&crowd->particle[crowd->order[k].index]);
 }
 
-struct error *smear_gather(const struct mpm *mpm, const struct gas_view *view,
-                           const struct ranks *ranks, bool (*wanted)(void *context, int32_t i),
-                           void *context, struct smeared **all, int64_t *count,
-                           struct keyed **order)
+/* The longest axis of the box. */
+static int longest(const struct smear *smear)
+{
+    int axis = 0;
+    for (int k = 1; k < smear->dimension; k++)
+        if (smear->count[k] > smear->count[axis])
+            axis = k;
+    return axis;
+}
+
+void smear_crowd(const struct smear *smear, const struct crowd *crowd, int threads,
+                 struct smear_sums *sums)
+{
+    enum { AHEAD = 8 };
+    const int axis = longest(smear);
+    const int64_t last = smear->count[axis] - 1;
+    /* Each part has cells of its own, and sums in one order, whatever the number of parts. */
+#pragma omp parallel num_threads(threads)
+    {
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < crowd->count; k++) {
+            const struct smeared *particle = &crowd->particle[crowd->order[k].index];
+            const double place = floor(particle->position[axis] / smear->edge);
+            crowd->place[k] = (int32_t)minimum(
+                maximum(place - (double)smear->low[axis], -(double)SPAN), (double)(last + SPAN));
+        }
+#pragma omp for schedule(static)
+        for (int part = 0; part < threads; part++) {
+            struct range range[3];
+            for (int k = 0; k < 3; k++)
+                range[k] = (struct range){k, 0, smear->count[k]};
+            range[axis].from = (last + 1) * part / threads;
+            range[axis].to = (last + 1) * (part + 1) / threads;
+            /* whose border gets what goes beyond */
+            const int64_t from = part == 0 ? -SPAN : range[axis].from - REACH,
+                          to = part == threads - 1 ? last + SPAN + 1 : range[axis].to + REACH;
+            for (int64_t k = 0; k < crowd->count; k++) {
+                crowd_fetch(crowd, k + AHEAD);
+                if (crowd->place[k] >= from && crowd->place[k] < to)
+                    smear_particle(smear, &crowd->particle[crowd->order[k].index], range, sums);
+            }
+        }
+    }
+}
+
+static bool reserve_order(struct crowd *crowd)
+{
+    const int64_t needed = crowd->count + 1;
+    return memory_reserve((void **)&crowd->order, &crowd->order_capacity, needed, 0,
+                          sizeof *crowd->order) &&
+           memory_reserve((void **)&crowd->spare, &crowd->spare_capacity, needed, 0,
+                          sizeof *crowd->spare) &&
+           memory_reserve((void **)&crowd->place, &crowd->place_capacity, needed, 0,
+                          sizeof *crowd->place);
+}
+
+/* Copies what the particles of this rank have that were picked. */
+static void copy_picked(struct crowd *crowd, const struct mpm *mpm, const struct gas_view *view,
+                        int threads)
 {
     const struct particles *p = mpm_particles(mpm);
-    int32_t *taken = memory_allocate(((size_t)p->count + 1) * sizeof *taken);
-    int64_t near = 0;
-    for (int32_t i = 0; taken && i < p->count; i++)
-        if (wanted(context, i))
-            taken[near++] = i;
-    struct smeared *own = memory_allocate(((size_t)near + 1) * sizeof *own);
-    for (int64_t k = 0; taken && own && k < near; k++) {
-        const int32_t i = taken[k];
-        own[k] =
-            (struct smeared){.id = p->id[i],
-                             .mass = p->mass[i],
-                             .density = p->density[i],
-                             .energy = p->energy[i],
-                             .half = mpm_half_size(mpm, p->body[i]),
-                             .which = view->layout->two && p->material[i] == view->material[1]};
-        memcpy(own[k].position, p->position[i], sizeof own[k].position);
-        memcpy(own[k].velocity, p->velocity[i], sizeof own[k].velocity);
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int64_t k = 0; k < crowd->count; k++) {
+        const int32_t i = crowd->picked.index[k];
+        struct smeared *own = &crowd->particle[k];
+        *own = (struct smeared){.id = p->id[i],
+                                .mass = p->mass[i],
+                                .density = p->density[i],
+                                .energy = p->energy[i],
+                                .half = mpm_half_size(mpm, p->body[i]),
+                                .which = view->layout->two && p->material[i] == view->material[1]};
+        memcpy(own->position, p->position[i], sizeof own->position);
+        memcpy(own->velocity, p->velocity[i], sizeof own->velocity);
     }
-    struct error *error = ranks_agree(ranks, taken && own ? NULL : owned_error());
-    free(taken);
-    if (!error && ranks->size < 2) {
-        *all = own;
-        *count = near;
-        return find_order(*all, *count, order);
+}
+
+struct error *crowd_gather(struct crowd *crowd, const struct mpm *mpm, const struct gas_view *view,
+                           const struct simulation *simulation,
+                           bool (*wanted)(void *context, int32_t i), void *context)
+{
+    const struct ranks *ranks = simulation->ranks;
+    const int threads = simulation->threads;
+    bool fits = part_pick(&crowd->picked, mpm_particles(mpm)->count, threads, wanted, context);
+    crowd->count = crowd->picked.count;
+    fits = fits && memory_reserve((void **)&crowd->particle, &crowd->capacity, crowd->count + 1, 0,
+                                  sizeof *crowd->particle);
+    TRY(ranks_agree(ranks, fits ? NULL : owned_error()));
+    copy_picked(crowd, mpm, view, threads);
+    if (ranks->size > 1) {
+        struct smeared *all;
+        TRY(ranks_gather(ranks, -1, crowd->particle, crowd->count, sizeof *all, (void **)&all,
+                         &crowd->count));
+        free(crowd->particle);
+        crowd->particle = all;
+        crowd->capacity = crowd->count;
     }
-    if (!error)
-        error = ranks_gather(ranks, -1, own, near, sizeof *own, (void **)all, count);
-    free(own);
-    return error ? error : find_order(*all, *count, order);
+    TRY(ranks_agree(ranks, reserve_order(crowd) ? NULL : owned_error()));
+    for (int64_t k = 0; k < crowd->count; k++)
+        crowd->order[k] = (struct keyed){crowd->particle[k].id, (int32_t)k};
+    radix_sort(crowd->order, crowd->spare, crowd->count, threads);
+    return NULL;
+}
+
+void crowd_free(struct crowd *crowd)
+{
+    free(crowd->particle);
+    free(crowd->order);
+    free(crowd->spare);
+    free(crowd->place);
+    free(crowd->picked.index);
+    *crowd = (struct crowd){.count = 0};
 }

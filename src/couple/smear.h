@@ -30,15 +30,25 @@ struct smear {
     bool keeps; /* what would go beyond the box goes to its border; else it is not summed */
 };
 
-/* Adds what PARTICLE has to SUMS. */
-void smear_particle(const struct smear *smear, const struct smeared *particle,
-                    struct smear_sums *sums);
+/* The particles of all ranks that give to cells; its memory stays for the next time. */
+struct crowd {
+    struct smeared *particle;
+    int64_t count;
+    struct keyed *order, *spare; /* by id: so they are summed */
+    int32_t *place;              /* of each in this order, its cell along an axis */
+    int64_t capacity, order_capacity, spare_capacity, place_capacity;
+    struct picked picked;
+};
 
-/* Collective: the particles of all ranks that WANTED takes, *count of them at *ALL, and the ORDER
- * of their ids, in which they are to be summed; the caller frees both. */
-struct error *smear_gather(const struct mpm *mpm, const struct gas_view *view,
-                           const struct ranks *ranks, bool (*wanted)(void *context, int32_t i),
-                           void *context, struct smeared **all, int64_t *count,
-                           struct keyed **order);
+/* Collective: the particles of all ranks that WANTED takes, which is called by several threads. */
+struct error *crowd_gather(struct crowd *crowd, const struct mpm *mpm, const struct gas_view *view,
+                           const struct simulation *simulation,
+                           bool (*wanted)(void *context, int32_t i), void *context);
+void crowd_free(struct crowd *crowd);
+
+/* Adds what all particles of CROWD have to SUMS, with THREADS threads; the bits do not depend on
+ * their number. */
+void smear_crowd(const struct smear *smear, const struct crowd *crowd, int threads,
+                 struct smear_sums *sums);
 
 #endif
