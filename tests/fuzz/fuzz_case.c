@@ -3,27 +3,16 @@
  * right is looked at as a run does before it makes particles, and read again as a run of its sweep,
  * and as the program would write it, which must be right too. */
 #define _GNU_SOURCE /* memfd_create */
-#include <stdlib.h>
-#include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include "case/case.h"
+#include "fuzz.h"
 #include "run/catalogue.h"
 #include "run/run.h"
 #include "source_folder.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 static const char *const library_paths[] = {materials_folder};
-
-static void insist(bool holds, const char *what)
-{
-    if (holds)
-        return;
-    fprintf(stderr, "%s\n", what);
-    abort();
-}
 
 /* Every message of an error says something. */
 static void look_at(struct error *error)

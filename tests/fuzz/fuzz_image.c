@@ -1,16 +1,7 @@
 /* The reader of images under libFuzzer: whatever the bytes, it returns grey values or says what is
  * wrong, and frees all memory. */
-#include <stdlib.h>
-
+#include "fuzz.h"
 #include "shape/pixels.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void insist(bool holds)
-{
-    if (!holds)
-        abort();
-}
 
 static uint32_t big_endian(const char *bytes)
 {
@@ -47,21 +38,17 @@ static void mend_checksums(char *png, size_t size)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    /* As a file is read: with a zero behind it. */
-    char *bytes = malloc(size + 1);
+    char *bytes = fuzz_file(data, size);
     if (!bytes)
         return 0;
-    for (size_t i = 0; i < size; i++)
-        bytes[i] = (char)data[i];
-    bytes[size] = '\0';
     if (size % 4 != 0) /* most inputs */
         mend_checksums(bytes, size);
 
     struct pixels *pixels = NULL;
     const char *text = pixels_read(bytes, size, &pixels);
-    insist(!text == !!pixels);
+    insist(!text == !!pixels, "neither an image nor an error, or both");
     for (int64_t i = 0; pixels && i < pixels->width * pixels->height; i++)
-        insist(pixels->grey[i] >= PIXEL_CLEAR && pixels->grey[i] <= PIXEL_WHITE);
+        insist(pixels->grey[i] >= PIXEL_CLEAR && pixels->grey[i] <= PIXEL_WHITE, "a grey value");
     free(pixels);
     free(bytes);
     return 0;

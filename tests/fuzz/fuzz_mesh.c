@@ -1,30 +1,17 @@
 /* The reader of meshes under libFuzzer: whatever the bytes, it returns a closed surface or says
  * what is wrong, and frees all memory. A surface tells which points it encloses. */
-#include <stdlib.h>
-
+#include "fuzz.h"
 #include "shape/triangles.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void insist(bool holds)
-{
-    if (!holds)
-        abort();
-}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    /* As a file is read: with a zero behind it. */
-    char *bytes = malloc(size + 1);
+    char *bytes = fuzz_file(data, size);
     if (!bytes)
         return 0;
-    for (size_t i = 0; i < size; i++)
-        bytes[i] = (char)data[i];
-    bytes[size] = '\0';
 
     struct triangles *triangles = NULL;
     const char *text = stl_read(bytes, size, &triangles);
-    insist(!text == !!triangles);
+    insist(!text == !!triangles, "neither a mesh nor an error, or both");
     for (int i = 0; triangles && i < 64; i++) {
         const struct vec3 low = triangles->bounds.low, high = triangles->bounds.high;
         const double part[3] = {(i % 4 + 0.5) / 4.0, (i / 4 % 4 + 0.5) / 4.0, i / 16 / 4.0};
