@@ -205,6 +205,19 @@ static void mix_point(void *context, int shell, const double direction[3], doubl
     m->weight += weight;
 }
 
+/* The distance from the centre to what another solver computes; infinite where all is the gas's. */
+static double to_region(const struct filling *f)
+{
+    const struct gas_cut *cut = f->gas->cut;
+    double sum = 0.0;
+    for (int axis = 0; cut && axis < f->gas->cells->dimension; axis++) {
+        const double low = (double)cut->low[axis] * f->gas->cells->edge - f->center[axis],
+                     high = (double)cut->high[axis] * f->gas->cells->edge - f->center[axis];
+        sum += square(maximum(maximum(low, -high), 0.0));
+    }
+    return cut ? sqrt(sum) : (double)INFINITY;
+}
+
 /* How much of the ball the domain holds, and whether it holds that much. */
 static struct error *find_share(struct filling *f, const struct blast *blast)
 {
@@ -229,6 +242,15 @@ static struct error *find_share(struct filling *f, const struct blast *blast)
                      f->reach);
             return wrong(f->simulation, "from", text);
         }
+    }
+    if (f->reach > to_region(f)) {
+        char text[200];
+        snprintf(text, sizeof text,
+                 "the blast has a radius of %.4g m by then and the region of the material points, "
+                 "which begin at rest, is %.4g m from its centre: give an earlier `at`, or a "
+                 "smaller region",
+                 f->reach, to_region(f));
+        return wrong(f->simulation, "from", text);
     }
     return NULL;
 }

@@ -1,12 +1,13 @@
 #!/bin/bash
-# What a run with gas beside material points warns of: solids near the gas, cells that are too coarse.
+# What a run with gas beside material points warns of or refuses: solids near the gas, cells that are
+# too coarse, a blast at the start where material points begin at rest.
 set -u
 status=0
 fail() {
     echo "FAILED: $*"
     status=1
 }
-rm -rf near far into thin
+rm -rf near far into thin early late
 
 # A piston that comes to the gas at the open face of the region: a warning, in the verdict too; then
 # an error. Cells that are too coarse are repeated in the verdict.
@@ -36,5 +37,39 @@ tail -n 5 near.log | grep -q "warning: region in steel: a solid .* in body \"pis
     --set run.until="0.1 ms" --output thin >thin.log 2>&1
 tail -n 5 thin.log | grep -q "warning: coarse: .*bodies.piston: 2 cells thick along x" ||
     fail "no verdict on a thin plate: $(cat thin.log)"
+
+# A blast from a case of one dimension.
+cat >blast.yaml <<'END'
+format: 1
+dimension: 1
+geometry: cylindrical
+resolution: 2 mm
+materials: {air: {eos: {ideal-gas: {density: 1.2 kg/m^3, gamma: 1.4}}}}
+bodies:
+  air: {material: air, pressure: 1 bar, box: {from: [0 m], to: [0.5 m]}}
+  hot: {material: air, pressure: 100 bar, replaces: air, box: {from: [0 m], to: [20 mm]}}
+solver: gas
+run: {until: 0.2 ms}
+END
+cat >plate.yaml <<'END'
+format: 1
+dimension: 2
+resolution: 5 mm
+materials:
+  air: {eos: {ideal-gas: {density: 1.2 kg/m^3, gamma: 1.4}}}
+  steel: {library: steel-1006}
+bodies:
+  air: {material: air, pressure: 1 bar, box: {from: [-0.2 m, -0.2 m], to: [0.3 m, 0.2 m]}}
+  plate: {material: steel, pressure: 1 bar, replaces: air, box: {from: [0.2 m, -0.2 m], to: [0.25 m, 0.2 m]}}
+start: {from: blast.yaml, at: 30 us}
+domain: {low: [-0.2 m, -0.2 m], high: [0.3 m, 0.2 m]}
+solver: {cfdmp: {region: {low: [0.1 m, -0.2 m], high: [0.3 m, 0.2 m]}}}
+run: {until: 1 us}
+output: {snapshots: no}
+END
+"$BOLIDE" run plate.yaml --output early >early.log 2>&1 || fail "a blast before the region: $(cat early.log)"
+"$BOLIDE" run plate.yaml --set start.at="60 us" --output late >late.log 2>&1
+[ $? = 2 ] && grep -q "the blast has a radius of .* is 0.1 m from its centre" late.log ||
+    fail "a blast in the region: $(cat late.log)"
 
 exit $status
