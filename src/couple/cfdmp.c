@@ -239,7 +239,8 @@ static double cfdmp_step(const void *parameters, int dimension, const struct mat
 static struct error *cfdmp_coarse(const void *parameters, const struct simulation_case *input)
 {
     const struct cfdmp_parameters *of = parameters;
-    return coarse_cells(input, part_edge(&of->mpm, input));
+    const double edge = part_edge(&of->mpm, input);
+    return error_join(coarse_cells(input, edge), coarse_gases(input, edge));
 }
 
 static const char *cfdmp_energy_lost(const void *parameters)

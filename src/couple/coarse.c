@@ -191,3 +191,20 @@ struct error *coarse_cells(const struct simulation_case *input, double edge)
     }
     return error;
 }
+
+struct error *coarse_gases(const struct simulation_case *input, double edge)
+{
+    struct error *error = NULL;
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct body_input *body = case_body(input, b);
+        const double resolution = isnan(body->resolution) ? input->resolution : body->resolution;
+        if (gas_computes(case_material(input, body->material_index)->material) &&
+            edge < 1.5 * resolution)
+            error = error_join(
+                error, input_error(input, "bodies", input->bodies.names[b],
+                                   "one particle a cell along each axis: where gas flows into the "
+                                   "region, gaps between them tear it; choose a `resolution` of "
+                                   "half a cell"));
+    }
+    return error;
+}

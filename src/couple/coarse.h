@@ -7,5 +7,7 @@
 
 /* Messages, each located as an error would be; NULL: cells of EDGE are fine enough. */
 struct error *coarse_cells(const struct simulation_case *input, double edge);
+/* The same of gases that pass between cells and particles: one particle a cell is too few. */
+struct error *coarse_gases(const struct simulation_case *input, double edge);
 
 #endif

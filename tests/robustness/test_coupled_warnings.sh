@@ -37,6 +37,9 @@ tail -n 5 near.log | grep -q "warning: region in steel: a solid .* in body \"pis
     --set run.until="0.1 ms" --output thin >thin.log 2>&1
 tail -n 5 thin.log | grep -q "warning: coarse: .*bodies.piston: 2 cells thick along x" ||
     fail "no verdict on a thin plate: $(cat thin.log)"
+"$BOLIDE" check piston.yaml --set solver.cfdmp.mpm.cell="5 mm" >one.log 2>&1
+grep -q "warning: .*bodies.air: one particle a cell" one.log ||
+    fail "no word on one particle a cell: $(cat one.log)"
 
 # A blast from a case of one dimension.
 cat >blast.yaml <<'END'
