@@ -90,7 +90,7 @@ static const struct answer answers[] = {
      "whether a check passes.",
      "tasks/strength-calibration.md"},
     {" statistic seed repetition confidence error.bar error.bars standard.deviation ensemble "
-     "monte.carlo random ",
+     "monte.carlo random random.grains ",
      "Sweep over the seed of a packing and name it in `repetitions`: the sweep then has means "
      "with\n"
      "their confidence (statistics.csv, plots, and fits with `take: mean`).",

@@ -60,6 +60,15 @@ static void put_cell(const struct page *page, int64_t row, int column)
     fputs("</td>", page->file);
 }
 
+/* How many runs came to this VERDICT. */
+static int64_t count_of(const struct csv *table, const char *verdict)
+{
+    int64_t count = 0;
+    for (int64_t row = 0; row < table->rows; row++)
+        count += !strcmp(csv_field(table, row, table->columns - 1), verdict);
+    return count;
+}
+
 static bool has_passed(const struct csv *table, int64_t row)
 {
     return !strcmp(csv_field(table, row, table->columns - 1), "passed");
@@ -187,16 +196,21 @@ static int64_t failed_fits(const struct page *page)
 void page_sweep(const struct page *page)
 {
     const struct csv *table = &page->sweep;
-    int64_t passed = 0;
-    for (int64_t row = 0; row < table->rows; row++)
-        passed += has_passed(table, row);
+    const int64_t passed = count_of(table, "passed"), open = count_of(table, "not finished"),
+                  failed = table->rows - passed - open;
     fprintf(page->file,
             "<section id=\"sweep\"><h2>Verdict</h2>\n<p class=\"verdict %s\"><strong>%s: %lld of "
             "%lld runs.</strong>",
             passed == table->rows && !failed_fits(page) ? "good" : "bad",
-            passed == table->rows ? "Passed" : "Failed",
-            (long long)(passed == table->rows ? passed : table->rows - passed),
+            failed ? "Failed"
+            : open ? "Not finished"
+                   : "Passed",
+            (long long)(failed ? failed
+                        : open ? open
+                               : passed),
             (long long)table->rows);
+    if (failed && open)
+        fprintf(page->file, " <strong>Not finished: %lld.</strong>", (long long)open);
     if (failed_fits(page))
         fprintf(page->file, " <strong>Failed: %lld of %lld fits.</strong>",
                 (long long)failed_fits(page), (long long)page->checks.rows);

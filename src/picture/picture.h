@@ -23,8 +23,9 @@ struct error *picture_field_check(const struct simulation *simulation,
                                   const struct population *population, const char *field);
 
 /* How the points of a series are joined: not at all (they are dots), by a line, by one with a dot
- * at each point, or by a thin grey one to measure the others by. */
-enum line_style { LINE_NONE, LINE_PLAIN, LINE_MARKED, LINE_FAINT };
+ * at each point, by a thin grey one to measure the others by, or by threes, low, middle and high,
+ * to error bars. */
+enum line_style { LINE_NONE, LINE_PLAIN, LINE_MARKED, LINE_FAINT, LINE_BARS };
 
 /* One series of a line plot. */
 struct series {

@@ -28,13 +28,18 @@ static void find_ranges(const struct plot *plot, struct range *x, struct range *
     }
 }
 
+static bool is_line(const struct series *series)
+{
+    return series->line != LINE_NONE && series->line != LINE_BARS;
+}
+
 /* Whether the plot compares lines (exact solutions) with dots (particles). */
 static bool compares(const struct plot *plot)
 {
     bool lines = false, dots = false;
     for (int s = 0; s < plot->count; ++s) {
-        lines |= plot->series[s].line != LINE_NONE;
-        dots |= !plot->series[s].line;
+        lines |= is_line(&plot->series[s]);
+        dots |= !is_line(&plot->series[s]);
     }
     return lines && dots;
 }
@@ -46,7 +51,7 @@ static struct colour series_colour(const struct plot *plot, int index)
     if (plot->series[index].line == LINE_FAINT)
         return grey;
     int first_line = 0;
-    while (first_line < plot->count && !plot->series[first_line].line)
+    while (first_line < plot->count && !is_line(&plot->series[first_line]))
         ++first_line;
     if (!compares(plot))
         return colour_of_category(index);
@@ -156,6 +161,31 @@ static void draw_dots(const struct canvas *canvas, const struct axis *x, const s
     }
 }
 
+static void draw_bars(const struct canvas *canvas, const struct axis *x, const struct axis *y,
+                      const struct series *series)
+{
+    const double cap = 5.0, radius = 3.2;
+    cairo_set_line_width(canvas->pen, 1.6);
+    for (int64_t i = 0; i + 2 < series->count; i += 3) {
+        if (!drawable(series->x[i], x->logarithmic) || !drawable(series->y[i + 1], y->logarithmic))
+            continue;
+        const double at_x = axis_place(x, series->x[i]);
+        cairo_new_path(canvas->pen);
+        for (int end = 0; end <= 2; end += 2) {
+            if (!drawable(series->y[i + end], y->logarithmic))
+                continue;
+            const double at_y = axis_place(y, series->y[i + end]);
+            cairo_move_to(canvas->pen, at_x, axis_place(y, series->y[i + 1]));
+            cairo_line_to(canvas->pen, at_x, at_y);
+            cairo_move_to(canvas->pen, at_x - cap, at_y);
+            cairo_line_to(canvas->pen, at_x + cap, at_y);
+        }
+        cairo_stroke(canvas->pen);
+        cairo_arc(canvas->pen, at_x, axis_place(y, series->y[i + 1]), radius, 0.0, 4.0 * acos(0.0));
+        cairo_fill(canvas->pen);
+    }
+}
+
 static struct error *draw_series(const struct canvas *canvas, const struct plot *plot,
                                  const struct axis *x, const struct axis *y)
 {
@@ -167,6 +197,10 @@ static struct error *draw_series(const struct canvas *canvas, const struct plot 
     for (int s = 0; s < plot->count && !error; ++s) {
         const struct series *series = &plot->series[s];
         canvas_colour(canvas, series_colour(plot, s));
+        if (series->line == LINE_BARS) {
+            draw_bars(canvas, x, y, series);
+            continue;
+        }
         /* Broad behind dots, so that it is seen where they lie on it. */
         if (series->line)
             draw_line(canvas, x, y, series,
@@ -196,7 +230,7 @@ static double draw_legend(const struct canvas *canvas, const struct plot *plot, 
         const struct series *series = &plot->series[s];
         if (!series->label)
             continue;
-        entries[count++] = (struct legend_entry){series->line ? MARK_LINE : MARK_DOT,
+        entries[count++] = (struct legend_entry){is_line(series) ? MARK_LINE : MARK_DOT,
                                                  series_colour(plot, s), series->label};
     }
     return legend_draw(canvas,

@@ -334,7 +334,8 @@ const char *grains_make(const struct grains_wanted *wanted, struct grains **made
         free(grains);
         return "this `fraction` was not reached: choose a smaller one, a smaller `gap` or a "
                "larger box. Random packings, with half a gap around each grain, reach about 0.82 "
-               "for discs and 0.62 for spheres, and less in a box of few grains";
+               "for discs and 0.62 for spheres, and less in a box of few grains; the grains of "
+               "`voronoi` fill all of a box";
     }
     *made = grains;
     return NULL;

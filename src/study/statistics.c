@@ -133,7 +133,7 @@ static void put_row(FILE *file, const struct repetitions *repetitions, int run,
     char unit[DIMENSION_TEXT];
     int runs = 0;
     for (int i = 0; i < repetitions->count; i++)
-        runs += repetitions_are_same(repetitions, run, i);
+        runs += !repetitions->runs[i].error && repetitions_are_same(repetitions, run, i);
     for (int k = 0; k < item->sweep_values; k++) {
         if (item->sweep[k].entry == entry)
             continue;

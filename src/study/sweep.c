@@ -190,21 +190,22 @@ static int take_dots(const struct repetitions *repetitions, const char *name, bo
 }
 
 /* Fills X and Y, of 3 COUNT + 1 places each, and the series: a point a run, and, where there is one
- * group, the limits as one series behind them. Returns how many series. */
+ * group, its limits, if it has any, as one series behind them. Returns how many series. */
 static int make_series(const struct dot *dots, int count, double *x, double *y,
                        struct series *series)
 {
     int used = 0;
-    bool one_group = dots[0].group == dots[count - 1].group;
+    bool one_group = dots[0].group == dots[count - 1].group, has_limits = false;
     for (int i = 0; i < count; i++) {
         double *low = y + count + i, *high = y + 2 * count + 1 + i;
         x[i] = x[count + i] = x[2 * count + 1 + i] = dots[i].x;
         y[i] = dots[i].check->measured;
         *low = dots[i].check->low;
         *high = dots[i].check->high;
+        has_limits = has_limits || isfinite(*low) || isfinite(*high);
     }
     x[2 * count] = y[2 * count] = NAN; /* the line breaks between low and high */
-    if (one_group)
+    if (one_group && has_limits)
         series[used++] =
             (struct series){"limits of the check", 2 * count + 1, x + count, y + count, LINE_PLAIN};
     for (int first = 0, end; first < count; first = end) {
@@ -216,8 +217,8 @@ static int make_series(const struct dot *dots, int count, double *x, double *y,
     return used;
 }
 
-/* Fills X and Y, of 4 COUNT places each: at each place with several runs of a group a bar from end
- * to end of the confidence interval of their mean, with the mean in the middle. */
+/* Fills X and Y, of 3 COUNT places each: at each place with several runs of a group a bar from end
+ * to end of the confidence interval of their mean. */
 static struct series make_bars(const struct repetitions *repetitions, const struct dot *dots,
                                int count, double *x, double *y)
 {
@@ -229,19 +230,19 @@ static struct series make_bars(const struct repetitions *repetitions, const stru
             repetitions_of_check(repetitions, dots[i].run, dots[i].check->name);
         if (statistic.count < 2)
             continue;
-        for (int end = -1; end <= 2; end++) {
-            x[used] = end == 2 ? NAN : dots[i].x;
+        for (int end = -1; end <= 1; end++) {
+            x[used] = dots[i].x;
             y[used++] = statistic.mean + end * statistic.confidence;
         }
     }
-    return (struct series){"mean and its 95 % confidence", used, x, y, LINE_MARKED};
+    return (struct series){"mean and its 95 % confidence", used, x, y, LINE_BARS};
 }
 
 /* Draws what COUNT runs measured into PATH. */
 static struct error *draw(const char *path, const char *x_name, const char *x_unit,
                           const struct repetitions *repetitions, const struct dot *dots, int count)
 {
-    size_t places = 7 * (size_t)count + 1;
+    size_t places = 6 * (size_t)count + 1;
     const bool has_bars = repetitions_entry(repetitions) >= 0;
     struct series *series = memory_allocate(((size_t)count + 2) * sizeof *series);
     double *x = memory_allocate(places * sizeof *x), *y = memory_allocate(places * sizeof *y);
@@ -250,15 +251,15 @@ static struct error *draw(const char *path, const char *x_name, const char *x_un
     struct error *error = series && x && y && title ? NULL : out_of_memory();
     if (!error) {
         const int dots_end = 3 * count + 1;
-        const int bars = has_bars; /* behind the dots */
+        int used = make_series(dots, count, x, y, series);
         if (has_bars)
-            series[0] = make_bars(repetitions, dots, count, x + dots_end, y + dots_end);
+            series[used++] = make_bars(repetitions, dots, count, x + dots_end, y + dots_end);
         struct plot plot = {.title = title,
                             .x_name = x_name,
                             .x_unit = x_unit,
                             .y_name = name,
                             .y_unit = dots[0].check->unit,
-                            .count = bars + make_series(dots, count, x, y, series + bars),
+                            .count = used,
                             .series = series};
         error = picture_plot(path, &plot);
     }

@@ -64,19 +64,26 @@ static void write_case(const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-static struct error *run_all(struct verify_result *result)
+/* Runs all, with LISTENER and STOP, which may be NULL. */
+static struct error *run_watched(const struct listener *listener, const volatile sig_atomic_t *stop,
+                                 struct verify_result *result)
 {
     static const char *const folders[] = {materials_folder};
     const struct verify_options options = {
         .reading = {.library_paths = folders, .library_count = 1},
         .catalogue = &bolide_catalogue,
-        .running = {.overwrite = true, .threads = 1},
+        .running = {.overwrite = true, .threads = 1, .listener = listener, .stop = stop},
     };
     char path[128], results[128];
     snprintf(path, sizeof path, "%s/case.yaml", folder);
     snprintf(results, sizeof results, "%s/results", folder);
     *result = (struct verify_result){0};
     return verify_case(path, "all", results, &options, result);
+}
+
+static struct error *run_all(struct verify_result *result)
+{
+    return run_watched(NULL, NULL, result);
 }
 
 /* Seeds 1, 2, 3 at 5 and 10 m/s: means 10 and 20 m/s, deviations 5 and 10 m/s. */
@@ -134,6 +141,42 @@ static void a_sweep_of_seeds_alone_is_one_group(void **state)
     csv_free(&table);
 }
 
+static volatile sig_atomic_t stop_asked;
+
+static void stop_in_the_third(void *context, const char *line)
+{
+    (void)context;
+    if (strstr(line, "seed=3"))
+        stop_asked = 1;
+}
+
+static void a_run_that_was_stopped_counts_as_none(void **state)
+{
+    (void)state;
+    struct verify_result result;
+    struct csv table;
+    char path[160];
+    const struct listener listener = {.line = stop_in_the_third};
+    write_case(HEAD "sweep: {seed: [1, 2, 3, 6]}\nrepetitions: seed\n");
+    struct error *error = run_watched(&listener, &stop_asked, &result);
+    assert_non_null(error);
+    assert_non_null(strstr(error_message(error, 0), "stopped before its end"));
+    error_free(error);
+    assert_int_equal(result.count, 3);
+    verify_result_free(&result);
+    snprintf(path, sizeof path, "%s/results/statistics.csv", folder);
+    assert_null(csv_read(path, &table));
+    assert_true(csv_number(&table, 0, csv_column(&table, "runs")) == 2.0);
+    assert_near(csv_number(&table, 0, csv_column(&table, "u mean [m/s]")), 7.5, 1e-9);
+    csv_free(&table);
+    char *page = NULL;
+    size_t size;
+    snprintf(path, sizeof path, "%s/results/report.html", folder);
+    assert_null(file_read(path, &page, &size));
+    assert_non_null(strstr(page, "Not finished: 1 of 3 runs."));
+    free(page);
+}
+
 static void repetitions_that_are_none_are_refused(void **state)
 {
     (void)state;
@@ -163,6 +206,7 @@ int main(void)
         cmocka_unit_test(confidence_is_that_of_student),
         cmocka_unit_test(repetitions_have_a_table_a_plot_and_fits),
         cmocka_unit_test(a_sweep_of_seeds_alone_is_one_group),
+        cmocka_unit_test(a_run_that_was_stopped_counts_as_none),
         cmocka_unit_test(repetitions_that_are_none_are_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
