@@ -60,24 +60,24 @@ static void put_cell(const struct page *page, int64_t row, int column)
     fputs("</td>", page->file);
 }
 
-/* How many runs came to this VERDICT. */
+/* Whether the run in ROW came to this VERDICT. */
+static bool came_to(const struct csv *table, int64_t row, const char *verdict)
+{
+    return !strcmp(csv_field(table, row, table->columns - 1), verdict);
+}
+
 static int64_t count_of(const struct csv *table, const char *verdict)
 {
     int64_t count = 0;
     for (int64_t row = 0; row < table->rows; row++)
-        count += !strcmp(csv_field(table, row, table->columns - 1), verdict);
+        count += came_to(table, row, verdict);
     return count;
-}
-
-static bool has_passed(const struct csv *table, int64_t row)
-{
-    return !strcmp(csv_field(table, row, table->columns - 1), "passed");
 }
 
 static void put_row(const struct page *page, int64_t row)
 {
     const struct csv *table = &page->sweep;
-    const bool passed = has_passed(table, row);
+    const bool passed = came_to(table, row, "passed");
     fputs("<tr><th scope=\"row\"><a href=\"", page->file);
     page_text(page->file, csv_field(table, row, 0));
     fputs("/report.html\">", page->file);
@@ -193,26 +193,27 @@ static int64_t failed_fits(const struct page *page)
     return failed;
 }
 
+static void put_count(const struct page *page, const char *verdict, int64_t count)
+{
+    fprintf(page->file, "<strong>%s: %lld of %lld runs.</strong> ", verdict, (long long)count,
+            (long long)page->sweep.rows);
+}
+
 void page_sweep(const struct page *page)
 {
     const struct csv *table = &page->sweep;
     const int64_t passed = count_of(table, "passed"), open = count_of(table, "not finished"),
                   failed = table->rows - passed - open;
-    fprintf(page->file,
-            "<section id=\"sweep\"><h2>Verdict</h2>\n<p class=\"verdict %s\"><strong>%s: %lld of "
-            "%lld runs.</strong>",
-            passed == table->rows && !failed_fits(page) ? "good" : "bad",
-            failed ? "Failed"
-            : open ? "Not finished"
-                   : "Passed",
-            (long long)(failed ? failed
-                        : open ? open
-                               : passed),
-            (long long)table->rows);
-    if (failed && open)
-        fprintf(page->file, " <strong>Not finished: %lld.</strong>", (long long)open);
+    fprintf(page->file, "<section id=\"sweep\"><h2>Verdict</h2>\n<p class=\"verdict %s\">",
+            passed == table->rows && !failed_fits(page) ? "good" : "bad");
+    if (failed)
+        put_count(page, "Failed", failed);
+    if (open)
+        put_count(page, "Not finished", open);
+    if (passed == table->rows)
+        put_count(page, "Passed", passed);
     if (failed_fits(page))
-        fprintf(page->file, " <strong>Failed: %lld of %lld fits.</strong>",
+        fprintf(page->file, "<strong>Failed: %lld of %lld fits.</strong>",
                 (long long)failed_fits(page), (long long)page->checks.rows);
     fputs("</p>\n", page->file);
     put_statistics(page);

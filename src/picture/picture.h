@@ -22,9 +22,9 @@ struct error *picture_particles(const char *path, const struct simulation *simul
 struct error *picture_field_check(const struct simulation *simulation,
                                   const struct population *population, const char *field);
 
-/* How the points of a series are joined: not at all (they are dots), by a line, by one with a dot
- * at each point, by a thin grey one to measure the others by, or by threes, low, middle and high,
- * to error bars. */
+/* How the points of a series are drawn: as dots, as a line, as a line with a dot at each point, as
+ * a thin grey line to measure the others by, or as error bars of three points each: low, middle
+ * and high. */
 enum line_style { LINE_NONE, LINE_PLAIN, LINE_MARKED, LINE_FAINT, LINE_BARS };
 
 /* One series of a line plot. */

@@ -169,19 +169,19 @@ static void draw_bars(const struct canvas *canvas, const struct axis *x, const s
     for (int64_t i = 0; i + 2 < series->count; i += 3) {
         if (!drawable(series->x[i], x->logarithmic) || !drawable(series->y[i + 1], y->logarithmic))
             continue;
-        const double at_x = axis_place(x, series->x[i]);
+        const double at_x = axis_place(x, series->x[i]), middle = axis_place(y, series->y[i + 1]);
         cairo_new_path(canvas->pen);
         for (int end = 0; end <= 2; end += 2) {
             if (!drawable(series->y[i + end], y->logarithmic))
                 continue;
             const double at_y = axis_place(y, series->y[i + end]);
-            cairo_move_to(canvas->pen, at_x, axis_place(y, series->y[i + 1]));
+            cairo_move_to(canvas->pen, at_x, middle);
             cairo_line_to(canvas->pen, at_x, at_y);
             cairo_move_to(canvas->pen, at_x - cap, at_y);
             cairo_line_to(canvas->pen, at_x + cap, at_y);
         }
         cairo_stroke(canvas->pen);
-        cairo_arc(canvas->pen, at_x, axis_place(y, series->y[i + 1]), radius, 0.0, 4.0 * acos(0.0));
+        cairo_arc(canvas->pen, at_x, middle, radius, 0.0, 4.0 * acos(0.0));
         cairo_fill(canvas->pen);
     }
 }

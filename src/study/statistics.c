@@ -63,6 +63,12 @@ bool repetitions_are_same(const struct repetitions *repetitions, int a, int b)
     return true;
 }
 
+/* Whether run I came to its end and repeats RUN. */
+static bool counts(const struct repetitions *repetitions, int run, int i)
+{
+    return !repetitions->runs[i].error && repetitions_are_same(repetitions, run, i);
+}
+
 struct statistic repetitions_of_check(const struct repetitions *repetitions, int run,
                                       const char *name)
 {
@@ -70,7 +76,7 @@ struct statistic repetitions_of_check(const struct repetitions *repetitions, int
     int count = 0;
     for (int i = 0; i < repetitions->count && values; i++) {
         const struct check_result *check = verify_find_check(&repetitions->runs[i], name);
-        if (check && isfinite(check->measured) && repetitions_are_same(repetitions, run, i))
+        if (check && isfinite(check->measured) && counts(repetitions, run, i))
             values[count++] = check->measured;
     }
     const struct statistic statistic = statistic_of(values, count);
@@ -133,7 +139,7 @@ static void put_row(FILE *file, const struct repetitions *repetitions, int run,
     char unit[DIMENSION_TEXT];
     int runs = 0;
     for (int i = 0; i < repetitions->count; i++)
-        runs += !repetitions->runs[i].error && repetitions_are_same(repetitions, run, i);
+        runs += counts(repetitions, run, i);
     for (int k = 0; k < item->sweep_values; k++) {
         if (item->sweep[k].entry == entry)
             continue;

@@ -189,8 +189,8 @@ static int take_dots(const struct repetitions *repetitions, const char *name, bo
     return taken;
 }
 
-/* Fills X and Y, of 3 COUNT + 1 places each, and the series: a point a run, and, where there is one
- * group, its limits, if it has any, as one series behind them. Returns how many series. */
+/* Fills X and Y, of 3 COUNT + 1 places each, and the series: a point a run, and behind them the
+ * limits of the check, where it has any and there is one group. Returns how many series. */
 static int make_series(const struct dot *dots, int count, double *x, double *y,
                        struct series *series)
 {

@@ -86,6 +86,13 @@ static struct error *run_all(struct verify_result *result)
     return run_watched(NULL, NULL, result);
 }
 
+static void read_statistics(struct csv *table)
+{
+    char path[160];
+    snprintf(path, sizeof path, "%s/results/statistics.csv", folder);
+    assert_null(csv_read(path, table));
+}
+
 /* Seeds 1, 2, 3 at 5 and 10 m/s: means 10 and 20 m/s, deviations 5 and 10 m/s. */
 static void repetitions_have_a_table_a_plot_and_fits(void **state)
 {
@@ -105,8 +112,7 @@ static void repetitions_have_a_table_a_plot_and_fits(void **state)
     if (error)
         fail_msg("%s", error_message(error, 0));
     verify_result_free(&result);
-    snprintf(path, sizeof path, "%s/results/statistics.csv", folder);
-    assert_null(csv_read(path, &table));
+    read_statistics(&table);
     assert_int_equal(table.rows, 2);
     assert_true(csv_number(&table, 1, csv_column(&table, "speed [m/s]")) == 10.0);
     assert_true(csv_number(&table, 1, csv_column(&table, "runs")) == 3.0);
@@ -130,12 +136,10 @@ static void a_sweep_of_seeds_alone_is_one_group(void **state)
     (void)state;
     struct verify_result result;
     struct csv table;
-    char path[160];
     write_case(HEAD "sweep: {seed: [1, 2, 3, 6]}\nrepetitions: seed\n");
     assert_null(run_all(&result));
     verify_result_free(&result);
-    snprintf(path, sizeof path, "%s/results/statistics.csv", folder);
-    assert_null(csv_read(path, &table));
+    read_statistics(&table);
     assert_int_equal(table.rows, 1);
     assert_near(csv_number(&table, 0, csv_column(&table, "u mean [m/s]")), 15.0, 1e-9);
     csv_free(&table);
@@ -164,8 +168,7 @@ static void a_run_that_was_stopped_counts_as_none(void **state)
     error_free(error);
     assert_int_equal(result.count, 3);
     verify_result_free(&result);
-    snprintf(path, sizeof path, "%s/results/statistics.csv", folder);
-    assert_null(csv_read(path, &table));
+    read_statistics(&table);
     assert_true(csv_number(&table, 0, csv_column(&table, "runs")) == 2.0);
     assert_near(csv_number(&table, 0, csv_column(&table, "u mean [m/s]")), 7.5, 1e-9);
     csv_free(&table);
