@@ -33,7 +33,9 @@ double blast_wave_at(const struct blast_wave *wave, double time)
         return 0.0;
     if (isnan(wave->duration))
         return wave->overpressure * exponential(-since * wave->overpressure / wave->impulse);
-    const double part = since / wave->duration,
-                 decay = blast_wave_decay(wave->impulse / (wave->overpressure * wave->duration));
+    const double part = since / wave->duration;
+    if (part >= 1.0)
+        return 0.0;
+    const double decay = blast_wave_decay(wave->impulse / (wave->overpressure * wave->duration));
     return wave->overpressure * (1.0 - part) * exponential(-decay * part);
 }

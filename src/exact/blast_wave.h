@@ -3,7 +3,8 @@
  *
  *   p - p_0 = P (1 - s/T) exp(-b s/T),   s = t - t_a,   I/(P T) = 1/b - (1 - exp(-b))/b^2.
  *
- * W. E. Baker, Explosions in Air (1973), section 1.2. */
+ * W. E. Baker, Explosions in Air (1973), section 1.2. It ends with the
+ * positive phase: b follows from the impulse of that phase alone. */
 #ifndef BOLIDE_EXACT_BLAST_WAVE_H
 #define BOLIDE_EXACT_BLAST_WAVE_H
 
@@ -19,8 +20,8 @@ struct blast_wave {
 /* b for the fraction I/(P T), which is between 0 and 1/2. */
 double blast_wave_decay(double fraction);
 
-/* The overpressure at TIME since the detonation, zero before the arrival; after the positive phase
- * that of the curve, which is below zero. Where the duration is unknown the pressure falls
+/* The overpressure at TIME since the detonation, zero before the arrival and after the positive
+ * phase. Where the duration is unknown the pressure falls
  * exponentially with the impulse; NAN where neither is known. */
 double blast_wave_at(const struct blast_wave *wave, double time);
 

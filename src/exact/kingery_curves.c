@@ -245,13 +245,6 @@ struct blast_wave kingery_wave(enum kingery_charge charge, double mass, double d
     };
 }
 
-/* The positive phase of a wave; where its duration is unknown all of it. */
-static double positive(const struct blast_wave *wave, double time)
-{
-    const double over = blast_wave_at(wave, time);
-    return time < wave->arrival + wave->duration || isnan(wave->duration) ? over : 0.0;
-}
-
 double kingery_load(enum kingery_charge charge, double mass, double distance, double cosine,
                     double time)
 {
@@ -262,8 +255,6 @@ double kingery_load(enum kingery_charge charge, double mass, double distance, do
         return 0.0;
     const struct blast_wave incident = kingery_wave(charge, mass, at, false),
                             reflected = kingery_wave(charge, mass, at, true);
-    if (time >= incident.arrival + incident.duration)
-        return 0.0;
-    return positive(&incident, time) * (1.0 + square(cosine) - 2.0 * cosine) +
-           positive(&reflected, time) * square(cosine);
+    return blast_wave_at(&incident, time) * (1.0 + square(cosine) - 2.0 * cosine) +
+           blast_wave_at(&reflected, time) * square(cosine);
 }

@@ -30,9 +30,9 @@ double kingery_farthest(enum kingery_charge charge);
 struct blast_wave kingery_wave(enum kingery_charge charge, double mass, double distance,
                                bool reflected);
 
-/* The overpressure on a rigid surface at TIME since the detonation, in the positive phase, zero
- * before and after. COSINE is that of the angle of incidence theta between the normal and the way
- * to the charge; a surface that faces away has none. With the incident p_i and the reflected p_r,
+/* The overpressure on a rigid surface at TIME since the detonation. COSINE is that of the angle of
+ * incidence theta between the normal and the way to the charge; a surface that faces away has none.
+ * With the incident p_i and the reflected p_r,
  *
  *   p = p_i (1 + cos^2 theta - 2 cos theta) + p_r cos^2 theta
  *

@@ -150,6 +150,8 @@ static void the_friedlander_curve_has_the_impulse(void **state)
             assert_near(blast_wave_at(&wave, wave.arrival), wave.overpressure, wave.overpressure,
                         1e-12);
             assert_true(blast_wave_at(&wave, 0.99 * wave.arrival) == 0.0);
+            if (!isnan(wave.duration))
+                assert_true(blast_wave_at(&wave, wave.arrival + 1.001 * wave.duration) == 0.0);
         }
     for (double b = 0.01; b < 1e3; b *= 1.7) {
         const double fraction = 1.0 / b + expm1(-b) / (b * b);
@@ -165,8 +167,8 @@ static void a_load_goes_with_the_angle(void **state)
                             wall = kingery_wave(KINGERY_FREE_AIR, 8.0, 4.0, true);
     for (double part = 0.0; part < 1.2; part += 0.1) {
         const double time = passing.arrival + part * passing.duration + 1e-9;
-        const double incident = part < 0.99 ? blast_wave_at(&passing, time) : 0.0,
-                     reflected = part < 0.99 ? blast_wave_at(&wall, time) : 0.0;
+        const double incident = blast_wave_at(&passing, time),
+                     reflected = blast_wave_at(&wall, time);
         assert_near(kingery_load(KINGERY_FREE_AIR, 8.0, 4.0, 1.0, time), reflected,
                     wall.overpressure, 1e-12);
         assert_near(kingery_load(KINGERY_FREE_AIR, 8.0, 4.0, 1e-9, time), incident,
