@@ -19,7 +19,7 @@ struct text_list {
 struct cli_options {
     const char *output;
     int64_t threads, points, ranks_wanted;
-    bool overwrite, resume, quick, thorough, all, convergence, curves, record;
+    bool overwrite, resume, quick, thorough, all, convergence, curves, record, compare;
     const char *time, *template_name;
     const char *key, *from, *to, *check, *within; /* of a search */
     struct text_list settings, names;

@@ -107,6 +107,7 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
         .reading = reading,
         .catalogue = &bolide_catalogue,
         .record = options->record,
+        .compare = options->compare,
         .warnings_fail = true,
         .running = {.output = options->output,
                     .overwrite = options->overwrite,

@@ -56,6 +56,9 @@ static const struct option option_table[] = {
      "store the measured values in results.csv beside each case; rows of runs with other options "
      "are kept",
      OPTION_FLAG, AT(record), COMMAND_VERIFY},
+    {"--compare-record", NULL,
+     "fail if a measured value differs from the one in results.csv beside the case", OPTION_FLAG,
+     AT(compare), COMMAND_VERIFY},
     {"--time", "T", "the time of the solution, with its unit: 5us; default for a CASE: its end",
      OPTION_TEXT, AT(time), COMMAND_EXACT},
     {"--points", "N", "print the profile at the time in N points, as CSV", OPTION_COUNT, AT(points),
@@ -207,8 +210,9 @@ struct error *options_read(const struct command *command, int count, char **word
         error = error_new(ERROR_INPUT, "--overwrite and --resume exclude each other");
     if (!error && options->quick && options->thorough)
         error = error_new(ERROR_INPUT, "--short and --long exclude each other");
-    if (!error && options->record && options->convergence)
-        error = error_new(ERROR_INPUT, "--record and --convergence exclude each other");
+    if (!error && options->record + options->compare + options->convergence > 1)
+        error = error_new(ERROR_INPUT,
+                          "--record, --compare-record and --convergence exclude each other");
     if (!error && !options->threads &&
         command->bit & (COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH))
         error = check_environment();

@@ -12,4 +12,10 @@ struct error *record_check(const char *path);
 struct error *record_store(const char *path, const char *name, const struct case_options *reading,
                            const struct verify_case *runs, int count);
 
+/* Compares what the COUNT runs measured with the record instead. ERROR_CHECK that names each value
+ * which differs by more than a unit of the last recorded digit, and each verdict and limit that
+ * does. Runs give the same bits on every machine, so that no wider tolerance is needed. */
+struct error *record_compare(const char *path, const char *name, const struct case_options *reading,
+                             const struct verify_case *runs, int count);
+
 #endif

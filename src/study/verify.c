@@ -402,22 +402,29 @@ struct error *verify_case(const char *path, const char *name, const char *folder
     return sum_up(result);
 }
 
-/* Runs the case at PATH, and records what it measured where that is wanted. */
+/* Runs the case at PATH, and records what it measured or compares it with the record where that is
+ * wanted; what differs is added to MOVED. */
 static struct error *run_and_record(const char *path, const char *name, const char *folder,
                                     const struct verify_options *options,
-                                    struct verify_result *result)
+                                    struct verify_result *result, struct error **moved)
 {
     const int first = result->count;
-    const bool writes = options->record && ranks_of(options)->rank == 0;
+    const struct ranks *ranks = ranks_of(options);
+    const bool first_rank = ranks->rank == 0;
     if (options->record)
-        TRY(ranks_agree(ranks_of(options), writes ? record_check(path) : NULL));
+        TRY(ranks_agree(ranks, first_rank ? record_check(path) : NULL));
     TRY(run_or_note(path, name, folder, options, result));
-    if (!options->record || verify_stop_requested(options))
+    if (verify_stop_requested(options) || !(options->record || options->compare))
         return NULL;
-    return ranks_agree(ranks_of(options),
-                       writes ? record_store(path, name, &options->reading, result->item + first,
-                                             result->count - first)
-                              : NULL);
+    const struct verify_case *runs = result->item + first;
+    const int count = result->count - first;
+    if (options->record)
+        return ranks_agree(
+            ranks, first_rank ? record_store(path, name, &options->reading, runs, count) : NULL);
+    struct error *error = ranks_agree(
+        ranks, first_rank ? record_compare(path, name, &options->reading, runs, count) : NULL);
+    *moved = error_join(*moved, error);
+    return NULL;
 }
 
 struct error *verify_cases(const char *const *paths, int count,
@@ -425,17 +432,19 @@ struct error *verify_cases(const char *const *paths, int count,
 {
     *result = (struct verify_result){0};
     const char *output = options->running.output;
+    struct error *moved = NULL;
     for (int i = 0; i < count && !verify_stop_requested(options); i++) {
         char *name = verify_name(paths[i]);
         char *folder = name && output ? path_join(output, name) : NULL;
         struct error *error = name && (folder || !output)
-                                  ? run_and_record(paths[i], name, folder, options, result)
+                                  ? run_and_record(paths[i], name, folder, options, result, &moved)
                                   : out_of_memory();
         free(folder);
         free(name);
-        TRY(error);
+        if (error)
+            return error_join(error, moved);
     }
-    return sum_up(result);
+    return error_join(sum_up(result), moved);
 }
 
 void verify_result_free(struct verify_result *result)

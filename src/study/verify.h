@@ -27,6 +27,7 @@ struct verify_options {
     /* How each is run. Output is the folder in which each case gets one of its name. */
     struct run_options running;
     bool record;        /* store what each measured beside it */
+    bool compare;       /* with what is stored; what differs is an error */
     bool warnings_fail; /* a run fails by a warning that its case does not expect */
     /* Called when a case or a run of a sweep has ended, may be NULL. */
     void (*ended)(void *context, const struct verify_case *verified);
@@ -50,7 +51,8 @@ char *verify_checks_text(const struct verify_result *result);
 const struct check_result *verify_find_check(const struct verify_case *run, const char *name);
 
 /* Runs the COUNT cases at PATHS one after the other. NULL when all pass; ERROR_CHECK when a check
- * failed; the gravest error when a case could not be read or run (the others run nevertheless). */
+ * failed or a value differs from the record that it is compared with; the gravest error when a case
+ * could not be read or run (the others run nevertheless). */
 struct error *verify_cases(const char *const *paths, int count,
                            const struct verify_options *options, struct verify_result *result);
 

@@ -1,6 +1,6 @@
 #!/bin/bash
-# bolide verify --record and scripts/figures: what is stored, how forms, settings and sweeps are merged, what
-# cannot be recorded, and pages that differ from records.
+# bolide verify --record, --compare-record, scripts/record and scripts/figures: what is stored, how forms, settings
+# and sweeps are merged, what cannot be recorded, what differs from a record, and pages that differ from records.
 set -u
 status=0
 fail() {
@@ -11,7 +11,7 @@ says() { grep -qF -- "$2" "$1" || fail "$1 does not say \"$2\": $(head -50 "$1")
 verify() { "$BOLIDE" verify --threads 1 "$@" >log 2>&1; }
 rows() { grep -c "^$1" tube/results.csv; }
 
-chmod -R u+w . && rm -rf tube sweep bound results other.yaml other.results.csv page ./*.log
+chmod -R u+w . && rm -rf tube sweep bound tree results other.yaml other.results.csv page ./*.log
 mkdir -p tube sweep page
 sed 's/^  density:  .*/  density, mean: {l1: density, at_most: 0.06}/; s/checks: {density: {at_most: 0.09}, /checks: {/' \
     "$BOLIDE_SOURCE_DIR/templates/riemann.yaml" >tube/case.yaml
@@ -85,6 +85,56 @@ verify bound || fail "a smaller error fails: $(cat log)"
 cp kept.csv bound/results.csv
 "$BOLIDE" run bound --output results --overwrite >log 2>&1 && grep -q "recorded_value:" results/case.yaml &&
     verify results/case.yaml || fail "the case as run does not run again: $(cat log)"
+
+# Runs are compared with the record: what moved, by a unit of the last digit or less, is not there any more, is new,
+# has another limit or verdict.
+compare() { verify --compare-record "$@"; }
+edit() { cp first.csv tube/results.csv && sed -i "$1" tube/results.csv; }
+cp first.csv tube/results.csv
+compare tube && compare --short --threads 2 tube && compare --set resolution=tube/40 tube ||
+    fail "a run differs from the record that it made: $(cat log)"
+compare sweep/case.yaml && compare other.yaml && compare bound || fail "a run differs from its record: $(cat log)"
+compare --set resolution=tube/30 tube && fail "settings that were not recorded pass"
+says log "not in the record"
+edit '/^normal,,,"density/ s/,0\.0\([0-9]*\),/,0.1\1,/' && compare tube && fail "a value that moved passes"
+says log "tube: 1 of 5 values differ from the record tube/results.csv; \`bolide verify --record\`"
+says log "tube: density, mean: 0.0"
+compare --short tube || fail "the short form differs: $(cat log)"
+digit() { # digit N: the recorded density with its last digit moved by N
+    awk -F, -v OFS=, -v n="$1" '/^normal,,,"density/ { $6 = sprintf("%.*f", length($6) - 2, $6 + n / 10 ^ (length($6) - 2)) }
+        1' first.csv >tube/results.csv
+}
+digit 0 && compare tube || fail "the editing changes more: $(cat log)"
+digit 20 && compare tube && fail "twenty units of the last digit pass"
+edit '/^normal,,,"density/ s/0\.5,,$/0.4,,/' && compare tube && fail "another limit passes"
+says log "density, mean: high is 0.5, recorded: 0.4"
+edit '/^normal,,,"density/ s/,,$/,failed,/' && compare tube && fail "another verdict passes"
+says log "density, mean: passed, recorded: failed"
+edit '/^normal,,,"density/ d' && compare tube && fail "a new check passes"
+says log "density, mean: 0.0"
+edit '/^normal,,,"density/ { p; s/density/former/ }' && compare tube && fail "a check that has gone passes"
+says log "tube: 1 recorded values are no longer measured"
+cp first.csv tube/results.csv
+compare --record tube && fail "a record is made and compared with at once"
+says log "exclude each other"
+
+# The script repeats all recorded runs, goes on after an interruption, and lists what moved.
+mkdir -p tree/scripts tree/examples/topic tree/build && cp -r tube tree/examples/topic/
+cp "$BOLIDE_SOURCE_DIR/scripts/record" tree/scripts/
+record() { tree/scripts/record "$BOLIDE" "$@" >log 2>&1; }
+record --compare || fail "the script: $(cat log)"
+says log "3 of 3 runs ended: 0 differ, 0 failed"
+sed -i 2d tree/build/record.jsonl && record --compare || fail "the script goes on: $(cat log)"
+says log "2 runs have ended before"
+record --compare --again --short || fail "the script: $(cat log)"
+says log "1 of 1 runs ended"
+record --compare --again --limit 0 && fail "runs that are over the limit pass"
+says log "3 over the limit"
+sed -i 's/resolution: tube\/50/resolution: tube\/60/' tree/examples/topic/tube/case.yaml
+record --compare && fail "what moved passes"
+says log "1 differ"
+says log "density, mean: 0.0"
+record && record --compare || fail "what the script has recorded differs: $(cat log)"
 
 # Pages.
 figures() { /usr/bin/python3 "$BOLIDE_SOURCE_DIR/scripts/figures" "$@" page/README.md >log 2>&1; }
