@@ -105,6 +105,7 @@ BOLIDE_INLINE void row_faces(const struct gas_row *row, const struct row_states 
     else
         FOR_ROW (k, -1, cells)
             spread[k] = 0.0;
+    ROWS_APART
     FOR_ROW (k, -1, cells) {
         const double widens = slope.of[normal][k] + spread[k];
         rate[PRIMITIVE_DENSITY][k] += density[k] * widens;
@@ -237,6 +238,7 @@ BOLIDE_INLINE void row_hllc(const struct gas_row *row, const struct row_states *
     double *mass = flux->of[GAS_DENSITY], *normal = flux->of[GAS_MOMENTUM + axes.normal],
            *one = flux->of[GAS_MOMENTUM + axes.across[0]],
            *other = flux->of[GAS_MOMENTUM + axes.across[1]], *energy = flux->of[GAS_ENERGY];
+    ROWS_APART
     FOR_ROW (k, first, last) {
         const struct gas_flow flow =
             gas_hllc(gas_side_of(low, axes, k + offset), gas_side_of(high, axes, k));
@@ -365,7 +367,7 @@ BOLIDE_INLINE void row_mark_lost(const struct gas_row *row, const struct row_sta
  * 0 .. cells, per area and time, in FLUX. Cells -2 .. cells + 1 are known. */
 BOLIDE_INLINE void row_muscl_hancock(struct gas_row *row, double r, struct gas_numbers *flux)
 {
-    struct row_states cell = {0}, below = {0}, above = {0};
+    struct row_states cell, below, above;
     struct gas_numbers to;
     double fall[ROW_ROOM], push[ROW_ROOM], lost[ROW_ROOM], any = 0.0;
     row_states(row, -2, row->cells + 1, &cell, fall);

@@ -53,6 +53,16 @@ struct gas_row {
 /* Where the cells or faces FIRST to LAST are in the numbers of a row. */
 #define FOR_ROW(k, first, last) for (int k = (first) + ROW_GHOSTS; k <= (last) + ROW_GHOSTS; k++)
 
+/* Before a loop whose arrays never overlap although one is found by an axis, so that the compiler
+ * cannot know: without it a check at run time takes them for overlapping and the loop is scalar. */
+#if defined(__clang__)
+#define ROWS_APART _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__) && !defined(__CUDACC__)
+#define ROWS_APART _Pragma("GCC ivdep")
+#else
+#define ROWS_APART
+#endif
+
 /* What the equation of state says of the cells or faces of a row. */
 struct row_values {
     double pressure[ROW_ROOM], dp_drho[ROW_ROOM], dp_de[ROW_ROOM];
