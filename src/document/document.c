@@ -344,6 +344,35 @@ struct error *document_set(struct document *document, const char *path, struct n
     return set_value(document->root, path, value);
 }
 
+/* Takes away the entry at PATH, so that its default applies. */
+static struct error *remove_value(struct node *root, const char *path, struct place place)
+{
+    struct node *node = root;
+    const char *rest = path;
+    size_t length;
+    int child = path_step(node, rest, &length);
+    while (child >= 0 && rest[length]) {
+        node = node->child[child];
+        rest += length + 1;
+        child = path_step(node, rest, &length);
+    }
+    if (child < 0 && node->kind == NODE_LIST)
+        return place_error(place, path, "the list has items 1 to %d", node->count);
+    if (child < 0) {
+        struct error *error = node->kind == NODE_MAP ? no_such_key(node, path, rest, place) : NULL;
+        return error ? error
+                     : place_error(place, path,
+                                   "there is no \"%s\" to remove; a setting is "
+                                   "path.to.key=value, and one without a value "
+                                   "removes the key",
+                                   rest);
+    }
+    if (node->kind == NODE_LIST)
+        return place_error(place, path, "an item of a list cannot be removed; set the whole list");
+    node_free(node_take(node, child));
+    return NULL;
+}
+
 static struct error *apply_setting(struct document *document, const char *setting)
 {
     const char *origin = document_keep(document, text_format("--set %s", setting));
@@ -353,12 +382,15 @@ static struct error *apply_setting(struct document *document, const char *settin
     const char *equals = strchr(setting, '=');
     if (!equals || equals == setting)
         return place_error(place, "", "a setting is path.to.key=value");
-    struct node *value;
-    TRY(node_parse(equals + 1, strlen(equals + 1), origin, false, &value));
+    const bool removes = !equals[1 + strspn(equals + 1, " ")];
+    struct node *value = NULL;
+    if (!removes)
+        TRY(node_parse(equals + 1, strlen(equals + 1), origin, false, &value));
     char *path = text_copy_part(setting, (size_t)(equals - setting));
     struct error *error = path ? refuse_controls(place, path, true) : out_of_memory();
     if (!error)
-        error = set_value(document->root, path, &value);
+        error = removes ? remove_value(document->root, path, place)
+                        : set_value(document->root, path, &value);
     free(path);
     node_free(value);
     return error;

@@ -197,6 +197,46 @@ static void an_overlay_lies_over_the_document_when_wanted(void **state)
     }
 }
 
+static void a_setting_without_a_value_removes_its_key(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *setting, *message;
+    } settings[] = {
+        {"count=", NULL},
+        {"points.a.b= ", NULL},
+        {"point.y=", NULL},
+        {"point.x=", "a.yaml:2:1: point: \"x\" is missing"},
+        {"colour=", "--set colour=: colour: there is no \"colour\" to remove; a setting is "
+                    "path.to.key=value, and one without a value removes the key"},
+        {"cuont=", "--set cuont=: cuont: there is no \"cuont\" (did you mean \"count\"?)"},
+        {"marks.1=",
+         "--set marks.1=: marks.1: an item of a list cannot be removed; set the whole list"},
+    };
+    for (size_t i = 0; i < COUNT_OF(settings); i++) {
+        struct all all = {0};
+        struct document *document = NULL;
+        struct error *error =
+            document_open_text("count: 3\npoint: {x: 1 m, y: 3 m}\nmarks: [dot]\n"
+                               "points: {a.b: {x: 1 m}, c: {x: 2 m}}\n",
+                               "a.yaml", &settings[i].setting, 1, NULL, &document);
+        if (!error)
+            error = document_read(document, all_table, &catalogue, &all);
+        if (settings[i].message) {
+            assert_non_null(error);
+            assert_string_equal(error_message(error, 0), settings[i].message);
+        } else {
+            assert_null(error);
+            assert_int_equal(all.count, i == 0 ? 7 : 3);
+            assert_int_equal(all.points.count, i == 1 ? 1 : 2);
+            assert_true(all.point.y == (i == 2 ? 2e-3 : 3.0));
+            parameters_release(all_table, &all);
+        }
+        error_free(error);
+        document_free(document);
+    }
+}
+
 static void an_error_points_to_the_nearest_that_stands_in_the_file(void **state)
 {
     (void)state;
@@ -301,6 +341,7 @@ int main(void)
         cmocka_unit_test(every_kind_of_value_is_read),
         cmocka_unit_test(mistakes_are_told_where_they_stand),
         cmocka_unit_test(an_overlay_lies_over_the_document_when_wanted),
+        cmocka_unit_test(a_setting_without_a_value_removes_its_key),
         cmocka_unit_test(an_error_points_to_the_nearest_that_stands_in_the_file),
         cmocka_unit_test(numbers_read_back_to_the_same_bits),
         cmocka_unit_test(any_text_reads_back_as_it_was),
