@@ -4,6 +4,7 @@
 #define BOLIDE_SHAPE_KINDS_H
 
 #include "shape/shape.h"
+#include "shape/triangles.h"
 
 /* Low faces belong to the box, high faces do not, so that adjacent boxes have no point in common.
  * */
@@ -81,6 +82,7 @@ struct shape_mesh {
     double unit; /* m */
     struct vector_value from;
     struct triangles *triangles; /* of the file; one block of memory */
+    char said[MESH_TEXT];        /* what is wrong with the file */
 };
 
 struct shape_union {

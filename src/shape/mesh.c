@@ -67,7 +67,7 @@ static const char *prepare(void *shape, int dimension)
     size_t size;
     const char *text = file_read_input(mesh->file, MOST_BYTES, &content, &size);
     if (!text)
-        text = stl_read(content, size, &mesh->triangles);
+        text = stl_read(content, size, mesh->said, &mesh->triangles);
     free(content);
     return text;
 }

@@ -1,5 +1,6 @@
 #include "shape/triangles.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +12,7 @@ enum { MOST_COLUMNS = 1024, MOST_LISTED = 16 };
 /* The six coordinates of an edge, the lower end first. */
 struct edge {
     double end[2][3];
+    int64_t of; /* the triangle */
 };
 
 /* By x, then y, then z. */
@@ -29,34 +31,97 @@ static int compare_edges(const void *a, const void *b)
     return order ? order : compare_points(first->end[1], second->end[1]);
 }
 
+static void take_corner(const float from[3][3], double to[3][3])
+{
+    for (int j = 0; j < 9; j++)
+        to[j / 3][j % 3] = (double)from[j / 3][j % 3] + 0.0; /* -0 is 0 */
+}
+
 static bool has_area(const double corner[3][3])
 {
     return compare_points(corner[0], corner[1]) && compare_points(corner[1], corner[2]) &&
            compare_points(corner[2], corner[0]);
 }
 
-/* Sorts the edges: those of a closed surface come in pairs. */
-static const char *check_closed(const struct triangles *triangles)
+static int by_place(const void *a, const void *b)
 {
-    const size_t count = 3 * (size_t)triangles->count;
-    struct edge *edges = malloc(count * sizeof *edges);
+    const struct edge *first = a, *second = b;
+    const int order = compare_edges(first, second);
+    return order ? order : (first->of > second->of) - (first->of < second->of);
+}
+
+static bool has_corner(const double corner[3][3], const double at[3])
+{
+    return !compare_points(corner[0], at) || !compare_points(corner[1], at) ||
+           !compare_points(corner[2], at);
+}
+
+static bool are_same(const double a[3][3], const double b[3][3])
+{
+    return has_corner(a, b[0]) && has_corner(a, b[1]) && has_corner(a, b[2]);
+}
+
+/* The number in the file, from 1, of TRIANGLE: those without area were left out. */
+static long long facet_of(const float (*corners)[3][3], int64_t triangle)
+{
+    for (int64_t i = 0;; i++) {
+        double corner[3][3];
+        take_corner(corners[i], corner);
+        if (has_area((const double(*)[3])corner) && triangle-- == 0)
+            return i + 1;
+    }
+}
+
+/* Why the COUNT triangles that share EDGE, an odd number, enclose nothing. */
+static const char *explain_open(const struct triangles *triangles, const float (*corners)[3][3],
+                                const struct edge *edge, int64_t count, char *said)
+{
+    const double(*const all)[3][3] = (const double(*)[3][3])triangles->corners;
+    const long long first = facet_of(corners, edge->of);
+    for (int64_t i = 1; i < count; i++)
+        for (int64_t j = 0; j < i; j++)
+            if (are_same(all[edge[j].of], all[edge[i].of])) {
+                snprintf(said, MESH_TEXT,
+                         "facet %lld of this mesh repeats facet %lld: remove one of the two",
+                         facet_of(corners, edge[i].of), facet_of(corners, edge[j].of));
+                return said;
+            }
+    const double *from = edge->end[0], *to = edge->end[1];
+    snprintf(said, MESH_TEXT,
+             "the surface of this mesh is open: the edge from [%.9g, %.9g, %.9g] to [%.9g, %.9g, "
+             "%.9g] of facet %lld belongs to %lld facet%s, not to two. Repair it, and write shared "
+             "corners with the same digits",
+             from[0], from[1], from[2], to[0], to[1], to[2], first, (long long)count,
+             count == 1 ? "" : "s");
+    return said;
+}
+
+/* Sorts the edges: those of a closed surface come in pairs. */
+static const char *check_closed(const struct triangles *triangles, const float (*corners)[3][3],
+                                char *said)
+{
+    const int64_t count = 3 * triangles->count;
+    struct edge *edges = malloc((size_t)count * sizeof *edges);
     if (!edges)
         return "there is no memory for the edges of this mesh";
-    for (size_t i = 0; i < count; i++) {
+    for (int64_t i = 0; i < count; i++) {
         const double *from = triangles->corners[i / 3][i % 3];
         const double *to = triangles->corners[i / 3][(i + 1) % 3];
         const bool is_up = compare_points(from, to) < 0;
         memcpy(edges[i].end[0], is_up ? from : to, sizeof edges[i].end[0]);
         memcpy(edges[i].end[1], is_up ? to : from, sizeof edges[i].end[1]);
+        edges[i].of = i / 3;
     }
-    qsort(edges, count, sizeof *edges, compare_edges);
-    bool is_closed = count % 2 == 0;
-    for (size_t i = 0; i + 1 < count && is_closed; i += 2)
-        is_closed = compare_edges(&edges[i], &edges[i + 1]) == 0;
+    qsort(edges, (size_t)count, sizeof *edges, by_place);
+    const char *text = NULL;
+    for (int64_t i = 0, same; i < count && !text; i += same) {
+        for (same = 1; i + same < count && !compare_edges(&edges[i], &edges[i + same]);)
+            same++;
+        if (same % 2 == 1)
+            text = explain_open(triangles, corners, &edges[i], same, said);
+    }
     free(edges);
-    return is_closed ? NULL
-                     : "the surface of this mesh is open: some edges belong to one triangle only. "
-                       "Repair it, and write shared corners with the same digits";
+    return text;
 }
 
 /* The column of a coordinate along y (0) or z (1). */
@@ -151,19 +216,22 @@ static void take_corners(struct triangles *triangles, const float (*corners)[3][
 {
     for (int64_t i = 0; i < count; i++) {
         double(*corner)[3] = triangles->corners[triangles->count];
-        for (int j = 0; j < 9; j++)
-            corner[j / 3][j % 3] = (double)corners[i][j / 3][j % 3] + 0.0; /* -0 is 0 */
+        take_corner(corners[i], corner);
         if (has_area((const double(*)[3])corner))
             triangles->count++;
     }
 }
 
-static bool are_finite(const float (*corners)[3][3], int64_t count)
+static const char *check_finite(const float (*corners)[3][3], int64_t count, char *said)
 {
     for (int64_t i = 0; i < 9 * count; i++)
-        if (!isfinite(corners[i / 9][i % 9 / 3][i % 3]))
-            return false;
-    return true;
+        if (!isfinite(corners[i / 9][i % 9 / 3][i % 3])) {
+            snprintf(said, MESH_TEXT,
+                     "a corner of facet %lld of this mesh is not a number, or infinite",
+                     (long long)(i / 9 + 1));
+            return said;
+        }
+    return NULL;
 }
 
 /* PLAN with room for its columns behind its corners. */
@@ -183,19 +251,20 @@ static struct triangles *with_columns(struct triangles *plan)
     return triangles;
 }
 
-const char *triangles_make(const float (*corners)[3][3], int64_t count, struct triangles **made)
+const char *triangles_make(const float (*corners)[3][3], int64_t count, char *said,
+                           struct triangles **made)
 {
-    if (!are_finite(corners, count))
-        return "a corner of this mesh is not a number, or infinite";
+    const char *text = check_finite(corners, count, said);
+    if (text)
+        return text;
     struct triangles plan = {.corners = malloc((size_t)(count + 1) * sizeof *plan.corners)};
     if (!plan.corners)
         return "there is no memory for this mesh";
     take_corners(&plan, corners, count);
-    const char *text = NULL;
     if (plan.count < 4)
         text = "this mesh has less than four triangles, the fewest that enclose anything";
     if (!text)
-        text = check_closed(&plan);
+        text = check_closed(&plan, corners, said);
     if (!text) {
         find_bounds(&plan);
         if (!(plan.bounds.low.x < plan.bounds.high.x && plan.bounds.low.y < plan.bounds.high.y &&

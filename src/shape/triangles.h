@@ -16,15 +16,20 @@ struct triangles {
         *list; /* those of a column are list[start[column]] .. list[start[column + 1]] */
 };
 
-/* Makes *made of COUNT triangles, or says why they enclose nothing (static text). A closed surface
- * is one of whose edges each belongs to two triangles, or an even number; corners are the same when
- * their coordinates are. Triangles without area are left out. */
-const char *triangles_make(const float (*corners)[3][3], int64_t count, struct triangles **made);
+/* Room for a message on a mesh. */
+enum { MESH_TEXT = 320 };
+
+/* Makes *made of COUNT triangles, or says why they enclose nothing: static text, or SAID, of
+ * MESH_TEXT characters. Each edge of a closed surface belongs to two triangles, or an even number;
+ * corners are the same when their coordinates are. Triangles without area are left out. */
+const char *triangles_make(const float (*corners)[3][3], int64_t count, char *said,
+                           struct triangles **made);
 
 /* Whether POINT is enclosed: a ray from it crosses the surface an odd number of times. */
 bool triangles_hold(const struct triangles *triangles, struct vec3 point);
 
-/* Makes *made of the bytes of an STL file, binary or text, or says what is wrong with them. */
-const char *stl_read(const char *bytes, size_t size, struct triangles **made);
+/* Makes *made of the bytes of an STL file, binary or text, which end with a null character after
+ * SIZE; or says what is wrong with them, and in which line or facet, as triangles_make does. */
+const char *stl_read(const char *bytes, size_t size, char *said, struct triangles **made);
 
 #endif

@@ -10,7 +10,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
 
     struct triangles *triangles = NULL;
-    const char *text = stl_read(bytes, size, &triangles);
+    char said[MESH_TEXT];
+    const char *text = stl_read(bytes, size, said, &triangles);
     insist(!text == !!triangles, "neither a mesh nor an error, or both");
     for (int i = 0; triangles && i < 64; i++) {
         const struct vec3 low = triangles->bounds.low, high = triangles->bounds.high;

@@ -151,6 +151,26 @@ static void a_torus_has_its_volume_at_fifty_points_across(void **state)
     assert_true(volume_of("torus.stl", 50) == volume_of("torus-text.stl", 50));
 }
 
+/* What programs write that spell the format in their own way. */
+static void harmless_spellings_are_read(void **state)
+{
+    (void)state;
+    FILE *file = open_file("spelt.stl");
+    fputs("\xef\xbb\xbf  SOLID cube\r\n", file);
+    surface.count = 0;
+    add_box(-1.0f, 1.0f);
+    for (int i = 0; i < surface.count; i++) {
+        fputs("Facet Normal 0 0 0 outer\tloop\r", file);
+        for (int j = 0; j < 3; j++)
+            fprintf(file, "vertex %g %g %g\n", (double)surface.corner[i][j][0],
+                    (double)surface.corner[i][j][1], (double)surface.corner[i][j][2]);
+        fputs("end loop\nEnd Facet\n", file);
+    }
+    fputs("end solid", file);
+    fclose(file);
+    assert_near(volume_of("spelt.stl", 10), 8.0, 1e-12);
+}
+
 static void a_surface_within_another_is_a_cavity(void **state)
 {
     (void)state;
@@ -196,13 +216,14 @@ static void refuse_text(const char *text, const char *words)
     assert_refused("bad.stl", words);
 }
 
-/* The first SIZE bytes of the file NAME. */
+/* The first SIZE bytes of the file NAME, with zeros after its end. */
 static void refuse_part(const char *name, size_t size, const char *words)
 {
     static char bytes[1 << 16];
     FILE *file = fopen(path_of(name), "rb");
     assert_non_null(file);
-    assert_true(fread(bytes, 1, sizeof bytes, file) >= size);
+    const size_t whole = fread(bytes, 1, sizeof bytes, file);
+    memset(bytes + whole, 0, sizeof bytes - whole);
     fclose(file);
     file = open_file("bad.stl");
     fwrite(bytes, 1, size, file);
@@ -218,20 +239,30 @@ static void files_that_are_no_mesh_are_refused(void **state)
     refuse_text("", "is empty");
     refuse_text("ISO-10303-21;\nHEADER;", "not an STL mesh");
     refuse_text("solid name\nendsolid name\n", "less than four triangles");
-    refuse_text("solid name\nfacet normal 0 0 1\nouter loop\nvertex 1 2\n", "damaged");
-    refuse_text("solid name\nfacet normal 0 0 x\n", "damaged");
-    refuse_text("solid name\nvertex 0 0 0\n", "damaged");
-    refuse_text("solid name\n", "damaged");
+    refuse_text("solid name\nfacet normal 0 0 1\nouter loop\nvertex 1 2\n",
+                "cut off: it ends at line 5, in facet 1, where a number is wanted");
+    refuse_text("solid name\nfacet normal 0 0 x\n",
+                "line 2 of this STL file (facet 1): expected a number, found \"x\"");
+    refuse_text("solid name\nfacet normal 0,5 0 0\n", "\"0,5\" has a decimal comma, write 0.5");
+    refuse_text("solid name\nvertex 0 0 0\n",
+                "line 2 of this STL file (facet 1): expected `facet`");
+    refuse_text("solid name\nendsolid\nsold b\n",
+                "line 3 of this STL file (facet 1): expected `solid`");
+    refuse_text("solid name\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 0 0\n"
+                "vertex 0 0 0\nend lop\n",
+                "line 7 of this STL file (facet 1): expected `endloop`, found \"end\"");
+    refuse_text("solid name\n", "cut off: it ends at line 2");
     surface.count = 0;
     add_box(0.0f, 1.0f);
     write_text("text.stl");
-    refuse_part("text.stl", 700, "damaged");
+    refuse_part("text.stl", 700, "cut off: it ends at line ");
     write_binary("binary.stl");
     refuse_part("binary.stl", 84 + 50 * 11 + 20, "damaged");
-    refuse_part("binary.stl", 60, "damaged");
+    refuse_part("binary.stl", 60, "not an STL mesh");
+    refuse_part("binary.stl", 84 + 50 * 12 + 3, "remove the 3 bytes after the last facet");
     surface.corner[3][1][2] = NAN;
     write_binary("binary.stl");
-    assert_refused("binary.stl", "not a number");
+    assert_refused("binary.stl", "a corner of facet 4 of this mesh is not a number");
     surface.corner[3][1][2] = INFINITY;
     write_text("text.stl");
     assert_refused("text.stl", "infinite");
@@ -240,7 +271,17 @@ static void files_that_are_no_mesh_are_refused(void **state)
     surface.count--;
     write_binary("binary.stl");
     assert_refused("binary.stl", "is open");
+    assert_refused("binary.stl", "belongs to 1 facet, not to two");
     surface.count++;
+    for (int copy = 0; copy < surface.count; copy += 5) {
+        memcpy(surface.corner[12], surface.corner[copy], sizeof surface.corner[12]);
+        surface.count = 13;
+        write_text("text.stl");
+        char words[64];
+        snprintf(words, sizeof words, "facet 13 of this mesh repeats facet %d:", copy + 1);
+        assert_refused("text.stl", words);
+        surface.count = 12;
+    }
     surface.corner[0][0][0] += 1e-6f;
     write_binary("binary.stl");
     assert_refused("binary.stl", "is open");
@@ -249,6 +290,9 @@ static void files_that_are_no_mesh_are_refused(void **state)
     surface.corner[0][0][0] = 0.0f;
     write_binary("binary.stl");
     assert_refused("binary.stl", "flat");
+    surface.corner[3][1][0] = INFINITY;
+    write_text("text.stl");
+    assert_refused("text.stl", "facet 4 of this mesh is not a number, or infinite");
     struct shape_mesh mesh = mesh_of("text.stl");
     assert_wrong("mesh", &mesh, 2, "three dimensions");
 }
@@ -257,6 +301,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_torus_has_its_volume_at_fifty_points_across),
+        cmocka_unit_test(harmless_spellings_are_read),
         cmocka_unit_test(a_surface_within_another_is_a_cavity),
         cmocka_unit_test(points_of_two_boxes_side_by_side_are_in_one),
         cmocka_unit_test(files_that_are_no_mesh_are_refused),
