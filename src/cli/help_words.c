@@ -45,6 +45,17 @@ static const struct answer answers[] = {
      "gas) and `coarse` (its cells). The run goes on. `bolide verify` fails, unless the case\n"
      "lists the warning in `expected_warnings` with the reason why its checks hold.",
      "case.md"},
+    {" mott mott.distribution expanding.ring bursting.cylinder weibull scatter ",
+     "Failure strains that scatter make a body break at random, as Mott (1947) assumed: give the\n"
+     "`failure` a `weibull_modulus` (bolide help failure) and sweep over seeds. Worked cases, "
+     "with\n"
+     "Mott's number of fragments: examples/fragmentation. output: {fragments: yes} lists them.",
+     "failure.md"},
+    {" tear tearing petal petalling rip ",
+     "A sheet tears where its material fails: give it a `failure` (bolide help failure) and at\n"
+     "least three particles across the thickness. Elements that are cut along a line are not\n"
+     "available.",
+     "failure.md"},
     {" damage ",
      "The field `damage` is that of a failure model (`bolide help failure`) or of crushed\n"
      "concrete (strength: hjc), 1: failed. Concrete has `tensile_damage` too.",
@@ -53,6 +64,12 @@ static const struct answer answers[] = {
      "A sphere through a bumper and its cloud on a wall: a worked case is on the page below.\n"
      "Checks measure `hole`, `bulge` and `fragments`; `bolide search` finds a ballistic limit.",
      "tasks/whipple-shield.md"},
+    {" ricochet oblique oblique.impact obliquity ",
+     "An oblique impact is 3-D: rotate the projectile or its velocity, and put a mirror wall\n"
+     "through the plane of flight, which cuts the bodies in half. Checks take the velocity that "
+     "is\n"
+     "left: {largest_fragment: velocity.y, of: BODY}. There is no check of the angle itself.",
+     "tasks/impact-on-a-plate.md"},
     {" crater hole plate ",
      "A projectile through a plate, with hole and debris cloud: a worked case is on the page\n"
      "below. Checks measure `hole`, `crater`, `bulge`, `zone` and\n"
@@ -76,6 +93,16 @@ static const struct answer answers[] = {
      "Structures are resolved, with shapes: packing, voronoi (random grains), image (PNG), mesh\n"
      "(STL), repeat, template, polygon, difference, and bodies that replace parts of others. Not\n"
      "available: a compaction model (P-alpha) for pores that are not resolved.",
+     "microstructures.md"},
+    {" p.alpha palpha compaction compaction.model crushing.curve ",
+     "Not available for metals and powders: resolve the pores or grains (bolide help porosity).\n"
+     "Concrete has a compaction curve: eos: hjc with strength: hjc.",
+     "microstructures.md"},
+    {" honeycomb sandwich sandwich.panel corrugated core.panel ",
+     "There is no homogenised core: draw the walls of the cells, in 2-D with `polygon` or "
+     "`repeat`,\n"
+     "in 3-D with boxes or a `mesh`. Walls need three particles across, so foils of 0.1 mm are\n"
+     "mostly out of reach in 3-D.",
      "microstructures.md"},
     {" mixture two.component two.phase impedance.mismatch thermal.equilibrium "
      "velocity.equilibrium ",
@@ -113,6 +140,37 @@ static const struct answer answers[] = {
      "tasks/cluster.md"},
     {" gpu cuda accelerator ", "Not available: Bolide runs on processors, with threads and MPI.",
      "tasks/cluster.md"},
+    {" histogram distribution size.distribution ",
+     "Not available as a plot. output: {fragments: yes} lists the mass, size and velocity of "
+     "every\n"
+     "fragment in fragments.csv, and snapshots have all fields for numpy.histogram. Checks take\n"
+     "`quantile`, `spread` and `mean` of a field.",
+     "tasks/results.md"},
+    {" colour color colour.map color.map colormap palette colour.range legend ",
+     "Each picture has a colour range of its own, and neither range nor palette can be set. Use\n"
+     "ParaView on snapshots.vtkhdf.series for ranges that stay the same.",
+     "tasks/results.md"},
+    {" perspective view camera 3d.picture 3d.view render rendering slice section cut.plane clip ",
+     "Pictures of a 3-D run show a slice through the middle, normal to the shortest side of what\n"
+     "there is; the plane cannot be chosen, and there is no perspective. In ParaView open\n"
+     "snapshots.vtkhdf.series: the filter Clip shows any section, Point Gaussian a view.",
+     "tasks/results.md"},
+    {" schlieren shadowgraph density.gradient ",
+     "Not available as a field. In ParaView open snapshots.vtkhdf.series of a gas run and apply "
+     "the\n"
+     "filter Gradient to `density`; its magnitude is a schlieren picture.",
+     "tasks/results.md"},
+    {" experiment measured.data test.data compare.with.experiment ",
+     "Write the measured value into a check, with its source:\n"
+     "  checks: {depth: {crater: {take: depth}, of: plate, is: 12 mm, within: 5 %, source: "
+     "\"...\"}}\n"
+     "Curves cannot be read from a file: compare the CSV files of probes with them.",
+     "case.md"},
+    {" clamp clamped fixed fix support supported boundary.condition ",
+     "With SPH and MPM, a body clamps another that sticks to it: put a body of the same material\n"
+     "there, with `driven: yes` and no velocity. A mirror wall lets its face slide. `frozen: yes`\n"
+     "is for waves that leave.",
+     "case.md"},
     {" symmetry symmetric mirror half.model quarter.model ",
      "A mirror wall is a plane of symmetry:  walls: {below: {mirror: y, at: 0 mm, side: low}}\n"
      "`geometry: axisymmetric` makes bodies of revolution in 2-D: x is the radius, y the axis.\n"
@@ -169,6 +227,36 @@ static const struct answer answers[] = {
      "obstacles. A shock tube beside its exact solution: see the page below; docs/gas.md has\n"
      "the method.",
      "tasks/shock-tube.md"},
+    {" underwater underwater.explosion undex water.shock ",
+     "Water with `library: water-shock` around an explosive, with SPH or MPM, in 2-D, axisymmetry\n"
+     "or 3-D. `solver: gas` has no liquids, so that spherical 1-D is not available, and a long\n"
+     "pulsation of the bubble takes too many steps.",
+     "materials.md"},
+    {" cavitation cavity.in.liquid ram hydrodynamic.ram hydraulic.ram ",
+     "Liquids of the library carry tension without limit. A cut-off is the failure of a solid:\n"
+     "give the liquid a strength with a small shear modulus and yield stress, and\n"
+     "`failure: {spall: {strength: 1 MPa}}`. A vapour, and its pressure, are not available.",
+     "failure.md"},
+    {" bubble gas.bubble shock.bubble helium sf6 richtmyer meshkov ",
+     "Two gases with `solver: gas`, library: air, helium, sf6. The shock comes from a body of gas\n"
+     "in the state behind it, long enough for the run: with two gases there is no inflow. Worked\n"
+     "cases: examples/gas/shock-bubble-gas and, with SPH, examples/gas/shock-bubble.",
+     "gas.md"},
+    {" gurney gurney.velocity cylinder.test metal.acceleration flyer.by.explosive ",
+     "The wall of a tube full of explosive, beside Gurney's formula: examples/detonation/\n"
+     "cylinder-test. The formula itself is not an exact solution of the program.",
+     "detonation.md"},
+    {" jet shaped.charge liner efp explosively.formed.projectile explosively.formed.penetrator ",
+     "An explosive, lit by `detonations`, behind a liner with `failure`, in axisymmetry. Use SPH\n"
+     "for jets: with MPM points of a jet are drawn apart by more than a cell. The liner needs six\n"
+     "particles across; the speed of the tip still grows with more.",
+     "detonation.md"},
+    {" initiation initiate ignition.threshold shock.to.detonation sdt gap.test sensitivity ",
+     "An explosive lit by a shock needs a rate: `burn: ignition-growth` or `pressure-power`\n"
+     "(library: lx-17, pbx-9502, rdx-reactive, petn-reactive). `burn: programmed` is lit where "
+     "and\n"
+     "when `detonations` says. Worked: examples/detonation/lx-14-run, the run to detonation.",
+     "detonation.md"},
     {" explosive detonation tnt detonate ",
      "An explosive is a material with `burn` (bolide help burn; library: tnt), lit by\n"
      "`detonations`. A charge in air: bolide help blast.",

@@ -55,7 +55,9 @@ expect 2 "no help on \"qwertyuiop\"" "$BOLIDE" help qwertyuiop
 for word in spall failure fracture whipple craters penetration Hugoniot foam calibration restart \
     checkpoint symmetry film ParaView h5py MPI slurm threads GPU periodic "units of stress" blast \
     stl mesh erosion adaptive melting ceramic "long rod" plate-impact hvi "time step" cfl \
-    hourglass eulerian "equation of state" charge tnt conwep "height of burst"; do
+    hourglass eulerian "equation of state" charge tnt conwep "height of burst" Mott ricochet \
+    histogram perspective colour slice experiment P-alpha underwater bubbles cavitation schlieren \
+    Gurney jets "shaped charge" clamp tear honeycomb initiation; do
     expect 0 "" "$BOLIDE" help $word
     page=$("$BOLIDE" help $word | sed -n 's/^More: //p')
     [ -z "$page" ] || [ -f "$BOLIDE_SOURCE_DIR/$page" ] ||
