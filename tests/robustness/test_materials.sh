@@ -36,6 +36,12 @@ expect 0 "shock,4050,8.51579e+10,5.25666e+06,3200.31,8600.05,9727.27,3242.42" "$
 
 expect 0 "#   detonation speed 8348 m/s" "$BOLIDE" materials petn-reactive
 
+# The speed and pressure of the source of Composition B, 7980 m/s and 29.5 GPa, follow from its JWL
+# constants; U_s of water and PMMA at u = 1 km/s is that of their sources.
+detonation=$("$BOLIDE" materials comp-b | sed -n 's/.*detonation speed \([0-9]*\) m\/s.*/\1/p')
+[ "${detonation:-0}" -gt 7940 ] && [ "$detonation" -lt 8020 ] || { echo "FAILED: comp-b has D = $detonation"; status=1; }
+expect 0 "Chapman-Jouguet 29." "$BOLIDE" materials comp-b
+
 for file in "$library"/*.yaml; do
     name=$(basename "$file" .yaml)
     "$BOLIDE" materials "$name" | head -c "$(stat -c %s "$file")" | cmp -s - "$file" || { echo "FAILED: materials $name is not $file"; status=1; }
