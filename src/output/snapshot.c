@@ -188,15 +188,19 @@ struct source {
     const struct column *column;
 };
 
-/* Narrows in place: a float is never written behind the double that it comes from. */
+/* Narrows in place: a float is never written behind the double that it comes from. Where a cell is
+ * blocked there is nothing to have a number. */
 static void fill_source(const void *context, int64_t begin, int64_t end, void *out)
 {
     const struct source *source = context;
+    const int components = source->column->components;
     column_read(source->population, source->column, begin, end, out);
-    for (int64_t i = 0; i < (end - begin) * source->column->components; i++) {
+    for (int64_t i = 0; i < (end - begin) * components; i++) {
         double wide;
         memcpy(&wide, (const char *)out + i * (int64_t)sizeof wide, sizeof wide);
         float narrow = (float)wide;
+        if (!population_has(source->population, (int32_t)(begin + i / components)))
+            narrow = (float)NAN;
         memcpy((char *)out + i * (int64_t)sizeof narrow, &narrow, sizeof narrow);
     }
 }
@@ -245,6 +249,17 @@ static void write_geometry(struct writing *w, int64_t count)
         write_dataset(w, &sets[i]);
 }
 
+/* VTK's name for what a viewer hides, and its mark of a cell that is there only for the grid. */
+static const char ghost_name[] = "vtkGhostType";
+enum { VTK_HIDDEN_CELL = 32 };
+
+static void fill_ghosts(const void *context, int64_t begin, int64_t end, void *out)
+{
+    const struct population *cells = context;
+    for (int64_t i = begin; i < end; i++)
+        ((unsigned char *)out)[i - begin] = population_has(cells, (int32_t)i) ? 0 : VTK_HIDDEN_CELL;
+}
+
 static void write_fields(struct writing *w, int64_t count)
 {
     const struct population *particles = w->population;
@@ -255,6 +270,9 @@ static void write_fields(struct writing *w, int64_t count)
     };
     for (size_t i = 0; i < COUNT_OF(sets); i++)
         write_dataset(w, &sets[i]);
+    if (particles->kind == POPULATION_OF_CELLS)
+        write_dataset(w, &(struct dataset){ghost_name, H5T_NATIVE_UINT8, count, 1, 1, true,
+                                           fill_ghosts, particles, NULL});
     for (int i = 0; i < particles->columns; i++)
         if (strcmp(particles->column[i].name, "position") != 0) /* that is "Points" */
             write_column(w, &particles->column[i], count);

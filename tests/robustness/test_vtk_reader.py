@@ -18,6 +18,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
 VERTEX = 1
+HIDDEN_CELL = 32  # of vtkDataSetAttributes
 SINGLE = 1e-6  # relative rounding of the 32-bit fields
 
 # Components of the fields that every solver shows.
@@ -170,6 +171,26 @@ def check_grids(program, folder):
         expect(grid.GetPointData().GetNumberOfArrays() == 0, "fields on the corners of cells")
 
 
+def check_blocked(program, folder):
+    """Cells that an obstacle blocks are hidden, and have no numbers."""
+    case = os.path.join(folder, "blocked.yaml")
+    with open(case, "w", encoding="utf-8") as file:
+        file.write(GRID_CASE % (2, "0 m, 0 m", "0.07 m, 0.2 m"))
+        file.write("obstacles: {block: {box: {from: [0.02 m, 0.02 m], to: [0.05 m, 0.1 m]}}}\n")
+    results = os.path.join(folder, "blocked")
+    subprocess.run([program, "run", case, "--output", results], check=True,
+                   stdout=subprocess.DEVNULL)
+    grid = read_grid(sorted(glob.glob(os.path.join(results, "snapshots", "*.vtkhdf")))[-1])
+    ghosts = grid.GetCellGhostArray()
+    expect(ghosts is not None, "VTK finds no array of ghost cells")
+    hidden = vtk_to_numpy(ghosts) == HIDDEN_CELL
+    expect(hidden.sum() == 3 * 8, f"{hidden.sum()} cells are hidden, not 24")
+    for name in "density", "pressure", "speed", "velocity":
+        values = vtk_to_numpy(grid.GetCellData().GetArray(name))
+        expect(numpy.isnan(values[hidden]).all(), name + ": a number in a blocked cell")
+        expect(numpy.isfinite(values[~hidden]).all(), name + ": none in an open cell")
+
+
 def main():
     program = os.environ["BOLIDE"]
     case = os.path.join(os.environ["BOLIDE_SOURCE_DIR"], "examples/riemann/gas/case.yaml")
@@ -183,6 +204,7 @@ def main():
         check_series(folder, snapshots, time)
     with tempfile.TemporaryDirectory() as folder:
         check_grids(program, folder)
+        check_blocked(program, folder)
     print(f"VTK reads {len(fields['id'])} particles with {len(fields)} fields")
 
 
