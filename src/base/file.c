@@ -88,6 +88,21 @@ struct error *file_open(const char *path, const char *mode, FILE **file)
     return error;
 }
 
+struct error *file_check_folder(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = text_copy_part(path, slash ? (size_t)(slash - path) : 0);
+    struct stat status;
+    struct error *error = folder ? NULL : out_of_memory();
+    if (folder && *folder && !lstat(folder, &status) && S_ISLNK(status.st_mode))
+        error = error_new(ERROR_INPUT,
+                          "%s: is a symbolic link; results are not written through links: put a "
+                          "folder there",
+                          folder);
+    free(folder);
+    return error;
+}
+
 bool file_is_plain(const char *path)
 {
     struct stat status;
@@ -197,6 +212,29 @@ static bool ends_with(const char *name, size_t length, const char *ending)
 {
     size_t size = strlen(ending);
     return length > size && !memcmp(name + length - size, ending, size);
+}
+
+struct error *file_hash(const char *path, uint64_t *hash)
+{
+    *hash = 0;
+    if (!file_is_plain(path))
+        return NULL;
+    FILE *file = fopen(path, "re");
+    if (!file)
+        return system_error(path, errno);
+    uint64_t words[1 << 12], sum = 0xcbf29ce484222325u; /* FNV-1a, eight bytes at a time */
+    for (size_t got; (got = fread(words, 1, sizeof words, file)) > 0;) {
+        memset((char *)words + got, 0, -got % sizeof *words);
+        for (size_t i = 0; i < (got + sizeof *words - 1) / sizeof *words; i++) {
+            sum = (sum ^ words[i]) * 0x100000001b3u;
+            sum ^= sum >> 32;
+        }
+        sum += got;
+    }
+    struct error *error = ferror(file) ? system_error(path, EIO) : NULL;
+    fclose(file);
+    *hash = sum ? sum : 1;
+    return error;
 }
 
 int64_t file_size(const char *path)

@@ -26,6 +26,10 @@ struct error *file_open(const char *path, const char *mode, FILE **file);
 /* The same with the FLAGS of open(); DESCRIPTOR is -1 after an error. */
 struct error *file_open_descriptor(const char *path, int flags, int *descriptor);
 
+/* ERROR_INPUT when the folder in which PATH lies is a symbolic link: to be called before each file
+ * that a run writes into a folder of its own, for which somebody may have put a link meanwhile. */
+struct error *file_check_folder(const char *path);
+
 /* True when PATH is a plain file, or a link to one. */
 bool file_is_plain(const char *path);
 
@@ -39,6 +43,9 @@ struct error *file_read(const char *path, char **content, size_t *size);
 /* The same of a file that must be there and have at most MOST bytes; NULL, or what is wrong (static
  * text). */
 const char *file_read_input(const char *path, size_t most, char **content, size_t *size);
+
+/* *HASH is a number for the bytes of the plain file PATH, never 0; 0 when there is none. */
+struct error *file_hash(const char *path, uint64_t *hash);
 
 /* Bytes of the plain file PATH, 0 when there is none. */
 int64_t file_size(const char *path);

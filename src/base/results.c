@@ -152,15 +152,8 @@ struct error *results_check_links(const char *folder)
 {
     struct error *error = NULL;
     for (size_t i = 0; i < COUNT_OF(result_folders) && !error; i++) {
-        char *path = path_join(folder, result_folders[i]);
-        struct stat status;
-        if (!path)
-            error = out_of_memory();
-        else if (!lstat(path, &status) && S_ISLNK(status.st_mode))
-            error = error_new(ERROR_INPUT,
-                              "%s: is a symbolic link; results are not written through links: put "
-                              "a folder there",
-                              path);
+        char *path = text_format("%s/%s/", folder, result_folders[i]);
+        error = path ? file_check_folder(path) : out_of_memory();
         free(path);
     }
     return error;

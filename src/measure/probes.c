@@ -251,6 +251,7 @@ static void put_row(const struct probe *probe, const double *row, FILE *file)
 static struct error *pour(struct probe *probe, struct csv_mark *mark)
 {
     FILE *file;
+    TRY(file_check_folder(probe->path));
     TRY(file_open(probe->path, "a+", &file));
     errno = 0;
     const size_t bytes = (size_t)probe->text_bytes;

@@ -378,7 +378,7 @@ struct error *profiles_write(const struct profiles *profiles, const struct simul
     for (int i = 0; i < profiles->count && !error; i++) {
         char *path =
             text_format("%s/%s-%06lld.csv", own, profiles->item[i].name, (long long)number);
-        error = ranks_agree(simulation->ranks, path ? NULL : out_of_memory());
+        error = ranks_agree(simulation->ranks, path ? file_check_folder(path) : out_of_memory());
         if (!error)
             error = ranks_agree(simulation->ranks,
                                 write_one(&profiles->item[i], simulation, population, path));

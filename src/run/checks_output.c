@@ -203,8 +203,10 @@ static struct error *draw_field(const struct measurement *measurement, const cha
     struct error *error = take_dots(&m, &dots);
     if (!error && dots.count > 1) {
         char *path = path_join(folder, name);
-        error = path ? draw(&m, &dots, unit, path)
-                     : error_new(ERROR_SYSTEM, "out of memory for a picture");
+        error =
+            path ? file_check_folder(path) : error_new(ERROR_SYSTEM, "out of memory for a picture");
+        if (!error)
+            error = draw(&m, &dots, unit, path);
         free(path);
     }
     scatter_free(&dots);

@@ -417,6 +417,7 @@ static void destroy(struct run *run)
     free(run->solver);
     simulation_destroy(&run->simulation);
     free(run->snapshot_times);
+    free(run->snapshot_hashes);
     free(run->check_memory);
     free(run->case_text);
     free(run->state_text);

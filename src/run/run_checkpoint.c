@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "model/loaded.h"
 #include "output/snapshot.h"
@@ -48,10 +49,11 @@ static struct error *visit_extra(void *context, struct visitor *visitor)
     if (visitor->most && run->snapshots > visitor->most)
         return error_new(ERROR_SYSTEM, "run/snapshots is %lld: a file of this size has 1 to %lld",
                          (long long)run->snapshots, (long long)visitor->most);
-    if (!memory_reserve((void **)&run->snapshot_times, &run->snapshot_room, run->snapshots,
-                        minimum(known, run->snapshots), sizeof *run->snapshot_times))
+    if (!run_reserve_snapshots(run, run->snapshots, minimum(known, run->snapshots)))
         return out_of_memory();
-    return visitor->visit(visitor, "run/snapshot_times", NUMBER_DOUBLE, run->snapshot_times,
+    TRY(visitor->visit(visitor, "run/snapshot_times", NUMBER_DOUBLE, run->snapshot_times,
+                       run->snapshots, 1));
+    return visitor->visit(visitor, "run/snapshot_hashes", NUMBER_UINT64, run->snapshot_hashes,
                           run->snapshots, 1);
 }
 
@@ -138,7 +140,8 @@ struct error *run_load(struct run *run)
 static struct error *snapshot_of_failure(struct run *run)
 {
     char *path = run_path(run, "snapshots/failed.vtkhdf");
-    struct error *error = ranks_agree(&run->ranks, path ? NULL : out_of_memory());
+    struct error *error =
+        ranks_agree(&run->ranks, path ? file_check_folder(path) : out_of_memory());
     if (!error) {
         run_observe(run);
         error = snapshot_write(path, &run->simulation, &run->population);

@@ -44,7 +44,8 @@ struct run {
     int64_t history_step; /* of the last row */
     struct csv_mark history_mark;
     double *snapshot_times;
-    int64_t snapshot_room;
+    uint64_t *snapshot_hashes; /* of their files, 0 where there is none */
+    int64_t snapshot_room;     /* in both */
 
     char *case_text;
     char *state_text;        /* the case without what does not change the state */
@@ -75,6 +76,10 @@ struct error *run_check_folder(struct run *run);
 /* Readies the folder, the log, the case as run and the history. */
 struct error *run_open_folder(struct run *run);
 struct error *run_close_files(struct run *run, struct error *error);
+
+/* Makes room for the times and hashes of COUNT snapshots, of which KEPT are known; false: there is
+ * no memory. */
+bool run_reserve_snapshots(struct run *run, int64_t count, int64_t kept);
 
 /* Asks for run->population anew, after a step or a change of its members. */
 void run_observe(struct run *run);

@@ -240,19 +240,41 @@ static struct error *write_series(struct run *run)
     return error;
 }
 
-/* Tells which of the snapshots that a resumed run has written are gone. */
+/* Whether the snapshot NAME is not what the run wrote, whose hash is WRITTEN. */
+static struct error *has_changed(const struct run *run, const char *name, uint64_t written,
+                                 bool *changed)
+{
+    char *path = run_path(run, name);
+    uint64_t hash;
+    struct error *error = path ? file_hash(path, &hash) : out_of_memory();
+    *changed = !error && written && hash != written;
+    free(path);
+    return error;
+}
+
+/* Tells which of the snapshots that a resumed run has written are gone, or others than it wrote. */
 static struct error *miss_snapshots(struct run *run)
 {
-    int64_t gone = 0, first = 0;
+    int64_t gone = 0, first = 0, others = 0, first_other = 0;
     for (int64_t i = 0; i < run->snapshots; i++) {
-        bool there;
+        bool there, changed = false;
         char *name = snapshot_name(run, i, &there);
-        if (!name)
-            return out_of_memory();
+        struct error *error = name ? NULL : out_of_memory();
+        if (name && there)
+            error = has_changed(run, name, run->snapshot_hashes[i], &changed);
         free(name);
+        if (error)
+            return error;
         first = gone ? first : i;
         gone += !there;
+        first_other = others ? first_other : i;
+        others += changed;
     }
+    if (others > 0)
+        run_say(run,
+                "warning: %lld of %lld snapshots are not what the run wrote, damaged or edited, "
+                "snapshots/%06lld.vtkhdf first",
+                (long long)others, (long long)run->snapshots, (long long)first_other);
     if (gone == 0)
         return NULL;
     run_say(run,
@@ -322,7 +344,7 @@ static struct error *draw_pictures(struct run *run, const struct population *pop
     for (int i = 0; i < fields->count && !error; i++) {
         char *name = text_format("pictures/%s-%06lld.png", fields->names[i], (long long)number);
         char *path = name ? run_path(run, name) : NULL;
-        error = ranks_agree(&run->ranks, path ? NULL : out_of_memory());
+        error = ranks_agree(&run->ranks, path ? file_check_folder(path) : out_of_memory());
         if (!error)
             error =
                 picture_particles(path, &run->simulation, population, fields->names[i], NAN, NAN);
@@ -344,11 +366,16 @@ static struct error *write_population(struct run *run, const struct population *
     char *name = text_format("snapshots/%06lld.vtkhdf", (long long)number);
     char *path = name ? run_path(run, name) : NULL;
     struct error *error =
-        path ? snapshot_write(path, &run->simulation, population) : out_of_memory();
+        ranks_agree(&run->ranks, path ? file_check_folder(path) : out_of_memory());
+    if (!error)
+        error = snapshot_write(path, &run->simulation, population);
     free(name);
+    if (!error && run_writes(run))
+        error = file_hash(path, &run->snapshot_hashes[number]);
     free(path);
     if (!error && run_writes(run))
         error = write_series(run);
+    ranks_broadcast(&run->ranks, 0, &run->snapshot_hashes[number], sizeof(uint64_t));
     return ranks_agree(&run->ranks, error);
 }
 
@@ -381,12 +408,21 @@ static struct error *write_with_fragments(struct run *run, int64_t number)
     return error;
 }
 
+bool run_reserve_snapshots(struct run *run, int64_t count, int64_t kept)
+{
+    int64_t room = run->snapshot_room;
+    return memory_reserve((void **)&run->snapshot_times, &room, count, kept,
+                          sizeof *run->snapshot_times) &&
+           memory_reserve((void **)&run->snapshot_hashes, &run->snapshot_room, count, kept,
+                          sizeof *run->snapshot_hashes);
+}
+
 static struct error *write_snapshot(struct run *run)
 {
     int64_t number = run->snapshots;
-    if (!memory_reserve((void **)&run->snapshot_times, &run->snapshot_room, number + 1, number,
-                        sizeof *run->snapshot_times))
+    if (!run_reserve_snapshots(run, number + 1, number))
         return out_of_memory();
+    run->snapshot_hashes[number] = 0;
     run->snapshot_times[run->snapshots++] = run->simulation.time;
     if (!run->options->output)
         return NULL;

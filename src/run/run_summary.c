@@ -25,12 +25,16 @@ static void put_key(FILE *file, const char *about, const char *name, const char 
     fputc(',', file);
 }
 
+/* A name of a file or a message with it may begin as a formula does, which a spreadsheet would
+ * compute: an apostrophe before it makes it a text. */
 static void put_text(FILE *file, const char *about, const char *name, const char *quantity,
                      const char *value)
 {
+    char *text = strchr("=+-@", value[0]) && value[0] ? text_format("'%s", value) : NULL;
     put_key(file, about, name, quantity);
-    csv_put_text(file, value);
+    csv_put_text(file, text ? text : value);
     fputs(",text\n", file);
+    free(text);
 }
 
 static void put_number(FILE *file, const char *about, const char *name, const char *quantity,

@@ -163,6 +163,16 @@ grep -q 000000.vtkhdf gone/snapshots.vtkhdf.series && ! grep -q 00000[1-3].vtkhd
     fail "the series lists what is gone: $(cat gone/snapshots.vtkhdf.series)"
 grep -q "snapshots that were written are gone" drifted.log && fail "no snapshot of drifted was gone"
 
+# One that was damaged is named.
+cp -r drifted damaged
+size=$(stat -c %s damaged/snapshots/000002.vtkhdf)
+printf '\x55' | dd of=damaged/snapshots/000002.vtkhdf bs=1 seek=$((size / 2)) conv=notrunc 2>/dev/null
+"$BOLIDE" run "$gas" "${drifts[@]}" --set run.energy_drift=0 --output damaged --resume >damaged.log 2>&1 ||
+    fail "resuming with a damaged snapshot: $(cat damaged.log)"
+grep -q "^warning: 1 of .* snapshots are not what the run wrote, .* snapshots/000002.vtkhdf first" damaged/run.log ||
+    fail "a damaged snapshot is not named: $(cat damaged.log)"
+grep -q "not what the run wrote" drifted.log gone.log && fail "snapshots of drifted are whole"
+
 # No file may grow beyond 64 KB: the run ends with 4 and leaves no snapshot under its final name.
 (
     trap '' XFSZ

@@ -103,6 +103,37 @@ for file in checkpoint.h5 history.csv probes/flyer.csv run.log .bolide-lock; do
     done
 done
 
+# A folder that becomes a link during the run: what it leads to stays as it is.
+for folder in snapshots pictures probes profiles; do
+    rm -rf results/swapped results/elsewhere && mkdir results/elsewhere
+    "$BOLIDE" run run/plate.yaml --set "run.until=1 s" --set output.every="20 ns" \
+        --set "profiles={p: {along: x, fields: [density]}}" --set "probes.flyer.every=1 ns" \
+        --output results/swapped >swapped.log 2>&1 &
+    runner=$!
+    while [ ! -s results/swapped/snapshots/000002.vtkhdf ] && kill -0 $runner 2>/dev/null; do
+        sleep 0.02
+    done
+    mv results/swapped/$folder results/moved-$folder && ln -s ../elsewhere results/swapped/$folder
+    (sleep 120 && kill -KILL $runner 2>/dev/null) &
+    watch=$!
+    wait $runner
+    got=$?
+    kill $watch 2>/dev/null
+    [ $got = 2 ] && grep -q "swapped/$folder: is a symbolic link" swapped.log ||
+        fail "$folder became a link, and the run ended with $got: $(tail -5 swapped.log)"
+    [ -z "$(ls results/elsewhere)" ] || fail "wrote through $folder: $(ls results/elsewhere)"
+done
+
+# A name that begins as a formula does stays a text in a spreadsheet.
+for name in =1+1 +2 -3 @SUM; do
+    cp run/plate.yaml "run/$name.yaml"
+    "$BOLIDE" run "./run/$name.yaml" --output results/formula --overwrite >formula.log 2>&1 ||
+        fail "$name: $(cat formula.log)"
+    grep -q "^run,\"\",\"name\",\"'$name" results/formula/summary.csv &&
+        ! grep -q ',"[=+@-]' results/formula/summary.csv ||
+        fail "$name in summary.csv: $(grep name results/formula/summary.csv)"
+done
+
 # Names that lead out of the folder that is meant.
 refused "the name of the folder is empty" "$BOLIDE" run run/plate.yaml --output ""
 for folder in / // .. run/.. run/../; do
