@@ -50,12 +50,46 @@ static struct error *check_extent(const struct cfdmp *cfdmp, const struct simula
                               "domain, or use `solver: mpm`");
 }
 
+/* What is no solid becomes gas, which not every fluid is. */
+static struct error *check_fluids(const struct simulation_case *input)
+{
+    int material = -1;
+    bool several = false;
+    struct error *error = NULL;
+    for (int b = 0; b < input->bodies.count; b++) {
+        const int of = case_body(input, b)->material_index;
+        several |= !is_solid(input, b) && material >= 0 && of != material;
+        material = is_solid(input, b) ? material : of;
+    }
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct body_input *body = case_body(input, b);
+        const struct eos *eos = &case_material(input, body->material_index)->material->eos;
+        if (is_solid(input, b))
+            continue;
+        if (body->driven || body->frozen || !isnan(body->stop))
+            error = error_join(error, input_error(input, "bodies", input->bodies.names[b],
+                                                  "the solver cfdmp computes a material without "
+                                                  "strength as gas, and gas has no prescribed "
+                                                  "motion: give \"%s\" a `strength`",
+                                                  body->material));
+        else if (several && !eos_traits(eos).gas)
+            error = error_join(error, input_error(input, "bodies", input->bodies.names[b],
+                                                  "the solver cfdmp computes a material without "
+                                                  "strength as gas, and of two both must be gases: "
+                                                  "give \"%s\" a `strength`, so that it becomes "
+                                                  "material points",
+                                                  body->material));
+    }
+    return error;
+}
+
 struct error *cfdmp_find_region(struct cfdmp *cfdmp, const struct simulation_case *input,
                                 const struct cell_blocks *cells)
 {
     const struct couple_region *region = &cfdmp->parameters.region;
     const double margin =
         (double)(cfdmp->parameters.overlap + cfdmp_band_depth(cfdmp->dimension) + 3);
+    TRY(check_fluids(input));
     TRY(region_check(region, "cfdmp.region", input, cells));
     for (int axis = 0; axis < 3; axis++) {
         double low = INFINITY, high = -INFINITY;

@@ -41,6 +41,14 @@ tail -n 5 thin.log | grep -q "warning: coarse: .*bodies.piston: 2 cells thick al
 grep -q "warning: .*bodies.air: one particle a cell" one.log ||
     fail "no word on one particle a cell: $(cat one.log)"
 
+# A piston, or a liquid, without strength would be gas.
+"$BOLIDE" check piston.yaml --set materials.steel.strength=none >fluid.log 2>&1
+[ $? = 2 ] && grep -q 'bodies.piston: .* gas has no prescribed motion: give "steel" a `strength`' fluid.log ||
+    fail "a fluid piston: $(cat fluid.log)"
+"$BOLIDE" check piston.yaml --set materials.steel.strength=none --set bodies.piston.driven=no >fluid.log 2>&1
+[ $? = 2 ] && grep -q 'bodies.piston: .* of two both must be gases: give "steel" a `strength`' fluid.log ||
+    fail "a liquid beside air: $(cat fluid.log)"
+
 # A blast from a case of one dimension.
 cat >blast.yaml <<'END'
 format: 1
