@@ -22,8 +22,8 @@ struct body_summary {
                              fastest sound */
 };
 
-/* The bounds of BODY's shape; about an axis those of its part at x > 0, if it has one, between the
- * mirrors on y that cut it. */
+/* The bounds of BODY's shape between the mirrors that cut it; about an axis those of its part at
+ * x > 0, if it has one. */
 struct bounds body_bounds(const struct simulation_case *input, int body);
 
 struct lattice body_lattice(const struct simulation_case *input, int body);
@@ -39,8 +39,8 @@ struct error *generate_count(const struct simulation_case *input, const struct r
 
 /* What is no mistake but may be none of the user's wishes: a body so thin that others get through
  * it, or that it becomes one particles thickness; a start below 0 K; a body that an axis or mirror
- * cuts, unless in half. NULL, or messages to show,
- * each located as an error would be. */
+ * cuts, unless in half; one whose particles have another volume than its shape. NULL, or messages
+ * to show, each located as an error would be. */
 struct error *generate_warnings(const struct simulation_case *input);
 
 /* About how many simple shapes a rank has to ask to count the particles of INPUT, where a site

@@ -13,21 +13,30 @@ static const double sites_limit = 281474976710656.0;
 /* More than a rank can store, and as many as it can iterate over in a minute. */
 static const int64_t sites_a_rank = INT64_C(1) << 32;
 
-/* In axisymmetry, the range of y that mirrors leave of a body; infinite where none cuts it. A body
- * entirely outside a mirror is not cut but reported as an error. */
-static struct range kept_by_mirrors(const struct simulation_case *input, const struct bounds *shape)
+/* Lengths of less than this are rounding. */
+static double margin_of(const struct simulation_case *input) { return 1e-9 * input->resolution; }
+
+/* What mirrors leave of a body; infinite where none cuts it. A body entirely outside a mirror is
+ * not cut but reported as an error. */
+static struct bounds kept_by_mirrors(const struct simulation_case *input,
+                                     const struct bounds *shape)
 {
-    struct range kept = {-INFINITY, INFINITY};
-    for (int i = 0; i < input->walls.count && input->geometry == GEOMETRY_AXISYMMETRIC; i++) {
+    const double from[3] = {shape->low.x, shape->low.y, shape->low.z};
+    const double to[3] = {shape->high.x, shape->high.y, shape->high.z};
+    const double margin = margin_of(input);
+    double low[3] = {-INFINITY, -INFINITY, -INFINITY}, high[3] = {INFINITY, INFINITY, INFINITY};
+    for (int i = 0; i < input->walls.count; i++) {
         const struct wall_input *wall = case_wall(input, i);
-        if (wall->axis != 1 || !(wall->at > shape->low.y && wall->at < shape->high.y))
+        const int axis = wall->axis;
+        if (axis >= input->dimension || !(wall->at > from[axis] + margin) ||
+            !(wall->at < to[axis] - margin))
             continue;
         if (wall->side == WALL_LOW)
-            kept.low = maximum(kept.low, wall->at);
+            low[axis] = maximum(low[axis], wall->at);
         else
-            kept.high = minimum(kept.high, wall->at);
+            high[axis] = minimum(high[axis], wall->at);
     }
-    return kept;
+    return (struct bounds){vec3_make(low[0], low[1], low[2]), vec3_make(high[0], high[1], high[2])};
 }
 
 struct bounds body_bounds(const struct simulation_case *input, int body)
@@ -35,10 +44,12 @@ struct bounds body_bounds(const struct simulation_case *input, int body)
     struct bounds bounds = shape_bounds(&case_body(input, body)->shape);
     if (geometry_power(input->geometry) > 0 && bounds.high.x > 0.0)
         bounds.low.x = maximum(bounds.low.x, 0.0);
-    const struct range kept = kept_by_mirrors(input, &bounds);
-    bounds.low.y = maximum(bounds.low.y, kept.low);
-    bounds.high.y = minimum(bounds.high.y, kept.high);
-    return bounds;
+    const struct bounds kept = kept_by_mirrors(input, &bounds);
+    return (struct bounds){
+        vec3_make(maximum(bounds.low.x, kept.low.x), maximum(bounds.low.y, kept.low.y),
+                  maximum(bounds.low.z, kept.low.z)),
+        vec3_make(minimum(bounds.high.x, kept.high.x), minimum(bounds.high.y, kept.high.y),
+                  minimum(bounds.high.z, kept.high.z))};
 }
 
 struct lattice body_lattice(const struct simulation_case *input, int body)
@@ -73,7 +84,16 @@ static struct error *check_place(const struct simulation_case *input, int body,
     for (int axis = 0; axis < input->dimension; axis++) {
         const double far = maximum(fabs(low[axis]), fabs(high[axis]));
         const double apart = nextafter(far, INFINITY) - far;
-        const double wanted = lattice->kind == LATTICE_RINGS ? lattice->arc : spacing[axis];
+        const double between = lattice->kind == LATTICE_RINGS ? lattice->arc : spacing[axis];
+        /* a body may be so thin that no number lies in it */
+        const double wanted = between > 0.0 ? between : input->resolution;
+        const double room = FINEST * wanted / 0x1p-52;
+        if (apart > FINEST * wanted && high[axis] - low[axis] > 2.0 * room)
+            return input_error(input, "bodies", input->bodies.names[body],
+                               "it is %.3g m long along %c, too long for particles %.3g m apart, "
+                               "since numbers at its end are %.2g m apart: choose a coarser "
+                               "resolution",
+                               high[axis] - low[axis], "xyz"[axis], wanted, apart);
         if (apart > FINEST * wanted)
             return input_error(input, "bodies", input->bodies.names[body],
                                "it lies at %c = %.3g m, where numbers are %.2g m apart, too far "
@@ -81,7 +101,7 @@ static struct error *check_place(const struct simulation_case *input, int body,
                                "origin",
                                "xyz"[axis],
                                fabs(low[axis]) > fabs(high[axis]) ? low[axis] : high[axis], apart,
-                               wanted, FINEST * wanted / 0x1p-52);
+                               wanted, room);
     }
     return NULL;
 }
@@ -155,13 +175,14 @@ static bool site_dropped(struct walk *walk, struct vec3 place)
     return false;
 }
 
-/* Whether a site is on or outside the axis of symmetry or a mirror across it, but for rounding. */
-static bool site_beyond_axis(const struct walk *walk, struct vec3 place)
+/* Whether a site is on or outside the axis of symmetry or a mirror, but for rounding. */
+static bool site_cut(const struct walk *walk, struct vec3 place)
 {
-    const double margin = 1e-9 * walk->input->resolution;
-    return geometry_power(walk->input->geometry) > 0 &&
-           (place.x <= margin || place.y <= walk->kept.low + margin ||
-            place.y >= walk->kept.high - margin);
+    const double margin = margin_of(walk->input);
+    const struct vec3 low = walk->kept.low, high = walk->kept.high;
+    return (geometry_power(walk->input->geometry) > 0 && place.x <= margin) ||
+           place.x <= low.x + margin || place.x >= high.x - margin || place.y <= low.y + margin ||
+           place.y >= high.y - margin || place.z <= low.z + margin || place.z >= high.z - margin;
 }
 
 bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place)
@@ -172,8 +193,7 @@ bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place)
         if (*site >= walk->row.first + walk->row.sites)
             walk_to_row(walk, *site);
         *place = lattice_place(&walk->lattice, &walk->row, *site);
-        if (!site_beyond_axis(walk, *place) && shape_inside(shape, *place) &&
-            !site_dropped(walk, *place))
+        if (!site_cut(walk, *place) && shape_inside(shape, *place) && !site_dropped(walk, *place))
             return true;
     }
     return false;

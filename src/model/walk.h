@@ -10,7 +10,7 @@ struct walk {
     const struct simulation_case *input;
     int body;
     struct lattice lattice;
-    struct range kept;      /* about an axis, the y between the mirrors that cut the body */
+    struct bounds kept;     /* what the mirrors that cut the body leave; infinite without any */
     int64_t site, end;      /* the next one to look at */
     struct lattice_row row; /* of the site; empty before the first */
     struct rival *rivals;   /* bodies whose bounds meet this one's, */

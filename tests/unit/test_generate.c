@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "dice.h"
 #include "populations.h"
 #include "workshop.h"
 
@@ -130,7 +131,7 @@ static void all_mistakes_of_a_case_come_in_one_go(void **state)
 {
     (void)state;
     struct workshop w;
-    struct shape_box low = {VECTOR(-0.1, 0.0), VECTOR(1.0, 1.0)};
+    struct shape_box low = {VECTOR(-1.0, 0.0), VECTOR(0.0, 1.0)};
     struct shape_box high = {VECTOR(0.0, 2.0), VECTOR(1.0, 3.0)};
     struct shape_repeat sparse = {shape_of("ball", &(struct shape_ball){VECTOR(5.0, 1.0), 0.01}),
                                   VECTOR(2.0, 1.0), VECTOR(1.0, 0.0), 0};
@@ -139,9 +140,9 @@ static void all_mistakes_of_a_case_come_in_one_go(void **state)
     add_body(&w, "box", &high);
     add_body(&w, "repeat", &sparse);
     add_wall(&w, 0, WALL_LOW, 0.0);
-    add_wall(&w, 1, WALL_HIGH, 2.95);
+    add_wall(&w, 1, WALL_HIGH, 2.0);
     assert_refused(&w, 3,
-                   "bodies.matrix: the particle at [-0.05 m, 0.05 m] lies behind wall \"floor\"");
+                   "bodies.matrix: the particle at [-0.95 m, 0.05 m] lies behind wall \"floor\"");
     assert_refused(&w, 3, "lies behind wall \"lid\"");
     assert_refused(&w, 3, "bodies.flyer: no particle");
 }
@@ -222,6 +223,11 @@ static void a_body_too_far_from_the_origin_is_refused(void **state)
                 box.from.at[axis] = far - 2.0 * h;
                 box.to.at[axis] = far + 2.0 * h;
                 assert_refused(&w, 1, "move the case to within");
+                box.from.at[axis] = box.to.at[axis] = far;
+                assert_refused(&w, 1, "to within 4.5e+");
+                box.from.at[axis] = -fabs(far);
+                box.to.at[axis] = fabs(far);
+                assert_refused(&w, 1, "choose a coarser resolution");
             }
 }
 
@@ -348,6 +354,75 @@ static void a_ball_about_the_axis_is_cut_by_mirrors_too(void **state)
         }
 }
 
+/* The volume of what is in SHAPE and between LOW and HIGH, of POINTS points along each axis. */
+static double volume_between(const struct one_of *shape, int dimension, const double low[3],
+                             const double high[3], int points)
+{
+    const int count[3] = {points, dimension > 1 ? points : 1, dimension > 2 ? points : 1};
+    double inside = 0.0, cell = 1.0;
+    for (int axis = 0; axis < dimension; axis++)
+        cell *= (high[axis] - low[axis]) / points;
+    for (int k = 0; k < count[2]; k++)
+        for (int j = 0; j < count[1]; j++)
+            for (int i = 0; i < count[0]; i++) {
+                const int at[3] = {i, j, k};
+                double x[3] = {0.0};
+                for (int axis = 0; axis < dimension; axis++)
+                    x[axis] = low[axis] + (at[axis] + 0.5) * (high[axis] - low[axis]) / points;
+                inside += shape_inside(shape, vec3_make(x[0], x[1], x[2]));
+            }
+    return inside * cell;
+}
+
+/* Mirrors on none, one or both sides of every axis, at places drawn by chance, one often through
+ * the center; balls, boxes, shells and an oblique cylinder. */
+static void mirrors_cut_bodies_in_any_dimension(void **state)
+{
+    (void)state;
+    const struct ranks alone = ranks_alone();
+    struct dice dice = {20};
+    for (int round = 0; round < 40; round++) {
+        const int dimension = 1 + round % 3;
+        struct workshop w;
+        struct simulation simulation;
+        struct shape_ball ball = {{dimension, {0.0, 0.0, 0.0}}, 1.0};
+        struct shape_box box = {{dimension, {-1.0, -0.9, -0.8}}, {dimension, {0.9, 1.0, 1.0}}};
+        struct shape_shell shell = {
+            .center = {dimension, {0.0, 0.0, 0.0}}, .inner = 0.5, .outer = 1.0};
+        struct shape_cylinder cylinder = {VECTOR(-0.5, -0.5, -0.5), VECTOR(0.5, 0.6, 0.7), 0.5,
+                                          0.0};
+        void *const shapes[] = {&ball, &box, &shell, &cylinder};
+        static const char *const names[] = {"ball", "box", "shell", "cylinder"};
+        const int kind = dimension == 1 ? 1 : round / 3 % (dimension == 2 ? 3 : 4);
+        const double most = dimension == 3 ? 0.06 : 0.01;
+        open_workshop(&w, dimension, most);
+        struct body_input *body = add_body(&w, names[kind], shapes[kind]);
+        body->start.density = 3.0;
+        const struct bounds shape = shape_bounds(&body->shape);
+        double low[3] = {shape.low.x, shape.low.y, shape.low.z};
+        double high[3] = {shape.high.x, shape.high.y, shape.high.z};
+        for (int axis = 0; axis < dimension; axis++) {
+            const int sides = dice_below(&dice, 4);
+            const double at = dice_below(&dice, 2) ? 0.0 : dice_between(&dice, -0.4, 0.0);
+            if (sides & 1)
+                add_wall(&w, axis, WALL_LOW, low[axis] = at);
+            if (sides & 2)
+                add_wall(&w, axis, WALL_HIGH, high[axis] = dice_between(&dice, 0.2, 0.5));
+        }
+        assert_made(&w, &alone, &simulation);
+        const struct particles *p = particles_of(&simulation);
+        for (int i = 0; i < p->count; i++)
+            for (int axis = 0; axis < dimension; axis++)
+                assert_true(p->position[i][axis] > low[axis] && p->position[i][axis] < high[axis]);
+        const double wanted =
+            3.0 * volume_between(&body->shape, dimension, low, high, dimension == 3 ? 80 : 300);
+        const double mass =
+            population_totals(population_of_particles(p), &alone, -1).entry[LEDGER_MASS];
+        assert_float_equal(mass, wanted, 0.04 * wanted);
+        end_simulation(&simulation);
+    }
+}
+
 static void a_body_wholly_behind_a_mirror_stays_a_mistake(void **state)
 {
     (void)state;
@@ -370,6 +445,7 @@ int main(void)
         cmocka_unit_test(what_takes_too_long_to_count_is_refused),
         cmocka_unit_test(a_body_too_far_from_the_origin_is_refused),
         cmocka_unit_test(a_ball_about_the_axis_is_cut_by_mirrors_too),
+        cmocka_unit_test(mirrors_cut_bodies_in_any_dimension),
         cmocka_unit_test(a_body_wholly_behind_a_mirror_stays_a_mistake),
         cmocka_unit_test(a_box_has_its_exact_mass_and_every_particle_its_start_state),
         cmocka_unit_test(the_spacing_is_adjusted_to_fill_the_bounds),

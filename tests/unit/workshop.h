@@ -10,7 +10,7 @@
 #include "model/particles/fill.h"
 #include "populations.h"
 
-enum { BODIES = 3, WALLS = 2 };
+enum { BODIES = 3, WALLS = 6 };
 
 /* A case under construction, with room for a few bodies and walls. */
 struct workshop {
@@ -26,7 +26,7 @@ static inline void open_workshop(struct workshop *w, int dimension, double resol
 {
     *w = (struct workshop){.material_names = {"iron"},
                            .body_names = {"matrix", "grain", "flyer"},
-                           .wall_names = {"floor", "lid"}};
+                           .wall_names = {"floor", "lid", "left", "right", "front", "back"}};
     w->material.material = &w->iron;
     w->input.dimension = dimension;
     w->input.resolution = resolution;
