@@ -114,7 +114,7 @@ static void print_run(const struct simulation_case *input, const struct estimate
     readable(estimate->seconds, "s", seconds, sizeof seconds);
     printf("  %lld %s, ", (long long)estimate->particles, members_of(input));
     if (estimate->cells > 0.0)
-        printf("%.0f cells, ", estimate->cells);
+        printf("%.15g cells, ", round(estimate->cells));
     printf("%.6g %s; %d checks\n", estimate->mass, mass_unit(input), input->checks.count);
     printf("  until %s; first step about %s (body %s); about %lld steps\n", until, step,
            input->bodies.names[estimate->step_body], (long long)estimate->steps);

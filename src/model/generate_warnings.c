@@ -1,6 +1,11 @@
 /* What is odd about the bodies of a case before anything moves; see generate_warnings. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
 #include "material/material.h"
-#include "model/generate.h"
+#include "model/solver.h"
+#include "model/walk.h"
 
 /* Particles across a plate below which others get through it, and with which it hardly bends. */
 enum { THIN = 3 };
@@ -63,7 +68,7 @@ static struct error *warn_of_cold(const struct simulation_case *input, int body)
     if (!(temperature < 0.0))
         return NULL;
     return input_error(input, "bodies", input->bodies.names[body],
-                       "it starts at %.0f K: density %g kg/m^3 and energy %g J/kg are no state of "
+                       "it starts at %.4g K: density %g kg/m^3 and energy %g J/kg are no state of "
                        "its material, whose density at rest is %g kg/m^3. Make pores as holes of "
                        "the shape, or give the temperature",
                        temperature, of->start.density, of->start.energy,
@@ -77,23 +82,101 @@ static struct error *warn_of_cut(const struct simulation_case *input, int body)
     const struct bounds shape = shape_bounds(&case_body(input, body)->shape);
     const struct bounds kept = body_bounds(input, body);
     const struct vec3 spacing = body_lattice(input, body).spacing;
-    const double from[2] = {shape.low.x, shape.low.y}, to[2] = {shape.high.x, shape.high.y};
-    const double low[2] = {kept.low.x, kept.low.y}, high[2] = {kept.high.x, kept.high.y};
-    for (int axis = 0; axis < 2 && axis < input->dimension; axis++) {
+    const double from[3] = {shape.low.x, shape.low.y, shape.low.z};
+    const double to[3] = {shape.high.x, shape.high.y, shape.high.z};
+    const double low[3] = {kept.low.x, kept.low.y, kept.low.z};
+    const double high[3] = {kept.high.x, kept.high.y, kept.high.z};
+    const double step[3] = {spacing.x, spacing.y, spacing.z};
+    const bool round = geometry_power(input->geometry) > 0;
+    assert(input->dimension <= 3);
+    for (int axis = 0; axis < input->dimension; axis++) {
         const double below = low[axis] - from[axis], above = to[axis] - high[axis];
         const double cut = below + above, left = high[axis] - low[axis];
-        const double margin = axis == 0 ? spacing.x : spacing.y;
+        const double margin = step[axis];
         if (!isfinite(cut) || cut <= margin || (below > 0.0 && above > 0.0) ||
             fabs(cut - left) <= margin)
             continue;
         return input_error(input, "bodies", input->bodies.names[body],
                            "%.0f %% of its extent along %c is left out: it is from %.6g m to %.6g "
                            "m and ends at %s, %c = %.6g m",
-                           100.0 * cut / (cut + left), "xy"[axis], from[axis], to[axis],
-                           axis == 0 ? "the axis" : "the wall", "xy"[axis],
+                           100.0 * cut / (cut + left), "xyz"[axis], from[axis], to[axis],
+                           round && axis == 0 && below > 0.0 ? "the axis" : "the wall", "xyz"[axis],
                            below > 0.0 ? low[axis] : high[axis]);
     }
     return NULL;
+}
+
+/* The volume of the sites of BODY that become particles, about an axis times their radius; NAN
+ * where its lattice is refused, which is told elsewhere. */
+static double volume_of_body(const struct overlaps *overlaps, int body)
+{
+    const struct ranks alone = ranks_alone();
+    struct walk walk;
+    struct error *error = walk_begin(&walk, overlaps, body, &alone);
+    int64_t site;
+    struct vec3 place;
+    double volume = error ? (double)NAN : 0.0;
+    while (!error && walk_next(&walk, &site, &place))
+        volume += walk.row.volume * walk_depth(overlaps->input, place);
+    walk_end(&walk);
+    error_free(error);
+    return volume;
+}
+
+/* Gives BODY of FINE, a copy of INPUT, a lattice so many times finer that a share of WORK
+ * (generate_work) counts it; false where that is not finer. */
+static bool refine(const struct simulation_case *input, struct simulation_case *fine, int body)
+{
+    static const double WORK = 0x1p24, LEAST = 2.0, MOST = 16.0;
+    struct body_input *of = case_body(fine, body);
+    const double sites = body_lattice(input, body).sites;
+    const double work = sites * (4.0 + shape_work(&of->shape)) * input->bodies.count;
+    const double times = minimum(floor(pow(WORK / work, 1.0 / (double)input->dimension)), MOST);
+    if (of->elsewhere || !(times >= LEAST))
+        return false;
+    of->resolution = (isnan(of->resolution) ? input->resolution : of->resolution) / times;
+    of->lattice = (struct one_of){LATTICE_SQUARE, NULL, NULL};
+    return true;
+}
+
+/* The particles of a shape that is few of them wide have more or less volume than it has. */
+static struct error *compare_volumes(const struct overlaps *own, const struct overlaps *fine,
+                                     int body)
+{
+    static const double WRONG = 0.02;
+    const struct simulation_case *input = own->input;
+    const double excess = volume_of_body(own, body) / volume_of_body(fine, body) - 1.0;
+    if (!(isfinite(excess) && fabs(excess) > WRONG))
+        return NULL;
+    return input_error(input, "bodies", input->bodies.names[body],
+                       "its particles have %.3g %% %s volume, and mass, than its shape: refine it, "
+                       "or scale its density",
+                       100.0 * fabs(excess), excess > 0.0 ? "more" : "less");
+}
+
+/* Compares the particles of each body with a lattice as fine as a short time allows. With too many
+ * for that, they are accurate. */
+static struct error *warn_of_volumes(const struct simulation_case *input)
+{
+    const struct solver_class *class = input->solver.choice->thing;
+    const size_t bytes = (size_t)input->bodies.count * sizeof(struct body_input);
+    if (class->count || input->dimension == 1)
+        return NULL;
+    struct simulation_case fine = *input;
+    struct overlaps of_own, of_fine;
+    fine.bodies.items = memory_allocate(bytes);
+    if (!fine.bodies.items)
+        return error_new(ERROR_SYSTEM, "out of memory");
+    memcpy(fine.bodies.items, input->bodies.items, bytes);
+    struct error *error = error_join(overlaps_make(input, &of_own), overlaps_make(&fine, &of_fine));
+    const bool made = !error;
+    for (int body = 0; made && body < input->bodies.count; body++)
+        if (refine(input, &fine, body))
+            error = error_join(error, compare_volumes(&of_own, &of_fine, body));
+    overlaps_free(&of_own);
+    overlaps_free(&of_fine);
+    free(fine.bodies.items);
+    return error;
 }
 
 struct error *generate_warnings(const struct simulation_case *input)
@@ -121,5 +204,5 @@ struct error *generate_warnings(const struct simulation_case *input)
                 break;
             }
     }
-    return warnings;
+    return error_join(warnings, warn_of_volumes(input));
 }

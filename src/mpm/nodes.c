@@ -26,7 +26,7 @@ static struct error *between_planes(const struct simulation_case *input, int axi
                            "reaches %.6g m from zero",
                            at, edge, reach);
     if (fabs(at) / cells > input->resolution * (1.0 - 1e-6))
-        snprintf(advice, sizeof advice, "; with `cell: %.9g m/%.0f` there is one at the wall",
+        snprintf(advice, sizeof advice, "; with `cell: %.9g m/%.15g` there is one at the wall",
                  fabs(at), cells);
     return input_error(input, "walls", key,
                        "%.9g m lies between planes of the grid of the solver mpm: with cells of "

@@ -176,10 +176,10 @@ char *detonation_wrong(const struct material *material)
     if (isnan(given) || !detonation_solve(material, material_density(material), &d) ||
         fabs(given / d.speed - 1.0) <= DETONATION_SPEED_TOLERANCE)
         return NULL;
-    return text_format("the detonation speed of %.0f m/s that it gives is %.1f %% %s than that of "
-                       "its products, %.0f m/s",
-                       given, 100.0 * fabs(given / d.speed - 1.0),
-                       given > d.speed ? "more" : "less", d.speed);
+    return text_format("the detonation speed of %.6g m/s that it gives is %.3g %% %s than that "
+                       "of its products, %.6g m/s",
+                       round(given), 100.0 * fabs(given / d.speed - 1.0),
+                       given > d.speed ? "more" : "less", round(d.speed));
 }
 
 static struct error *wrong_detonations(const struct simulation_case *input)

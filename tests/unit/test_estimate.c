@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "dice.h"
 #include "model/generate.h"
 #include "model/particles/fill.h"
 #include "populations.h"
@@ -58,7 +59,7 @@ static void estimate_strip(const char *walls, struct estimate *estimate,
         fail_msg("%s", error_message(error, 0));
 }
 
-static void assert_near(double value, double wanted)
+static void assert_about(double value, double wanted)
 {
     if (!(fabs(value - wanted) <= 1e-12 * fabs(wanted)))
         fail_msg("%.15g is not %.15g", value, wanted);
@@ -73,10 +74,10 @@ static void a_mixture_has_a_mean_density_and_a_mass_of_each_material(void **stat
     const double heavy = case_body(input, 0)->start.density,
                  light = case_body(input, 1)->start.density;
     assert_true(heavy > 2.0 * light);
-    assert_near(estimate.material_mass[0], heavy * 4 * 136 * 1e-16);
-    assert_near(estimate.material_mass[1], light * 4 * 120 * 1e-16);
-    assert_near(estimate.mean_density, (136.0 * heavy + 120.0 * light) / 256.0);
-    assert_near(estimate.box.high.x, 64e-8);
+    assert_about(estimate.material_mass[0], heavy * 4 * 136 * 1e-16);
+    assert_about(estimate.material_mass[1], light * 4 * 120 * 1e-16);
+    assert_about(estimate.mean_density, (136.0 * heavy + 120.0 * light) / 256.0);
+    assert_about(estimate.box.high.x, 64e-8);
     estimate_free(&estimate);
     case_free(input);
 }
@@ -93,8 +94,8 @@ static void two_walls_bound_the_mean_density_of_their_axis(void **state)
                    "  below: {mirror: y, at: -cell/2, side: low}\n"
                    "  above: {mirror: y, at: 3*cell/2, side: high}\n",
                    &walled, &input);
-    assert_near(walled.mean_density, 0.5 * free_strip.mean_density);
-    assert_near(walled.box.low.y, -8e-8);
+    assert_about(walled.mean_density, 0.5 * free_strip.mean_density);
+    assert_about(walled.box.low.y, -8e-8);
     assert_true(walled.box.low.x == 0.0);
     estimate_free(&free_strip);
     estimate_free(&walled);
@@ -231,6 +232,56 @@ static void a_body_that_is_cut_unless_in_half_is_a_warning(void **state)
     expect_warning(text, NULL);
 }
 
+/* Discs and balls, whole and halved by a mirror, with a square hole or without, of 4 to 12
+ * particles across. */
+static void a_shape_of_another_volume_than_its_particles_is_a_warning(void **state)
+{
+    (void)state;
+    struct dice dice = {3};
+    int warned = 0;
+    for (int round = 0; round < 60; round++) {
+        const int dimension = 2 + round % 2, half = round / 2 % 2, hole = round / 4 % 2;
+        const double radius = 5.0, size = 2.0 * radius / dice_between(&dice, 4.0, 12.0);
+        const double edge = dice_between(&dice, 0.5, 0.7) * radius; /* of the hole */
+        char text[700];
+        snprintf(text, sizeof text,
+                 "format: 1\ndimension: %d\nresolution: %.17g mm\nsolver: %s\n"
+                 "materials: {metal: {library: aluminium}}\nrun: {until: 1 us}\n%s"
+                 "bodies:\n  round: {material: metal, ball: {center: [%s], radius: %g mm}}\n",
+                 dimension, size, round / 8 % 2 ? "sph" : "mpm",
+                 half ? "walls: {w: {mirror: y, at: 0 mm, side: low}}\n" : "",
+                 dimension == 2 ? "0 mm, 0 mm" : "0 mm, 0 mm, 0 mm", radius);
+        const char *from =
+            dimension == 2 ? "[%.17g mm, %.17g mm]" : "[%.17g mm, %.17g mm, %.17g mm]";
+        char low[128], high[128], box[512];
+        snprintf(low, sizeof low, from, -0.5 * edge, -0.5 * edge, -0.5 * edge);
+        snprintf(high, sizeof high, from, 0.5 * edge, 0.5 * edge, 0.5 * edge);
+        snprintf(box, sizeof box,
+                 "  hole: {material: metal, replaces: round, box: {from: %s, to: %s}}\n", low,
+                 high);
+        struct simulation_case *input;
+        assert_success(read_text(text, hole ? box : "", &input));
+        struct body_summary summary[2];
+        assert_success(generate_summary(input, NULL, summary));
+        const double whole =
+            dimension == 2 ? M_PI * square(radius) : 4.0 / 3.0 * M_PI * radius * square(radius);
+        const double volume = (whole - hole * pow(edge, dimension)) / (1.0 + half);
+        const double density = case_body(input, 0)->start.density;
+        const double off = summary[0].mass / (density * volume * pow(1e-3, dimension)) - 1.0;
+        struct error *warnings = generate_warnings(input);
+        bool found = false;
+        for (int i = 0; warnings && i < error_count(warnings); i++)
+            found |= strstr(error_message(warnings, i), "bodies.round: its particles have") &&
+                     strstr(error_message(warnings, i), off > 0.0 ? "more volume" : "less volume");
+        if (fabs(fabs(off) - 0.02) > 0.004 && found != (fabs(off) > 0.02))
+            fail_msg("round %d: off by %g, %s", round, off, found ? "a warning" : "no warning");
+        warned += found;
+        error_free(warnings);
+        case_free(input);
+    }
+    assert_in_range(warned, 10, 50);
+}
+
 static void a_plate_of_less_than_three_particles_is_a_warning(void **state)
 {
     (void)state;
@@ -305,7 +356,7 @@ static void a_coupled_case_counts_the_particles_of_the_region_and_the_cells(void
         fail_msg("%s", error_message(error, 0));
     assert_int_equal(estimate.particles, 80);
     assert_float_equal(estimate.cells, 100.0 - (40.0 - 2.0 * 7.0), 1e-12);
-    assert_float_equal(estimate.mass, 2.0, 1e-9);
+    assert_float_equal(estimate.mass, 1.0, 1e-9);
     estimate_free(&estimate);
     case_free(input);
 }
@@ -318,6 +369,7 @@ int main(void)
         cmocka_unit_test(estimated_bytes_match_allocated_ones),
         cmocka_unit_test(a_shape_or_lattice_that_cannot_be_is_told_in_its_place),
         cmocka_unit_test(a_body_that_is_cut_unless_in_half_is_a_warning),
+        cmocka_unit_test(a_shape_of_another_volume_than_its_particles_is_a_warning),
         cmocka_unit_test(a_plate_of_less_than_three_particles_is_a_warning),
         cmocka_unit_test(a_start_below_0_k_is_a_warning),
         cmocka_unit_test(particles_on_nodes_of_linear_functions_are_a_warning),
