@@ -141,14 +141,14 @@ static struct error *write_record(const char *file, const char *name, const stru
 {
     struct csv old = {0};
     FILE *stream;
-    int64_t row = 0;
     TRY(record_read(file, &old));
     struct error *error = record_begin(file, &stream);
     if (!error) {
-        for (; row < old.rows && order_of_row(&old, row, key) < 0; row++)
-            record_copy(stream, &old, row);
+        for (int64_t row = 0; row < old.rows; row++)
+            if (order_of_row(&old, row, key) < 0)
+                record_copy(stream, &old, row);
         put_runs(stream, name, *key, runs, count);
-        for (; row < old.rows; row++)
+        for (int64_t row = 0; row < old.rows; row++)
             if (order_of_row(&old, row, key) > 0)
                 record_copy(stream, &old, row);
         error = file_end(file, stream);
