@@ -18,9 +18,10 @@ static void run_ended(void *context, const struct verify_case *verified)
     const bool passes = check->verdict == CHECK_PASSED || check->verdict == CHECK_PASSES_NOW;
     check_measured_text(check, measured, sizeof measured);
     check_allowed_text(check, allowed, sizeof allowed);
-    printf("%s = %s: %s%s%s: %s (%s), %.1f s\n", search->key, verified->sweep[0].text,
+    printf("%s = %s: %s%s%s: %s%s%s (%s), %.1f s\n", search->key, verified->sweep[0].text,
            colour(passes ? COLOUR_GOOD : COLOUR_BAD), passes ? "passes" : "fails",
-           colour(COLOUR_NONE), measured, allowed, verified->result.seconds);
+           colour(COLOUR_NONE), measured, check->nothing ? ": " : "",
+           check->nothing ? check->nothing : "", allowed, verified->result.seconds);
     for (int i = 0; i < verified->result.warnings.count; i++) {
         const struct warning *warning = &verified->result.warnings.item[i];
         if (!warning->expected)

@@ -228,7 +228,9 @@ static struct error *compare_on_ranks(const struct measurement *measurement,
     error = ranks_agree_on(ranks, error, found, FOUND);
     free(received.place);
     free(received.stood);
-    *value = found[LOST] > 0.0 ? NAN : found[OFF] == 0.0 ? 0.0 : found[OFF] / found[LARGEST];
+    *value = found[LOST] > 0.0   ? measure_nothing(measurement, NOTHING_NO_IMAGE)
+             : found[OFF] == 0.0 ? 0.0
+                                 : found[OFF] / found[LARGEST];
     return error;
 }
 

@@ -87,6 +87,12 @@ static struct error *measure(const struct measurement *measurement, double *valu
     if (made) {
         const struct blast_wave wave = blast_record(time, pressure, count, blast->ambient);
         *value = taken(&wave, blast->take);
+        if (!isfinite(*value))
+            measure_nothing(measurement, count == 0                     ? NOTHING_NOT_RECORDED
+                                         : count < 2                    ? NOTHING_ONE_ROW
+                                         : !isfinite(wave.overpressure) ? NOTHING_NOT_FINITE
+                                         : !(wave.overpressure > 0.0)   ? NOTHING_NO_RISE
+                                                                        : NOTHING_NO_END);
     }
     free(time);
     free(pressure);

@@ -38,7 +38,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     const double face = broken_face(measurement, parameters->along, parameters->side);
     struct fragments fragments;
     struct error *error = broken_find(measurement, parameters->link, &fragments);
-    *value = !fragments.count   ? NAN
+    *value = !fragments.count   ? measure_nothing(measurement, NOTHING_NO_FRAGMENT)
              : parameters->side ? fragments.item[0].high[parameters->along] - face
                                 : face - fragments.item[0].low[parameters->along];
     fragments_free(&fragments);

@@ -59,7 +59,7 @@ static struct error *contact_max(const struct measurement *measurement, double *
 {
     struct ratio ratio;
     TRY(measure_ratio(measurement, &ratio));
-    *value = ratio.count == 2 * NEAREST ? ratio.largest : NAN;
+    *value = ratio.count == 2 * NEAREST ? ratio.largest : measure_nothing(measurement, NOTHING_FEW);
     return NULL;
 }
 
@@ -67,7 +67,8 @@ static struct error *contact_rms(const struct measurement *measurement, double *
 {
     struct ratio ratio;
     TRY(measure_ratio(measurement, &ratio));
-    *value = ratio.count == 2 * NEAREST ? sqrt(ratio.square_sum / ratio.count) : NAN;
+    *value = ratio.count == 2 * NEAREST ? sqrt(ratio.square_sum / ratio.count)
+                                        : measure_nothing(measurement, NOTHING_FEW);
     return NULL;
 }
 

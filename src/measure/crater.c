@@ -238,8 +238,6 @@ static double value_of(const struct columns *columns, const struct crater *crate
     const bool plane = columns->axis.count == 1 && !columns->axis.round;
     const double across = plane ? crater->area : 2.0 * sqrt(crater->area / M_PI);
     const double wide = across + 2.0 * excess, scale = wide / across;
-    if (crater->open)
-        return NAN;
     if (crater->area == 0.0)
         return 0.0;
     return take == TAKE_DEPTH      ? crater->depth
@@ -262,7 +260,9 @@ static struct error *find_crater(const struct measurement *m, const struct broke
         error = ranks_agree(ranks, walk(&columns, 0.5 * spacing, &crater));
     }
     if (!error)
-        *value = value_of(&columns, &crater, COLUMN_EXCESS * spacing, parameters->take);
+        *value = crater.open
+                     ? measure_nothing(m, NOTHING_OPEN)
+                     : value_of(&columns, &crater, COLUMN_EXCESS * spacing, parameters->take);
     free(columns.surface);
     return error;
 }
@@ -271,7 +271,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
 {
     const struct measure_crater *parameters = measurement->check->measure.value;
     struct broken_plate plate;
-    *value = NAN;
+    *value = measure_nothing(measurement, NOTHING_NO_FRAGMENT);
     struct error *error = broken_find_plate(measurement, parameters->link, &plate);
     if (!error && plate.fragments)
         error = find_crater(measurement, &plate, value);

@@ -48,6 +48,10 @@ static struct error *measure_distance(const struct measurement *measurement,
     distance->l1 = l1 / scale;
     distance->rms = sqrt(exact_sum_value(&sums[2]) / volume) / scale;
     distance->largest = isnan(l1) ? NAN : largest / scale;
+    if (volume == 0.0)
+        measure_nothing(measurement, NOTHING_NO_MEMBER);
+    else if (scale == 0.0)
+        measure_nothing(measurement, NOTHING_NO_RANGE);
     return NULL;
 }
 

@@ -42,6 +42,8 @@ static struct error *unit(const struct measurement *measurement, const char **un
 static struct error *measure(const struct measurement *measurement, double *value)
 {
     *value = event_of(measurement)->time;
+    if (isnan(*value))
+        measure_nothing(measurement, NOTHING_NO_EVENT);
     return NULL;
 }
 

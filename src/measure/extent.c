@@ -77,7 +77,8 @@ static double radius(const struct measurement *measurement, const double *margin
             const struct vec3 from = {x[0] - center.x, x[1] - center.y, x[2] - center.z};
             largest = maximum(largest, sqrt(vec3_dot(from, from)) + margin[i]);
         }
-    return ranks_maximum(measurement->simulation->ranks, largest);
+    largest = ranks_maximum(measurement->simulation->ranks, largest);
+    return isfinite(center.x) ? largest : NAN;
 }
 
 static struct error *measure(const struct measurement *measurement, double *value)
@@ -89,6 +90,8 @@ static struct error *measure(const struct measurement *measurement, double *valu
     *value = parameters->along == EXTENT_RADIUS
                  ? radius(measurement, margin, body)
                  : width(measurement, margin, body, parameters->along);
+    if (!isfinite(*value))
+        *value = measure_nothing(measurement, NOTHING_NO_MEMBER);
     free(margin);
     return NULL;
 }

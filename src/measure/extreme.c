@@ -1,4 +1,4 @@
-/* minimum, maximum: the extremes of a field; a value that is not a number becomes the result.
+/* minimum, maximum: the extremes of a field; they have none where a value is not finite.
  * finite: how many values are not finite numbers. */
 #include "measure/measure.h"
 
@@ -10,13 +10,15 @@ static struct error *extreme(const struct measurement *measurement, double sign,
     int64_t lost = 0;
     for (int64_t i = 0; i < samples.count; i++) {
         largest = maximum(largest, sign * samples.at[i].value);
-        lost += isnan(samples.at[i].value);
+        lost += !isfinite(samples.at[i].value);
     }
     const struct ranks *ranks = measurement->simulation->ranks;
     int64_t count = ranks_sum(ranks, samples.count);
     lost = ranks_sum(ranks, lost);
     largest = ranks_maximum(ranks, largest);
-    *value = count > 0 && lost == 0 ? sign * largest : NAN;
+    *value = count == 0  ? measure_nothing(measurement, NOTHING_NO_MEMBER)
+             : lost == 0 ? sign * largest
+                         : measure_nothing(measurement, NOTHING_NOT_FINITE);
     samples_free(&samples);
     return NULL;
 }

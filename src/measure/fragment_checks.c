@@ -110,7 +110,8 @@ static struct error *largest(const struct measurement *measurement, double *valu
     const struct measure_largest_fragment *parameters = measurement->check->measure.value;
     struct fragments fragments;
     struct error *error = broken_find(measurement, parameters->link, &fragments);
-    *value = fragments.count ? take_of(&fragments.item[0], parameters->take) : NAN;
+    *value = fragments.count ? take_of(&fragments.item[0], parameters->take)
+                             : measure_nothing(measurement, NOTHING_NO_FRAGMENT);
     fragments_free(&fragments);
     return error;
 }
@@ -129,7 +130,8 @@ static struct error *length(const struct measurement *measurement, double *value
     const int axis = parameters->along;
     struct fragments fragments;
     struct error *error = broken_find(measurement, parameters->link, &fragments);
-    *value = fragments.count ? fragments.item[0].high[axis] - fragments.item[0].low[axis] : NAN;
+    *value = fragments.count ? fragments.item[0].high[axis] - fragments.item[0].low[axis]
+                             : measure_nothing(measurement, NOTHING_NO_FRAGMENT);
     fragments_free(&fragments);
     return error;
 }

@@ -244,9 +244,17 @@ static struct error *measure(const struct measurement *measurement, double *valu
     struct samples samples;
     const struct simulation *simulation = measurement->simulation;
     TRY(samples_take(measurement, &samples));
+    int64_t lost = 0;
+    for (int64_t i = 0; i < samples.count; i++)
+        lost += isinf(samples.at[i].value);
+    lost = ranks_sum(simulation->ranks, lost);
     struct error *error =
         front_place(simulation->ranks, &samples, measurement->check->measure.value,
                     simulation->time, value, &level);
+    if (!error && isnan(*value))
+        measure_nothing(measurement, NOTHING_NOT_REACHED);
+    if (!error && lost)
+        *value = measure_nothing(measurement, NOTHING_NOT_FINITE);
     samples_free(&samples);
     return error;
 }

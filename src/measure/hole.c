@@ -119,6 +119,8 @@ static struct error *measure(const struct measurement *measurement, double *valu
     struct error *error = broken_find_plate(measurement, parameters->link, &look.plate);
     if (!error)
         *value = find_diameter(&look, measurement->simulation->problem->input->resolution);
+    if (!error && isnan(*value))
+        measure_nothing(measurement, NOTHING_NOT_AROUND);
     broken_plate_free(&look.plate);
     return error;
 }

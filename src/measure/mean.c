@@ -12,7 +12,8 @@ static struct error *measure(const struct measurement *measurement, double *valu
     const struct ranks *ranks = measurement->simulation->ranks;
     int64_t count = ranks_sum(ranks, samples.count);
     ranks_sum_exact(ranks, &sum, 1);
-    *value = count > 0 ? exact_sum_value(&sum) / (double)count : NAN;
+    *value = count > 0 ? exact_sum_value(&sum) / (double)count
+                       : measure_nothing(measurement, NOTHING_NO_MEMBER);
     samples_free(&samples);
     return NULL;
 }

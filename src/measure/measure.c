@@ -83,6 +83,41 @@ const struct choice measure_choices[MEASURES] = {
     {"finite", "number of particles whose field is not a finite number", FIELD, &measure_finite},
 };
 
+const char *nothing_text(enum nothing why)
+{
+    static const char *const texts[NOTHING_REASONS] = {
+        [NOTHING_SAID] = "the value is not a finite number",
+        [NOTHING_NO_MEMBER] = "nothing is there to be measured",
+        [NOTHING_NOT_FINITE] = "a value among those measured is not a finite number",
+        [NOTHING_NOT_REACHED] = "the value was not reached",
+        [NOTHING_NOT_RECORDED] =
+            "the probe recorded no number in the window: nothing came within its reach",
+        [NOTHING_ONE_ROW] = "the probe recorded fewer than two numbers in the window",
+        [NOTHING_NO_PEAKS] = "the record has fewer than two maxima",
+        [NOTHING_NO_RISE] = "the pressure did not rise above the ambient pressure",
+        [NOTHING_NO_END] = "the positive phase did not end before the record did: give a later "
+                           "`until` or `before`",
+        [NOTHING_NO_EVENT] = "this did not happen before the end",
+        [NOTHING_NO_FRAGMENT] = "no fragment is left: everything has failed",
+        [NOTHING_OPEN] = "the crater reaches the edge of the body, or the axis misses the body, or "
+                         "it is pierced",
+        [NOTHING_NOT_AROUND] = "the body does not surround the axis",
+        [NOTHING_FEW] = "fewer than 10 particles are on one side of the contact",
+        [NOTHING_NO_IMAGE] = "a particle has no mirror image among the others",
+        [NOTHING_NO_ZONE] = "the field reached the value nowhere on the face",
+        [NOTHING_NO_ROWS] = "there is no row of particles, or no time has passed",
+        [NOTHING_NO_RANGE] = "the exact solution is uniform there: give `scale`",
+    };
+    return texts[why < NOTHING_REASONS ? why : NOTHING_SAID];
+}
+
+double measure_nothing(const struct measurement *measurement, enum nothing why)
+{
+    if (measurement->why)
+        *measurement->why = why;
+    return NAN;
+}
+
 struct error *measure_error(const struct measurement *measurement, const char *format, ...)
 {
     va_list arguments;

@@ -10,6 +10,31 @@
 
 struct probes;
 
+/* Why a measure has no finite value. */
+enum nothing {
+    NOTHING_SAID,
+    NOTHING_NO_MEMBER,
+    NOTHING_NOT_FINITE,
+    NOTHING_NOT_REACHED,
+    NOTHING_NOT_RECORDED,
+    NOTHING_ONE_ROW,
+    NOTHING_NO_PEAKS,
+    NOTHING_NO_RISE,
+    NOTHING_NO_END,
+    NOTHING_NO_EVENT,
+    NOTHING_NO_FRAGMENT,
+    NOTHING_OPEN,
+    NOTHING_NOT_AROUND,
+    NOTHING_FEW,
+    NOTHING_NO_IMAGE,
+    NOTHING_NO_ZONE,
+    NOTHING_NO_ROWS,
+    NOTHING_NO_RANGE,
+    NOTHING_REASONS
+};
+/* The reason in words. */
+const char *nothing_text(enum nothing why);
+
 /* What a measure may look at. */
 struct measurement {
     const struct simulation *simulation;
@@ -21,8 +46,12 @@ struct measurement {
     bool unplaced;                   /* messages are only counted: to find their place takes long */
     const struct exact_class *exact; /* NULL: nothing to compare with */
     const void *solved;
-    double at_start; /* what the class kept from time zero */
+    double at_start;   /* what the class kept from time zero */
+    enum nothing *why; /* filled where the value is not finite; NULL: nobody asks */
 };
+
+/* NAN, for the reason WHY. */
+double measure_nothing(const struct measurement *measurement, enum nothing why);
 
 struct measure_class {
     bool needs_exact;

@@ -45,7 +45,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     TRY(samples_take(measurement, &samples));
     int64_t lost = 0;
     for (int64_t i = 0; i < samples.count; i++)
-        lost += isnan(samples.at[i].value);
+        lost += !isfinite(samples.at[i].value);
     lost = ranks_sum(ranks, lost);
     const int64_t count = ranks_sum(ranks, samples.count);
     uint64_t low = rank_of(-INFINITY), high = rank_of(INFINITY);
@@ -60,7 +60,9 @@ static struct error *measure(const struct measurement *measurement, double *valu
         else
             low = middle + 1;
     }
-    *value = count > 0 && lost == 0 ? value_of(low) : NAN;
+    *value = count == 0  ? measure_nothing(measurement, NOTHING_NO_MEMBER)
+             : lost == 0 ? value_of(low)
+                         : measure_nothing(measurement, NOTHING_NOT_FINITE);
     samples_free(&samples);
     return NULL;
 }

@@ -113,6 +113,8 @@ static struct error *measure(const struct measurement *measurement, double *valu
         start_places(measurement->population, 0, measurement->population->count, start);
         const int64_t count = radii(measurement, (const double(*)[3])start, told);
         *value = mean_of(simulation->ranks, told, count);
+        if (isnan(*value))
+            measure_nothing(measurement, NOTHING_NO_MEMBER);
         if (parameters->take == TAKE_SPREAD) {
             for (int64_t i = 0; i < count; i++)
                 told[i] = square(told[i] - *value);

@@ -315,7 +315,7 @@ static double time_when(const struct probe *probe, int column,
         const double time = probe->value[row * probe->columns];
         const double value = probe->value[row * probe->columns + column];
         const double wanted = recorded->reaches.value;
-        if (before < wanted && value >= wanted) {
+        if (before < wanted && value >= wanted && isfinite(value - before)) {
             const double at = earlier + (time - earlier) * (wanted - before) / (value - before);
             if (!(at < recorded->after) && !(at > recorded->before))
                 return at;
@@ -324,6 +324,23 @@ static double time_when(const struct probe *probe, int column,
         before = value;
     }
     return NAN;
+}
+
+static bool is_finite(const struct curve *curve)
+{
+    for (int64_t i = 0; i < curve->count; i++)
+        if (!isfinite(curve->value[i]))
+            return false;
+    return true;
+}
+
+/* Why TAKE of CURVE, which has finite values, is not a number. */
+static enum nothing why_not(const struct curve *curve, int take)
+{
+    return !curve->count         ? NOTHING_NOT_RECORDED
+           : take == TAKE_PERIOD ? NOTHING_NO_PEAKS
+           : curve->count < 2    ? NOTHING_ONE_ROW
+                                 : NOTHING_SAID;
 }
 
 static double take(const struct curve *curve, const struct measure_recorded *recorded)
@@ -368,7 +385,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     if (recorded.when) {
         TRY(find(measurement, recorded.when, &probe, &column));
         recorded.after = recorded.before = time_when(probe, column, &recorded);
-        *value = NAN;
+        *value = measure_nothing(measurement, NOTHING_NOT_REACHED);
         if (isnan(recorded.after))
             return NULL;
     }
@@ -380,6 +397,10 @@ static struct error *measure(const struct measurement *measurement, double *valu
     if (made) {
         curve_fill(&curve, probe, column, &recorded);
         *value = curve.count ? take(&curve, &recorded) : NAN;
+        if (!isfinite(*value))
+            *value = measure_nothing(measurement, why_not(&curve, recorded.take));
+        if (!is_finite(&curve))
+            *value = measure_nothing(measurement, NOTHING_NOT_FINITE);
     }
     free(curve.time);
     free(curve.value);

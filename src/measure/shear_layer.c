@@ -146,7 +146,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     const struct measure_shear_layer *parameters = measurement->check->measure.value;
     struct rows rows = {.speed = parameters->speed, .time = measurement->simulation->time};
     struct error *error = find_rows(measurement, &rows.bands);
-    *value = NAN;
+    *value = measure_nothing(measurement, NOTHING_NO_ROWS);
     if (!error && rows.bands.count > 0 && rows.time > 0.0) {
         const double viscosity = fit(&rows), count = (double)rows.bands.count;
         *value = parameters->value == LAYER_VISCOSITY ? viscosity

@@ -15,7 +15,8 @@ static struct error *measure(const struct measurement *measurement, double *valu
     for (int64_t i = 0; i < samples.count; i++)
         exact_sum_add(&squares, square(samples.at[i].value - mean));
     ranks_sum_exact(ranks, &squares, 1);
-    *value = count > 0.0 ? sqrt(exact_sum_value(&squares) / count) : NAN;
+    *value = count > 0.0 ? sqrt(exact_sum_value(&squares) / count)
+                         : measure_nothing(measurement, NOTHING_NO_MEMBER);
     samples_free(&samples);
     return NULL;
 }

@@ -53,6 +53,8 @@ static double angle(const struct measurement *measurement, const double (*start)
         exact_sum_add(&sums[1], p->mass[i] * (sa * xa + sb * xb));
     }
     ranks_sum_exact(measurement->simulation->ranks, sums, 2);
+    if (isnan(now_center.x))
+        return measure_nothing(measurement, NOTHING_NO_MEMBER);
     return atan2(exact_sum_value(&sums[0]), exact_sum_value(&sums[1]));
 }
 

@@ -47,11 +47,12 @@ static struct error *measure(const struct measurement *measurement, double *valu
     for (int64_t i = 0; i < samples.count; i++) {
         double share = (samples.at[i].value - width->ahead.value) / jump;
         inside += share > 0.1 && share < 0.9;
-        lost += isnan(share);
+        lost += !isfinite(share);
     }
     const struct ranks *ranks = measurement->simulation->ranks;
     inside = ranks_sum(ranks, inside);
-    *value = ranks_sum(ranks, lost) ? NAN : (double)inside;
+    *value =
+        ranks_sum(ranks, lost) ? measure_nothing(measurement, NOTHING_NOT_FINITE) : (double)inside;
     samples_free(&samples);
     return NULL;
 }

@@ -87,8 +87,8 @@ static double area_of(const struct broken_axis *axis, const double across[2], do
 }
 
 /* Collective: the AREA of the zone in each sector. START, DIAMETER and FIELD are of the owned
- * particles. */
-static void find_areas(const struct measurement *m, const struct broken_axis *axis,
+ * particles. False where a value at the face is not finite. */
+static bool find_areas(const struct measurement *m, const struct broken_axis *axis,
                        const double (*start)[3], const double *diameter, const double *field,
                        double area[SECTORS])
 {
@@ -97,10 +97,13 @@ static void find_areas(const struct measurement *m, const struct broken_axis *ax
     const int body = measure_body(m);
     struct exact_sum sum[SECTORS] = {{{0}, 0, false}};
     double across[2];
+    int64_t lost = 0;
     for (int32_t i = 0; i < m->population->count; i++) {
         const double depth = fabs(start[i][parameters->along] - face);
-        if (m->population->body[i] != body || !(depth < diameter[i]) ||
-            !(field[i] >= parameters->value))
+        if (m->population->body[i] != body || !(depth < diameter[i]))
+            continue;
+        lost += !isfinite(field[i]);
+        if (!(field[i] >= parameters->value))
             continue;
         for (int image = 0; image < (axis->round ? 1 : BROKEN_IMAGES); image++)
             if (broken_image(axis, start[i], image, across))
@@ -109,6 +112,7 @@ static void find_areas(const struct measurement *m, const struct broken_axis *ax
     ranks_sum_exact(m->simulation->ranks, sum, SECTORS);
     for (int k = 0; k < SECTORS; k++)
         area[k] = exact_sum_value(&sum[k]);
+    return ranks_sum(m->simulation->ranks, lost) == 0;
 }
 
 /* The value that TAKE names; a zone of no area has no shape. */
@@ -151,8 +155,13 @@ static struct error *measure(const struct measurement *measurement, double *valu
         double area[SECTORS];
         start_places(measurement->population, 0, count, start);
         column_read_component(measurement->population, column, component, 0, count, field);
-        find_areas(measurement, &axis, (const double(*)[3])start, diameter, field, area);
+        const bool finite =
+            find_areas(measurement, &axis, (const double(*)[3])start, diameter, field, area);
         *value = value_of(&axis, area, parameters->take);
+        if (isnan(*value))
+            measure_nothing(measurement, NOTHING_NO_ZONE);
+        if (!finite)
+            *value = measure_nothing(measurement, NOTHING_NOT_FINITE);
     }
     free(start);
     free(field);

@@ -55,7 +55,7 @@ static void put_cell(const struct page *page, const char *about, const char *nam
 
 /* The columns of checks.csv. */
 struct check {
-    const char *name, *measure, *unit, *verdict, *source, *known_deviation;
+    const char *name, *measure, *unit, *verdict, *source, *known_deviation, *nothing;
     double measured, wanted, low, high;
     bool regression_bound;
 };
@@ -69,6 +69,7 @@ static struct check read_check(const struct csv *csv, int64_t row)
         .verdict = csv_field(csv, row, csv_column(csv, "verdict")),
         .source = csv_field(csv, row, csv_column(csv, "source")),
         .known_deviation = csv_field(csv, row, csv_column(csv, "known_deviation")),
+        .nothing = csv_field(csv, row, csv_column(csv, "nothing")),
         .regression_bound =
             !strcmp(csv_field(csv, row, csv_column(csv, "regression_bound")), "yes"),
         .measured = csv_number(csv, row, csv_column(csv, "measured")),
@@ -151,6 +152,10 @@ static void put_check(FILE *file, const struct check *check)
     if (lacking) {
         fprintf(file, "%sknown deviation: ", check->source[0] ? "<br>" : "");
         page_text(file, check->known_deviation);
+    }
+    if (check->nothing[0]) {
+        fputs(check->source[0] ? "<br>" : "", file);
+        page_text(file, check->nothing);
     }
     fputs("</td></tr>\n", file);
 }

@@ -186,9 +186,9 @@ static struct error *prepare_check(struct checks *checks, struct prepared_check 
     return solve_exact(checks, prepared);
 }
 
-/* The number of the check K of those that the check of M is the mean with. */
-static int mean_check(const struct measurement *m, int k)
+int check_mean_with(const struct prepared_check *prepared, int k)
 {
+    const struct measurement *m = &prepared->measurement;
     return named_map_find(&m->simulation->problem->input->checks, m->check->mean_with.names[k]);
 }
 
@@ -223,7 +223,7 @@ static struct error *prepare_limits(const struct checks *checks, struct prepared
     if (m->check->minus_check >= 0)
         TRY(match_unit(prepared, &checks->item[m->check->minus_check], "minus"));
     for (int k = 0; k < m->check->mean_with.count; k++)
-        TRY(match_unit(prepared, &checks->item[mean_check(m, k)], "mean_with"));
+        TRY(match_unit(prepared, &checks->item[check_mean_with(prepared, k)], "mean_with"));
     if (m->check->relative) {
         TRY(unit_parse(divided_by, &other));
         unit.dimension = dimension_quotient(unit.dimension, other.dimension);
@@ -232,7 +232,7 @@ static struct error *prepare_limits(const struct checks *checks, struct prepared
     struct check_input check = *m->check;
     if (takes_expected(m)) {
         check.is = (struct quantity){class_of(m->check)->expected(m), unit.dimension};
-        if (!given(&check.is))
+        if (!isfinite(check.is.value))
             return measure_error(m, "%s does not give this value here: give `is`",
                                  against_of(m)->choice->name);
     }
@@ -311,7 +311,7 @@ struct error *checks_start(const struct checks *checks, const struct check_momen
     const struct ranks *ranks = moment->simulation->ranks;
     for (int i = 0; i < checks->count; i++) {
         struct check_memory *memory = &moment->memory[i];
-        *memory = (struct check_memory){NAN, NAN, NAN};
+        *memory = (struct check_memory){NAN, NAN, NAN, NOTHING_SAID};
         struct measurement m = measurement_at(&checks->item[i], moment, memory);
         const struct measure_class *class = class_of(m.check);
         if (relative_to_start(m.check))
@@ -326,8 +326,12 @@ static struct error *measure_now(const struct prepared_check *prepared,
                                  const struct check_moment *moment, struct check_memory *memory)
 {
     struct measurement m = measurement_at(prepared, moment, memory);
+    enum nothing why = NOTHING_SAID;
+    m.why = &why;
     memory->time = moment->simulation->time;
-    return ranks_agree(m.simulation->ranks, class_of(m.check)->measure(&m, &memory->measured));
+    struct error *error = class_of(m.check)->measure(&m, &memory->measured);
+    memory->why = why;
+    return ranks_agree(m.simulation->ranks, error);
 }
 
 struct error *checks_watch(const struct checks *checks, const struct check_moment *moment)
@@ -362,10 +366,11 @@ void check_judge(const struct check_input *check, bool is_error, struct check_re
 {
     if (given(&check->regression_bound))
         bound_change(check, is_error, result);
-    const bool within = result->measured >= result->low && result->measured <= result->high;
+    const bool finite = isfinite(result->measured);
+    const bool within =
+        finite && result->measured >= result->low && result->measured <= result->high;
     /* What measured nothing is not excused. */
-    const bool expected =
-        check->known_deviation && check->known_deviation_if > 0.0 && !isnan(result->measured);
+    const bool expected = check->known_deviation && check->known_deviation_if > 0.0 && finite;
     result->source = text_copy(check->source);
     result->verdict = !check_has_limit(check) ? CHECK_MEASURED_ONLY
                       : within                ? (expected ? CHECK_PASSES_NOW : CHECK_PASSED)
@@ -392,13 +397,15 @@ static struct error *judge(const struct prepared_check *prepared, const struct c
     if (check->minus)
         result->measured -= memory[check->minus_check].measured;
     for (int k = 0; k < check->mean_with.count; k++)
-        result->measured += memory[mean_check(&prepared->measurement, k)].measured;
+        result->measured += memory[check_mean_with(prepared, k)].measured;
     result->measured /= 1.0 + check->mean_with.count;
     if (relative_to_start(check))
         result->measured /= memory[index].start;
     else if (check->relative)
         result->measured /= memory[check->relative_check].measured;
     check_judge(check, class_of(check)->needs_exact, result);
+    if (!isfinite(result->measured))
+        result->nothing = check_reason(prepared, memory, index);
     if ((class_of(check)->needs_exact || takes_expected(&prepared->measurement)) && !result->source)
         result->source =
             text_format("exact solution %s", against_of(&prepared->measurement)->choice->name);
@@ -439,6 +446,7 @@ void check_results_free(struct check_results *results)
         free(results->item[i].name);
         free(results->item[i].source);
         free(results->item[i].known_deviation);
+        free(results->item[i].nothing);
     }
     free(results->item);
     *results = (struct check_results){0};

@@ -17,6 +17,7 @@ enum check_verdict {
 struct check_result {
     char *name, *source;     /* source may be NULL */
     char *known_deviation;   /* its reason; else NULL */
+    char *nothing;           /* why what was measured is not finite; else NULL */
     bool regression_bound;   /* the limit bounds the change from an earlier result of Bolide, */
     struct quantity changes; /* by this fraction of the error or this quantity */
     const char *measure;     /* static text */
@@ -42,6 +43,7 @@ struct check_results {
 struct check_memory {
     double start;          /* what is wanted from time zero; NAN: nothing */
     double measured, time; /* of one whose time has come, and when that was; NAN: it has not */
+    double why;            /* enum nothing: of a value that is not finite */
 };
 enum { CHECK_MEMORY_NUMBERS = sizeof(struct check_memory) / sizeof(double) };
 

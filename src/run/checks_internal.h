@@ -18,4 +18,12 @@ struct checks {
     size_t solved_bytes; /* of the exact solutions */
 };
 
+/* The number of the check K of those that PREPARED is the mean with. */
+int check_mean_with(const struct prepared_check *prepared, int k);
+
+/* Why the check at INDEX, PREPARED, has no finite value; MEMORY holds what all checks measured.
+ * Owned by the caller. */
+char *check_reason(const struct prepared_check *prepared, const struct check_memory *memory,
+                   int index);
+
 #endif

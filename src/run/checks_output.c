@@ -89,8 +89,8 @@ char *check_verdict_text(const struct check_result *result)
         return text_format("%s: passes now: remove `known_deviation`", name);
     if (result->verdict == CHECK_PASSED && result->regression_bound)
         return text_format("%s (regression bound)", name);
-    return result->known_deviation ? text_format("%s: %s", name, result->known_deviation)
-                                   : text_copy(name);
+    const char *why = result->known_deviation ? result->known_deviation : result->nothing;
+    return why ? text_format("%s: %s", name, why) : text_copy(name);
 }
 
 struct error *check_results_write(const struct check_results *results, const char *path)
@@ -100,7 +100,7 @@ struct error *check_results_write(const struct check_results *results, const cha
     FILE *file;
     TRY(file_begin(path, &file));
     fprintf(file, "check,measure,unit,measured,wanted,low,high,verdict,source,time,known_deviation,"
-                  "regression_bound\n");
+                  "regression_bound,nothing\n");
     for (int i = 0; i < results->count; i++) {
         const struct check_result *r = &results->item[i];
         csv_put_text(file, r->name);
@@ -116,7 +116,9 @@ struct error *check_results_write(const struct check_results *results, const cha
         csv_put_number(file, r->time);
         putc(',', file);
         csv_put_text(file, r->known_deviation);
-        fprintf(file, ",%s\n", r->regression_bound ? "yes" : "no");
+        fprintf(file, ",%s,", r->regression_bound ? "yes" : "no");
+        csv_put_text(file, r->nothing);
+        putc('\n', file);
     }
     return file_end(path, file);
 }

@@ -348,12 +348,14 @@ static void report_end(struct run *run)
         check_measured_text(check, measured, sizeof measured);
         check_allowed_text(check, allowed, sizeof allowed);
         if (check->verdict == CHECK_MEASURED_ONLY) {
-            run_say(run, "  measured only: %s: %s", check->name, measured);
+            run_say(run, "  measured only: %s: %s%s%s", check->name, measured,
+                    check->nothing ? ": " : "", check->nothing ? check->nothing : "");
             continue;
         }
         run_say(run, "  check %s: %s: %s (%s)%s%s", check_verdict_name(check->verdict), check->name,
-                measured, allowed, check->known_deviation ? ": " : "",
+                measured, allowed, check->known_deviation || check->nothing ? ": " : "",
                 check->known_deviation               ? check->known_deviation
+                : check->nothing                     ? check->nothing
                 : check->verdict == CHECK_PASSES_NOW ? "; passes now: remove `known_deviation`"
                 : check->regression_bound            ? "; regression bound"
                                                      : "");
@@ -477,6 +479,8 @@ struct error *run_validate(const struct simulation_case *input)
     struct error *error = make_solver(run);
     if (!error)
         error = look_ahead(run);
+    if (!error && run_is_filled_in_check(input))
+        error = run->method->fill(run->solver, &run->simulation);
     destroy(run);
     return error;
 }

@@ -186,6 +186,9 @@ static void find_orders(const struct study *study, const double *resolution,
     quantity->fitted = quantity->kind == STUDY_ESTIMATE
                            ? quantity->extrapolation.order
                            : order_fitted(resolution, quantity->error, runs);
+    for (int i = 0; i < runs; i++)
+        if (!isfinite(quantity->measured[i]))
+            quantity->fitted = NAN;
 }
 
 /* What the computing took, without the outputs. */
@@ -230,13 +233,18 @@ static struct error *judge(const struct simulation_case *input, struct study_qua
     const struct order_input *order = order_of(input, quantity->name);
     if (!order)
         return NULL;
-    const bool within = quantity->fitted >= quantity->low && quantity->fitted <= quantity->high;
-    const bool expected = order->known_deviation && !isnan(quantity->fitted);
+    const bool finite = isfinite(quantity->fitted);
+    const bool within =
+        finite && quantity->fitted >= quantity->low && quantity->fitted <= quantity->high;
+    const bool expected = order->known_deviation && finite;
     struct check_result result = {.verdict =
                                       within ? (expected ? CHECK_PASSES_NOW : CHECK_PASSED)
                                              : (expected ? CHECK_KNOWN_DEVIATION : CHECK_FAILED)};
+    char nothing[] = "no order follows from what the runs measured";
     if (result.verdict == CHECK_KNOWN_DEVIATION)
         result.known_deviation = order->known_deviation;
+    if (!finite)
+        result.nothing = nothing;
     quantity->verdict = check_failed(&result)            ? STUDY_FAILED
                         : result.verdict == CHECK_PASSED ? STUDY_PASSED
                                                          : STUDY_KNOWN_DEVIATION;

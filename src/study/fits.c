@@ -31,8 +31,8 @@ static struct error *take_points(const struct fit_input *fit, const struct verif
             TRY(unit_parse(other->unit, &unit));
         points->x_dimension = value ? value->quantity.dimension : unit.dimension;
         const double x = value ? value->quantity.value : other->measured;
-        if (!isfinite(x) || !isfinite(y->measured) || x < fit->from.value || x > fit->to.value)
-            continue;
+        if (isnan(x) || isnan(y->measured) || x < fit->from.value || x > fit->to.value)
+            continue; /* an infinite value spoils the fit */
         points->x[points->count] = x;
         points->y[points->count++] = y->measured;
     }
@@ -101,6 +101,10 @@ static struct error *evaluate(const struct fit_input *fit, const char *name,
         TRY(check_find_limits(&fit->check, fit_take_name(fit), dimension, &result->wanted,
                               &result->low, &result->high));
     check_judge(&fit->check, fit->take == FIT_MISFIT, result);
+    if (isnan(result->measured))
+        result->nothing = text_format("no finite value follows from the %d runs that measured "
+                                      "both values within the bounds",
+                                      points->count);
     return NULL;
 }
 

@@ -82,7 +82,7 @@ static void put_row(FILE *file, const struct verify_case *runs, int count,
             csv_put_number(file, check->measured);
         char *verdict = check ? check_verdict_text(check) : NULL;
         fputc(',', file);
-        if (verdict && check->known_deviation)
+        if (verdict && (check->known_deviation || check->nothing))
             csv_put_text(file, verdict);
         else if (verdict)
             fputs(verdict, file);

@@ -22,7 +22,7 @@ struct stage {
     struct population population;
     struct totals start;
     struct checks *checks;
-    struct check_memory memory[8];
+    struct check_memory memory[24];
     struct check_results results;
 };
 

@@ -119,7 +119,7 @@ static struct error *evaluate(struct bench *b, struct check_result *result)
     struct error *error = checks_evaluate(checks, &moment, &results);
     if (!error) {
         *result = results.item[0];
-        result->name = result->source = NULL;
+        result->name = result->source = result->nothing = NULL;
     }
     check_results_free(&results);
     checks_free(checks);

@@ -431,7 +431,7 @@ static double recorded(struct bench *b, const double (*rows)[2], int count,
     struct probe *probe = ready(b, "body", &body);
     struct checks *checks;
     struct check_results results;
-    struct check_memory memory = {NAN, NAN, NAN};
+    struct check_memory memory = {NAN, NAN, NAN, NOTHING_SAID};
     const struct check_moment moment = {&b->simulation, look(b), NULL, &memory};
     recorded.probe = it;
     recorded.column = (char[]){"mass"};
