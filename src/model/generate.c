@@ -110,6 +110,98 @@ static bool is_in(const struct bounds *box, struct vec3 place, int64_t dimension
            (dimension < 3 || (place.z >= box->low.z && place.z <= box->high.z));
 }
 
+static double site_at(const struct lattice *lattice, int axis, int64_t site)
+{
+    const double origin[3] = {lattice->origin.x, lattice->origin.y, lattice->origin.z},
+                 spacing[3] = {lattice->spacing.x, lattice->spacing.y, lattice->spacing.z};
+    return origin[axis] + ((double)site + 0.5) * spacing[axis];
+}
+
+/* The first site along AXIS at or above PLACE, or above it alone. */
+static int64_t first_site(const struct lattice *lattice, int axis, double place, bool above)
+{
+    int64_t low = 0, high = lattice->count[axis];
+    while (low < high) {
+        const int64_t middle = low + (high - low) / 2;
+        const double at = site_at(lattice, axis, middle);
+        if (above ? at > place : at >= place)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+static struct vec3 place_at(const struct lattice *lattice, const int64_t site[3])
+{
+    return vec3_make(site_at(lattice, 0, site[0]), site_at(lattice, 1, site[1]),
+                     site_at(lattice, 2, site[2]));
+}
+
+/* Looks for a wall among the sites from LOW up to HIGH, a box of them: walls are planes across an
+ * axis. */
+static void explore_walls(const struct simulation_case *input, const struct lattice *lattice,
+                          const int64_t low[3], const int64_t high[3], struct finding *finding)
+{
+    for (int axis = -1; axis < (int)input->dimension && finding->wall < 0; axis++) {
+        int64_t site[3] = {low[0], low[1], low[2]};
+        if (axis >= 0)
+            site[axis] = high[axis] - 1;
+        if (wall_before(input, place_at(lattice, site)) < 0)
+            continue;
+        for (int64_t before = axis < 0 ? site[0] : low[axis];
+             axis >= 0 && site[axis] - before > 1;) {
+            int64_t middle[3] = {site[0], site[1], site[2]};
+            middle[axis] = before + (site[axis] - before) / 2;
+            if (wall_before(input, place_at(lattice, middle)) < 0)
+                before = middle[axis];
+            else
+                site[axis] = middle[axis];
+        }
+        finding->wall_place = place_at(lattice, site);
+        finding->wall = wall_before(input, finding->wall_place);
+    }
+}
+
+/* As explore_body for a body all of whose sites become particles in one state. */
+static void explore_plain(const struct walk *walk, const struct bounds *box,
+                          struct finding *finding)
+{
+    const struct simulation_case *input = walk->input;
+    const struct lattice *lattice = &walk->lattice;
+    struct body_summary *summary = &finding->summary;
+    const int64_t count = walk->end - walk->site;
+    int64_t low[3] = {0, 0, 0}, high[3], counted = 1;
+    for (int axis = 0; axis < 3; axis++)
+        high[axis] = lattice->count[axis];
+    for (int axis = 0; axis < (int)input->dimension && box; axis++) {
+        const double from[3] = {box->low.x, box->low.y, box->low.z},
+                     to[3] = {box->high.x, box->high.y, box->high.z};
+        low[axis] = first_site(lattice, axis, from[axis], false);
+        high[axis] = first_site(lattice, axis, to[axis], true);
+    }
+    for (int axis = 0; axis < 3; axis++)
+        counted *= high[axis] > low[axis] ? high[axis] - low[axis] : 0;
+    const struct bounds sites = walk_sites(walk);
+    const double middle = 0.5 * (sites.low.x + sites.high.x), sum = (double)lattice->count[0];
+    const int power = geometry_power(input->geometry);
+    const double depth =
+        power == 0   ? 1.0 /* the mean over the sites of 1, x or x^2 */
+        : power == 1 ? middle
+                     : square(middle) + square(lattice->spacing.x) * (square(sum) - 1.0) / 12.0;
+    if (count == 0)
+        return;
+    summary->particles = 1; /* for the state of the first */
+    explore_start(input, walk->body, sites.low, lattice->volume, finding);
+    summary->mass *= depth * (double)count;
+    finding->energy *= depth * (double)count;
+    finding->volume = lattice->volume * (double)count;
+    summary->particles = count;
+    summary->counted = box ? counted : count;
+    if (counted > 0)
+        explore_walls(input, lattice, low, high, finding);
+}
+
 /* Of particles out of BOX, NULL: none are, less is asked. */
 static struct error *explore_body(const struct overlaps *overlaps, int body,
                                   const struct bounds *box, const struct ranks *ranks,
@@ -124,6 +216,11 @@ static struct error *explore_body(const struct overlaps *overlaps, int body,
     struct error *error = walk_begin(&walk, overlaps, body, ranks);
     int64_t site;
     struct vec3 place;
+    if (!error && walk.plain) {
+        explore_plain(&walk, box, finding);
+        walk_end(&walk);
+        return NULL;
+    }
     while (!error && summary->particles <= INT32_MAX && walk_next(&walk, &site, &place)) {
         summary->particles++;
         finding->volume += walk.row.volume;
@@ -213,8 +310,11 @@ static struct error *explore(const struct simulation_case *input, const struct b
         total += findings[body].summary.particles;
     }
     if (total > INT32_MAX)
-        error = error_join(error, input_error(input, "resolution", NULL,
-                                              "more than %d particles on one rank", INT32_MAX));
+        error =
+            error_join(error, input_error(input, "resolution", NULL,
+                                          "%.3g particles are more than the %.3g that a rank "
+                                          "computes: choose a coarser resolution, or more ranks",
+                                          (double)total, (double)INT32_MAX));
     return ranks_agree(ranks, error);
 }
 

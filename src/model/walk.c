@@ -106,6 +106,38 @@ static struct error *check_place(const struct simulation_case *input, int body,
     return NULL;
 }
 
+/* The box of the sites of LATTICE, which has lines. */
+static struct bounds bounds_of_sites(const struct lattice *lattice)
+{
+    const struct vec3 half = vec3_scale(0.5, lattice->spacing),
+                      first = vec3_add(lattice->origin, half);
+    const struct vec3 way = {(double)(lattice->count[0] - 1) * lattice->spacing.x,
+                             (double)(lattice->count[1] - 1) * lattice->spacing.y,
+                             (double)(lattice->count[2] - 1) * lattice->spacing.z};
+    return (struct bounds){first, vec3_add(first, way)};
+}
+
+/* Whether every site of BODY becomes a particle, all in one state: of a box that meets no other
+ * body. Then sites need not be looked at one by one. */
+static bool is_plain(const struct simulation_case *input, int body, const struct lattice *lattice)
+{
+    enum { FEW = 2000 }; /* bodies that are compared with each other */
+    const struct body_input *of = case_body(input, body);
+    bool plain = shape_is_box(&of->shape) && lattice->kind == LATTICE_SQUARE && !of->varies &&
+                 input->bodies.count <= FEW;
+    for (int k = 0; k < of->velocity.count; k++)
+        plain &= !of->velocity.at[k].varying;
+    const struct bounds sites = bounds_of_sites(lattice);
+    plain &= geometry_power(input->geometry) == 0 || sites.low.x > 0.0;
+    for (int other = 0; other < input->bodies.count && plain; other++) {
+        const struct bounds bounds = shape_bounds(&case_body(input, other)->shape);
+        plain = other == body || !bounds_meet(&sites, &bounds);
+    }
+    return plain;
+}
+
+struct bounds walk_sites(const struct walk *walk) { return bounds_of_sites(&walk->lattice); }
+
 void walk_end(struct walk *walk)
 {
     free(walk->rivals);
@@ -131,7 +163,8 @@ struct error *walk_begin(struct walk *walk, const struct overlaps *overlaps, int
     const struct bounds bounds = shape_bounds(&case_body(input, body)->shape);
     walk->kept = kept_by_mirrors(input, &bounds);
     const struct slice slice = ranks_slice(ranks, (int64_t)walk->lattice.sites);
-    if (slice.end - slice.begin > sites_a_rank)
+    walk->plain = is_plain(input, body, &walk->lattice);
+    if (!walk->plain && slice.end - slice.begin > sites_a_rank)
         return input_error(input, "bodies", input->bodies.names[body],
                            "the lattice has %.3g sites, too many to look at: choose a coarser "
                            "resolution",
@@ -203,8 +236,9 @@ bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place)
 static double work_of_body(const struct simulation_case *input, int body, const struct ranks *ranks)
 {
     static const double work_a_site = 4.0;
-    const double sites = body_lattice(input, body).sites;
-    if (!(sites < sites_limit))
+    const struct lattice lattice = body_lattice(input, body);
+    const double sites = lattice.sites;
+    if (!(sites < sites_limit) || is_plain(input, body, &lattice))
         return 0.0;
     return ceil(sites / ranks->size) * (work_a_site + shape_work(&case_body(input, body)->shape));
 }

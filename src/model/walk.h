@@ -11,6 +11,7 @@ struct walk {
     int body;
     struct lattice lattice;
     struct bounds kept;     /* what the mirrors that cut the body leave; infinite without any */
+    bool plain;             /* every site becomes a particle */
     int64_t site, end;      /* the next one to look at */
     struct lattice_row row; /* of the site; empty before the first */
     struct rival *rivals;   /* bodies whose bounds meet this one's, */
@@ -25,6 +26,8 @@ struct walk {
  * ERROR_INPUT when the lattice has too many sites or lies too far from the origin. */
 struct error *walk_begin(struct walk *walk, const struct overlaps *overlaps, int body,
                          const struct ranks *ranks);
+/* The box of all sites of a lattice of lines. */
+struct bounds walk_sites(const struct walk *walk);
 /* The next site that becomes a particle, and where; false behind the last. */
 bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place);
 void walk_end(struct walk *walk);

@@ -40,6 +40,8 @@ bool shape_radii(const struct one_of *shape, struct radii *radii)
     return class->radii && class->radii(shape->value, radii);
 }
 
+bool shape_is_box(const struct one_of *shape) { return class_of(shape) == &shape_box_class; }
+
 double shape_work(const struct one_of *shape)
 {
     const struct shape_class *class = class_of(shape);

@@ -40,6 +40,9 @@ struct bounds shape_bounds(const struct one_of *shape);
 const char *shape_wrong(const struct one_of *shape, int dimension);
 bool shape_radii(const struct one_of *shape, struct radii *radii);
 
+/* Whether the shape is a box along the axes. */
+bool shape_is_box(const struct one_of *shape);
+
 double shape_work(const struct one_of *shape);
 /* The sum of those of a list. */
 double shapes_work(const struct one_of_list *shapes);

@@ -188,7 +188,7 @@ static void what_takes_too_long_to_count_is_refused(void **state)
                                  0};
     struct shape_repeat outer = {shape_of("repeat", &inner), VECTOR(300.0, 300.0),
                                  VECTOR(0.01, 0.01), 0};
-    struct shape_box box = {VECTOR(0.0, 0.0), VECTOR(1.0, 1.0)};
+    struct shape_ball disc = {VECTOR(0.0, 0.0), 0.5};
     open_workshop(&w, 2, 0.1);
     add_body(&w, "repeat", &outer);
     assert_true(generate_work(&w.input, &alone) > GENERATE_MOST);
@@ -196,8 +196,63 @@ static void what_takes_too_long_to_count_is_refused(void **state)
     inner.count = outer.count = (struct vector_value)VECTOR(3.0, 3.0);
     assert_true(generate_work(&w.input, &alone) < GENERATE_LONG);
     open_workshop(&w, 2, 5e-6);
-    add_body(&w, "box", &box);
+    add_body(&w, "ball", &disc);
     assert_refused(&w, 1, "take too long to count: choose a coarser resolution");
+}
+
+static void a_box_of_any_number_of_sites_is_counted_at_once(void **state)
+{
+    (void)state;
+    struct workshop w;
+    struct shape_box box = {VECTOR(0.0, 0.0, 0.0), VECTOR(1.0, 1.0, 1.0)};
+    open_workshop(&w, 3, 1e-4);
+    add_body(&w, "box", &box);
+    assert_refused(&w, 1, "1e+12 particles are more than");
+}
+
+static double within(struct dice *dice, double most) { return dice_between(dice, 0.0, most); }
+
+/* A box is counted as the intersection of itself, whose sites are looked at one by one. */
+static void a_box_is_counted_as_its_sites_are(void **state)
+{
+    (void)state;
+    struct dice dice = {5};
+    for (int trial = 0; trial < 60; trial++) {
+        const int dimension = 1 + trial % 3;
+        struct body_summary summary[2];
+        struct error *error[2];
+        const double low[3] = {within(&dice, 1.0), within(&dice, 1.0), within(&dice, 1.0)};
+        struct shape_box box = {.from.count = dimension, .to.count = dimension};
+        for (int k = 0; k < dimension; k++) {
+            box.from.at[k] = low[k];
+            box.to.at[k] = low[k] + 0.05 + within(&dice, 1.0);
+        }
+        struct one_of item = shape_of("box", &box);
+        struct shape_intersection same = {{1, &item}};
+        const struct bounds window = {vec3_make(low[0] + 0.1, low[1] + 0.1, low[2] - 0.1),
+                                      vec3_make(low[0] + 0.5, low[1] + 0.7, low[2] + 0.5)};
+        const double wall = low[0] + dice_between(&dice, -0.5, 0.5);
+        for (int k = 0; k < 2; k++) {
+            struct workshop w;
+            open_workshop(&w, dimension, 0.04);
+            w.input.geometry = dimension == 2 && trial % 2   ? GEOMETRY_AXISYMMETRIC
+                               : dimension == 1 && trial % 2 ? GEOMETRY_SPHERICAL
+                                                             : GEOMETRY_PLANE_STRAIN;
+            add_body(&w, k ? "intersection" : "box", k ? (void *)&same : (void *)&box);
+            if (trial % 4 == 0)
+                add_wall(&w, 0, trial % 8 ? WALL_LOW : WALL_HIGH, wall);
+            error[k] = generate_summary(&w.input, trial % 5 ? &window : NULL, &summary[k]);
+        }
+        assert_int_equal(error[0] != NULL, error[1] != NULL);
+        if (error[0])
+            assert_string_equal(error_message(error[0], 0), error_message(error[1], 0));
+        assert_int_equal(summary[0].particles, summary[1].particles);
+        assert_int_equal(summary[0].counted, summary[1].counted);
+        assert_float_equal(summary[0].mass, summary[1].mass, 1e-12 * summary[1].mass);
+        assert_float_equal(summary[0].diameter, summary[1].diameter, 1e-12);
+        error_free(error[0]);
+        error_free(error[1]);
+    }
 }
 
 /* Where the spacing survives the particles keep it; beyond that nothing is made. */
@@ -443,6 +498,8 @@ int main(void)
         cmocka_unit_test(a_ring_lattice_is_cut_at_the_axis_too),
         cmocka_unit_test(a_body_beyond_the_axis_is_told_to_move),
         cmocka_unit_test(what_takes_too_long_to_count_is_refused),
+        cmocka_unit_test(a_box_of_any_number_of_sites_is_counted_at_once),
+        cmocka_unit_test(a_box_is_counted_as_its_sites_are),
         cmocka_unit_test(a_body_too_far_from_the_origin_is_refused),
         cmocka_unit_test(a_ball_about_the_axis_is_cut_by_mirrors_too),
         cmocka_unit_test(mirrors_cut_bodies_in_any_dimension),
