@@ -242,7 +242,12 @@ static void check_detonation(struct checking *checking, int index)
     struct detonation_input *detonation = case_detonation(input, index);
     const struct vector_value *ends[] = {&detonation->at, &detonation->to};
     const char *const keys[] = {"at", "to"};
+    static const double farthest = 1e9; /* m; farther away, distances lose all their digits */
     bool same = detonation->to.count == detonation->at.count;
+    for (int end = 0; end < 2; end++)
+        for (int k = 0; k < ends[end]->count; k++)
+            if (!(fabs(ends[end]->at[k]) <= farthest))
+                case_wrong(checking, keys[end], "expected a place within %g m", farthest);
     for (int end = 0; end < 2 && case_dimension_known(checking); end++)
         if (ends[end]->count && ends[end]->count != input->dimension)
             case_wrong(checking, keys[end], "expected %d component%s, one per dimension; found %d",

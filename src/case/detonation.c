@@ -58,7 +58,7 @@ static double distance(const struct detonation_input *detonation, struct vec3 pl
         share = maximum(0.0, minimum(1.0, vec3_dot(way, line) / vec3_dot(line, line)));
     }
     const struct vec3 rest = vec3_sub(way, vec3_scale(share, line));
-    return sqrt(vec3_dot(rest, rest));
+    return hypot(hypot(rest.x, rest.y), rest.z);
 }
 
 double detonation_arrival(const struct simulation_case *input, int body, struct vec3 place)

@@ -3,8 +3,9 @@
 
 /* In the order of enum warning_kind. */
 static const char *const warning_names[] = {
-    "tension", "speed",  "temperature", "density", "tensile-instability", "unlit", "region",
-    "energy",  "tracer", "coarse",      NULL};
+    "tension", "speed",  "temperature", "density", "tensile-instability",
+    "unlit",   "region", "energy",      "tracer",  "coarse",
+    "input",   NULL};
 
 const struct parameter case_expected_table[] = {
     {.key = "warning",
@@ -12,12 +13,14 @@ const struct parameter case_expected_table[] = {
      .offset = offsetof(struct expected_warning_input, warning),
      .standard = PARAMETER_REQUIRED,
      .names = warning_names,
-     .help = "what is expected: tension above the strength of a material; a speed above three "
-             "times what the case can cause; a temperature below 0 K; a density outside the range "
-             "of the equation of state; tension for longer than SPH is reliable; an explosive "
-             "that is compressed before its detonation arrives; a solid at the edge of the region "
-             "of a coupling; a drift of the total energy; a tracer whose "
-             "particle has failed; cells too coarse for a plate or a charge"},
+     .help =
+         "what is expected: tension above the strength of a material; a speed above three "
+         "times what the case can cause; a temperature below 0 K; a density outside the range "
+         "of the equation of state; tension for longer than SPH is reliable; an explosive "
+         "that is compressed before its detonation arrives; a solid at the edge of the region "
+         "of a coupling; a drift of the total energy; a tracer whose "
+         "particle has failed; cells too coarse for a plate or a charge; input without effect, or "
+         "constants that contradict each other"},
     {.key = "of",
      .kind = PARAMETER_NAMES,
      .offset = offsetof(struct expected_warning_input, of),

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "case/checking.h"
 #include "case/internal.h"
+#include "document/nodes.h"
 
 const struct parameter case_start_table[] = {
     {.key = "from",
@@ -52,6 +53,56 @@ static char *path_of(const char *path, const char *from)
     return joined;
 }
 
+/* The case that the one at PATH starts from, to be freed; NULL: none, or the file is wrong, which
+ * its reader reports. */
+static char *source_of(const char *path)
+{
+    struct document *document = NULL;
+    struct error *error = document_open(path, NULL, 0, NULL, &document);
+    error_free(error);
+    if (error)
+        return NULL;
+    const struct node *start = node_entry(document->root, "start");
+    const struct node *from = start && start->kind == NODE_MAP ? node_entry(start, "from") : NULL;
+    char *source = from && from->kind == NODE_SCALAR ? path_of(path, from->text) : NULL;
+    document_free(document);
+    return source;
+}
+
+static bool same_file(const char *a, const char *b)
+{
+    struct stat one, other;
+    return stat(a, &one) == 0 && stat(b, &other) == 0 && one.st_dev == other.st_dev &&
+           one.st_ino == other.st_ino;
+}
+
+static char *with_arrow(char *chain, const char *path)
+{
+    char *longer = chain ? text_format("%s -> %s", chain, path) : text_copy(path);
+    free(chain);
+    return longer;
+}
+
+/* Follows the cases that start from each other, from the one at PATH on; *CHAIN, to be freed,
+ * names those that lead back to it or never end, NULL where they end. */
+static void find_cycle(const char *path, char **chain)
+{
+    enum { MOST = 16 };
+    char *file[MOST] = {text_copy(path)};
+    int count = 1, again = -1;
+    *chain = NULL;
+    while (again < 0 && count < MOST && file[count - 1]) {
+        char *source = source_of(file[count - 1]);
+        for (int k = 0; k < count && source; k++)
+            again = again < 0 && same_file(file[k], source) ? k : again;
+        file[count++] = source;
+    }
+    for (int k = 0; k < count && (again >= 0 || file[count - 1]) && file[k]; k++)
+        *chain = with_arrow(*chain, file[k]);
+    for (int k = 0; k < count; k++)
+        free(file[k]);
+}
+
 struct error *case_read_start(struct simulation_case *input, const char *path,
                               const struct case_options *options)
 {
@@ -66,12 +117,19 @@ struct error *case_read_start(struct simulation_case *input, const char *path,
         return error_new(ERROR_SYSTEM, "out of memory");
     struct checking checking = {.input = input, .map = "start"};
     struct error *error = NULL;
-    if (access(file, R_OK) == 0) {
+    char *chain;
+    find_cycle(path, &chain);
+    if (chain) {
+        case_wrong(&checking, "from", "a case cannot start from itself, be it through others: %s",
+                   chain);
+        error = checking.error;
+    } else if (access(file, R_OK) == 0) {
         error = case_read(file, &plain, input->catalogue, &start->input);
     } else {
         case_wrong(&checking, "from", "there is no case \"%s\"", start->from);
         error = checking.error;
     }
+    free(chain);
     free(file);
     return error;
 }

@@ -175,7 +175,7 @@ static struct error *judge_stand_off(const struct simulation_case *input, int ch
 
 struct error *coarse_cells(const struct simulation_case *input, double edge)
 {
-    struct error *error = NULL;
+    struct error *error = gas_thin_obstacles(input, edge);
     for (int b = 0; b < input->bodies.count; b++) {
         const struct material *material =
             case_material(input, case_body(input, b)->material_index)->material;

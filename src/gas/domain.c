@@ -100,27 +100,66 @@ struct error *gas_find_domain(const struct simulation *simulation, struct cell_b
     return error_join(check_walls(input, faces, edge), check_filled(input, faces, edge));
 }
 
-struct error *gas_check_inflows(const struct simulation *simulation, int material)
+static bool varies(const struct boundary_input *boundary)
+{
+    bool varies =
+        boundary->density.varying || boundary->pressure.varying || boundary->energy.varying;
+    for (int axis = 0; axis < boundary->velocity.count; axis++)
+        varies |= boundary->velocity.at[axis].varying != NULL;
+    return varies;
+}
+
+/* What is wrong with what flows in through BOUNDARY at the start: of a state that varies, at the
+ * cells outside the face, as fill_plane takes them; NULL: nothing is. */
+static const char *inflow_wrong(const struct simulation *simulation,
+                                const struct boundary_input *boundary,
+                                const struct cell_blocks *cells, int material, struct vec3 *place,
+                                const char **key)
+{
+    const struct material *of = &simulation->problem->material[material];
+    const int axis = boundary->axis, a = (axis + 1) % 3, b = (axis + 2) % 3;
+    struct point point;
+    double velocity[3], at[3] = {0.0, 0.0, 0.0};
+    *place = vec3_make(0.0, 0.0, 0.0);
+    if (!varies(boundary))
+        return boundary_state_at(boundary, of, *place, 0.0, &point, velocity, key);
+    at[axis] = ((double)(boundary->side ? cells->high : cells->low)[axis] +
+                (boundary->side ? 0.5 : -0.5)) *
+               cells->edge;
+    const int64_t rows = cells->high[a] - cells->low[a], columns = cells->high[b] - cells->low[b];
+    const char *wrong = NULL;
+    for (int64_t k = 0; k < rows * columns && !wrong; k++) {
+        if (a < cells->dimension)
+            at[a] = ((double)(cells->low[a] + k % rows) + 0.5) * cells->edge;
+        if (b < cells->dimension)
+            at[b] = ((double)(cells->low[b] + k / rows) + 0.5) * cells->edge;
+        *place = vector_at(at);
+        if (!boundary->part.choice || shape_inside(&boundary->part, *place))
+            wrong = boundary_state_at(boundary, of, *place, 0.0, &point, velocity, key);
+    }
+    return wrong;
+}
+
+struct error *gas_check_inflows(const struct simulation *simulation,
+                                const struct cell_blocks *cells, int material)
 {
     const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
     for (int b = 0; b < input->boundaries.count; b++) {
         const struct boundary_input *boundary = case_boundary(input, b);
-        bool varies =
-            boundary->density.varying || boundary->pressure.varying || boundary->energy.varying;
-        for (int axis = 0; axis < boundary->velocity.count; axis++)
-            varies |= boundary->velocity.at[axis].varying != NULL;
-        struct point point;
-        double velocity[3];
         const char *key = "", *wrong = NULL;
         char name[160];
-        if (boundary->kind == BOUNDARY_INFLOW && !varies)
-            wrong = boundary_state_at(boundary, &simulation->problem->material[material],
-                                      vec3_make(0.0, 0.0, 0.0), 0.0, &point, velocity, &key);
+        struct vec3 place;
+        if (boundary->kind == BOUNDARY_INFLOW)
+            wrong = inflow_wrong(simulation, boundary, cells, material, &place, &key);
         if (!wrong)
             continue;
         snprintf(name, sizeof name, "%.100s%s%s", input->boundaries.names[b], *key ? "." : "", key);
-        error = error_join(error, input_error(input, "boundaries", name, "%s", wrong));
+        error = error_join(error, varies(boundary)
+                                      ? input_error(input, "boundaries", name,
+                                                    "%s (at [%.6g, %.6g, %.6g] m, t = 0)", wrong,
+                                                    place.x, place.y, place.z)
+                                      : input_error(input, "boundaries", name, "%s", wrong));
     }
     return error;
 }

@@ -137,8 +137,9 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     cells->ranks = simulation->ranks;
     cells->partition = &simulation->partition;
     cells->threads = simulation->threads;
-    TRY(error_join(gas_find_domain(simulation, cells),
-                   gas_check_inflows(simulation, gas->material[0])));
+    TRY(gas_find_domain(simulation, cells));
+    TRY(error_join(gas_check_inflows(simulation, cells, gas->material[0]),
+                   gas_check_source(gas, simulation)));
     TRY(gas_check_shapes(simulation, cells));
     gas_find_faces(simulation, cells, &gas->halo);
     gas->halo.depth = gas->second_order ? 2 : CELL_GHOSTS;
@@ -413,6 +414,21 @@ static double gas_step(const void *parameters, int dimension, const struct mater
     return courant_of(of) * diameter / any_material_evaluate(material, &at).sound_long;
 }
 
+static const char *gas_instead(const void *parameters)
+{
+    const struct gas_parameters *of = parameters;
+    return of->method.index == GAS_LAX_WENDROFF
+               ? "this method is here for comparison: leave `method` out for the default, "
+                 "muscl-hancock, which holds where it stops"
+               : "a smaller step may hold: halve `courant`";
+}
+
+static struct error *gas_coarse(const void *parameters, const struct simulation_case *input)
+{
+    (void)parameters;
+    return gas_thin_obstacles(input, input->resolution);
+}
+
 static const struct field_row *const field_tables[] = {field_rows, NULL};
 
 const struct solver_class gas_class = {.members = "cells",
@@ -427,4 +443,6 @@ const struct solver_class gas_class = {.members = "cells",
                                        .bytes = gas_bytes,
                                        .count = gas_count,
                                        .step = gas_step,
+                                       .coarse = gas_coarse,
+                                       .instead = gas_instead,
                                        .fields = field_tables};

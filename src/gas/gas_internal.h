@@ -93,7 +93,8 @@ struct error *gas_check_shapes(const struct simulation *simulation,
                                const struct cell_blocks *cells);
 
 /* Inflows of constant density, pressure and energy that have no state. */
-struct error *gas_check_inflows(const struct simulation *simulation, int material);
+struct error *gas_check_inflows(const struct simulation *simulation,
+                                const struct cell_blocks *cells, int material);
 
 /* What is outside the faces of the domain. */
 void gas_find_faces(const struct simulation *simulation, const struct cell_blocks *cells,
@@ -118,6 +119,10 @@ struct error *gas_fill(void *solver, struct simulation *simulation);
 
 /* What the case that `start` names must be. */
 struct error *gas_check_start(const struct simulation *simulation);
+
+/* What is wrong with the blast of `start`, if any, before it is computed: where its centre lies,
+ * its materials. */
+struct error *gas_check_source(const struct gas *gas, const struct simulation *simulation);
 
 /* Collective: the blast of `start`, if any, in the place of what the bodies say. */
 struct error *gas_start_from(struct gas *gas, struct simulation *simulation);

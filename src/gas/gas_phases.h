@@ -38,6 +38,9 @@ struct error *gas_settle_markers(struct gas *gas);
 double gas_relax(const struct eos eos[2], const double mass[2], const double energy[2],
                  double fraction, double burnt);
 
+/* Obstacles of INPUT that cells of EDGE do not see, as messages; NULL: there are none. */
+struct error *gas_thin_obstacles(const struct simulation_case *input, double edge);
+
 /* Whether the solver computes MATERIAL. */
 bool gas_computes(const struct material *material);
 

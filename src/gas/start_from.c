@@ -16,6 +16,7 @@ enum { SHELL_FIRST, SHELL_SECOND, SHELL_ENERGY, SHELL_AFTERBURNT, SHELLS };
 /* Of the other case: its solver and what its cells hold, by radius. */
 struct blast {
     const struct simulation_case *input;
+    struct ranks ranks; /* this one alone */
     struct simulation simulation;
     struct gas gas;
     int cells, last; /* all of them; those that the blast has reached */
@@ -79,6 +80,30 @@ static struct error *compute(const struct simulation *simulation, struct blast *
         other->step++;
     }
     return NULL;
+}
+
+/* Makes the solver of the other case, whose mistakes name it. */
+static struct error *open_blast(struct blast *blast, const struct start_input *start)
+{
+    blast->input = start->input;
+    blast->ranks = ranks_alone();
+    struct error *error = simulation_create(start->input, &blast->ranks, 1, &blast->simulation);
+    if (!error)
+        error = gas_class.create(&blast->gas, &blast->simulation, start->input->solver.value);
+    return error_context(error, "start.from: %s", start->from);
+}
+
+static void close_blast(struct blast *blast)
+{
+    gas_class.destroy(&blast->gas);
+    simulation_destroy(&blast->simulation);
+    for (int n = 0; n < SHELLS; n++) {
+        free(blast->number[n]);
+        free(blast->factor[n]);
+    }
+    free(blast->speed);
+    free(blast->fraction);
+    free(blast);
 }
 
 static bool differs(double a, double b) { return fabs(a - b) > 1e-9 * maximum(fabs(a), fabs(b)); }
@@ -308,9 +333,6 @@ static struct error *check_materials(const struct simulation *simulation, const 
                                      const struct blast *blast)
 {
     const int materials = blast->gas.layout.two ? 2 : 1;
-    if (blast->gas.unburnt)
-        return wrong(simulation, "from",
-                     "the explosive has not burnt by then: compute that case further");
     if (materials == 2 && !gas->layout.two)
         return wrong(simulation, "material",
                      "that case has two materials: give the one here that "
@@ -346,43 +368,65 @@ static struct error *transfer(struct filling *f, struct blast *blast)
     return error;
 }
 
+/* Whether the centre lies in the domain, whose planes of symmetry belong to it. */
+static struct error *check_center(const struct gas *gas, const struct simulation *simulation)
+{
+    const struct vector_value *center = &simulation->problem->input->start.center;
+    const struct cell_blocks *cells = gas->cells;
+    for (int axis = 0; axis < cells->dimension; axis++) {
+        const double at = axis < center->count ? center->at[axis] : 0.0,
+                     low = (double)cells->low[axis] * cells->edge,
+                     high = (double)cells->high[axis] * cells->edge;
+        if (at < low - 1e-6 * cells->edge || at > high + 1e-6 * cells->edge)
+            return input_error(simulation->problem->input, "start", "center",
+                               "the centre of the blast, %c = %.6g m, is outside the domain, which "
+                               "goes from %.6g to %.6g m",
+                               "xyz"[axis], at, low, high);
+    }
+    return NULL;
+}
+
+struct error *gas_check_source(const struct gas *gas, const struct simulation *simulation)
+{
+    const struct start_input *start = &simulation->problem->input->start;
+    if (!start->input)
+        return NULL;
+    TRY(check_center(gas, simulation));
+    struct blast *blast = memory_allocate(sizeof *blast);
+    if (!blast)
+        return error_new(ERROR_SYSTEM, "out of memory for a start");
+    struct error *error = open_blast(blast, start);
+    if (!error)
+        error = check_materials(simulation, gas, blast);
+    close_blast(blast);
+    return error;
+}
+
 struct error *gas_start_from(struct gas *gas, struct simulation *simulation)
 {
     const struct start_input *start = &simulation->problem->input->start;
-    const struct ranks alone = ranks_alone();
     struct filling f = {
         .gas = gas, .simulation = simulation, .points = gas->cells->dimension == 3 ? 4 : 8};
-    struct blast *blast;
     if (!start->input)
         return NULL;
     for (int axis = 0; axis < start->center.count; axis++)
         f.center[axis] = start->center.at[axis];
-    blast = memory_allocate(sizeof *blast);
+    struct blast *blast = memory_allocate(sizeof *blast);
     if (!blast)
         return error_new(ERROR_SYSTEM, "out of memory for a start");
-    blast->input = start->input;
-    struct error *error = simulation_create(start->input, &alone, 1, &blast->simulation);
+    struct error *error = open_blast(blast, start);
     if (!error)
-        error = gas_class.create(&blast->gas, &blast->simulation, start->input->solver.value);
-    if (!error)
-        error = compute(simulation, blast);
+        error = error_context(compute(simulation, blast), "start.from: %s", start->from);
     if (!error)
         error = take(blast);
-    if (!error)
-        error = check_materials(simulation, gas, blast);
+    if (!error && blast->gas.unburnt)
+        error = wrong(simulation, "from",
+                      "the explosive has not burnt by then: compute that case further");
     if (!error)
         error = find_share(&f, blast);
     if (!error)
         error = transfer(&f, blast);
-    gas_class.destroy(&blast->gas);
-    simulation_destroy(&blast->simulation);
-    for (int n = 0; n < SHELLS; n++) {
-        free(blast->number[n]);
-        free(blast->factor[n]);
-    }
-    free(blast->speed);
-    free(blast->fraction);
-    free(blast);
+    close_blast(blast);
     free(f.sum);
     return ranks_agree(simulation->ranks, error);
 }

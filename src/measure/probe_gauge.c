@@ -6,6 +6,8 @@
 
 #include "base/memory.h"
 #include "measure/probes.h"
+#include "model/domain.h"
+#include "shape/shape.h"
 
 const struct parameter probe_gauge_table[] = {
     {.key = "at",
@@ -47,11 +49,109 @@ static struct error *add_exact(struct probe *probe, const struct simulation_case
     return NULL;
 }
 
+static double radius_of(const struct probe *probe, const struct simulation *simulation)
+{
+    const struct probe_gauge *gauge = probe->input->probe.value;
+    return isnan(gauge->radius) ? simulation->problem->input->resolution : gauge->radius;
+}
+
+/* The obstacle at PLACE, -1: none is there. */
+static int obstacle_at(const struct simulation_case *input, const double place[3])
+{
+    for (int i = 0; i < input->obstacles.count; i++)
+        if (shape_inside(&case_obstacle(input, i)->shape, vector_at(place)))
+            return i;
+    return -1;
+}
+
+/* Whether an open cell of EDGE has its centre within RADIUS of PLACE. */
+static bool reaches_cell(const struct simulation_case *input, const struct vector_value *place,
+                         double radius, double edge)
+{
+    enum { MOST = 40 }; /* cells along an axis: as many hold an open one, or all is blocked */
+    int64_t low[3] = {0, 0, 0}, count[3] = {1, 1, 1}, all = 1;
+    for (int axis = 0; axis < place->count; axis++) {
+        const double from = maximum(place->at[axis] - radius, domain_face(input, axis, 0).at),
+                     to = minimum(place->at[axis] + radius, domain_face(input, axis, 1).at);
+        low[axis] = (int64_t)ceil(from / edge - 0.5 - 1e-9);
+        count[axis] = (int64_t)floor(to / edge - 0.5 + 1e-9) - low[axis] + 1;
+        if (count[axis] <= 0)
+            return false;
+        count[axis] = count[axis] > MOST ? MOST : count[axis];
+        all *= count[axis];
+    }
+    for (int64_t k = 0; k < all; k++) {
+        double at[3] = {0.0, 0.0, 0.0};
+        int64_t rest = k;
+        for (int axis = 0; axis < place->count; axis++) {
+            at[axis] = ((double)(low[axis] + rest % count[axis]) + 0.5) * edge;
+            rest /= count[axis];
+        }
+        if (distance_square(place, at) <= square(radius) * (1.0 + 1e-9) &&
+            obstacle_at(input, at) < 0)
+            return true;
+    }
+    return false;
+}
+
+/* Cells stay: a gauge that no open one is near records nothing. */
+static struct error *check_cells(const struct probe *probe, const struct simulation *simulation,
+                                 double edge)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    const struct probe_gauge *gauge = probe->input->probe.value;
+    const double radius = radius_of(probe, simulation);
+    if (reaches_cell(input, &gauge->at, radius, edge))
+        return NULL;
+    for (int axis = 0; axis < gauge->at.count; axis++) {
+        const double at = gauge->at.at[axis], low = domain_face(input, axis, 0).at,
+                     high = domain_face(input, axis, 1).at;
+        if (at < low || at > high)
+            return probe_error(probe, simulation, "gauge",
+                               "%c = %.6g m is outside the domain, which goes from %.6g to %.6g m: "
+                               "it would record nothing",
+                               "xyz"[axis], at, low, high);
+    }
+    double at[3] = {0.0, 0.0, 0.0};
+    memcpy(at, gauge->at.at, (size_t)gauge->at.count * sizeof *at);
+    const int obstacle = obstacle_at(input, at);
+    return obstacle >= 0
+               ? probe_error(probe, simulation, "gauge",
+                             "it is in the obstacle \"%s\", and no open cell of %.4g m has its "
+                             "centre within %.4g m: it would record nothing",
+                             input->obstacles.names[obstacle], edge, radius)
+               : probe_error(probe, simulation, "gauge",
+                             "no open cell of %.4g m has its centre within %.4g m: it would record "
+                             "nothing; enlarge its `radius`",
+                             edge, radius);
+}
+
+/* No particle is ever behind a mirror. */
+static struct error *check_mirrors(const struct probe *probe, const struct simulation *simulation)
+{
+    const struct probe_gauge *gauge = probe->input->probe.value;
+    const struct mirrors *mirrors = &simulation->problem->mirrors;
+    const double radius = radius_of(probe, simulation);
+    for (int axis = 0; axis < gauge->at.count; axis++)
+        if (gauge->at.at[axis] + radius < mirrors->low[axis] ||
+            gauge->at.at[axis] - radius > mirrors->high[axis])
+            return probe_error(
+                probe, simulation, "gauge",
+                "it is outside the wall, axis or periodic face at %c = %.6g m: it would record "
+                "nothing",
+                "xyz"[axis],
+                gauge -> at.at[axis] < mirrors->low[axis] ? mirrors->low[axis]
+                                                          : mirrors->high[axis]);
+    return NULL;
+}
+
 static struct error *prepare(struct probe *probe, const struct simulation *simulation,
                              const struct population *population)
 {
     const struct probe_gauge *gauge = probe->input->probe.value;
     TRY(probe_check_place(probe, simulation, "gauge", &gauge->at));
+    TRY(population->kind == POPULATION_OF_CELLS ? check_cells(probe, simulation, population->edge)
+                                                : check_mirrors(probe, simulation));
     probe_add_column(probe, "particles", "");
     TRY(probe_add_fields(probe, simulation, population));
     return add_exact(probe, simulation->problem->input);
@@ -74,7 +174,7 @@ static struct error *sample(struct probe *probe, const struct simulation *simula
 {
     const struct probe_gauge *gauge = probe->input->probe.value;
     const int count = probe->fields->count;
-    double radius = isnan(gauge->radius) ? simulation->problem->input->resolution : gauge->radius;
+    const double radius = radius_of(probe, simulation);
     struct exact_sum *sums = memory_allocate(((size_t)count + 2) * sizeof *sums);
     TRY(ranks_agree(simulation->ranks,
                     sums ? NULL : error_new(ERROR_SYSTEM, "out of memory for a gauge")));

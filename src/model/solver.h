@@ -72,6 +72,9 @@ struct solver_class {
     /* Why the total energy may drift, and what helps, as sentences; NULL, or NULL from it, where it
      * is conserved. */
     const char *(*energy_lost)(const void *parameters);
+    /* What may hold where it stops in an impossible state, as a sentence; NULL, or NULL from it,
+     * where there is nothing better. */
+    const char *(*instead)(const void *parameters);
     /* Every field that it may add to the store: tables of rows, NULL after the last table. */
     const struct field_row *const *fields;
     /* What is no mistake of INPUT but may be none of the user's wishes with this solver, as

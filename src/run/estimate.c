@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "exact/detonation.h"
 #include "material/any.h"
 #include "material/material.h"
 #include "model/solver.h"
+#include "run/input_warnings.h"
 #include "run/run.h"
 
 /* Updates a second that one thread is expected to make. */
@@ -169,39 +169,12 @@ static struct error *strong_contacts(const struct simulation_case *input, double
     return warnings;
 }
 
-char *detonation_wrong(const struct material *material)
-{
-    struct detonation d;
-    const double given = material_is_lit(material) ? material_detonation_speed(material) : NAN;
-    if (isnan(given) || !detonation_solve(material, material_density(material), &d) ||
-        fabs(given / d.speed - 1.0) <= DETONATION_SPEED_TOLERANCE)
-        return NULL;
-    return text_format("the detonation speed of %.6g m/s that it gives is %.3g %% %s than that "
-                       "of its products, %.6g m/s",
-                       round(given), 100.0 * fabs(given / d.speed - 1.0),
-                       given > d.speed ? "more" : "less", round(d.speed));
-}
-
-static struct error *wrong_detonations(const struct simulation_case *input)
-{
-    struct error *warnings = NULL;
-    for (int i = 0; i < input->materials.count; i++) {
-        char *text = detonation_wrong(case_material(input, i)->material);
-        char path[256];
-        snprintf(path, sizeof path, "materials.%s", input->materials.names[i]);
-        if (text)
-            warnings = error_join(warnings, document_error(input->document, path, "%s", text));
-        free(text);
-    }
-    return warnings;
-}
-
 struct error *estimate_warnings(const struct simulation_case *input)
 {
     const struct solver_class *class = input->solver.choice->thing;
     const double largest =
         class->largest_jump ? class->largest_jump(input->solver.value) : INFINITY;
-    struct error *warnings = error_join(generate_warnings(input), wrong_detonations(input));
+    struct error *warnings = error_join(generate_warnings(input), input_warnings(input));
     if (class->warnings)
         warnings = error_join(warnings, class->warnings(input->solver.value, input));
     if (class->coarse)

@@ -28,11 +28,8 @@ struct estimate {
 /* Also finds what a run would refuse before its first step; then ESTIMATE holds nothing. */
 struct error *estimate_run(const struct simulation_case *input, int threads,
                            struct estimate *estimate);
-/* Where MATERIAL gives a speed of detonation that is not that of its products: a sentence (to be
- * freed), else NULL. */
-char *detonation_wrong(const struct material *material);
 /* What is no mistake but may not be what the user wants: that of generate_warnings and of the
- * solver, detonation speeds that do not fit the products, and contacts of bodies that are stronger
+ * solver, input without effect or that contradicts itself, and contacts of bodies that are stronger
  * than the Riemann problem of the solver is made for. NULL, or messages, each located as an error
  * would be. */
 struct error *estimate_warnings(const struct simulation_case *input);

@@ -55,8 +55,11 @@ struct error *run_case(const struct simulation_case *input, const struct run_opt
 void run_result_free(struct run_result *result);
 
 /* The mistakes that a run of INPUT would tell before its first step, but for those of the particles
- * (generate_summary): walls, contacts, solver, checks, pictures. */
+ * (generate_summary): walls, contacts, solver, checks, pictures; where run_is_filled_in_check also
+ * those of cells, such as gaps between bodies, and of the case that it starts from. */
 struct error *run_validate(const struct simulation_case *input);
+/* Whether cells, and the case that INPUT starts from, take a few seconds at most. */
+bool run_is_filled_in_check(const struct simulation_case *input);
 
 /* The step from TIME towards UNTIL where LIMIT is the largest allowed: what remains is spread over
  * the last two steps, so that no tiny step comes last. */

@@ -150,9 +150,27 @@ static struct error *snapshot_of_failure(struct run *run)
     return error;
 }
 
+/* ERROR with what may hold in place of the solver of the case. */
+static struct error *with_remedy(const struct run *run, struct error *error)
+{
+    const struct solver_class *class = run->method;
+    const char *remedy = class->instead ? class->instead(run->input->solver.value) : NULL;
+    if (!remedy)
+        return error;
+    struct error *longer = NULL;
+    for (int i = 0; i < error_count(error); i++)
+        longer = error_join(
+            longer, error_new(error_kind(error), "%s; %s", error_message(error, i), remedy));
+    if (error_is_known_to_all(error))
+        longer = error_known_to_all(longer);
+    error_free(error);
+    return longer;
+}
+
 /* A state in the middle of a step is of no use to a resumed run: then the last checkpoint stays. */
 struct error *run_save_failure(struct run *run, struct error *error)
 {
+    error = with_remedy(run, error);
     if (!run->options->output)
         return error;
     struct error *failure = snapshot_of_failure(run);

@@ -10,6 +10,7 @@
 #include "material/any.h"
 #include "material/material.h"
 #include "model/bodies.h"
+#include "run/input_warnings.h"
 #include "run/warnings_internal.h"
 
 /* Of the largest speed that needs no warning. Gas of gamma = 1.3 that expands into vacuum in one
@@ -79,6 +80,7 @@ static void ask_solver(struct warnings *w, const struct simulation_case *input)
             w->watch[m].limit[WARNING_REGION] = 0.0;
     if (class->coarse)
         w->coarse = class->coarse(input->solver.value, input);
+    w->input = input_warnings(input);
 }
 
 struct warnings *warnings_create(const struct simulation *simulation)
@@ -111,6 +113,7 @@ void warnings_free(struct warnings *warnings)
     if (!warnings)
         return;
     error_free(warnings->coarse);
+    error_free(warnings->input);
     free(warnings->watch);
     free(warnings->memory);
     free(warnings->prescribed);

@@ -24,6 +24,7 @@ enum warning_kind {
     WARNING_ENERGY,      /* of all members together: it is not conserved */
     WARNING_TRACER,      /* of a tracer: its particle has failed */
     WARNING_COARSE,      /* of the case: its resolution is too coarse */
+    WARNING_INPUT,       /* of the case: input without effect, or that contradicts itself */
     WARNING_KINDS
 };
 

@@ -40,6 +40,7 @@ struct warnings {
     struct material_watch *watch;
     struct warning_memory *memory;
     struct error *coarse; /* what the resolution is too coarse for; NULL: nothing */
+    struct error *input;  /* what of the case has no effect or contradicts itself; NULL: nothing */
     bool *prescribed;     /* by body: it has a prescribed motion */
     double speed;         /* the largest that needs no warning, so far, m/s */
     bool loses_tension;   /* of the solver, in the dimension of the case */

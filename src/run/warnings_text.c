@@ -32,6 +32,7 @@ static const struct {
     [WARNING_ENERGY] = {"energy", "", NULL, NULL, 1.0},
     [WARNING_TRACER] = {"tracer", "", NULL, NULL, 1.0},
     [WARNING_COARSE] = {"coarse", "", NULL, NULL, 1.0},
+    [WARNING_INPUT] = {"input", "", NULL, NULL, 1.0},
 };
 
 const char *warning_kind_name(enum warning_kind kind)
@@ -230,18 +231,23 @@ char *warning_line(const struct warnings *warnings, const struct simulation *sim
     return line;
 }
 
-static bool add_coarse(const struct warnings *warnings, const struct simulation *simulation,
-                       int index, struct warning_results *results)
+/* What is known from the start: SAID, messages of KIND. */
+static bool add_said(const struct error *said, enum warning_kind kind,
+                     const struct simulation_case *input, struct warning_results *results)
 {
-    const char *reason = expected(simulation->problem->input, WARNING_COARSE, -1);
-    struct warning *warning = &results->item[results->count++];
-    *warning = (struct warning){.kind = WARNING_COARSE,
-                                .name = text_copy(kinds[WARNING_COARSE].name),
-                                .text = text_format("%s: %s", kinds[WARNING_COARSE].name,
-                                                    error_message(warnings->coarse, index)),
-                                .expected = reason ? text_copy(reason) : NULL};
-    results->unexpected += !reason;
-    return warning->name && warning->text && (warning->expected || !reason);
+    const char *reason = expected(input, kind, -1);
+    bool done = true;
+    for (int k = 0; said && k < error_count(said) && done; k++) {
+        struct warning *warning = &results->item[results->count++];
+        *warning = (struct warning){
+            .kind = kind,
+            .name = text_copy(kinds[kind].name),
+            .text = text_format("%s: %s", kinds[kind].name, error_message(said, k)),
+            .expected = reason ? text_copy(reason) : NULL};
+        results->unexpected += !reason;
+        done = warning->name && warning->text && (warning->expected || !reason);
+    }
+    return done;
 }
 
 static bool add(const struct warnings *warnings, const struct simulation *simulation, int index,
@@ -268,16 +274,18 @@ struct error *warnings_conclude(const struct warnings *warnings,
     *results = (struct warning_results){0};
     for (int k = 0; k < warnings->memories; k++)
         happened += warnings->memory[k].count > 0.0;
-    const int coarse = warnings->coarse ? error_count(warnings->coarse) : 0;
-    if (!happened && !coarse)
+    const struct simulation_case *input = simulation->problem->input;
+    const int said = (warnings->coarse ? error_count(warnings->coarse) : 0) +
+                     (warnings->input ? error_count(warnings->input) : 0);
+    if (!happened && !said)
         return NULL;
-    results->item = memory_allocate((size_t)(happened + coarse) * sizeof *results->item);
+    results->item = memory_allocate((size_t)(happened + said) * sizeof *results->item);
     done = results->item != NULL;
     for (int k = 0; k < warnings->memories && done; k++)
         if (warnings->memory[k].count > 0.0)
             done = add(warnings, simulation, k, results);
-    for (int k = 0; k < coarse && done; k++)
-        done = add_coarse(warnings, simulation, k, results);
+    done = done && add_said(warnings->coarse, WARNING_COARSE, input, results) &&
+           add_said(warnings->input, WARNING_INPUT, input, results);
     return done ? NULL : error_new(ERROR_SYSTEM, "out of memory for warnings");
 }
 

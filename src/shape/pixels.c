@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "shape/palette.h"
 
 /* A file begins with this and the size of the picture, two big-endian numbers of four bytes. */
 static const unsigned char signature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n',
@@ -68,19 +69,10 @@ static struct pixels *copy_pixels(cairo_surface_t *surface)
     return pixels;
 }
 
-const char *pixels_read(const char *bytes, size_t size, struct pixels **made)
+/* The pixels of a whole image, or what is wrong with it. */
+static const char *decode(const unsigned char *bytes, size_t size, struct pixels **made)
 {
-    struct stream stream = {(const unsigned char *)bytes, size, 0};
-    if (size == 0)
-        return "this `file` is empty";
-    if (size < sizeof signature || memcmp(bytes, signature, sizeof signature) != 0)
-        return "this `file` is not a PNG image: convert it";
-    if (size < HEADER_BYTES)
-        return "this PNG image is damaged or cut off";
-    const int64_t width = big_endian(stream.bytes + sizeof signature);
-    const int64_t height = big_endian(stream.bytes + sizeof signature + 4);
-    if (width > most_along || height > most_along || width * height > most_pixels)
-        return "this image is too large: at most 30000 pixels along an edge, and 100 million";
+    struct stream stream = {bytes, size, 0};
     cairo_surface_t *surface = cairo_image_surface_create_from_png_stream(read_bytes, &stream);
     const cairo_status_t status = cairo_surface_status(surface);
     const cairo_format_t format = cairo_image_surface_get_format(surface);
@@ -94,5 +86,48 @@ const char *pixels_read(const char *bytes, size_t size, struct pixels **made)
     else if (!(*made = copy_pixels(surface)))
         text = "there is no memory for this image";
     cairo_surface_destroy(surface);
+    return text;
+}
+
+/* Whether pixels differ with what follows the palette: they name that. */
+static bool names_missing_entry(const unsigned char *bytes, size_t size)
+{
+    struct pixels *pixels[2] = {NULL, NULL};
+    for (int k = 0; k < 2; k++) {
+        unsigned char *filled;
+        size_t filled_size;
+        if (palette_fill(bytes, size, k ? PIXEL_WHITE : 0, &filled, &filled_size) && filled)
+            decode(filled, filled_size, &pixels[k]);
+        free(filled);
+    }
+    const bool differs =
+        pixels[0] && pixels[1] &&
+        memcmp(pixels[0]->grey, pixels[1]->grey,
+               (size_t)(pixels[0]->width * pixels[0]->height) * sizeof *pixels[0]->grey) != 0;
+    free(pixels[0]);
+    free(pixels[1]);
+    return differs;
+}
+
+const char *pixels_read(const char *bytes, size_t size, struct pixels **made)
+{
+    struct stream stream = {(const unsigned char *)bytes, size, 0};
+    if (size == 0)
+        return "this `file` is empty";
+    if (size < sizeof signature || memcmp(bytes, signature, sizeof signature) != 0)
+        return "this `file` is not a PNG image: convert it";
+    if (size < HEADER_BYTES)
+        return "this PNG image is damaged or cut off";
+    const int64_t width = big_endian(stream.bytes + sizeof signature);
+    const int64_t height = big_endian(stream.bytes + sizeof signature + 4);
+    if (width > most_along || height > most_along || width * height > most_pixels)
+        return "this image is too large: at most 30000 pixels along an edge, and 100 million";
+    const char *text = decode(stream.bytes, size, made);
+    if (!text && names_missing_entry(stream.bytes, size)) {
+        free(*made);
+        *made = NULL;
+        text = "pixels of this PNG image name colors that its palette lacks: save it anew, without "
+               "a palette";
+    }
     return text;
 }

@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -307,6 +308,16 @@ static const char *sph_energy_lost(const void *parameters)
     return scheme->energy_lost ? scheme->energy_lost(all->method.value) : NULL;
 }
 
+static const char *sph_instead(const void *parameters)
+{
+    const struct sph_parameters *all = parameters;
+    const struct sph_scheme *scheme = all->method.choice->thing;
+    return !strcmp(scheme->name, "muscl")
+               ? NULL
+               : "this method is here for comparison and stops in strong shocks and in large "
+                 "expansions: leave `method` out for the default, muscl, which holds there";
+}
+
 const struct solver_class sph_class = {.size = sizeof(struct sph),
                                        .create = sph_create,
                                        .fill = sph_fill,
@@ -319,5 +330,6 @@ const struct solver_class sph_class = {.size = sizeof(struct sph),
                                        .step = sph_step,
                                        .largest_jump = sph_largest_jump,
                                        .energy_lost = sph_energy_lost,
+                                       .instead = sph_instead,
                                        .fields = sph_field_tables,
                                        .loses_tension = true};
