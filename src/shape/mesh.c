@@ -11,7 +11,7 @@ const struct parameter shape_mesh_table[] = {
      .offset = offsetof(struct shape_mesh, file),
      .is_path = true,
      .help = "an STL file, binary or text, from this file's folder; surfaces within others are "
-             "cavities"},
+             "cavities, and those that overlap are joined"},
     {.key = "unit",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct shape_mesh, unit),

@@ -240,47 +240,21 @@ static struct triangles *with_columns(struct triangles *plan)
     const size_t corners = (size_t)plan->count * sizeof *plan->corners;
     const size_t starts = (size_t)(plan->columns[0] * plan->columns[1] + 1) * sizeof *plan->start;
     const size_t lists = (size_t)listed(plan) * sizeof *plan->list;
-    struct triangles *triangles = memory_allocate(sizeof *plan + corners + starts + lists);
+    const size_t nests = (size_t)plan->shells * sizeof *plan->nest;
+    const size_t shells = (size_t)plan->count * sizeof *plan->shell;
+    struct triangles *triangles =
+        memory_allocate(sizeof *plan + corners + starts + lists + nests + shells);
     if (!triangles)
         return NULL;
     *triangles = *plan;
     triangles->corners = (double(*)[3][3])(triangles + 1);
     triangles->start = (int64_t *)(triangles->corners + plan->count);
     triangles->list = triangles->start + plan->columns[0] * plan->columns[1] + 1;
+    triangles->nest = (struct shell_nest *)((char *)triangles->list + lists);
+    triangles->shell = (int32_t *)(triangles->nest + plan->shells);
     memcpy(triangles->corners, plan->corners, corners);
+    memcpy(triangles->shell, plan->shell, shells);
     return triangles;
-}
-
-const char *triangles_make(const float (*corners)[3][3], int64_t count, char *said,
-                           struct triangles **made)
-{
-    const char *text = check_finite(corners, count, said);
-    if (text)
-        return text;
-    struct triangles plan = {.corners = malloc((size_t)(count + 1) * sizeof *plan.corners)};
-    if (!plan.corners)
-        return "there is no memory for this mesh";
-    take_corners(&plan, corners, count);
-    if (plan.count < 4)
-        text = "this mesh has less than four triangles, the fewest that enclose anything";
-    if (!text)
-        text = check_closed(&plan, corners, said);
-    if (!text) {
-        find_bounds(&plan);
-        if (!(plan.bounds.low.x < plan.bounds.high.x && plan.bounds.low.y < plan.bounds.high.y &&
-              plan.bounds.low.z < plan.bounds.high.z))
-            text = "this mesh is flat: it encloses nothing";
-    }
-    if (!text) {
-        choose_columns(&plan);
-        *made = with_columns(&plan);
-        if (*made)
-            list_columns(*made);
-        else
-            text = "there is no memory for this mesh";
-    }
-    free(plan.corners);
-    return text;
 }
 
 /* Whether an edge, seen along x, passes the line that runs from POINT along y. It has its low end
@@ -313,16 +287,90 @@ static bool is_above(const double corner[3][3], struct vec3 point)
            point.x;
 }
 
-bool triangles_hold(const struct triangles *triangles, struct vec3 point)
+/* The shells that are around POINT, AROUND, at most as many as it has room for; how many. Triangles
+ * of a column are sorted by shell. */
+static int shells_around(const struct triangles *triangles, struct vec3 point,
+                         int32_t around[SHELLS_AROUND])
 {
     const struct bounds *bounds = &triangles->bounds;
     if (!(point.x >= bounds->low.x && point.x < bounds->high.x && point.y >= bounds->low.y &&
           point.y < bounds->high.y && point.z >= bounds->low.z && point.z < bounds->high.z))
-        return false;
+        return 0;
     const int64_t column = column_along(triangles, 1, point.z) * triangles->columns[0] +
                            column_along(triangles, 0, point.y);
+    int count = 0;
     bool is_odd = false;
-    for (int64_t i = triangles->start[column]; i < triangles->start[column + 1]; i++)
-        is_odd ^= is_above((const double(*)[3])triangles->corners[triangles->list[i]], point);
-    return is_odd;
+    const int64_t end = triangles->start[column + 1];
+    for (int64_t i = triangles->start[column]; i < end; i++) {
+        const int64_t triangle = triangles->list[i];
+        const int32_t shell = triangles->shell[triangle];
+        is_odd ^= is_above((const double(*)[3])triangles->corners[triangle], point);
+        if (i + 1 < end && triangles->shell[triangles->list[i + 1]] == shell)
+            continue;
+        if (is_odd && count < SHELLS_AROUND)
+            around[count++] = shell;
+        is_odd = false;
+    }
+    return count;
+}
+
+/* Which shells are within which others, by all of their corners. */
+static void find_nests(struct triangles *triangles)
+{
+    for (int64_t i = 0; i < 3 * triangles->count && triangles->shells > 1; i++) {
+        const double *corner = triangles->corners[i / 3][i % 3];
+        const int32_t own = triangles->shell[i / 3];
+        const bool first = i == 0 || (i % 3 == 0 && triangles->shell[i / 3 - 1] != own);
+        int32_t around[SHELLS_AROUND];
+        const int count =
+            shells_around(triangles, vec3_make(corner[0], corner[1], corner[2]), around);
+        shells_nest(&triangles->nest[own], first, around, count, own);
+    }
+}
+
+const char *triangles_make(const float (*corners)[3][3], int64_t count, char *said,
+                           struct triangles **made)
+{
+    const char *text = check_finite(corners, count, said);
+    if (text)
+        return text;
+    struct triangles plan = {.corners = malloc((size_t)(count + 1) * sizeof *plan.corners),
+                             .shell = malloc((size_t)(count + 1) * sizeof *plan.shell)};
+    if (!plan.corners || !plan.shell) {
+        free(plan.corners);
+        free(plan.shell);
+        return "there is no memory for this mesh";
+    }
+    take_corners(&plan, corners, count);
+    if (plan.count < 4)
+        text = "this mesh has less than four triangles, the fewest that enclose anything";
+    if (!text)
+        text = check_closed(&plan, corners, said);
+    if (!text && !shells_sort(plan.corners, plan.count, plan.shell, &plan.shells))
+        text = "there is no memory for this mesh";
+    if (!text) {
+        find_bounds(&plan);
+        if (!(plan.bounds.low.x < plan.bounds.high.x && plan.bounds.low.y < plan.bounds.high.y &&
+              plan.bounds.low.z < plan.bounds.high.z))
+            text = "this mesh is flat: it encloses nothing";
+    }
+    if (!text) {
+        choose_columns(&plan);
+        *made = with_columns(&plan);
+        if (*made) {
+            list_columns(*made);
+            find_nests(*made);
+        } else
+            text = "there is no memory for this mesh";
+    }
+    free(plan.corners);
+    free(plan.shell);
+    return text;
+}
+
+bool triangles_hold(const struct triangles *triangles, struct vec3 point)
+{
+    int32_t around[SHELLS_AROUND];
+    const int count = shells_around(triangles, point, around);
+    return count > 0 && (triangles->shells == 1 || shells_enclose(triangles->nest, around, count));
 }

@@ -3,6 +3,7 @@
 #define BOLIDE_TRIANGLES_H
 
 #include "shape/shape.h"
+#include "shape/shells.h"
 
 /* One block of memory; free() it. Columns along x cover the surface, and each lists the triangles
  * that it may meet. */
@@ -14,6 +15,8 @@ struct triangles {
     double (*corners)[3][3];
     int64_t *start,
         *list; /* those of a column are list[start[column]] .. list[start[column + 1]] */
+    int32_t shells, *shell;  /* how many, and that of each triangle, by which they are sorted */
+    struct shell_nest *nest; /* of each shell */
 };
 
 /* Room for a message on a mesh. */
@@ -25,7 +28,8 @@ enum { MESH_TEXT = 320 };
 const char *triangles_make(const float (*corners)[3][3], int64_t count, char *said,
                            struct triangles **made);
 
-/* Whether POINT is enclosed: a ray from it crosses the surface an odd number of times. */
+/* Whether POINT is enclosed: a ray from it crosses a surface an odd number of times; of several
+ * surfaces, see shells.h. */
 bool triangles_hold(const struct triangles *triangles, struct vec3 point);
 
 /* Makes *made of the bytes of an STL file, binary or text, which end with a null character after

@@ -202,6 +202,14 @@ def inputs():
               "pressure: 1 bar, velocity: [%s, 0 m/s]}}\n")
     yield "inflow not a number", gas(inflow % "100 m/s*sqrt(0.1 - y/(1 m))"), (
         r"boundaries\.in.*not finite")
+    yield "overlapping surfaces of a mesh", """format: 1
+dimension: 3
+resolution: 0.1 m
+solver: sph
+materials: {al: {library: aluminium}}
+bodies: {part: {material: al, mesh: {file: cubes.stl, unit: 1 m}}}
+run: {until: 1 us}
+""", r"1750 particles, 4725 kg"
     start = "start: {from: %s, material: tnt%s}\n"
     yield "start from itself", "self.yaml", r"cannot start from itself.*self\.yaml -> .*self\.yaml"
     yield "two that start from each other", "start-a.yaml", "start-a.yaml -> .*b.yaml -> .*a.yaml"
@@ -230,7 +238,7 @@ def main():
         if ran.returncode not in (0, 2) or not re.search(words, said):
             print(f"FAILED: {name}: exit status {ran.returncode}, wanted {words!r} in\n{said}")
             status = 1
-        elif ran.returncode == 0 and "warning: " not in said:
+        elif ran.returncode == 0 and "warning: " not in said and "mesh" not in name:
             print(f"FAILED: {name}: no warning:\n{said}")
             status = 1
     if count < 60:

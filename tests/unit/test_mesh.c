@@ -36,17 +36,26 @@ static void add_quad(const float a[3], const float b[3], const float c[3], const
     add_triangle(a, c, d);
 }
 
-static void add_box(float low, float high)
+static void add_cuboid(const float low[3], const float high[3])
 {
-    const float c[8][3] = {{low, low, low},    {high, low, low}, {high, high, low},
-                           {low, high, low},   {low, low, high}, {high, low, high},
-                           {high, high, high}, {low, high, high}};
+    float c[8][3];
+    for (int k = 0; k < 8; k++) {
+        const bool far[3] = {k % 4 == 1 || k % 4 == 2, k % 4 >= 2, k >= 4};
+        for (int axis = 0; axis < 3; axis++)
+            c[k][axis] = far[axis] ? high[axis] : low[axis];
+    }
     add_quad(c[0], c[3], c[2], c[1]);
     add_quad(c[4], c[5], c[6], c[7]);
     add_quad(c[0], c[1], c[5], c[4]);
     add_quad(c[1], c[2], c[6], c[5]);
     add_quad(c[2], c[3], c[7], c[6]);
     add_quad(c[3], c[0], c[4], c[7]);
+}
+
+static void add_box(float low, float high)
+{
+    const float from[3] = {low, low, low}, to[3] = {high, high, high};
+    add_cuboid(from, to);
 }
 
 /* A torus about z, of AROUND by AROUND quads, turned a little so that nothing lies on a lattice. */
@@ -182,6 +191,58 @@ static void a_surface_within_another_is_a_cavity(void **state)
     assert_near(volume_of("cavity.stl", 41), 7.0, 0.03);
 }
 
+/* Uniform in LOW .. HIGH, by a linear congruence of Knuth's MMIX. */
+static double draw(uint64_t *state, double low, double high)
+{
+    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return low + (high - low) * (double)(*state >> 11) * 0x1p-53;
+}
+
+static bool is_in(const float box[2][3], struct vec3 at)
+{
+    const double x[3] = {at.x, at.y, at.z};
+    bool inside = true;
+    for (int axis = 0; axis < 3; axis++)
+        inside &= x[axis] >= (double)box[0][axis] && x[axis] < (double)box[1][axis];
+    return inside;
+}
+
+/* Boxes that overlap anyhow, as bars that cross, with a cavity in one of them that holds a core. */
+static void bodies_that_overlap_are_joined(void **state)
+{
+    (void)state;
+    uint64_t dice = 3;
+    for (int trial = 0; trial < 40; trial++) {
+        float box[4][2][3]; /* two that overlap, a cavity in the first, its core */
+        struct triangles *made;
+        char said[MESH_TEXT];
+        for (int axis = 0; axis < 3; axis++) {
+            box[0][0][axis] = (float)draw(&dice, -1.0, -0.9);
+            box[0][1][axis] = (float)draw(&dice, 0.9, 1.0);
+            box[1][0][axis] = (float)draw(&dice, 0.35, 0.6);
+            box[1][1][axis] = (float)draw(&dice, trial % 2 ? 0.7 : 1.1, 2.0);
+            box[2][0][axis] = (float)draw(&dice, -0.7, -0.6);
+            box[2][1][axis] = (float)draw(&dice, -0.1, 0.0);
+            box[3][0][axis] = (float)draw(&dice, -0.5, -0.4);
+            box[3][1][axis] = (float)draw(&dice, -0.3, -0.2);
+        }
+        box[1][0][trial % 3] = -2.0f;
+        box[1][1][trial % 3] = 2.0f; /* it pierces the first */
+        surface.count = 0;
+        for (int k = 0; k < 4; k++)
+            add_cuboid(box[(k + trial) % 4][0], box[(k + trial) % 4][1]);
+        assert_null(
+            triangles_make((const float(*)[3][3])surface.corner, surface.count, said, &made));
+        for (int i = 0; i < 400; i++) {
+            const struct vec3 at = {draw(&dice, -2.1, 2.1), draw(&dice, -2.1, 2.1),
+                                    draw(&dice, -2.1, 2.1)};
+            const bool first = is_in(box[0], at) && (!is_in(box[2], at) || is_in(box[3], at));
+            assert_int_equal(triangles_hold(made, at), first || is_in(box[1], at));
+        }
+        free(made);
+    }
+}
+
 static void points_of_two_boxes_side_by_side_are_in_one(void **state)
 {
     (void)state;
@@ -303,6 +364,7 @@ int main(void)
         cmocka_unit_test(a_torus_has_its_volume_at_fifty_points_across),
         cmocka_unit_test(harmless_spellings_are_read),
         cmocka_unit_test(a_surface_within_another_is_a_cavity),
+        cmocka_unit_test(bodies_that_overlap_are_joined),
         cmocka_unit_test(points_of_two_boxes_side_by_side_are_in_one),
         cmocka_unit_test(files_that_are_no_mesh_are_refused),
     };
