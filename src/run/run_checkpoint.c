@@ -150,19 +150,39 @@ static struct error *snapshot_of_failure(struct run *run)
     return error;
 }
 
-/* ERROR with what may hold in place of the solver of the case. */
+/* "; before that the run warned of unlit in tnt, density in tnt", or "": what the models do not
+ * cover is where most stops come from. Owned by the caller; NULL where memory is out. */
+static char *warned_of(const struct run *run)
+{
+    struct warning_results warnings;
+    char *text = text_copy("");
+    struct error *error = warnings_conclude(run->warnings, &run->simulation, &warnings);
+    for (int k = 0; !error && k < warnings.count && text; k++) {
+        char *longer = text_format("%s%s%s", text, k ? ", " : "; before that the run warned of ",
+                                   warnings.item[k].name);
+        free(text);
+        text = longer;
+    }
+    if (!error)
+        warning_results_free(&warnings);
+    error_free(error);
+    return text;
+}
+
+/* ERROR with what the run had warned of, and what may hold in place of the solver of the case. */
 static struct error *with_remedy(const struct run *run, struct error *error)
 {
     const struct solver_class *class = run->method;
     const char *remedy = class->instead ? class->instead(run->input->solver.value) : NULL;
-    if (!remedy)
-        return error;
+    char *warned = warned_of(run);
     struct error *longer = NULL;
     for (int i = 0; i < error_count(error); i++)
-        longer = error_join(
-            longer, error_new(error_kind(error), "%s; %s", error_message(error, i), remedy));
+        longer = error_join(longer, error_new(error_kind(error), "%s%s%s%s",
+                                              error_message(error, i), warned ? warned : "",
+                                              remedy ? "; " : "", remedy ? remedy : ""));
     if (error_is_known_to_all(error))
         longer = error_known_to_all(longer);
+    free(warned);
     error_free(error);
     return longer;
 }
