@@ -21,6 +21,7 @@ struct gate {
     double flow;            /* mass into the region in the step, kg */
     double push[4];         /* what gas has given as pressure: impulse and work */
     double pushed[4];       /* what particles have got of it */
+    double uncovered[3];    /* area into the region that no particles cover, times the step */
     double pending[PASSES]; /* what has left one part and not come to the other */
     double rest;            /* pressure of the cell outside at the start, Pa */
     double booked[PASSES];  /* that of the end of the last step */
@@ -63,6 +64,7 @@ struct cfdmp {
     struct mpm_push *push;   /* what this rank's nodes have got in this step */
     int64_t changed_capacity, sums_capacity, pushes, push_capacity;
     bool pushes_lost; /* for want of memory */
+    double gauged[4]; /* what the ambient pressure pushed in this step, which forces leave out */
     int64_t *bits;    /* room for those of a side's numbers */
     const struct ranks *ranks;
     struct owned owned;
@@ -112,8 +114,11 @@ bool cfdmp_stirs(const struct cfdmp *cfdmp);
 /* What the gas has pushed in a step while the particles rest. */
 void cfdmp_lean(struct cfdmp *cfdmp, struct simulation *simulation);
 
-/* Collective: the gates note what particles have got in their step. */
+/* Collective: the gates note what particles have got in their step, and on what area. */
 struct error *cfdmp_take_pushes(struct cfdmp *cfdmp);
+/* Takes from the pushes of the gates what acts on area without particles, and passes it on to where
+ * it belongs, see uncovered.c. */
+void cfdmp_share_uncovered(struct cfdmp *cfdmp, struct simulation *simulation);
 
 /* Has the gas push on the particles through the open faces of the region. */
 void cfdmp_surround(struct cfdmp *cfdmp);

@@ -3,7 +3,6 @@
  * pushes on the particles, and the flow of material, which is kept at the face until it makes a
  * layer of particles. Particles that leave are kept there likewise, and the gas, which had taken
  * the flow already, gets the difference little by little. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -34,6 +33,8 @@ static void split(struct cfdmp *cfdmp, int axis, int side, int64_t number,
     }
     for (int k = 0; k < 4; k++)
         gate->pushed[k] = 0.0;
+    for (int k = 0; k < 3; k++)
+        gate->uncovered[k] = k == axis ? into * dt : 0.0;
 }
 
 void cfdmp_find_pressures(struct cfdmp *cfdmp, double dt)
@@ -49,99 +50,6 @@ void cfdmp_find_pressures(struct cfdmp *cfdmp, double dt)
                 split(cfdmp, axis, s, n, &beside, dt);
             }
         }
-}
-
-/* A particle that has left through an open face of the region. */
-struct leaver {
-    uint64_t id;
-    int64_t axis, side, at[3];
-    double values[PASSES];
-};
-
-/* Whether particle I of the coupling OF has left the region through an open face, and maybe through
- * an outflow since. */
-static bool has_left(void *of, int32_t i)
-{
-    const struct cfdmp *cfdmp = of;
-    const double *x = mpm_particles(cfdmp->mpm)->position[i];
-    bool left = false;
-    for (int axis = 0; axis < cfdmp->dimension; axis++) {
-        const double place = x[axis] / cfdmp->edge;
-        left |= (cfdmp->cut.open[axis][0] && place < (double)cfdmp->cut.low[axis]) ||
-                (cfdmp->cut.open[axis][1] && place > (double)cfdmp->cut.high[axis]);
-    }
-    return left;
-}
-
-/* What particle I, which has left, takes along: of the SECOND material or the first. */
-static struct leaver leaver_of(const struct cfdmp *cfdmp, int32_t i, bool second)
-{
-    const struct particles *p = mpm_particles(cfdmp->mpm);
-    const double *x = p->position[i], *u = p->velocity[i], m = p->mass[i];
-    double most = 0.0, kinetic = 0.0;
-    struct leaver leaver = {.id = p->id[i], .axis = -1};
-    for (int axis = 0; axis < cfdmp->dimension; axis++) {
-        const double place = x[axis] / cfdmp->edge;
-        leaver.at[axis] = (int64_t)floor(place);
-        for (int side = 0; side < 2; side++) {
-            const double beyond =
-                side ? place - (double)cfdmp->cut.high[axis] : (double)cfdmp->cut.low[axis] - place;
-            if (cfdmp->cut.open[axis][side] && beyond > most) {
-                most = beyond;
-                leaver.axis = axis;
-                leaver.side = side;
-            }
-        }
-    }
-    for (int k = 0; k < 3; k++) {
-        leaver.values[PASS_MOMENTUM + k] = m * u[k];
-        kinetic += 0.5 * square(u[k]);
-    }
-    leaver.values[PASS_MASS] = m;
-    leaver.values[PASS_ENERGY] = m * (p->energy[i] + kinetic);
-    leaver.values[PASS_SECOND] = second ? m : 0.0;
-    return leaver;
-}
-
-static int by_id(const void *left, const void *right)
-{
-    const struct leaver *a = left, *b = right;
-    return (a->id > b->id) - (a->id < b->id);
-}
-
-/* Collective: particles that have left wait at their gates, taken in the order of their ids. */
-static struct error *take_out(struct cfdmp *cfdmp)
-{
-    const struct gas_view view = gas_view(cfdmp->gas);
-    struct particles *p = mpm_particles(cfdmp->mpm);
-    struct leaver *own = NULL, *all = NULL;
-    int64_t count = 0;
-    struct error *error = NULL;
-    if (!part_pick(&cfdmp->leaving, p->count, cfdmp->mpm_part.simulation.threads, has_left, cfdmp))
-        error = owned_error();
-    else if (!(own = memory_allocate(((size_t)cfdmp->leaving.count + 1) * sizeof *own)))
-        error = owned_error();
-    for (int64_t k = 0; own && k < cfdmp->leaving.count; k++) {
-        const int32_t i = cfdmp->leaving.index[k];
-        if (particles_is_deleted(p, i)) /* gone through an outflow */
-            continue;
-        own[count++] = leaver_of(cfdmp, i, view.layout->two && p->material[i] == view.material[1]);
-        particles_delete(p, i);
-    }
-    error = ranks_agree(cfdmp->ranks, error);
-    if (!error)
-        error = ranks_gather(cfdmp->ranks, -1, own, count, sizeof *own, (void **)&all, &count);
-    free(own);
-    if (error)
-        return error;
-    qsort(all, (size_t)count, sizeof *all, by_id);
-    for (int64_t k = 0; k < count; k++) {
-        struct gate *gate = cfdmp_gate(cfdmp, (int)all[k].axis, (int)all[k].side, all[k].at);
-        for (int n = 0; n < PASSES; n++)
-            gate->pending[n] += all[k].values[n];
-    }
-    free(all);
-    return NULL;
 }
 
 /* What comes in through a gate: of one material, at one state. */
@@ -335,10 +243,29 @@ static struct error *settle_printed(struct cfdmp *cfdmp, int axis, int side, int
     return way > 0.0 ? emit(cfdmp, &arrival) : NULL;
 }
 
+/* Where material leaves, up to MOST of what waits at a gate between two layers of particles stays
+ * there, in the state BESIDE the gate. The EXCESS is what the particles and the flow that the gas
+ * took differ by. */
+static void find_excess(const struct side *side, int64_t number, const struct beside *beside,
+                        double most, double excess[PASSES])
+{
+    const struct gate *gate = &side->gate[number];
+    const struct flank *flank = side->flank[number];
+    const double mass = gate->pending[PASS_MASS], stays = minimum(maximum(mass, -most), most);
+    double per_mass[PASSES] = {[PASS_MASS] = 1.0, [PASS_ENERGY] = beside->energy};
+    for (int k = 0; k < 3; k++) {
+        per_mass[PASS_MOMENTUM + k] = beside->velocity[k];
+        per_mass[PASS_ENERGY] += 0.5 * square(beside->velocity[k]);
+    }
+    per_mass[PASS_SECOND] = 0.5 * (flank[0].second + flank[1].second) / beside->density;
+    for (int n = 0; n < PASSES; n++)
+        excess[n] = gate->pending[n] - stays * per_mass[n];
+}
+
 /* Of what waits, a layer becomes particles, or a part goes to the gas. */
 static struct error *settle(struct cfdmp *cfdmp, int axis, int s, int64_t number, double dt)
 {
-    /* What waits goes to the gas over the time in which the flow crosses two cells. Much faster,
+    /* The excess goes to the gas over the time in which the flow crosses two cells. Much faster,
      * and each particle that leaves would be a pulse of sound. */
     static const double cells = 2.0;
     const struct gas_view view = gas_view(cfdmp->gas);
@@ -354,8 +281,10 @@ static struct error *settle(struct cfdmp *cfdmp, int axis, int s, int64_t number
         return NULL;
     const double part = minimum(dt * fabs(beside.velocity[axis]) / (cells * cfdmp->edge), 1.0);
     int64_t outside[3];
+    find_excess(side, number, &beside, beside.density * layer * gate_area(cfdmp, axis, s, number),
+                rest);
     for (int n = 0; n < PASSES; n++) {
-        rest[n] = part * gate->pending[n];
+        rest[n] *= part;
         gate->pending[n] -= rest[n];
     }
     gate_cell(cfdmp, axis, s, number, false, outside);
@@ -426,7 +355,9 @@ struct error *cfdmp_transport(struct cfdmp *cfdmp, struct simulation *simulation
     const bool awake = cfdmp->awake > 0.0; /* else what little comes waits */
     if (awake) {
         TRY(cfdmp_take_pushes(cfdmp));
-        TRY(take_out(cfdmp));
+        if (cfdmp->parameters.transport != CFDMP_PRINTED)
+            cfdmp_share_uncovered(cfdmp, simulation);
+        TRY(cfdmp_take_out(cfdmp));
         cfdmp_look(cfdmp);
     }
     for (int axis = 0; axis < cfdmp->dimension; axis++)

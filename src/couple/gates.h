@@ -38,4 +38,8 @@ struct shared gate_share(const struct gas_view *view, const double mass[2], cons
 void gate_give(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t at[3],
                double rest[PASSES], const double of[2]);
 
+/* Collective: particles that have left the region wait at the gates that they cover, taken in the
+ * order of their ids. */
+struct error *cfdmp_take_out(struct cfdmp *cfdmp);
+
 #endif

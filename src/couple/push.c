@@ -1,5 +1,7 @@
 /* How the gas pushes on the particles through the open faces of the region, and what it pushes on
  * while they rest. */
+#include <string.h>
+
 #include "base/memory.h"
 #include "couple/gates.h"
 
@@ -65,22 +67,25 @@ static void note_push(void *of, const struct mpm_push *push)
 /* The gates around a node note what they have pushed there. */
 static void take_push(struct cfdmp *cfdmp, const struct mpm_push *push)
 {
-    double strength = 0.0;
-    for (int c = 0; c < 3; c++)
-        strength += fabs(push->impulse[c]);
+    const double gauge = mpm_gauge(cfdmp->mpm, gas_view(cfdmp->gas).material[0]);
     for (int c = 0; c < 3; c++) {
         struct gate *gate[4];
         const int count = gates_at(cfdmp, push->at, c, gate);
+        const double gauged = -gauge * push->area[c], impulse = push->impulse[c] + gauged;
         for (int k = 0; k < count; k++) {
-            gate[k]->pushed[c] += push->impulse[c] / count;
-            gate[k]->pushed[3] += push->work * fabs(push->impulse[c]) / (strength * count);
+            gate[k]->pushed[c] += impulse / count;
+            gate[k]->pushed[3] += impulse * push->velocity[c] / count;
+            gate[k]->uncovered[c] += push->area[c] / count;
         }
+        cfdmp->gauged[c] += gauged;
+        cfdmp->gauged[3] += gauged * push->velocity[c];
     }
 }
 
 struct error *cfdmp_take_pushes(struct cfdmp *cfdmp)
 {
     TRY(cfdmp_gather_pushes(cfdmp));
+    memset(cfdmp->gauged, 0, sizeof cfdmp->gauged);
     for (int64_t k = 0; k < cfdmp->pushes; k++)
         take_push(cfdmp, &cfdmp->push[k]);
     cfdmp->pushes = 0;

@@ -350,7 +350,7 @@ static void take_push(void *of, const struct mpm_push *push)
         &afdmp->nest.simulation.ledger, LEDGER_EXCHANGE, 0.0,
         vec3_make(impulse[0], impulse[1], impulse[2]),
         vec3_make((double)push->at[0] * h, (double)push->at[1] * h, (double)push->at[2] * h),
-        push->work);
+        mpm_push_work(push));
 }
 
 static struct error *make_rim(struct afdmp *afdmp, const struct gas_cut *box, struct afdmp_rim *rim)

@@ -9,13 +9,15 @@
 
 struct mpm;
 
-/* The impulse and the work of a step at a node. Of all ranks together they are in ORDER, compared
- * number by number. */
+/* What is outside has done to a node in a step: the impulse, the outward area of the particles'
+ * surface times the step, and the mean velocity of the node. Of all ranks together they are in
+ * ORDER, compared number by number. */
 struct mpm_push {
     int64_t at[3];
-    double impulse[3], work;
+    double impulse[3], area[3], velocity[3];
     uint64_t order[3];
 };
+double mpm_push_work(const struct mpm_push *push); /* J */
 
 /* A box of cells with a fluid outside its open faces, which pushes on the surface of the particles
  * there. Gives the pressure, less that of the gauge, at the node AT near an open face, of its force

@@ -279,34 +279,37 @@ static void push_face(struct layer *layer, const struct surface *surface, double
         }
 }
 
-/* The force of what is outside on AREA of a node; nothing far from the open faces. */
-static void push_area(const struct surface *surface, const int64_t at[3], double *area)
+/* Whether the node AT has a part of the surface. */
+static bool is_on(const struct surface *surface, const int64_t at[3])
 {
     const struct mpm_outside *outside = surface->outside;
+    if (!outside)
+        return (double)at[surface->axis] >= surface->low &&
+               (double)at[surface->axis] <= surface->high;
     bool near = false;
     for (int axis = 0; axis < 3; axis++)
         for (int side = 0; side < 2; side++)
             near |= outside->open[axis][side] &&
                     fabs((double)(at[axis] - (side ? outside->high : outside->low)[axis])) <=
                         surface->reach;
-    for (int c = 0; c < 3; c++)
-        area[c] = near && area[c] != 0.0 ? -area[c] * outside->pressure(outside->of, at, c) : 0.0;
+    return near;
 }
 
-/* Converts areas to forces. */
-static void push_outside(struct layer *layer, const struct surface *surface)
+/* Converts areas, which have been noted, to the forces of what is outside. */
+static void push_outside(struct layer *layer, const struct mpm_outside *outside)
 {
     int64_t corner[3], at[3];
     for (int32_t n = 0; n < layer->grid.blocks; n++) {
         grid_corner(&layer->grid, n, corner);
         for (int k = 0; k < BLOCK_CELLS; k++) {
+            double *area = grid_node(&layer->back, n, k);
             mpm_node_index(layer->grid.dimension, corner, k, at);
-            push_area(surface, at, grid_node(&layer->back, n, k));
+            mpm_push_area(outside, at, area, area);
         }
     }
 }
 
-/* Sets the force to zero at nodes of a block that are not on the surface. */
+/* Sets to zero what nodes of a block have that are not on the surface. */
 static void keep_surface(const struct layer *layer, const struct surface *surface, int32_t block)
 {
     int64_t corner[3], at[3];
@@ -314,8 +317,7 @@ static void keep_surface(const struct layer *layer, const struct surface *surfac
     for (int k = 0; k < BLOCK_CELLS; k++) {
         const double *node = grid_node(&layer->main, block, k);
         mpm_node_index(layer->grid.dimension, corner, k, at);
-        const double place = (double)at[surface->axis];
-        if (!(place >= surface->low && place <= surface->high && node[NODE_MASS] > 0.0))
+        if (!(is_on(surface, at) && node[NODE_MASS] > 0.0))
             memset(grid_node(&layer->back, block, k), 0, BACK_STRIDE * sizeof(double));
     }
 }
@@ -334,6 +336,8 @@ static void push_nodes(const struct mpm *mpm, struct simulation *simulation, str
                     : surface->outflow ? SURFACE_OUTFLOWS
                                        : SURFACE_OUTSIDE,
                     simulation->threads);
+    if (surface->outside)
+        push_outside(layer, surface->outside);
     mpm_add_forces(mpm, simulation, layer);
 }
 
@@ -349,8 +353,6 @@ static void push_surface(struct mpm *mpm, struct simulation *simulation,
             push_face(layer, surface, dt, simulation->threads);
         if (surface->of == by_blast)
             mpm_push_blast(mpm, layer, surface, simulation->threads);
-        if (surface->outside)
-            push_outside(layer, surface);
         push_nodes(mpm, simulation, layer, surface);
     }
 }
@@ -399,12 +401,8 @@ struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, 
         push_surface(mpm, simulation, &surface, dt);
     }
     if (mpm->outside) {
-        const struct surface surface = {.body = -1,
-                                        .low = -(double)INFINITY,
-                                        .high = (double)INFINITY,
-                                        .of = by_area,
-                                        .outside = mpm->outside,
-                                        .reach = reach};
+        const struct surface surface = {
+            .body = -1, .of = by_area, .outside = mpm->outside, .reach = reach};
         push_surface(mpm, simulation, &surface, dt);
     }
     const struct mpm_fields fields = mpm_fields_of(mpm);

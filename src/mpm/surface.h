@@ -35,8 +35,12 @@ struct surface {
 void mpm_push_blast(const struct mpm *mpm, struct layer *layer, const struct surface *surface,
                     int threads);
 
+/* The force of what is outside, at the node AT with AREA of the surface. */
+void mpm_push_area(const struct mpm_outside *outside, const int64_t at[3], const double area[3],
+                   double force[3]);
+
 /* Adds the forces in the second field of LAYER, in which walls have no part yet, to those that
- * mpm_book_surfaces books under CAUSE. */
+ * mpm_book_surfaces books under CAUSE; of what is outside, the areas. */
 void mpm_note_pushed(struct layer *layer, enum surface_cause cause, int threads);
 
 #endif

@@ -44,28 +44,45 @@ void mpm_note_pushed(struct layer *layer, enum surface_cause cause, int threads)
         }
 }
 
-/* Books the force that PUSH has for an impulse on NODE in a step of DT. */
-static void book_force(const struct mpm *mpm, enum surface_cause cause, const double *node,
-                       double dt, struct mpm_push *push, struct ledger *ledger)
+void mpm_push_area(const struct mpm_outside *outside, const int64_t at[3], const double area[3],
+                   double force[3])
+{
+    for (int c = 0; c < 3; c++)
+        force[c] = area[c] != 0.0 ? -area[c] * outside->pressure(outside->of, at, c) : 0.0;
+}
+
+double mpm_push_work(const struct mpm_push *push)
+{
+    double work = 0.0;
+    for (int c = 0; c < 3; c++)
+        work += push->impulse[c] * push->velocity[c];
+    return work;
+}
+
+/* Books what PUSHED has noted of CAUSE, on NODE in a step of DT: PUSH has place and order. */
+static void book_force(const struct mpm *mpm, enum surface_cause cause, const double pushed[3],
+                       const double *node, double dt, struct mpm_push *push, struct ledger *ledger)
 {
     static const enum ledger_cause causes[] = {
         [SURFACE_LOADS] = LEDGER_LOADS, [SURFACE_OUTFLOWS] = LEDGER_OUTFLOWS};
-    double *f = push->impulse;
-    if (f[0] == 0.0 && f[1] == 0.0 && f[2] == 0.0)
+    if (pushed[0] == 0.0 && pushed[1] == 0.0 && pushed[2] == 0.0)
         return;
-    push->work = 0.0;
-    for (int c = 0; c < 3; c++)
-        push->work += dt * f[c] * (node[NODE_MOMENTUM + c] + 0.5 * dt * node[NODE_FORCE + c]) /
-                      node[NODE_MASS];
-    for (int c = 0; c < 3; c++)
-        f[c] *= dt;
-    const int64_t *at = push->at;
-    if (cause == SURFACE_OUTSIDE)
+    for (int c = 0; c < 3; c++) {
+        push->impulse[c] = dt * pushed[c];
+        push->velocity[c] =
+            (node[NODE_MOMENTUM + c] + 0.5 * dt * node[NODE_FORCE + c]) / node[NODE_MASS];
+    }
+    if (cause == SURFACE_OUTSIDE) {
+        memcpy(push->area, push->impulse, sizeof push->area);
+        mpm_push_area(mpm->outside, push->at, push->area, push->impulse);
         mpm->outside->pushed(mpm->outside->of, push);
-    else
-        ledger_book(ledger, causes[cause], 0.0, vec3_make(f[0], f[1], f[2]),
-                    vec3_scale(mpm->edge, vec3_make((double)at[0], (double)at[1], (double)at[2])),
-                    push->work);
+        return;
+    }
+    const int64_t *at = push->at;
+    const double *f = push->impulse;
+    ledger_book(ledger, causes[cause], 0.0, vec3_make(f[0], f[1], f[2]),
+                vec3_scale(mpm->edge, vec3_make((double)at[0], (double)at[1], (double)at[2])),
+                mpm_push_work(push));
 }
 
 /* The same for the nodes of a block that are not near a wall, if this rank owns the block. */
@@ -80,10 +97,9 @@ static void book_block(const struct mpm *mpm, const struct layer *layer, enum su
         struct mpm_push push = {
             .order = {2 * (uint64_t)(layer - mpm->layer) + 1, layer->grid.key[block], (uint64_t)k}};
         mpm_node_index(layer->grid.dimension, corner, k, push.at);
-        memcpy(push.impulse, layer->pushed[cause][(int64_t)block * BLOCK_CELLS + k],
-               sizeof push.impulse);
         if (!mpm_near_wall(mpm, layer, push.at))
-            book_force(mpm, cause, grid_node(&layer->main, block, k), dt, &push, ledger);
+            book_force(mpm, cause, layer->pushed[cause][(int64_t)block * BLOCK_CELLS + k],
+                       grid_node(&layer->main, block, k), dt, &push, ledger);
     }
 }
 
@@ -96,9 +112,8 @@ static void book_wall(const struct mpm *mpm, const struct layer *layer, enum sur
                             .order = {2 * (uint64_t)(layer - mpm->layer),
                                       layer->grid.key[node / BLOCK_CELLS],
                                       (uint64_t)(node % BLOCK_CELLS)}};
-    memcpy(push.impulse, wall->pushed_by[cause], sizeof push.impulse);
     if (wall->booked)
-        book_force(mpm, cause, wall->node, dt, &push, ledger);
+        book_force(mpm, cause, wall->pushed_by[cause], wall->node, dt, &push, ledger);
 }
 
 static void book_layer(const struct mpm *mpm, struct simulation *simulation,
