@@ -359,6 +359,8 @@ struct error *cfdmp_transport(struct cfdmp *cfdmp, struct simulation *simulation
             cfdmp_share_uncovered(cfdmp, simulation);
         TRY(cfdmp_take_out(cfdmp));
         cfdmp_look(cfdmp);
+        if (cfdmp->parameters.transport != CFDMP_PRINTED)
+            cfdmp_even_out(cfdmp, dt);
     }
     for (int axis = 0; axis < cfdmp->dimension; axis++)
         for (int s = 0; s < 2; s++) {

@@ -42,4 +42,8 @@ void gate_give(struct cfdmp *cfdmp, const struct gas_view *view, const int64_t a
  * order of their ids. */
 struct error *cfdmp_take_out(struct cfdmp *cfdmp);
 
+/* Neighbouring gates through which material leaves exchange what waits there, in a step of DT, see
+ * even.c. Uses the `rest` of the sides. */
+void cfdmp_even_out(struct cfdmp *cfdmp, double dt);
+
 #endif
