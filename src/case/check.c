@@ -16,7 +16,8 @@ void case_check_axis(struct checking *checking, const char *key, int axis)
                    checking->input->dimension == 1 ? "" : "s");
 }
 
-/* The material as plain data: the index of a choice is the enum of its model. */
+/* The material as plain data: the index of a choice is the enum of its model. A heat capacity of
+ * the strength is that of the material which has no other. */
 struct error *case_fill_material(struct material_input *material)
 {
     struct material *plain = memory_allocate(sizeof *plain);
@@ -38,6 +39,9 @@ struct error *case_fill_material(struct material_input *material)
         plain->strength.kind = (enum strength_kind)material->strength.index;
         memcpy(&plain->strength.of, material->strength.value, material->strength.choice->size);
     }
+    if (isnan(plain->heat.capacity))
+        plain->heat.capacity = strength_traits(&plain->strength).capacity;
+    material->heat.capacity = plain->heat.capacity;
     plain->failure.kind = FAILURE_NONE;
     if (material->failure.value) {
         plain->failure.kind = (enum failure_kind)material->failure.index;

@@ -11,6 +11,7 @@
 
 #include "base/memory.h"
 #include "case/library.h"
+#include "dice.h"
 #include "material/material.h"
 #include "small_catalogue.h"
 #include "source_folder.h"
@@ -163,6 +164,44 @@ static void names_of_a_case_do_not_reach_into_the_library(void **state)
     }
 }
 
+/* The strength computes its own temperature from a heat capacity, so that the material has one. */
+static void a_capacity_of_the_strength_is_that_of_the_material(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *beside, *start;
+        double capacity;
+    } cases[] = {
+        {"", ", temperature: 500 K", 383.0},
+        {", heat: {capacity: 400 J/(kg*K)}", ", temperature: 500 K", 400.0},
+        {", strength: none", "", NAN},
+    };
+    static const char path[] = "test_library_capacity.yaml";
+    const struct case_options options = {.library_paths = folders, .library_count = 1};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        FILE *file = fopen(path, "w");
+        assert_non_null(file);
+        fprintf(file,
+                "format: 1\ndimension: 1\nresolution: 1 mm\nrun: {until: 1 us}\nsolver: sph\n"
+                "materials: {one: {library: copper-johnson-cook%s}}\n"
+                "bodies: {body: {material: one, box: {from: [0 mm], to: [5 mm]}%s}}\n",
+                cases[i].beside, cases[i].start);
+        fclose(file);
+        struct simulation_case *input;
+        assert_success(case_read(path, &options, &small_catalogue, &input));
+        unlink(path);
+        const struct material *material = case_material(input, 0)->material;
+        const struct point start = case_body(input, 0)->start;
+        if (isnan(cases[i].capacity)) {
+            assert_true(isnan(material->heat.capacity));
+        } else {
+            assert_true(material->heat.capacity == cases[i].capacity);
+            assert_near(material_start_heating(material, &start), 500.0 - 293.0, 1e-9);
+        }
+        case_free(input);
+    }
+}
+
 static bool holds_one_of(const char *text, const char *const *words)
 {
     for (; *words; words++)
@@ -254,6 +293,7 @@ int main(void)
         cmocka_unit_test(every_material_says_what_it_is_and_whence),
         cmocka_unit_test(names_of_a_case_do_not_reach_into_the_library),
         cmocka_unit_test(names_are_plain_and_no_two_materials_are_the_same),
+        cmocka_unit_test(a_capacity_of_the_strength_is_that_of_the_material),
         cmocka_unit_test(every_value_carries_its_source),
         cmocka_unit_test(a_slip_gets_the_nearest_name),
         cmocka_unit_test(a_folder_that_is_not_there_is_told),

@@ -18,6 +18,8 @@ struct strength_traits {
     bool limits_tension;
     /* It has a step of many points at once. */
     bool batched;
+    /* The specific heat by which it computes temperatures, J/(kg K); NAN: it has none. */
+    double capacity;
     /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
     const char *wrong, *wrong_key;
 };
@@ -25,7 +27,7 @@ struct strength_traits {
 /* The traits of a model that says no more. */
 BOLIDE_INLINE struct strength_traits strength_default_traits(void)
 {
-    struct strength_traits traits = {0, false, false, false, NULL, NULL};
+    struct strength_traits traits = {0, false, false, false, (double)NAN, NULL, NULL};
     return traits;
 }
 

@@ -274,6 +274,7 @@ BOLIDE_INLINE struct strength_traits strength_johnson_cook_traits(
 {
     struct strength_traits traits = strength_default_traits();
     traits.batched = solid->return_map == JOHNSON_COOK_IMPLICIT;
+    traits.capacity = solid->capacity;
     if (!johnson_cook_softens(solid))
         return traits;
     traits.history = HISTORY_BIT(plastic_heating);
