@@ -9,6 +9,10 @@ enum field_kind {
     FIELD_STATE = 1,   /* saved, migrated */
     FIELD_DERIVED = 2, /* found again from the state */
     FIELD_PASSING = 4, /* not kept when members are sorted */
+    /* What a number of it can be; without any of these, whatever is finite. */
+    FIELD_POSITIVE = 8,
+    FIELD_NOT_NEGATIVE = 16,
+    FIELD_FRACTION = 32, /* from 0 to 1, but for rounding */
 };
 
 struct field_declaration {

@@ -13,7 +13,7 @@ static const struct field_declaration core_fields[] = {
     {"material", NULL, "material", NUMBER_UINT16, 1, FIELD_STATE},
     {"body", NULL, "body that filled it", NUMBER_UINT16, 1, FIELD_STATE},
     {"mass", "kg", "mass", NUMBER_DOUBLE, 1, FIELD_DERIVED},
-    {"density", "kg/m^3", "density", NUMBER_DOUBLE, 1, FIELD_STATE},
+    {"density", "kg/m^3", "density", NUMBER_DOUBLE, 1, FIELD_STATE | FIELD_POSITIVE},
     {"energy", "J/kg", "specific internal energy", NUMBER_DOUBLE, 1, FIELD_DERIVED},
     {"pressure", "Pa", "pressure, positive in compression", NUMBER_DOUBLE, 1, FIELD_DERIVED},
     {"position", "m", "centre", NUMBER_DOUBLE, 3, FIELD_DERIVED},

@@ -4,22 +4,24 @@
 #ifndef BOLIDE_MATERIAL_HISTORY_H
 #define BOLIDE_MATERIAL_HISTORY_H
 
-/* X(slot, unit, help): HISTORY_<slot> is its index, <slot> the name of its field. The first is in
- * every store. */
-#define HISTORY_LIST(X)                                                                  \
-    X(plastic_strain, "", "equivalent plastic strain")                                   \
-    X(dilation, "", "volume gained by flow and tearing, relative to the elastic volume") \
-    X(largest_compression, "", "largest rho/rho_0 - 1 so far")                           \
-    X(damage, "", "damage by crushing or by a failure model; 1: failed")                 \
-    X(void_ratio, "", "volume of voids in failed material over that of the material")    \
-    X(strength_scatter, "", "strength at failure over the characteristic one, less 1")   \
-    X(tensile_damage, "", "damage by tension; 1: broken")                                \
-    X(plastic_heating, "K", "temperature rise from a hot start and plastic work")        \
-    X(lighting_time, "s", "arrival time of the detonation")                              \
-    X(explosive_volume, "", "volume of the unburnt explosive over that at rest")         \
-    X(burnt, "", "burnt fraction of the explosive")
+#include "base/field.h"
 
-#define HISTORY_ENUM(slot, unit, help) HISTORY_##slot,
+/* X(slot, unit, help, range): HISTORY_<slot> is its index, <slot> the name of its field, RANGE what
+ * it can be (enum field_kind). The first is in every store. */
+#define HISTORY_LIST(X)                                                                      \
+    X(plastic_strain, "", "equivalent plastic strain", FIELD_NOT_NEGATIVE)                   \
+    X(dilation, "", "volume gained by flow and tearing, relative to the elastic volume", 0)  \
+    X(largest_compression, "", "largest rho/rho_0 - 1 so far", FIELD_NOT_NEGATIVE)           \
+    X(damage, "", "damage by crushing or by a failure model; 1: failed", FIELD_NOT_NEGATIVE) \
+    X(void_ratio, "", "volume of voids in failed material over that of the material", 0)     \
+    X(strength_scatter, "", "strength at failure over the characteristic one, less 1", 0)    \
+    X(tensile_damage, "", "damage by tension; 1: broken", FIELD_NOT_NEGATIVE)                \
+    X(plastic_heating, "K", "temperature rise from a hot start and plastic work", 0)         \
+    X(lighting_time, "s", "arrival time of the detonation", 0)                               \
+    X(explosive_volume, "", "volume of the unburnt explosive over that at rest", 0)          \
+    X(burnt, "", "burnt fraction of the explosive", FIELD_FRACTION)
+
+#define HISTORY_ENUM(slot, unit, help, range) HISTORY_##slot,
 enum { HISTORY_LIST(HISTORY_ENUM) POINT_HISTORY };
 #undef HISTORY_ENUM
 
@@ -28,6 +30,7 @@ enum { HISTORY_LIST(HISTORY_ENUM) POINT_HISTORY };
 
 struct history_slot {
     const char *name, *unit, *help;
+    unsigned range;
 };
 extern const struct history_slot history_slots[POINT_HISTORY];
 

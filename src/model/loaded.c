@@ -2,8 +2,10 @@
 #include "model/loaded.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
+#include "case/internal.h"
 #include "model/generate.h"
 
 static struct error *check_indices(const struct simulation *simulation, int64_t first,
@@ -31,24 +33,89 @@ static struct error *check_indices(const struct simulation *simulation, int64_t 
     return NULL;
 }
 
+/* What a number of a field can be, and in words. */
+struct member_range {
+    double least, most;
+    const char *text;
+};
+
+/* Where nothing is faster than light, nothing is farther than light from where bodies began. */
+static double farthest(const struct simulation *simulation)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    double reach = 0.0;
+    for (int body = 0; body < input->bodies.count; body++) {
+        const struct bounds bounds = body_bounds(input, body);
+        const double ends[] = {bounds.low.x,  bounds.low.y,  bounds.low.z,
+                               bounds.high.x, bounds.high.y, bounds.high.z};
+        for (size_t k = 0; k < COUNT_OF(ends); k++)
+            reach = maximum(reach, fabs(ends[k]));
+    }
+    return reach + SPEED_OF_LIGHT * simulation->time;
+}
+
+static struct member_range range_of(const struct simulation *simulation,
+                                    const struct population *population, const struct field *field)
+{
+    static const double TINY = 1e-300, ROUNDING = 1e-3;
+    const unsigned kind = field->declaration.kind;
+    const void *numbers = field->data;
+    if (kind & FIELD_POSITIVE)
+        return (struct member_range){TINY, INFINITY, "a positive number"};
+    if (kind & FIELD_NOT_NEGATIVE)
+        return (struct member_range){0.0, INFINITY, "a number that is not negative"};
+    if (kind & FIELD_FRACTION)
+        return (struct member_range){-ROUNDING, 1.0 + ROUNDING, "a number from 0 to 1"};
+    if (numbers == population->velocity)
+        return (struct member_range){-SPEED_OF_LIGHT, SPEED_OF_LIGHT,
+                                     "a speed below that of light"};
+    if (numbers == population->position && population->kind == POPULATION_OF_PARTICLES) {
+        const double reach = farthest(simulation);
+        return (struct member_range){-reach, reach, "a place that light can have reached"};
+    }
+    return (struct member_range){-INFINITY, INFINITY, "a finite number"};
+}
+
 static struct error *check_field(const struct simulation *simulation, int64_t first,
                                  const struct field *field)
 {
     const struct population population = simulation_population(simulation);
     const int components = field->declaration.components;
     const double *number = field->data;
-    const bool positive = number == population.mass || number == population.density;
-    /* a cell that an obstacle blocks has neither */
-    const double *mass = population.mass, *density = population.density;
-    const bool cells = population.kind == POPULATION_OF_CELLS;
+    const struct member_range range = range_of(simulation, &population, field);
+    /* a cell that an obstacle blocks has neither mass nor density */
+    const double *mass = population.mass;
+    const bool cells = population.kind == POPULATION_OF_CELLS && number == population.density;
     for (int64_t k = 0; k < (int64_t)population.count * components; k++)
-        if (!isfinite(number[k]) ||
-            (positive && number[k] <= 0.0 && !(cells && mass[k] == 0.0 && density[k] == 0.0)))
-            return error_new(
-                ERROR_SYSTEM, "row %lld of %s is %g, %s", (long long)(first + k / components),
-                field->declaration.name, number[k],
-                positive ? "where a positive number is wanted" : "where a finite number is wanted");
+        if (!(isfinite(number[k]) && number[k] >= range.least && number[k] <= range.most) &&
+            !(cells && mass[k] == 0.0 && number[k] == 0.0))
+            return error_new(ERROR_SYSTEM, "row %lld of %s is %g, where %s is wanted",
+                             (long long)(first + k / components), field->declaration.name,
+                             number[k], range.text);
     return NULL;
+}
+
+static int by_number(const void *left, const void *right)
+{
+    const uint64_t a = *(const uint64_t *)left, b = *(const uint64_t *)right;
+    return (a > b) - (a < b);
+}
+
+/* Two members of one id would be one to neighbour lists and output. */
+static struct error *check_doubled(const struct population *population)
+{
+    const size_t count = (size_t)population->count;
+    uint64_t *id = memory_allocate((count + 1) * sizeof *id);
+    struct error *error = id ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    if (id && count > 0) {
+        memcpy(id, population->id, count * sizeof *id);
+        qsort(id, count, sizeof *id, by_number);
+    }
+    for (size_t i = 1; i < count && !error; i++)
+        if (id[i] == id[i - 1])
+            error = error_new(ERROR_SYSTEM, "id %llu is there twice", (unsigned long long)id[i]);
+    free(id);
+    return error;
 }
 
 /* Sites of each body's lattice; free it. */
@@ -74,6 +141,8 @@ struct error *simulation_check_loaded(const struct simulation *simulation)
     struct error *error =
         sites ? check_indices(simulation, first, sites) : error_new(ERROR_SYSTEM, "out of memory");
     free(sites);
+    if (!error)
+        error = check_doubled(&population);
     for (int k = 0; k < population.fields && !error; k++) {
         const struct field_declaration *field = &population.field[k].declaration;
         if (field->kind & FIELD_STATE && field->number == NUMBER_DOUBLE)

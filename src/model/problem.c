@@ -295,7 +295,7 @@ int problem_history(const struct problem *problem, struct field_declaration *fie
                                                          history_slots[slot].help,
                                                          NUMBER_DOUBLE,
                                                          1,
-                                                         FIELD_STATE};
+                                                         FIELD_STATE | history_slots[slot].range};
     return count;
 }
 

@@ -30,7 +30,7 @@ static const struct field_row field_rows[] = {
      .where = "transfer: flip",
      .offset = offsetof(struct mpm_fields, at_state)},
     {.field = {"shock", NULL, "how much of a shock it is in, 0 to 1", NUMBER_DOUBLE, 1,
-               FIELD_STATE},
+               FIELD_STATE | FIELD_FRACTION},
      .when = MPM_MIXES,
      .where = "shock_mixing",
      .offset = offsetof(struct mpm_fields, shock)},

@@ -17,7 +17,7 @@ static struct field_declaration declaration_of(const struct field_row *row,
     if (row->size)
         field.components = needs->size[row->size];
     if (row->state_when & needs->conditions)
-        field.kind = FIELD_STATE;
+        field.kind = FIELD_STATE | (field.kind & ~(unsigned)(FIELD_DERIVED | FIELD_PASSING));
     return field;
 }
 

@@ -11,14 +11,15 @@ static const struct field_declaration core_fields[] = {
     {"id", "", "what made the particle", NUMBER_UINT64, 1, FIELD_STATE},
     {"material", "", "index of the material", NUMBER_UINT16, 1, FIELD_STATE},
     {"body", "", "index of the body", NUMBER_UINT16, 1, FIELD_STATE},
-    {"mass", "kg", "mass", NUMBER_DOUBLE, 1, FIELD_STATE},
-    {"density", "kg/m^3", "density", NUMBER_DOUBLE, 1, FIELD_STATE},
+    {"mass", "kg", "mass", NUMBER_DOUBLE, 1, FIELD_STATE | FIELD_POSITIVE},
+    {"density", "kg/m^3", "density", NUMBER_DOUBLE, 1, FIELD_STATE | FIELD_POSITIVE},
     {"energy", "J/kg", "specific internal energy", NUMBER_DOUBLE, 1, FIELD_STATE},
     {"pressure", "Pa", "pressure, positive in compression", NUMBER_DOUBLE, 1, FIELD_DERIVED},
     {"position", "m", "place", NUMBER_DOUBLE, 3, FIELD_STATE},
     {"velocity", "m/s", "material velocity", NUMBER_DOUBLE, 3, FIELD_STATE},
     {"deviator", "Pa", "stress deviator, positive in tension", NUMBER_DOUBLE, 6, FIELD_STATE},
-    {"plastic_strain", "", "equivalent plastic strain", NUMBER_DOUBLE, 1, FIELD_STATE},
+    {"plastic_strain", "", "equivalent plastic strain", NUMBER_DOUBLE, 1,
+     FIELD_STATE | FIELD_NOT_NEGATIVE},
 };
 
 /* A particle of no body waits for its deletion. */
