@@ -1,5 +1,6 @@
-"""No input is without effect in silence, and no set of constants contradicts itself in silence: every
-solver refuses it or warns of it by name. Each input stands for a kind; sizes are drawn by a seed."""
+"""No input is without effect in silence, and no set of constants contradicts itself in silence:
+every solver refuses it or warns of it by name. Each input stands for a kind; sizes are drawn by a
+seed."""
 import os
 import pathlib
 import random
@@ -94,12 +95,14 @@ def cube(corner, size):
     x, y, z = corner
     point = [(x + size * (k & 1), y + size * (k >> 1 & 1), z + size * (k >> 2)) for k in range(8)]
     faces = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
-    return [[point[i] for i in corners] for a, b, c, d in faces for corners in ((a, b, c), (a, c, d))]
+    return [[point[i] for i in corners] for a, b, c, d in faces
+            for corners in ((a, b, c), (a, c, d))]
 
 
 def stl(triangles):
-    facets = ("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.9g %.9g %.9g\n" % p for p in t) +
-              "endloop\nendfacet\n" for t in triangles)
+    facets = ("facet normal 0 0 0\nouter loop\n" +
+              "".join("vertex %.9g %.9g %.9g\n" % p for p in t) + "endloop\nendfacet\n"
+              for t in triangles)
     return ("solid s\n" + "".join(facets) + "endsolid s\n").encode()
 
 
@@ -143,7 +146,7 @@ def inputs():
             "Chapman and Jouguet|detonation speed of")
         yield f"A negative, {solver}", case(solver, a="-371 GPa"), "Chapman and Jouguet"
         yield f"B negative, {solver}", case(solver, b="-3.2 GPa"), (
-            "no negative constants|gases that never pull")
+            "no negative constants|gases that never pull|both must be gases")
         yield f"D too low, {solver}", case(solver, burn="{programmed: {speed: 1 km/s}}"), (
             "detonation speed of 1000 m/s")
     for solver in ("sph", "mpm"):
@@ -172,7 +175,8 @@ def inputs():
     yield "gauge off the grid, cfdmp", case("cfdmp", more="probes: {g: {gauge: {at: [3 m, 0 m]}, "
                                             "of: gas}}\n"), "outside the domain, which goes from"
     thin = DRAW.uniform(0.5, 9)
-    plate = f"obstacles: {{plate: {{box: {{from: [0.2 m, %s], to: [{0.2 + 1e-3 * thin} m, %s]}}}}}}\n"
+    far_side = 0.2 + 1e-3 * thin
+    plate = f"obstacles: {{plate: {{box: {{from: [0.2 m, %s], to: [{far_side} m, %s]}}}}}}\n"
     for dimension, low, high in ((2, "-0.1 m", "0.3 m"), (3, "-0.1 m, -1 m", "0.3 m, 1 m")):
         yield f"thin obstacle, {dimension}-D", gas(plate % (low, high), dimension), (
             r"obstacles\.plate: [\d.]+ m thick along x, thinner than a cell of 0\.01 m")
@@ -190,8 +194,8 @@ def inputs():
             "it blocks nothing|thinner than a cell")
     for solver, words in (("cfdmp", "thinner than a cell"), ("afdmp", "know no obstacles")):
         yield f"thin obstacle, {solver}", case(
-            solver, more="obstacles: {plate: {box: {from: [-0.184 m, 0 m], to: [-0.181 m, 0.3 m]}}}\n"
-        ), words
+            solver, more="obstacles: {plate: {box: {from: [-0.184 m, 0 m], "
+            "to: [-0.181 m, 0.3 m]}}}\n"), words
     yield "gap between gases", gas(
         dimension=1, bodies=f"{{l: {AIR % ('[0 m]', '[0.4 m]')}, r: {AIR % ('[0.7 m]', '[1 m]')}}}"
     ), "no body fills the domain here"
