@@ -5,6 +5,7 @@
 #include "cli/cli.h"
 #include "model/solver.h"
 #include "run/estimate.h"
+#include "run/run.h"
 #include "study/sweep.h"
 
 static const char *mass_unit(const struct simulation_case *input)
@@ -128,6 +129,11 @@ static void print_warnings(const struct simulation_case *input, const struct est
         printf("  warning: about %.2g steps are more than any run takes: look at `run.until`, the "
                "resolution of %s, its speed and its material\n",
                (double)estimate->steps, input->bodies.names[estimate->step_body]);
+    const struct solver_class *class = input->solver.choice->thing;
+    if (class->count && !run_is_filled_in_check(input))
+        printf(
+            "  not filled, for it would take too long: `run` looks for gaps between the bodies%s\n",
+            input->start.input ? ", and whether the blast of `start` fits" : "");
     struct error *warnings = estimate_warnings(input);
     for (int i = 0; warnings && i < error_count(warnings); i++)
         printf("  warning: %s\n", error_message(warnings, i));
