@@ -51,7 +51,7 @@ static double gap_to(const struct simulation_case *input, const struct detonatio
     return least;
 }
 
-/* The earliest arrival of the detonation at a corner or the nearest place of BODY. */
+/* When the detonation arrives at BODY, GAP away. */
 static double arrival_at(const struct simulation_case *input,
                          const struct detonation_input *detonation, int body, double gap)
 {
