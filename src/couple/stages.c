@@ -237,6 +237,13 @@ static struct error *refuse(const struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
+    for (int b = 0; b < input->bodies.count && count_bodies(input, is_charge) > 0; b++)
+        if (!is_solid(input, b) && moves(simulation, b))
+            error = error_join(
+                error, input_error(input, "bodies", input->bodies.names[b],
+                                   "the solver afdmp keeps the gas around a charge at rest while "
+                                   "the charge burns: this body must not move at the start; the "
+                                   "solvers cfdmp and mpm move it"));
     if (input->obstacles.count > 0)
         error = input_error(input, "obstacles", input->obstacles.names[0],
                             "material points of the solver afdmp know no obstacles: make it a "
