@@ -97,9 +97,6 @@ static void check_blast(struct checking *checking, const struct load_input *load
                    (int)input->dimension, input->dimension == 1 ? "" : "s", blast->at.count);
         return;
     }
-    if (input->geometry == GEOMETRY_AXISYMMETRIC && load->between.count == 0)
-        case_wrong(checking, "blast",
-                   "about an axis this needs the flat surface: `axis`, `side` and `between`");
     if (load->body < 0 || !case_body(input, load->body)->shape.choice)
         return;
     const struct bounds bounds = shape_bounds(&case_body(input, load->body)->shape);
@@ -131,6 +128,8 @@ void case_check_load(struct checking *checking, int index)
     }
     case_check_axis(checking, "axis", load->axis);
     case_check_between(checking, &load->between);
+    if (load->side < 0 && load->traction.count)
+        load->side = WALL_HIGH;
     if (case_is_wrong(checking, ""))
         return;
     const bool blast = !isnan(load->blast.mass) || load->blast.at.count > 0;

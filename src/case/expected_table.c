@@ -5,7 +5,7 @@
 static const char *const warning_names[] = {
     "tension", "speed",  "temperature", "density", "tensile-instability",
     "unlit",   "region", "energy",      "tracer",  "coarse",
-    "input",   NULL};
+    "input",   "load",   NULL};
 
 const struct parameter case_expected_table[] = {
     {.key = "warning",
@@ -20,7 +20,7 @@ const struct parameter case_expected_table[] = {
          "that is compressed before its detonation arrives; a solid at the edge of the region "
          "of a coupling; a drift of the total energy; a tracer whose "
          "particle has failed; cells too coarse for a plate or a charge; input without effect, or "
-         "constants that contradict each other"},
+         "constants that contradict each other; a load that does not deliver its impulse"},
     {.key = "of",
      .kind = PARAMETER_NAMES,
      .offset = offsetof(struct expected_warning_input, of),

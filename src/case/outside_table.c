@@ -86,7 +86,8 @@ const struct parameter case_load_table[] = {
      .table = blast_table,
      .help =
          "overpressure by the curves of Kingery and Bulmash on the surface that faces a charge, "
-         "in the positive phase; with `between`, on the flat surface that faces `side`"},
+         "in the positive phase; it follows the body. `between` and `side` leave out what is "
+         "elsewhere, or faces elsewhere, at the start"},
     {.key = "traction",
      .kind = PARAMETER_FIELDS,
      .offset = offsetof(struct load_input, traction),
@@ -104,17 +105,17 @@ const struct parameter case_load_table[] = {
     {.key = "side",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct load_input, side),
-     .standard = "high",
+     .standard = PARAMETER_OPTIONAL,
      .names = side_names,
-     .help = "which way the surface faces: to the low or the high end of the axis; of a traction, "
-             "and of a "
-             "blast with `between`"},
+     .help = "which way the surface faces: to the low or the high end of the axis; default: high "
+             "for a traction, any for a blast"},
     {.key = "between",
      .kind = PARAMETER_VECTOR,
      .offset = offsetof(struct load_input, between),
      .unit = "m",
      .standard = PARAMETER_OPTIONAL,
-     .help = "two positions on the axis that bound the surface; default: all of it"},
+     .help = "two positions on the axis that bound the surface: of a blast at the start, else at "
+             "any time; default: all of it"},
     {.key = "after",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct load_input, after),

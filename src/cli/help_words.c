@@ -210,7 +210,7 @@ static const struct answer answers[] = {
      "A charge in air, with `solver: gas`, in free air and above ground: a worked case is on the\n"
      "page below. The library's tnt is lit by `detonations`; `afterburn` of the material lets its\n"
      "products burn in the air. Checks compare gauges with `exact: kingery-bulmash`. A blast on a\n"
-     "body without gas, with MPM: `loads: {NAME: {on: plate, blast: {mass: 1 kg, at: [0 m, 2 "
+     "body without gas: `loads: {NAME: {on: plate, blast: {mass: 1 kg, at: [0 m, 2 "
      "m]}}}`\n"
      "(docs/blast.md). Explosive in contact with metal: bolide help burn.",
      "tasks/charge-in-air.md"},

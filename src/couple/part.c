@@ -192,6 +192,10 @@ void part_gather(struct simulation *simulation, struct part *part)
 {
     ledger_join(&simulation->ledger, &part->simulation.ledger);
     memset(&part->simulation.ledger, 0, sizeof part->simulation.ledger);
+    for (int i = 0; i < part->simulation.loads; i++) {
+        load_record_join(&simulation->load[i], &part->simulation.load[i]);
+        part->simulation.load[i] = (struct load_record){0};
+    }
     simulation_take_phases(simulation, &part->simulation);
 }
 

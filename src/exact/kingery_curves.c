@@ -245,16 +245,47 @@ struct blast_wave kingery_wave(enum kingery_charge charge, double mass, double d
     };
 }
 
-double kingery_load(enum kingery_charge charge, double mass, double distance, double cosine,
-                    double time)
+/* DISTANCE within the range of the curves. */
+static double in_range(enum kingery_charge charge, double mass, double distance)
 {
     const double size = cube_root(mass), low = kingery_nearest(charge) * size * (1.0 + 1e-12),
                  high = kingery_farthest(charge) * size * (1.0 - 1e-12);
-    const double at = minimum(maximum(distance, low), high);
+    return minimum(maximum(distance, low), high);
+}
+
+/* By the incident and the reflected wave. */
+static double load_of(const struct blast_wave *incident, const struct blast_wave *reflected,
+                      double cosine, double time)
+{
+    return blast_wave_at(incident, time) * (1.0 + square(cosine) - 2.0 * cosine) +
+           blast_wave_at(reflected, time) * square(cosine);
+}
+
+double kingery_load(enum kingery_charge charge, double mass, double distance, double cosine,
+                    double time)
+{
+    const double at = in_range(charge, mass, distance), size = cube_root(mass);
     if (!(cosine > 0.0) || time < 1e-3 * size * kingery_curve(charge, KINGERY_ARRIVAL, at / size))
         return 0.0;
     const struct blast_wave incident = kingery_wave(charge, mass, at, false),
                             reflected = kingery_wave(charge, mass, at, true);
-    return blast_wave_at(&incident, time) * (1.0 + square(cosine) - 2.0 * cosine) +
-           blast_wave_at(&reflected, time) * square(cosine);
+    return load_of(&incident, &reflected, cosine, time);
+}
+
+double kingery_load_impulse(enum kingery_charge charge, double mass, double distance, double cosine,
+                            double from, double to)
+{
+    const double at = in_range(charge, mass, distance), size = cube_root(mass);
+    const double arrival = 1e-3 * size * kingery_curve(charge, KINGERY_ARRIVAL, at / size);
+    if (!(cosine > 0.0) || to <= arrival)
+        return 0.0;
+    const struct blast_wave incident = kingery_wave(charge, mass, at, false),
+                            reflected = kingery_wave(charge, mass, at, true);
+    const double end = arrival + incident.duration; /* not a number: there is none */
+    const double begin = maximum(from, arrival), until = to > end ? end : to;
+    const double middle = 0.5 * (begin + until), half = 0.5 * (until - begin);
+    if (!(half > 0.0))
+        return 0.0;
+    return half * (load_of(&incident, &reflected, cosine, middle - half / sqrt(3.0)) +
+                   load_of(&incident, &reflected, cosine, middle + half / sqrt(3.0)));
 }

@@ -41,4 +41,9 @@ struct blast_wave kingery_wave(enum kingery_charge charge, double mass, double d
 double kingery_load(enum kingery_charge charge, double mass, double distance, double cosine,
                     double time);
 
+/* The integral of kingery_load from time FROM to time TO, Pa s, for intervals that are short beside
+ * the positive phase: its begin and end may be anywhere in them. */
+double kingery_load_impulse(enum kingery_charge charge, double mass, double distance, double cosine,
+                            double from, double to);
+
 #endif

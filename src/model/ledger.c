@@ -144,41 +144,13 @@ double energy_drift(const struct totals *now, const struct totals *booked,
     return lost == 0.0 ? 0.0 : lost / maximum(scale, start->released);
 }
 
-/* A sum as a row of whole numbers: its digits, its pending additions, whether it is not finite. */
-enum { SUM_NUMBERS = EXACT_SUM_DIGITS + 2, SUMS = LEDGER_CAUSES * LEDGER_ENTRIES };
-
-/* What additions can have made of a sum: carries keep a digit below 2^32, and each of the pending
- * additions adds less than that. */
-static bool sum_possible(const int64_t row[SUM_NUMBERS])
-{
-    const int64_t pending = row[EXACT_SUM_DIGITS], most = (int64_t)1 << 62;
-    bool possible = pending >= 0 && pending <= (int64_t)1 << 30;
-    for (int k = 0; k < EXACT_SUM_DIGITS; k++)
-        possible = possible && row[k] > -most && row[k] < most + most / 2;
-    return possible;
-}
-
 /* All ranks show the sum of their ledgers; rank 0 keeps it, or what is loaded. */
 struct error *ledger_visit(struct ledger *ledger, const struct ranks *ranks,
                            struct visitor *visitor)
 {
-    int64_t rows[SUMS][SUM_NUMBERS];
+    enum { SUMS = LEDGER_CAUSES * LEDGER_ENTRIES };
     ranks_sum_exact(ranks, &ledger->sum[0][0], SUMS);
-    for (int i = 0; i < SUMS; i++) {
-        const struct exact_sum *sum = &ledger->sum[i / LEDGER_ENTRIES][i % LEDGER_ENTRIES];
-        memcpy(rows[i], sum->digit, sizeof sum->digit);
-        rows[i][EXACT_SUM_DIGITS] = sum->pending;
-        rows[i][EXACT_SUM_DIGITS + 1] = sum->not_finite;
-    }
-    TRY(visitor->visit(visitor, "ledger", NUMBER_INT64, rows, SUMS, SUM_NUMBERS));
-    for (int i = 0; i < SUMS; i++) {
-        struct exact_sum *sum = &ledger->sum[i / LEDGER_ENTRIES][i % LEDGER_ENTRIES];
-        if (!sum_possible(rows[i]))
-            return error_new(ERROR_SYSTEM, "row %d of ledger is not the digits of a sum", i);
-        memcpy(sum->digit, rows[i], sizeof sum->digit);
-        sum->pending = rows[i][EXACT_SUM_DIGITS];
-        sum->not_finite = rows[i][EXACT_SUM_DIGITS + 1] != 0;
-    }
+    TRY(exact_sums_visit(&ledger->sum[0][0], SUMS, "ledger", visitor));
     if (ranks->rank != 0)
         memset(ledger, 0, sizeof *ledger);
     return NULL;

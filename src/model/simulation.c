@@ -15,8 +15,10 @@ struct error *simulation_create(const struct simulation_case *input, const struc
     struct problem *problem = memory_allocate(sizeof *problem);
     *simulation = (struct simulation){
         .problem = problem, .ranks = ranks, .partition = {.ranks = ranks}, .threads = threads};
-    struct error *error =
-        problem ? problem_create(input, problem) : error_new(ERROR_SYSTEM, "out of memory");
+    simulation->loads = input->loads.count;
+    simulation->load = memory_allocate((size_t)input->loads.count * sizeof *simulation->load);
+    struct error *error = problem && simulation->load ? problem_create(input, problem)
+                                                      : error_new(ERROR_SYSTEM, "out of memory");
     if (error)
         simulation_destroy(simulation);
     return error;
@@ -184,7 +186,9 @@ void simulation_destroy(struct simulation *simulation)
     if (problem)
         problem_destroy(problem);
     free(problem);
+    free(simulation->load);
     simulation->problem = NULL;
+    simulation->load = NULL;
 }
 
 void simulation_start_phase(struct simulation *simulation)
@@ -259,6 +263,7 @@ struct error *simulation_visit(struct simulation *simulation, struct visitor *vi
     TRY(visitor->visit(visitor, "time", NUMBER_DOUBLE, &simulation->time, 1, 1));
     TRY(visitor->visit(visitor, "step", NUMBER_INT64, &simulation->step, 1, 1));
     TRY(ledger_visit(&simulation->ledger, simulation->ranks, visitor));
+    TRY(load_records_visit(simulation->load, simulation->loads, simulation->ranks, visitor));
     double times[EVENTS_MAX];
     for (int k = 0; k < simulation->events; k++)
         times[k] = simulation->event[k].time;

@@ -3,6 +3,7 @@
 #define BOLIDE_SIMULATION_H
 
 #include "model/ledger.h"
+#include "model/load_record.h"
 #include "model/problem.h"
 #include "parallel/partition.h"
 
@@ -47,6 +48,8 @@ struct simulation {
     struct population_source population[POPULATIONS_MAX];
     struct population seen[POPULATIONS_MAX]; /* by simulation_see */
     struct ledger ledger;
+    int loads; /* of the case */
+    struct load_record *load;
     int events;
     struct event event[EVENTS_MAX];
     double time;

@@ -102,7 +102,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     TRY(particles_add(simulation, mpm->edge, fields, count, &mpm->particles));
     if (mpm_window(mpm, simulation).centred)
         mpm->particles->shift = 0.5 * mpm->edge;
-    return NULL;
+    return loads_create(simulation, &mpm->loads);
 }
 
 static struct error *mpm_fill(void *solver, struct simulation *simulation)
@@ -151,6 +151,7 @@ static void mpm_destroy(void *solver)
     free(mpm->block);
     bins_free(&mpm->bins);
     mpm_free_halo(mpm);
+    loads_free(&mpm->loads);
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];
         free(layer->wall);

@@ -3,6 +3,7 @@
 #define BOLIDE_MPM_INTERNAL_H
 
 #include "model/generate.h"
+#include "model/loads.h"
 #include "mpm/mpm.h"
 #include "mpm/mpm_phases.h"
 #include "mpm/transfer.h"
@@ -90,6 +91,7 @@ struct mpm {
     bool shocks;                       /* anywhere, on any rank */
     struct halo halo;                  /* of several ranks only */
     const struct mpm_outside *outside; /* NULL: nothing */
+    struct loads loads;
 };
 
 /* Whether particles carry a gradient of velocity. */

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "material/material.h"
+#include "model/particles/population.h"
 #include "mpm/mpm_internal.h"
 #include "mpm/surface.h"
 
@@ -42,7 +43,7 @@ static void give(const struct mpm *mpm, const struct layer *layer, const struct 
     const double *x = reached->x, half = reached->half;
     const enum grid_shape shape = (enum grid_shape)mpm->parameters.shape;
     const int dimension = layer->grid.dimension, window = 1 + layer->grid.reach + layer->grid.after;
-    double value[3][4], slope[3][4], around[4] = {0.0};
+    double value[3][4] = {{1.0}, {1.0}, {1.0}}, slope[3][4], around[4] = {0.0};
     int count[3] = {1, 1, 1};
     const bool round =
         given->around[0] != 0.0 || given->around[1] != 0.0 || given->around[2] != 0.0;
@@ -70,6 +71,9 @@ static void give(const struct mpm *mpm, const struct layer *layer, const struct 
                                     (fill ? fill[node * FILL_STRIDE + FILL_RING] : 1.0);
                 for (int n = 0; n < 3 && round; n++)
                     patch[node * BACK_STRIDE + (size_t)n] += given->around[n] * ring;
+                const double all = value[0][at[0]] * value[1][at[1]] * value[2][at[2]];
+                for (int n = 0; n < 3 && given->force; n++)
+                    patch[node * BACK_STRIDE + (size_t)n] += given->force[n] * all;
                 size_t step = 1;
                 for (int k = dimension - 1; k >= 0; k--, step *= (size_t)layer->grid.side) {
                     double others = 1.0;
@@ -95,7 +99,7 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
     const struct load_input *load = surface->load;
     const double volume = p->mass[i] / p->density[i],
                  sign = load->side == WALL_HIGH ? volume : -volume;
-    struct given given = {{{0.0}}, {0, 1, 2}, {0.0}};
+    struct given given = {{{0.0}}, {0, 1, 2}, {0.0}, NULL};
     (void)mpm;
     for (int k = 0; k < simulation->problem->dimension; k++)
         if (load->traction.count) { /* a prescribed force, which balances no stress */
@@ -108,29 +112,22 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
     return given;
 }
 
-/* The area vector of the whole surface, or of the flat one that faces the side of the axis. */
+/* A blast pushes on the particles of the surface that faces it. */
 static struct given by_blast(const struct mpm *mpm, const struct simulation *simulation,
                              const struct surface *surface, int32_t i)
 {
-    const struct particles *p = mpm->particles;
-    const double volume = p->mass[i] / p->density[i];
-    struct given given = {{{0.0}}, {0, 1, 2}, {0.0}};
-    const bool flat = surface->load->between.count > 0;
-    for (int k = 0; k < simulation->problem->dimension; k++)
-        if (!flat || k == surface->axis)
-            given.by_slope[k][k] = volume;
-    if (flat)
-        given.filled[surface->axis] = -1;
-    if (simulation->problem->geometry == GEOMETRY_AXISYMMETRIC && given.by_slope[0][0] != 0.0)
-        given.around[0] = volume / p->position[i][0];
-    return given;
+    (void)mpm;
+    (void)simulation;
+    const double *force = surface->force[i];
+    const bool any = force[0] != 0.0 || force[1] != 0.0 || force[2] != 0.0;
+    return (struct given){{{0.0}}, {-1, -1, -1}, {0.0}, any ? force : NULL};
 }
 
 static struct given by_area(const struct mpm *mpm, const struct simulation *simulation,
                             const struct surface *surface, int32_t i)
 {
     const struct particles *p = mpm->particles;
-    struct given given = {{{0.0}}, {0, 1, 2}, {0.0}};
+    struct given given = {{{0.0}}, {0, 1, 2}, {0.0}, NULL};
     (void)surface;
     for (int k = 0; k < simulation->problem->dimension; k++)
         given.by_slope[k][k] = p->mass[i] / p->density[i];
@@ -149,7 +146,7 @@ static struct given by_outflow(const struct mpm *mpm, const struct simulation *s
     const double gauge = mpm->gauge[p->material[i]], volume = p->mass[i] / p->density[i];
     const double sign = surface->outflow->side == WALL_HIGH ? 1.0 : -1.0;
     const int axis = surface->axis;
-    struct given given = {{{0.0}}, {axis, axis, axis}, {0.0}};
+    struct given given = {{{0.0}}, {axis, axis, axis}, {0.0}, NULL};
     given.by_slope[FACE_AREA][axis] = sign * volume;
     given.by_slope[FACE_IMPEDANCE][axis] = sign * p->mass[i] * surface->sound[i];
     given.by_slope[FACE_PUSH][axis] =
@@ -326,11 +323,13 @@ static void keep_surface(const struct layer *layer, const struct surface *surfac
  * velocities that include the images at walls, so the forces near walls are saved before images are
  * added. */
 static void push_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
-                       const struct surface *surface)
+                       const struct surface *surface, double dt)
 {
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++)
         keep_surface(layer, surface, n);
+    if (surface->load)
+        mpm_book_load(mpm, layer, dt, &simulation->load[surface->index]);
     mpm_note_pushed(layer,
                     surface->load      ? SURFACE_LOADS
                     : surface->outflow ? SURFACE_OUTFLOWS
@@ -351,28 +350,56 @@ static void push_surface(struct mpm *mpm, struct simulation *simulation,
             continue;
         if (surface->outflow)
             push_face(layer, surface, dt, simulation->threads);
-        if (surface->of == by_blast)
-            mpm_push_blast(mpm, layer, surface, simulation->threads);
-        push_nodes(mpm, simulation, layer, surface);
+        push_nodes(mpm, simulation, layer, surface, dt);
     }
 }
 
-/* Fills in what the load NAME is at TIME. */
-static struct error *find_load(const struct simulation *simulation, const char *name, double time,
-                               struct surface *surface)
+/* Fills in what load SURFACE is in a step of DT. */
+static struct error *find_load(struct mpm *mpm, struct simulation *simulation,
+                               struct surface *surface, double dt)
 {
     static const char *const keys[] = {"traction.1", "traction.2", "traction.3"};
     const struct load_input *load = surface->load;
+    const char *name = simulation->problem->input->loads.names[surface->index];
+    const double time = simulation->time + 0.5 * dt;
+    const bool blast = load_is_blast(load);
     assert(load->traction.count <= 3);
-    surface->time = time;
-    if (surface->of == by_blast)
-        return NULL;
+    if (blast) {
+        const struct population population = population_of_particles(mpm->particles);
+        loads_clear(&mpm->loads, &population);
+        surface->force = mpm->loads.force;
+    }
+    TRY(loads_push(&mpm->loads, simulation, surface->index, simulation->time, dt, blast));
     for (int k = 0; k < load->traction.count; k++)
         TRY(simulation_value_at(simulation, time, &load->traction.at[k], name, keys[k],
                                 &surface->traction[k]));
-    return load->traction.count ? NULL
-                                : simulation_value_at(simulation, time, &load->pressure, name,
-                                                      "pressure", &surface->pressure);
+    return load->traction.count || blast
+               ? NULL
+               : simulation_value_at(simulation, time, &load->pressure, name, "pressure",
+                                     &surface->pressure);
+}
+
+static struct error *push_loads(struct mpm *mpm, struct simulation *simulation, double dt)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    const struct population population = population_of_particles(mpm->particles);
+    TRY(ranks_agree(simulation->ranks, loads_follow(&mpm->loads, simulation, &population)));
+    for (int i = 0; i < input->loads.count; i++) {
+        const struct load_input *load = case_load(input, i);
+        const bool blast = load_is_blast(load), part = load->between.count > 0 && !blast;
+        struct surface surface = {.body = load->body,
+                                  .low = part ? load->between.at[0] / mpm->edge : -(double)INFINITY,
+                                  .high = part ? load->between.at[1] / mpm->edge : (double)INFINITY,
+                                  .axis = load->axis,
+                                  .of = blast ? by_blast : by_load,
+                                  .load = load,
+                                  .index = i};
+        if (!load_acts_at(load, simulation->time))
+            continue;
+        TRY(find_load(mpm, simulation, &surface, dt));
+        push_surface(mpm, simulation, &surface, dt);
+    }
+    return NULL;
 }
 
 struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, double dt)
@@ -383,23 +410,8 @@ struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, 
     const double reach = reaches[mpm->parameters.shape];
     for (int g = 0; g < mpm->layers; g++)
         memset(mpm->layer[g].is_pushed, 0, sizeof mpm->layer[g].is_pushed);
-    for (int i = 0; i < input->loads.count; i++) {
-        const struct load_input *load = case_load(input, i);
-        const bool part = load->between.count > 0;
-        struct surface surface = {
-            .body = load->body,
-            .low = part ? load->between.at[0] / mpm->edge : -(double)INFINITY,
-            .high = part ? load->between.at[1] / mpm->edge : (double)INFINITY,
-            .axis = load->axis,
-            .of = load->blast.at.count > 0 ? by_blast : by_load,
-            .load = load,
-            .density = material_density(
-                &simulation->problem->material[case_body(input, load->body)->material_index])};
-        if (simulation->time < load->after || simulation->time >= load->before)
-            continue;
-        TRY(find_load(simulation, input->loads.names[i], simulation->time + 0.5 * dt, &surface));
-        push_surface(mpm, simulation, &surface, dt);
-    }
+    if (input->loads.count > 0)
+        TRY(push_loads(mpm, simulation, dt));
     if (mpm->outside) {
         const struct surface surface = {
             .body = -1, .of = by_area, .outside = mpm->outside, .reach = reach};

@@ -13,6 +13,7 @@ struct given {
     double by_slope[3][3];
     int filled[3];
     double around[3];
+    const double *force; /* of the particle itself, by shape functions; NULL: none */
 };
 
 /* A loaded surface, and the contributions of its particles. */
@@ -23,17 +24,14 @@ struct surface {
     struct given (*of)(const struct mpm *, const struct simulation *, const struct surface *,
                        int32_t i);
     const struct load_input *load;
+    int index;                    /* of the load */
     double pressure, traction[3]; /* of the load in the middle of the step */
-    double time, density;         /* of a blast: that middle; of the body at the start */
+    const double (*force)[3];     /* of particles, by a blast */
     const struct outflow_input *outflow;
     const double *sound, *viscosity; /* of particles, at an outflow */
     const struct mpm_outside *outside;
     double reach; /* how far from a face its surface may be, in nodes */
 };
-
-/* Converts the areas of the nodes of LAYER to the forces of the blast that the surface has. */
-void mpm_push_blast(const struct mpm *mpm, struct layer *layer, const struct surface *surface,
-                    int threads);
 
 /* The force of what is outside, at the node AT with AREA of the surface. */
 void mpm_push_area(const struct mpm_outside *outside, const int64_t at[3], const double area[3],
@@ -42,5 +40,10 @@ void mpm_push_area(const struct mpm_outside *outside, const int64_t at[3], const
 /* Adds the forces in the second field of LAYER, in which walls have no part yet, to those that
  * mpm_book_surfaces books under CAUSE; of what is outside, the areas. */
 void mpm_note_pushed(struct layer *layer, enum surface_cause cause, int threads);
+
+/* Books the forces in the second field of LAYER, in which walls have no part yet, as the impulse
+ * that a load delivers in a step of DT. */
+void mpm_book_load(const struct mpm *mpm, const struct layer *layer, double dt,
+                   struct load_record *record);
 
 #endif

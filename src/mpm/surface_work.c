@@ -139,3 +139,30 @@ void mpm_book_surfaces(const struct mpm *mpm, struct simulation *simulation, dou
             if (!mpm->layer[g].prescribed && mpm->layer[g].is_pushed[cause])
                 book_layer(mpm, simulation, &mpm->layer[g], (enum surface_cause)cause, dt);
 }
+
+static void book_delivered(const double *force, double dt, struct load_record *record)
+{
+    const double impulse[3] = {dt * force[0], dt * force[1], dt * force[2]};
+    load_record_add(record, LOAD_DELIVERED, impulse);
+}
+
+void mpm_book_load(const struct mpm *mpm, const struct layer *layer, double dt,
+                   struct load_record *record)
+{
+    int64_t corner[3], at[3];
+    for (int32_t w = 0; w < layer->walls; w++)
+        if (layer->wall[w].booked)
+            book_delivered(layer->wall[w].back, dt, record);
+    for (int32_t n = 0; n < layer->grid.blocks; n++) {
+        if (mpm_is_far(mpm, layer, layer->grid.touch[n][0].bin))
+            continue;
+        grid_corner(&layer->grid, n, corner);
+        for (int k = 0; k < BLOCK_CELLS; k++) {
+            mpm_node_index(layer->grid.dimension, corner, k, at);
+            const double *force = grid_node(&layer->back, n, k);
+            if ((force[0] != 0.0 || force[1] != 0.0 || force[2] != 0.0) &&
+                !mpm_near_wall(mpm, layer, at))
+                book_delivered(force, dt, record);
+        }
+    }
+}

@@ -108,6 +108,33 @@ static void range_columns(struct line *line, const char *name, const char *unit,
     column(line, name, ".max", unit, range.high);
 }
 
+/* What load INDEX has delivered or should have, along AXIS. Its name may contain a comma. */
+static void load_column(struct line *line, const struct problem *problem, int index, int axis,
+                        bool expected, const struct load_totals *totals)
+{
+    const enum ledger_entry entry = (enum ledger_entry)((int)LEDGER_MOMENTUM_X + axis);
+    char head[320];
+    if (!line->head) {
+        column(line, "", "", "", expected ? totals->expected[axis] : totals->delivered[axis]);
+        return;
+    }
+    snprintf(head, sizeof head, "load.%.120s.%s.%c [%.40s]", problem->input->loads.names[index],
+             expected ? "expected" : "delivered", "xyz"[axis],
+             ledger_unit(entry, problem->dimension, problem->geometry));
+    putc(',', line->file);
+    csv_put_text(line->file, head);
+}
+
+static void load_columns(struct line *line, const struct simulation *simulation,
+                         const struct load_totals *loads)
+{
+    const struct problem *problem = simulation->problem;
+    for (int i = 0; i < simulation->loads; i++)
+        for (int axis = 0; axis < 2 * problem->dimension; axis++)
+            load_column(line, problem, i, axis % problem->dimension, axis >= problem->dimension,
+                        &loads[i]);
+}
+
 /* What a row says; write_line shows it as the head or as numbers. */
 struct row {
     const struct simulation *simulation;
@@ -116,6 +143,7 @@ struct row {
     int64_t count, more[POPULATIONS_MAX]; /* of the first population, and of all that count */
     struct totals now, booked[LEDGER_CAUSES];
     struct range density, pressure, speed;
+    struct load_totals *loads; /* of each load of the case */
 };
 
 /* Of no particle there are no extremes. */
@@ -150,11 +178,13 @@ static void find_extremes(const struct simulation *simulation, struct row *row)
 }
 
 static struct row find_row(const struct simulation *simulation, double dt,
-                           const struct totals *start)
+                           const struct totals *start, struct load_totals *totals)
 {
     const struct population population = simulation_population(simulation);
-    struct row row = {
-        .simulation = simulation, .members = population_members(&population), .dt = dt};
+    struct row row = {.simulation = simulation,
+                      .members = population_members(&population),
+                      .dt = dt,
+                      .loads = totals};
     row.count = ranks_sum(simulation->ranks, population.count);
     row.now = simulation_totals(simulation);
     for (int i = 0; i < LEDGER_CAUSES; i++)
@@ -162,6 +192,8 @@ static struct row find_row(const struct simulation *simulation, double dt,
     struct totals all = ledger_totals(&simulation->ledger, simulation->ranks, LEDGER_CAUSES);
     row.drift = energy_drift(&row.now, &all, start);
     find_extremes(simulation, &row);
+    for (int i = 0; i < simulation->loads; i++)
+        row.loads[i] = load_record_totals(&simulation->load[i], simulation->ranks);
     return row;
 }
 
@@ -194,17 +226,23 @@ static void write_line(FILE *file, bool head, const struct row *row)
     range_columns(&line, "density", "kg/m^3", row->density);
     range_columns(&line, "pressure", "Pa", row->pressure);
     range_columns(&line, "speed", "m/s", row->speed);
+    load_columns(&line, simulation, row->loads);
     putc('\n', file);
 }
 
 struct error *history_row(struct history *history, const struct simulation *simulation, double dt,
                           const struct totals *start)
 {
-    const struct row row = find_row(simulation, dt, start);
+    const size_t loads = (size_t)simulation->loads;
+    struct load_totals *totals = memory_allocate(loads * sizeof *totals);
+    TRY(ranks_agree(simulation->ranks,
+                    totals ? NULL : error_new(ERROR_SYSTEM, "out of memory for the history")));
+    const struct row row = find_row(simulation, dt, start, totals);
     if (history->rows++ == 0 && history->file)
         write_line(history->file, true, &row);
     if (history->file)
         write_line(history->file, false, &row);
+    free(totals);
     if (history->file && (fflush(history->file) || ferror(history->file)))
         return system_error(history->path, errno);
     return NULL;

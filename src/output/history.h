@@ -15,7 +15,8 @@ struct error *history_open(const char *path, int64_t keep, const struct csv_mark
 
 /* Collective. One row: time, step, dt, count, mass, momentum, angular momentum, kinetic, internal
  * and total energy, relative energy drift (ledger counted), the ledger's causes, smallest and
- * largest density, pressure and speed. START are the totals at time zero. Rows reach the disk at
+ * largest density, pressure and speed, and the impulse that each load has delivered and that it
+ * should have. START are the totals at time zero. Rows reach the disk at
  * once. */
 struct error *history_row(struct history *history, const struct simulation *simulation, double dt,
                           const struct totals *start);

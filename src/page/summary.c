@@ -364,6 +364,28 @@ static void put_bodies(const struct page *page)
     fputs("</tbody></table>\n", page->file);
 }
 
+/* What each load has delivered beside the integral of its pressure over the surface. */
+static void put_loads(const struct page *page)
+{
+    const struct csv *summary = &page->summary;
+    if (find_row(summary, 0, "load", NULL, "apart") < 0)
+        return;
+    fputs(
+        "<table class=\"cards\"><caption>Loads: impulse delivered, and expected from the pressure "
+        "on the surface</caption>\n<tbody>\n",
+        page->file);
+    for (int64_t row = -1; (row = find_row(summary, row + 1, "load", NULL, NULL)) >= 0;) {
+        fputs("<tr><th scope=\"row\">", page->file);
+        page_text(page->file, csv_field(summary, row, NAME));
+        fputs("</th><td data-label=\"quantity\">", page->file);
+        page_text(page->file, csv_field(summary, row, QUANTITY));
+        fputs("</td><td class=\"num\" data-label=\"value\">", page->file);
+        put_row_value(page, row);
+        fputs("</td></tr>\n", page->file);
+    }
+    fputs("</tbody></table>\n", page->file);
+}
+
 /* The rows of material NAME below "MODEL.": "density 2.7 g/cm³, yield 400 MPa". */
 static void put_model(const struct page *page, const char *name, const char *model)
 {
@@ -414,6 +436,7 @@ void page_about(const struct page *page)
         return;
     fputs("<section id=\"about\"><h2>What was computed</h2>\n", page->file);
     put_bodies(page);
+    put_loads(page);
     put_materials(page);
     put_method(page);
     fputs("</section>\n", page->file);

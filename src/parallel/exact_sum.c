@@ -1,7 +1,10 @@
 /* Sums without rounding; see exact_sum.h. */
 #include "parallel/exact_sum.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+#include "base/memory.h"
 
 enum { DIGIT_BITS = 32, LOWEST_BIT = -1088 };
 
@@ -90,4 +93,41 @@ double exact_sum_value(const struct exact_sum *sum)
         }
     double value = ldexp((double)wide, DIGIT_BITS * (top - 2) + LOWEST_BIT);
     return negative ? -value : value;
+}
+
+/* A sum as a row of whole numbers: its digits, its pending additions, whether it is not finite. */
+enum { SUM_NUMBERS = EXACT_SUM_DIGITS + 2 };
+
+/* What additions can have made of a sum: carries keep a digit below 2^32, and each of the pending
+ * additions adds less than that. */
+static bool sum_possible(const int64_t row[SUM_NUMBERS])
+{
+    const int64_t pending = row[EXACT_SUM_DIGITS], most = (int64_t)1 << 62;
+    bool possible = pending >= 0 && pending <= (int64_t)1 << 30;
+    for (int k = 0; k < EXACT_SUM_DIGITS; k++)
+        possible = possible && row[k] > -most && row[k] < most + most / 2;
+    return possible;
+}
+
+struct error *exact_sums_visit(struct exact_sum *sums, int count, const char *name,
+                               struct visitor *visitor)
+{
+    int64_t(*rows)[SUM_NUMBERS] = memory_allocate((size_t)count * sizeof *rows);
+    if (!rows)
+        return error_new(ERROR_SYSTEM, "out of memory for %s", name);
+    for (int i = 0; i < count; i++) {
+        memcpy(rows[i], sums[i].digit, sizeof sums[i].digit);
+        rows[i][EXACT_SUM_DIGITS] = sums[i].pending;
+        rows[i][EXACT_SUM_DIGITS + 1] = sums[i].not_finite;
+    }
+    struct error *error = visitor->visit(visitor, name, NUMBER_INT64, rows, count, SUM_NUMBERS);
+    for (int i = 0; i < count && !error; i++) {
+        if (!sum_possible(rows[i]))
+            error = error_new(ERROR_SYSTEM, "row %d of %s is not the digits of a sum", i, name);
+        memcpy(sums[i].digit, rows[i], sizeof sums[i].digit);
+        sums[i].pending = rows[i][EXACT_SUM_DIGITS];
+        sums[i].not_finite = rows[i][EXACT_SUM_DIGITS + 1] != 0;
+    }
+    free(rows);
+    return error;
 }

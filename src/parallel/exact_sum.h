@@ -5,6 +5,7 @@
 #define BOLIDE_EXACT_SUM_H
 
 #include "base/base.h"
+#include "base/visitor.h"
 
 enum { EXACT_SUM_DIGITS = 68 };
 
@@ -19,5 +20,10 @@ struct exact_sum {
 void exact_sum_add(struct exact_sum *sum, double value);
 void exact_sum_join(struct exact_sum *sum, const struct exact_sum *other);
 double exact_sum_value(const struct exact_sum *sum);
+
+/* Loads or saves COUNT sums as NAME, each as a row of whole numbers; ERROR_SYSTEM when what was
+ * loaded is no sum. */
+struct error *exact_sums_visit(struct exact_sum *sums, int count, const char *name,
+                               struct visitor *visitor);
 
 #endif

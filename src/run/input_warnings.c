@@ -8,6 +8,7 @@
 #include "material/any.h"
 #include "material/material.h"
 #include "model/effect.h"
+#include "model/loads.h"
 
 /* Measured pressures of Chapman and Jouguet scatter by about a tenth. */
 static const double PRESSURE_TOLERANCE = 0.2;
@@ -65,5 +66,5 @@ struct error *input_warnings(const struct simulation_case *input)
             warnings = error_join(warnings, document_error(input->document, path, "%s", text));
         free(text);
     }
-    return error_join(warnings, effect_warnings(input));
+    return error_join(error_join(warnings, effect_warnings(input)), load_warnings(input));
 }

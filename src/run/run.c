@@ -401,6 +401,7 @@ static struct error *run_through(struct run *run)
     if (!error) {
         run->result->hash = simulation_hash(&run->simulation);
         report_end(run);
+        run_report_loads(run);
         report_warnings(run);
     } else
         for (int i = 0; run->log && i < error_count(error); i++)

@@ -93,6 +93,8 @@ void run_progress(struct run *run);
 struct error *run_watch_physics(struct run *run);
 /* Then too, after the probes: warnings of tracers. */
 struct error *run_watch_tracers(struct run *run);
+/* Collective: says what each load has delivered beside what it should have. */
+void run_report_loads(struct run *run);
 
 /* checkpoint.h5 now, and whether its wall-clock time has come. */
 struct error *run_checkpoint(struct run *run);

@@ -177,6 +177,28 @@ static void put_warnings(FILE *file, const struct warning_results *warnings)
     }
 }
 
+/* about "load": "delivered.x", "expected.x", "apart". Collective. */
+static void put_loads(FILE *file, const struct run *run)
+{
+    const struct problem *problem = run->simulation.problem;
+    for (int i = 0; i < problem->input->loads.count; i++) {
+        const char *name = problem->input->loads.names[i];
+        const struct load_totals totals = load_record_totals(&run->simulation.load[i], &run->ranks);
+        for (int k = 0; k < 2 * problem->dimension; k++) {
+            const int axis = k % problem->dimension;
+            const bool expected = k >= problem->dimension;
+            const enum ledger_entry entry = (enum ledger_entry)((int)LEDGER_MOMENTUM_X + axis);
+            char quantity[32];
+            snprintf(quantity, sizeof quantity, "%s.%c", expected ? "expected" : "delivered",
+                     "xyz"[axis]);
+            put_number(file, "load", name, quantity,
+                       expected ? totals.expected[axis] : totals.delivered[axis],
+                       ledger_unit(entry, problem->dimension, problem->geometry));
+        }
+        put_number(file, "load", name, "apart", load_deviation(&totals), "");
+    }
+}
+
 static void put_summary(FILE *file, const struct run *run, const char *status,
                         const struct error *error)
 {
@@ -188,6 +210,7 @@ static void put_summary(FILE *file, const struct run *run, const char *status,
     for (int i = 0; i < run->input->bodies.count; i++)
         put_body(file, run, i);
     put_materials(file, run->input);
+    put_loads(file, run);
     for (int i = 0; i < s->phases; i++)
         put_number(file, "phase", s->phase[i].name, "seconds", s->phase[i].seconds, "s");
     for (int i = 0; i < s->events; i++)

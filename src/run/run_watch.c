@@ -48,6 +48,23 @@ struct error *run_watch_physics(struct run *run)
 {
     const struct totals now = simulation_totals(&run->simulation);
     struct error *error = watch_energy(run, &now);
+    error = error_join(error,
+                       warnings_watch_loads(run->warnings, &run->simulation, report_warning, run));
     return error_join(error, warnings_watch(run->warnings, &run->simulation, &now,
                                             drift_to_watch(run, &now), report_warning, run));
+}
+
+void run_report_loads(struct run *run)
+{
+    const struct problem *problem = run->simulation.problem;
+    for (int i = 0; i < problem->input->loads.count; i++) {
+        const struct load_totals totals = load_record_totals(&run->simulation.load[i], &run->ranks);
+        char delivered[160], expected[160];
+        load_impulse_text(problem, totals.delivered, delivered, sizeof delivered);
+        load_impulse_text(problem, totals.expected, expected, sizeof expected);
+        run_say(
+            run,
+            "  load %s: impulse delivered %s; pressure times area of its surface %s; %.2g %% apart",
+            problem->input->loads.names[i], delivered, expected, 100.0 * load_deviation(&totals));
+    }
 }

@@ -27,6 +27,9 @@ static const double UNLIT_COMPRESSION = 1.5;
 
 static const double DRIFT_TO_WARN_OF = 0.05;
 
+/* Of the impulse of a load: three times what a plate of 20 particles misses at an angle. */
+static const double LOAD_TO_WARN_OF = 0.03;
+
 /* The mean tension that the run takes as what MATERIAL bears. */
 static double tension_limit(const struct material *material, double strength, bool *estimated)
 {
@@ -91,7 +94,8 @@ struct warnings *warnings_create(const struct simulation *simulation)
         return NULL;
     w->materials = materials;
     w->of_energy = materials * WARNING_ENERGY;
-    w->memories = w->of_energy + 1 + simulation->problem->input->probes.count;
+    w->of_loads = w->of_energy + 1 + simulation->problem->input->probes.count;
+    w->memories = w->of_loads + simulation->problem->input->loads.count;
     w->watch = memory_allocate((size_t)materials * sizeof *w->watch);
     w->memory = memory_allocate((size_t)w->memories * sizeof *w->memory);
     w->prescribed = memory_allocate((size_t)simulation->problem->input->bodies.count);
@@ -426,6 +430,29 @@ struct error *warnings_watch_tracers(struct warnings *w, const struct simulation
         if (failed < 0.0 || !remember(&w->memory[index], simulation, 1.0, 1.0, 1.0))
             continue;
         w->memory[index].time = failed;
+        error = error_join(error, report_new(w, simulation, index, &teller));
+    }
+    return error;
+}
+
+/* A load that has done nothing by the end of the run counts as wholly apart, unless that was known
+ * from the start. */
+struct error *warnings_watch_loads(struct warnings *w, const struct simulation *simulation,
+                                   void (*tell)(void *context, const char *text), void *context)
+{
+    const struct tell teller = {tell, context};
+    const struct simulation_case *input = simulation->problem->input;
+    struct error *error = NULL;
+    for (int i = 0; i < input->loads.count; i++) {
+        const struct load_totals totals =
+            load_record_totals(&simulation->load[i], simulation->ranks);
+        const bool nothing =
+            !w->input && totals.gross == 0.0 && simulation->time >= input->run.until;
+        const double apart = nothing ? 1.0 : load_deviation(&totals);
+        const int index = w->of_loads + i;
+        if (!(apart > LOAD_TO_WARN_OF) ||
+            !remember(&w->memory[index], simulation, apart, LOAD_TO_WARN_OF, 1.0))
+            continue;
         error = error_join(error, report_new(w, simulation, index, &teller));
     }
     return error;

@@ -25,6 +25,7 @@ enum warning_kind {
     WARNING_TRACER,      /* of a tracer: its particle has failed */
     WARNING_COARSE,      /* of the case: its resolution is too coarse */
     WARNING_INPUT,       /* of the case: input without effect, or that contradicts itself */
+    WARNING_LOAD,        /* of a load: it does not deliver the impulse that it should */
     WARNING_KINDS
 };
 
@@ -74,6 +75,15 @@ struct error *warnings_watch(struct warnings *warnings, const struct simulation 
 struct error *warnings_watch_tracers(struct warnings *warnings, const struct simulation *simulation,
                                      const struct probes *probes,
                                      void (*tell)(void *context, const char *text), void *context);
+
+/* Collective: notes loads that have not delivered the impulse of their own pressure over their
+ * surface, or none by the end; TELL as above. */
+struct error *warnings_watch_loads(struct warnings *warnings, const struct simulation *simulation,
+                                   void (*tell)(void *context, const char *text), void *context);
+
+/* The impulse of a load with its unit, one number for each dimension. */
+void load_impulse_text(const struct problem *problem, const double impulse[3], char *text,
+                       size_t size);
 
 /* All that happened so far. ERROR_SYSTEM when memory is out. */
 struct error *warnings_conclude(const struct warnings *warnings,

@@ -33,10 +33,10 @@ struct tension_watch {
     double creep;   /* the rate of small strains, of WAVE */
 };
 
-/* Memory M * WARNING_ENERGY + KIND is that of KIND in material M; that of the energy follows, and
- * then one a probe. */
+/* Memory M * WARNING_ENERGY + KIND is that of KIND in material M; that of the energy follows, then
+ * one a probe, and one a load. */
 struct warnings {
-    int materials, of_energy, memories; /* the index of that of the energy; how many */
+    int materials, of_energy, of_loads, memories; /* first indices; how many */
     struct material_watch *watch;
     struct warning_memory *memory;
     struct error *coarse; /* what the resolution is too coarse for; NULL: nothing */

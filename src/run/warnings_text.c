@@ -33,6 +33,7 @@ static const struct {
     [WARNING_TRACER] = {"tracer", "", NULL, NULL, 1.0},
     [WARNING_COARSE] = {"coarse", "", NULL, NULL, 1.0},
     [WARNING_INPUT] = {"input", "", NULL, NULL, 1.0},
+    [WARNING_LOAD] = {"load", "", NULL, NULL, 1.0},
 };
 
 const char *warning_kind_name(enum warning_kind kind)
@@ -42,7 +43,8 @@ const char *warning_kind_name(enum warning_kind kind)
 
 static enum warning_kind kind_of(const struct warnings *warnings, int index)
 {
-    return index > warnings->of_energy    ? WARNING_TRACER
+    return index >= warnings->of_loads    ? WARNING_LOAD
+           : index > warnings->of_energy  ? WARNING_TRACER
            : index == warnings->of_energy ? WARNING_ENERGY
                                           : (enum warning_kind)(index % WARNING_ENERGY);
 }
@@ -56,6 +58,9 @@ char *warning_name(const struct warnings *warnings, const struct simulation *sim
         return text_format(
             "tracer \"%s\"",
             simulation->problem->input->probes.names[index - warnings->of_energy - 1]);
+    if (kind == WARNING_LOAD)
+        return text_format("load \"%s\"",
+                           simulation->problem->input->loads.names[index - warnings->of_loads]);
     return text_format("%s in %s", kinds[kind].name,
                        simulation->problem->input->materials.names[index / WARNING_ENERGY]);
 }
@@ -165,6 +170,41 @@ static char *tracer_text(const struct warnings *warnings, const struct simulatio
     return text;
 }
 
+void load_impulse_text(const struct problem *problem, const double impulse[3], char *text,
+                       size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "%s", problem->dimension > 1 ? "(" : "");
+    for (int k = 0; k < problem->dimension; k++)
+        used += (size_t)snprintf(text + used, size - used, "%s%.4g", k > 0 ? ", " : "", impulse[k]);
+    snprintf(text + used, size - used, "%s %s", problem->dimension > 1 ? ")" : "",
+             ledger_unit(LEDGER_MOMENTUM_X, problem->dimension, problem->geometry));
+}
+
+/* What a load has delivered and should have is the state now, not that of its first warning. */
+static char *load_text(const struct warnings *warnings, const struct simulation *simulation,
+                       int index)
+{
+    const int load = index - warnings->of_loads;
+    const struct simulation_case *input = simulation->problem->input;
+    const struct warning_memory *memory = &warnings->memory[index];
+    const char *body = input->bodies.names[case_load(input, load)->body];
+    char time[48], *name = warning_name(warnings, simulation, index), *text = NULL;
+    readable(memory->time, "s", time, sizeof time);
+    if (name && memory->value == 1.0)
+        text = text_format("%s has delivered nothing to body \"%s\": see `bolide check`, and the "
+                           "times and the place of the load",
+                           name, body);
+    else if (name)
+        text = text_format(
+            "%s has not delivered the impulse of its pressure over the surface of body \"%s\": "
+            "%.2g %% apart at t = %s, at most %.2g %%; the columns load.%s of history.csv show "
+            "when. A thin part has lost it, or `between` cuts the surface or holds both faces",
+            name, body, 100.0 * memory->value, time, 100.0 * maximum(memory->value, memory->worst),
+            input->loads.names[load]);
+    free(name);
+    return text;
+}
+
 char *warning_text(const struct warnings *warnings, const struct simulation *simulation, int index)
 {
     const struct warning_memory *memory = &warnings->memory[index];
@@ -174,6 +214,8 @@ char *warning_text(const struct warnings *warnings, const struct simulation *sim
         return energy_text(memory, simulation->problem->input);
     if (kind == WARNING_TRACER)
         return tracer_text(warnings, simulation, index);
+    if (kind == WARNING_LOAD)
+        return load_text(warnings, simulation, index);
     readable(kinds[kind].sign * memory->value, kinds[kind].unit, value, sizeof value);
     put_limit(warnings, simulation, index, memory->limit, limit, sizeof limit);
     if (memory->worst > memory->value) {

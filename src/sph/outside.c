@@ -30,8 +30,6 @@ struct error *sph_refuse(const struct simulation *simulation)
     struct error *error = problem_refuse_gas_keys(simulation->problem);
     for (int c = 0; c < input->contacts.count; c++)
         error = error_join(error, refuse_contact(input, c));
-    if (input->loads.count)
-        error = error_join(error, input_error(input, "loads", NULL, "%s", text));
     if (input->outflows.count)
         error = error_join(error, input_error(input, "outflows", NULL, "%s", text));
     return error;

@@ -152,6 +152,7 @@ struct sph {
     bool places;
     int64_t place_capacity; /* in records */
     struct conduction conduction;
+    struct loads *loads; /* NULL: the case has none */
 };
 
 BOLIDE_INLINE bool sph_has(const struct sph *sph, enum sph_trait trait)
@@ -343,5 +344,18 @@ void sph_hold_bodies(struct simulation *simulation, const struct sph_fields *f, 
  * position and velocity that a particle has AHEAD of time n. */
 void sph_add_gravity(struct simulation *simulation, const struct sph_fields *f, double dt,
                      double ahead);
+
+/* loads.c. The surfaces of bodies with loads. */
+struct error *sph_create_loads(struct sph *sph, const struct simulation *simulation);
+void sph_free_loads(struct sph *sph);
+/* Collective: adds what loads push from time FROM on in DT to the acceleration of free bodies, and
+ * keeps it apart (sph_load_of); before gravity. ERROR_STATE: a load is not finite. */
+struct error *sph_add_loads(const struct sph *sph, struct simulation *simulation,
+                            const struct sph_fields *f, double from, double dt);
+/* The acceleration of each particle by loads; NULL: the case has none. */
+const double (*sph_load_of(const struct sph *sph))[3];
+/* Books it in a step of DT, once the acceleration is complete, as sph_add_gravity does. */
+void sph_book_loads(const struct sph *sph, struct simulation *simulation,
+                    const struct sph_fields *f, double dt, double ahead);
 
 #endif

@@ -179,6 +179,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     TRY(sph->scheme->create(sph, simulation));
     TRY(refuse(sph, simulation));
     TRY(conduction_create(sph, simulation));
+    TRY(sph_create_loads(sph, simulation));
     return create_store(sph, simulation);
 }
 
@@ -243,6 +244,7 @@ static void sph_destroy(void *solver)
     struct sph *sph = solver;
     neighbours_free(&sph->neighbours);
     conduction_destroy(sph);
+    sph_free_loads(sph);
     if (sph->state && sph->scheme->destroy)
         sph->scheme->destroy(sph);
     free(sph->state);

@@ -117,6 +117,7 @@ struct advance {
     bool total, finite;
     double largest_support, dt, time;
     const double *gravity;
+    const double (*load)[3]; /* the acceleration by loads; NULL: none */
 };
 
 /* Particles FIRST .. FIRST + COUNT - 1, all of one material, on their way through a step: they
@@ -151,6 +152,8 @@ BOLIDE_INLINE double move(struct particles *p, const struct advance *step, int32
         u[axis] = next;
         a2 += a[axis] * (a[axis] - step->gravity[axis]);
     }
+    for (int axis = 0; step->load && axis < step->dimension; axis++)
+        a2 -= a[axis] * step->load[i][axis];
     return a2;
 }
 
@@ -188,8 +191,8 @@ BOLIDE_INLINE void start_point(struct particles *p, const struct advance *step,
     }
     if (f->packing)
         density *= 1.0 + packing_growth(passage->material, p, f, dt, i);
-    /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2 and the work of gravity, without
-     * taking differences. */
+    /* (1.80), (1.81): the change of E + U^2/2 less that of U^2/2 and the work of gravity and
+     * loads, without taking differences. */
     double energy =
         p->energy[i] + dt * f->rates.power[i] - (step->total ? 0.5 * square(dt) * a2 : 0.0);
     if (f->heat_rate)
@@ -380,7 +383,9 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation,
         update_heat(sph, simulation, fields, dt, &impossible);
         return impossible.any ? simulation_impossible(simulation, impossible.index) : NULL;
     }
+    TRY(sph_add_loads(sph, simulation, fields, simulation->time, dt));
     sph_add_gravity(simulation, fields, dt, 0.5 * dt);
+    sph_book_loads(sph, simulation, fields, dt, 0.5 * dt);
     const struct advance step = {.fields = fields,
                                  .dimension = simulation->problem->dimension,
                                  .total = sph_has(sph, SPH_TOTAL_ENERGY),
@@ -388,7 +393,8 @@ struct error *sph_update(const struct sph *sph, struct simulation *simulation,
                                  .largest_support = sph->largest_support,
                                  .dt = dt,
                                  .time = simulation->time + dt,
-                                 .gravity = simulation->problem->gravity};
+                                 .gravity = simulation->problem->gravity,
+                                 .load = sph_load_of(sph)};
 #pragma omp parallel num_threads(simulation->threads)
     {
         struct impossible own = {false, 0, 0};

@@ -111,15 +111,18 @@ static bool step_particle(const struct simulation *simulation, const struct stag
 
 /* One stage of a step of DT: what pushes from outside acts for half of it with the rates of each.
  */
-static struct error *take_stage(struct simulation *simulation, const struct hllc_fields *f,
-                                bool second, double dt)
+static struct error *take_stage(const struct sph *sph, struct simulation *simulation,
+                                const struct hllc_fields *f, bool second, double dt)
 {
     const struct particles *p = f->sph.particles;
     int32_t failed = -1;
     if (f->sph.rates.wall)
         sph_book_walls(simulation, &f->sph, 0.5 * dt);
     sph_hold_bodies(simulation, &f->sph, 0.5 * dt);
+    TRY(sph_add_loads(sph, simulation, &f->sph, simulation->time + (second ? 0.5 * dt : 0.0),
+                      0.5 * dt));
     sph_add_gravity(simulation, &f->sph, 0.5 * dt, 0.0);
+    sph_book_loads(sph, simulation, &f->sph, 0.5 * dt, 0.0);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < p->count; i++) {
         struct hllc_level *level = &f->own.level[i];
@@ -148,11 +151,11 @@ struct error *hllc_advance(struct sph *sph, struct simulation *simulation, doubl
 {
     struct hllc_fields f = hllc_fields_of(sph, simulation);
     bool rebuilt;
-    TRY(ranks_agree(simulation->ranks, take_stage(simulation, &f, false, dt)));
+    TRY(ranks_agree(simulation->ranks, take_stage(sph, simulation, &f, false, dt)));
     TRY(sph_refresh_lists(sph, simulation, &rebuilt));
     f = hllc_fields_of(sph, simulation);
     hllc_find_rates(sph, simulation, &f);
-    TRY(take_stage(simulation, &f, true, dt));
+    TRY(take_stage(sph, simulation, &f, true, dt));
     if (f.sph.rates.wall)
         sph_return_strays(simulation, sph->particles);
     return NULL;

@@ -1,0 +1,345 @@
+/* Samples the surface of a body; see surface.h. Cells of the size of a particle at the surface are
+ * divided, and each face between a part inside the body and one outside counts. The normal is that
+ * of the shape itself, from where lines across the face leave the shape. */
+
+#include <assert.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "model/surface_sampler.h"
+#include "model/walk.h"
+
+/* Parts of a cell along each axis, by dimension. */
+static const int parts_of_cell[] = {1, 1, 8, 3};
+
+/* Elements of a particle whose normals are as near to each other become one. */
+static const double SAME_NORMAL = 0.99;
+
+static struct vec3 moved(struct vec3 at, int axis, double by)
+{
+    at.x += axis == 0 ? by : 0.0;
+    at.y += axis == 1 ? by : 0.0;
+    at.z += axis == 2 ? by : 0.0;
+    return at;
+}
+
+static bool body_has(const struct sampler *s, int body, struct vec3 at)
+{
+    return shape_inside(&case_body(s->input, body)->shape, at);
+}
+
+static bool is_inside(const struct sampler *s, struct vec3 at)
+{
+    if (geometry_power(s->input->geometry) > 0 &&
+        !(at.x > 0.0 && at.y > s->bounds.low.y && at.y < s->bounds.high.y))
+        return false;
+    if (!body_has(s, s->body, at))
+        return false;
+    for (int k = 0; k < s->others; k++)
+        if (replaces(s->replacements, s->other[k], s->body) && body_has(s, s->other[k], at))
+            return false;
+    return true;
+}
+
+/* What is at a place outside the body. */
+static enum surface_cover cover_at(const struct sampler *s, struct vec3 at)
+{
+    const struct simulation_case *input = s->input;
+    if (geometry_power(input->geometry) > 0 && at.x <= 0.0)
+        return SURFACE_AT_WALL;
+    for (int i = 0; i < input->walls.count; i++) {
+        const struct wall_input *wall = case_wall(input, i);
+        const double x = axis_of(at, wall->axis);
+        if (wall->side == WALL_LOW ? x < wall->at : x > wall->at)
+            return SURFACE_AT_WALL;
+    }
+    for (int i = 0; i < input->outflows.count; i++) {
+        const struct outflow_input *face = case_outflow(input, i);
+        const double x = axis_of(at, face->axis);
+        if (face->side == WALL_LOW ? x < face->at : x > face->at)
+            return SURFACE_AT_WALL;
+    }
+    for (int i = 0; i < input->boundaries.count; i++) {
+        const struct boundary_input *boundary = case_boundary(input, i);
+        if (boundary->kind != BOUNDARY_PERIODIC || boundary->axis >= input->domain.low.count)
+            continue;
+        const double x = axis_of(at, boundary->axis);
+        if (x < input->domain.low.at[boundary->axis] || x > input->domain.high.at[boundary->axis])
+            return SURFACE_AT_WALL;
+    }
+    for (int k = 0; k < s->others; k++)
+        if (body_has(s, s->other[k], at))
+            return SURFACE_COVERED;
+    return SURFACE_FREE;
+}
+
+/* How far from AT along AXIS towards SIGN the body ends, near GUESS; NAN where nothing shows. */
+static double crossing(const struct sampler *s, struct vec3 at, int axis, double sign, double guess)
+{
+    enum { TRIES = 8, HALVES = 22 };
+    const double step = 0.5 * s->step[axis];
+    double in = guess, out = guess;
+    if (is_inside(s, moved(at, axis, sign * guess)))
+        for (int k = 0; k < TRIES && in == out; k++) {
+            if (is_inside(s, moved(at, axis, sign * (in + step))))
+                in = out = in + step;
+            else
+                out = in + step;
+        }
+    else
+        for (int k = 0; k < TRIES && in == out; k++) {
+            if (is_inside(s, moved(at, axis, sign * (out - step))))
+                in = out - step;
+            else
+                in = out = out - step;
+        }
+    if (in == out)
+        return NAN;
+    for (int k = 0; k < HALVES; k++) {
+        const double middle = 0.5 * (in + out);
+        if (is_inside(s, moved(at, axis, sign * middle)))
+            in = middle;
+        else
+            out = middle;
+    }
+    return 0.5 * (in + out);
+}
+
+/* The outward normal where the line from AT along AXIS leaves the body at the distance END. */
+static struct vec3 normal_at(const struct sampler *s, struct vec3 at, int axis, double sign,
+                             double end)
+{
+    static const double smallest = 1e-5; /* more than the error of bisection */
+    struct vec3 normal = moved((struct vec3){0.0, 0.0, 0.0}, axis, sign);
+    for (int across = 0; across < s->dimension; across++) {
+        if (across == axis)
+            continue;
+        const double away = 0.5 * s->step[across];
+        const double before = crossing(s, moved(at, across, -away), axis, sign, end),
+                     after = crossing(s, moved(at, across, away), axis, sign, end);
+        const double low = (end - before) / away, high = (after - end) / away;
+        const double slope = isnan(before) ? high : isnan(after) ? low : 0.5 * (low + high);
+        if (fabs(slope) > smallest)
+            normal = moved(normal, across, -slope);
+    }
+    return vec3_scale(1.0 / sqrt(vec3_dot(normal, normal)), normal);
+}
+
+static int32_t nearest_carrier(const struct sampler *s, struct vec3 place)
+{
+    int64_t at[3];
+    int k[3];
+    int32_t found = -1;
+    double least = INFINITY;
+    sampler_cell_of(s, place, at);
+    for (int n = 0; n < sampler_around(s->dimension, n, k); n++) {
+        const int64_t cell = sampler_cell(s, at, k);
+        for (int32_t c = cell < 0 ? -1 : s->cell[cell]; c >= 0; c = s->carrier[c].next) {
+            const double away = sampler_distance(s, &s->carrier[c], place);
+            if (away < least || (away == least && c < found)) {
+                least = away;
+                found = c;
+            }
+        }
+    }
+    return found;
+}
+
+static bool fits(const struct piece *piece, struct vec3 normal, enum surface_cover cover)
+{
+    const struct vec3 sum = piece->element.start.normal;
+    return piece->element.cover == cover &&
+           vec3_dot(sum, normal) > SAME_NORMAL * sqrt(vec3_dot(sum, sum));
+}
+
+/* A face along AXIS of a part of a cell with its centre at AT, inside the body. */
+static void add_face(struct sampler *s, struct vec3 at, int axis, double sign)
+{
+    const enum surface_cover cover = cover_at(s, moved(at, axis, sign * s->step[axis]));
+    const int32_t of = nearest_carrier(s, at);
+    const double end = crossing(s, at, axis, sign, 0.0);
+    if (of < 0 || isnan(end))
+        return;
+    const struct vec3 normal = normal_at(s, at, axis, sign, end);
+    double size = 1.0;
+    for (int other = 0; other < s->dimension; other++)
+        size *= other == axis ? 1.0 : s->step[other];
+    struct carrier *carrier = &s->carrier[of];
+    int32_t found = carrier->element;
+    while (found >= 0 && !fits(&s->piece[found], normal, cover))
+        found = s->piece[found].next;
+    if (found < 0) {
+        s->out_of_memory |=
+            s->pieces == INT32_MAX || !memory_reserve((void **)&s->piece, &s->piece_capacity,
+                                                      s->pieces + 1, s->pieces, sizeof *s->piece);
+        if (s->out_of_memory)
+            return;
+        found = (int32_t)s->pieces++;
+        s->piece[found] =
+            (struct piece){.element = {.site = of, .cover = cover}, .next = carrier->element};
+        carrier->element = found;
+    }
+    struct piece *piece = &s->piece[found];
+    struct surface_state *sum = &piece->element.start;
+    const double weight = size * sign * axis_of(normal, axis);
+    piece->weight += weight;
+    sum->area = moved(sum->area, axis, sign * size);
+    sum->normal = vec3_add(sum->normal, vec3_scale(weight, normal));
+    sum->place = vec3_add(sum->place, vec3_scale(weight, moved(at, axis, sign * end)));
+}
+
+/* Whether the cell AT and one around it differ in having particles. */
+static bool is_at_surface(const struct sampler *s, const int64_t at[3])
+{
+    static const int none[3] = {0, 0, 0};
+    int k[3];
+    const bool has = s->cell[sampler_cell(s, at, none)] >= 0;
+    for (int n = 0; n < sampler_around(s->dimension, n, k); n++) {
+        const int64_t cell = sampler_cell(s, at, k);
+        if ((cell >= 0 && s->cell[cell] >= 0) != has)
+            return true;
+    }
+    return false;
+}
+
+static void sample_cell(struct sampler *s, const int64_t cell[3])
+{
+    const int parts = parts_of_cell[s->dimension];
+    int count[3] = {1, 1, 1}, k[3];
+    assert(1 <= s->dimension && s->dimension <= 3);
+    for (int axis = 0; axis < s->dimension; axis++)
+        count[axis] = parts;
+    for (k[0] = 0; k[0] < count[0]; k[0]++)
+        for (k[1] = 0; k[1] < count[1]; k[1]++)
+            for (k[2] = 0; k[2] < count[2]; k[2]++) {
+                struct vec3 at = {0.0, 0.0, 0.0};
+                for (int axis = 0; axis < s->dimension; axis++)
+                    at = moved(at, axis,
+                               s->origin[axis] + s->spacing[axis] * (double)cell[axis] +
+                                   s->step[axis] * (k[axis] + 0.5));
+                if (!is_inside(s, at))
+                    continue;
+                for (int face = 0; face < 2 * s->dimension; face++) {
+                    const double sign = face % 2 ? 1.0 : -1.0;
+                    if (!is_inside(s, moved(at, face / 2, sign * s->step[face / 2])))
+                        add_face(s, at, face / 2, sign);
+                }
+            }
+}
+
+static void sample_cells(struct sampler *s)
+{
+    int64_t at[3];
+    for (at[0] = 0; at[0] < s->count[0]; at[0]++)
+        for (at[1] = 0; at[1] < s->count[1]; at[1]++)
+            for (at[2] = 0; at[2] < s->count[2]; at[2]++)
+                if (is_at_surface(s, at))
+                    sample_cell(s, at);
+}
+
+/* The grid of cells, which are those of the particles on a square lattice, and one more around. */
+static bool make_cells(struct sampler *s, const struct lattice *lattice)
+{
+    const double low[3] = {s->bounds.low.x, s->bounds.low.y, s->bounds.low.z},
+                 high[3] = {s->bounds.high.x, s->bounds.high.y, s->bounds.high.z},
+                 spacing[3] = {lattice->spacing.x, lattice->spacing.y, lattice->spacing.z};
+    s->cells = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        s->count[axis] = 1;
+        s->spacing[axis] = s->step[axis] = 1.0;
+        s->origin[axis] = -0.5;
+        if (axis < s->dimension) {
+            const double wanted = lattice->kind == LATTICE_RINGS ? lattice->arc : spacing[axis];
+            const double cells = maximum(1.0, nearbyint((high[axis] - low[axis]) / wanted));
+            s->spacing[axis] = (high[axis] - low[axis]) / cells;
+            s->step[axis] = s->spacing[axis] / parts_of_cell[s->dimension];
+            s->origin[axis] = low[axis] - s->spacing[axis];
+            s->count[axis] = (int64_t)cells + 2;
+        }
+        s->cells *= s->count[axis];
+    }
+    s->cell = malloc((size_t)s->cells * sizeof *s->cell);
+    for (int64_t k = 0; s->cell && k < s->cells; k++)
+        s->cell[k] = -1;
+    return s->cell != NULL;
+}
+
+static bool take_carrier(struct sampler *s, int64_t site, struct vec3 place)
+{
+    static const int none[3] = {0, 0, 0};
+    int64_t at[3];
+    if (s->carriers == INT32_MAX ||
+        !memory_reserve((void **)&s->carrier, &s->carrier_capacity, s->carriers + 1, s->carriers,
+                        sizeof *s->carrier))
+        return false;
+    sampler_cell_of(s, place, at);
+    int32_t *first = &s->cell[sampler_cell(s, at, none)];
+    s->carrier[s->carriers] = (struct carrier){place, site, *first, -1};
+    *first = (int32_t)s->carriers++;
+    return true;
+}
+
+static bool bounds_touch(const struct bounds *a, const struct bounds *b, const double margin[3])
+{
+    return a->low.x <= b->high.x + margin[0] && b->low.x <= a->high.x + margin[0] &&
+           a->low.y <= b->high.y + margin[1] && b->low.y <= a->high.y + margin[1] &&
+           a->low.z <= b->high.z + margin[2] && b->low.z <= a->high.z + margin[2];
+}
+
+/* The bodies that may touch this one. */
+static bool find_others(struct sampler *s)
+{
+    s->other = memory_allocate((size_t)s->input->bodies.count * sizeof *s->other);
+    for (int body = 0; s->other && body < s->input->bodies.count; body++) {
+        const struct bounds bounds = shape_bounds(&case_body(s->input, body)->shape);
+        if (body != s->body && bounds_touch(&s->bounds, &bounds, s->spacing))
+            s->other[s->others++] = body;
+    }
+    return s->other != NULL;
+}
+
+/* The particles of the body: all of them on every rank. */
+static struct error *find_carriers(struct sampler *s, const struct overlaps *overlaps)
+{
+    const struct ranks alone = ranks_alone();
+    struct walk walk;
+    struct error *error = walk_begin(&walk, overlaps, s->body, &alone);
+    int64_t site;
+    struct vec3 place;
+    if (!error && !(make_cells(s, &walk.lattice) && find_others(s)))
+        error = error_new(ERROR_SYSTEM, "out of memory for the surface of a body");
+    while (!error && walk_next(&walk, &site, &place))
+        if (!take_carrier(s, site, place))
+            error = error_new(ERROR_SYSTEM, "out of memory for the surface of a body");
+    walk_end(&walk);
+    return error;
+}
+
+struct error *surface_create(const struct simulation_case *input, int body,
+                             struct body_surface *surface)
+{
+    struct overlaps overlaps;
+    struct sampler s = {.input = input,
+                        .body = body,
+                        .dimension = (int)input->dimension,
+                        .bounds = body_bounds(input, body)};
+    *surface = (struct body_surface){
+        .body = body, .dimension = s.dimension, .round = input->geometry == GEOMETRY_AXISYMMETRIC};
+    struct error *error = overlaps_make(input, &overlaps);
+    s.replacements = &overlaps.replacements;
+    if (!error)
+        error = find_carriers(&s, &overlaps);
+    if (!error) {
+        sample_cells(&s);
+        for (int axis = 0; axis < s.dimension; axis++)
+            surface->spacing = maximum(surface->spacing, s.spacing[axis]);
+        if (s.out_of_memory || !sampler_make_surface(&s, surface))
+            error = error_new(ERROR_SYSTEM, "out of memory for the surface of a body");
+    }
+    overlaps_free(&overlaps);
+    free(s.other);
+    free(s.cell);
+    free(s.carrier);
+    free(s.piece);
+    return error;
+}
