@@ -164,6 +164,14 @@ static struct error *find_acting(const struct simulation *simulation, int index,
                                                       "pressure", &acting->pressure);
 }
 
+/* Where element E is for `between`, which may end at the wall that the element is at. */
+static struct vec3 window_place(const struct body_surface *surface, int32_t e)
+{
+    const struct surface_element *element = &surface->element[e];
+    return element->cover == SURFACE_AT_WALL ? surface->place[element->site]
+                                             : surface->now[e].place;
+}
+
 static struct push push_of(const struct acting *acting, const struct body_surface *surface,
                            int32_t e)
 {
@@ -178,7 +186,8 @@ static struct push push_of(const struct acting *acting, const struct body_surfac
         pressure = kingery_load_impulse((enum kingery_charge)load->blast.charge, load->blast.mass,
                                         distance, cosine, acting->from, acting->to) /
                    (acting->to - acting->from);
-    } else if (surface->element[e].cover == SURFACE_COVERED || !is_between(load, now->place))
+    } else if (surface->element[e].cover == SURFACE_COVERED ||
+               !is_between(load, window_place(surface, e)))
         return none;
     if (!load->traction.count)
         return (struct push){vec3_scale(-pressure, now->area),

@@ -81,6 +81,13 @@ static struct vec3 times(const struct matrix *m, struct vec3 v)
     return vec3_add(vec3_add(vec3_scale(v.x, m->x), vec3_scale(v.y, m->y)), vec3_scale(v.z, m->z));
 }
 
+static struct vec3 unit_cross(struct vec3 a, struct vec3 b)
+{
+    const struct vec3 c = vec3_cross(a, b);
+    const double size = sqrt(vec3_dot(c, c));
+    return vec3_scale(size > 0.0 ? 1.0 / size : 0.0, c);
+}
+
 static struct matrix cofactor(const struct matrix *m)
 {
     return (struct matrix){vec3_cross(m->y, m->z), vec3_cross(m->z, m->x), vec3_cross(m->x, m->y)};
@@ -110,9 +117,17 @@ static struct matrix deformation_of(const struct body_surface *surface, int32_t 
     }
     const struct matrix inverse = cofactor(&m); /* times the determinant; m is symmetric */
     const double determinant = vec3_dot(m.x, inverse.x);
-    return (struct matrix){vec3_scale(1.0 / determinant, times(&b, inverse.x)),
-                           vec3_scale(1.0 / determinant, times(&b, inverse.y)),
-                           vec3_scale(1.0 / determinant, times(&b, inverse.z))};
+    struct matrix f = {vec3_scale(1.0 / determinant, times(&b, inverse.x)),
+                       vec3_scale(1.0 / determinant, times(&b, inverse.y)),
+                       vec3_scale(1.0 / determinant, times(&b, inverse.z))};
+    /* across a sheet of one particle there is no neighbour: it turns with the sheet */
+    if (m.x.x < 2.0 * TO_UNITY)
+        f.x = unit_cross(f.y, f.z);
+    else if (m.y.y < 2.0 * TO_UNITY)
+        f.y = unit_cross(f.z, f.x);
+    else if (m.z.z < 2.0 * TO_UNITY)
+        f.z = unit_cross(f.x, f.y);
+    return f;
 }
 
 static struct surface_state state_now(const struct body_surface *surface,

@@ -10,7 +10,10 @@
 #include "model/walk.h"
 
 /* Parts of a cell along each axis, by dimension. */
-static const int parts_of_cell[] = {1, 1, 8, 3};
+static const int parts_of_cell[] = {1, 1, 8, 4};
+
+/* Cells between a particle and what of the surface it may carry. */
+enum { SAMPLER_REACH = 2 };
 
 /* Elements of a particle whose normals are as near to each other become one. */
 static const double SAME_NORMAL = 0.99;
@@ -76,7 +79,7 @@ static enum surface_cover cover_at(const struct sampler *s, struct vec3 at)
 /* How far from AT along AXIS towards SIGN the body ends, near GUESS; NAN where nothing shows. */
 static double crossing(const struct sampler *s, struct vec3 at, int axis, double sign, double guess)
 {
-    enum { TRIES = 8, HALVES = 22 };
+    enum { TRIES = 8, HALVES = 14 };
     const double step = 0.5 * s->step[axis];
     double in = guess, out = guess;
     if (is_inside(s, moved(at, axis, sign * guess)))
@@ -105,12 +108,14 @@ static double crossing(const struct sampler *s, struct vec3 at, int axis, double
     return 0.5 * (in + out);
 }
 
-/* The outward normal where the line from AT along AXIS leaves the body at the distance END. */
-static struct vec3 normal_at(const struct sampler *s, struct vec3 at, int axis, double sign,
-                             double end)
+/* The gradient, outward, of what is inside where the line from AT along AXIS leaves the body at the
+ * distance END: 1 along the axis and the slopes across it; a slope that nothing shows is STEEP. */
+static struct vec3 gradient_at(const struct sampler *s, struct vec3 at, int axis, double sign,
+                               double end)
 {
-    static const double smallest = 1e-5; /* more than the error of bisection */
-    struct vec3 normal = moved((struct vec3){0.0, 0.0, 0.0}, axis, sign);
+    static const double smallest = 3e-4, /* more than the error of bisection */
+        steep = 1e3;
+    struct vec3 gradient = moved((struct vec3){0.0, 0.0, 0.0}, axis, sign);
     for (int across = 0; across < s->dimension; across++) {
         if (across == axis)
             continue;
@@ -118,29 +123,72 @@ static struct vec3 normal_at(const struct sampler *s, struct vec3 at, int axis, 
         const double before = crossing(s, moved(at, across, -away), axis, sign, end),
                      after = crossing(s, moved(at, across, away), axis, sign, end);
         const double low = (end - before) / away, high = (after - end) / away;
-        const double slope = isnan(before) ? high : isnan(after) ? low : 0.5 * (low + high);
+        double slope = isnan(before) ? high : isnan(after) ? low : 0.5 * (low + high);
+        if (isnan(slope))
+            slope = is_inside(s, moved(at, across, -s->step[across])) ? -steep : steep;
         if (fabs(slope) > smallest)
-            normal = moved(normal, across, -slope);
+            gradient = moved(gradient, across, -slope);
+    }
+    return gradient;
+}
+
+static int steepest_axis(struct vec3 v)
+{
+    const double x = fabs(v.x), y = fabs(v.y), z = fabs(v.z);
+    return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+}
+
+/* The outward normal there, from lines along the axis that it is nearest to. */
+static struct vec3 normal_at(const struct sampler *s, struct vec3 at, int axis, double sign,
+                             double end)
+{
+    struct vec3 normal = gradient_at(s, at, axis, sign, end);
+    const int best = steepest_axis(normal);
+    if (best != axis) {
+        const double to = axis_of(normal, best) > 0.0 ? 1.0 : -1.0,
+                     there = crossing(s, at, best, to, 0.0);
+        if (!isnan(there))
+            normal = gradient_at(s, at, best, to, there);
     }
     return vec3_scale(1.0 / sqrt(vec3_dot(normal, normal)), normal);
 }
 
+/* The cells within REACH of AT, from LOW to HIGH. */
+static void cells_within(const struct sampler *s, const int64_t at[3], int64_t reach,
+                         int64_t low[3], int64_t high[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = at[axis] - (axis < s->dimension ? reach : 0);
+        high[axis] = at[axis] + (axis < s->dimension ? reach : 0);
+    }
+}
+
+static int32_t first_carrier(const struct sampler *s, const int64_t at[3])
+{
+    static const int none[3] = {0, 0, 0};
+    const int64_t cell = sampler_cell(s, at, none);
+    return cell < 0 ? -1 : s->cell[cell];
+}
+
+/* The carrier nearest to PLACE in the cells around it, or else in those around these. */
 static int32_t nearest_carrier(const struct sampler *s, struct vec3 place)
 {
-    int64_t at[3];
-    int k[3];
+    int64_t at[3], low[3], high[3], k[3];
     int32_t found = -1;
     double least = INFINITY;
     sampler_cell_of(s, place, at);
-    for (int n = 0; n < sampler_around(s->dimension, n, k); n++) {
-        const int64_t cell = sampler_cell(s, at, k);
-        for (int32_t c = cell < 0 ? -1 : s->cell[cell]; c >= 0; c = s->carrier[c].next) {
-            const double away = sampler_distance(s, &s->carrier[c], place);
-            if (away < least || (away == least && c < found)) {
-                least = away;
-                found = c;
-            }
-        }
+    for (int64_t reach = 1; reach <= SAMPLER_REACH && found < 0; reach++) {
+        cells_within(s, at, reach, low, high);
+        for (k[0] = low[0]; k[0] <= high[0]; k[0]++)
+            for (k[1] = low[1]; k[1] <= high[1]; k[1]++)
+                for (k[2] = low[2]; k[2] <= high[2]; k[2]++)
+                    for (int32_t c = first_carrier(s, k); c >= 0; c = s->carrier[c].next) {
+                        const double away = sampler_distance(s, &s->carrier[c], place);
+                        if (away < least || (away == least && c < found)) {
+                            least = away;
+                            found = c;
+                        }
+                    }
     }
     return found;
 }
@@ -188,17 +236,18 @@ static void add_face(struct sampler *s, struct vec3 at, int axis, double sign)
     sum->place = vec3_add(sum->place, vec3_scale(weight, moved(at, axis, sign * end)));
 }
 
-/* Whether the cell AT and one around it differ in having particles. */
+/* Whether a part of the surface may be in the cell AT: it has a particle, and a cell around it has
+ * none; or the other way round, up to two cells away, as at the tip of an edge. */
 static bool is_at_surface(const struct sampler *s, const int64_t at[3])
 {
-    static const int none[3] = {0, 0, 0};
-    int k[3];
-    const bool has = s->cell[sampler_cell(s, at, none)] >= 0;
-    for (int n = 0; n < sampler_around(s->dimension, n, k); n++) {
-        const int64_t cell = sampler_cell(s, at, k);
-        if ((cell >= 0 && s->cell[cell] >= 0) != has)
-            return true;
-    }
+    const bool has = first_carrier(s, at) >= 0;
+    int64_t low[3], high[3], k[3];
+    cells_within(s, at, has ? 1 : SAMPLER_REACH, low, high);
+    for (k[0] = low[0]; k[0] <= high[0]; k[0]++)
+        for (k[1] = low[1]; k[1] <= high[1]; k[1]++)
+            for (k[2] = low[2]; k[2] <= high[2]; k[2]++)
+                if ((first_carrier(s, k) >= 0) != has)
+                    return true;
     return false;
 }
 

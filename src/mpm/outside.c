@@ -276,13 +276,18 @@ static void push_face(struct layer *layer, const struct surface *surface, double
         }
 }
 
-/* Whether the node AT has a part of the surface. */
-static bool is_on(const struct surface *surface, const int64_t at[3])
+/* Whether the node AT has a part of the surface. Behind a wall are the nodes whose images have. */
+static bool is_on(const struct mpm *mpm, const struct surface *surface, const int64_t at[3])
 {
     const struct mpm_outside *outside = surface->outside;
+    const int across = surface->axis;
+    int64_t place = at[across];
+    for (int side = 0; side < 2; side++)
+        if (mpm->has_plane[across][side] &&
+            (side == 0 ? place < mpm->plane[across][side] : place > mpm->plane[across][side]))
+            place = 2 * mpm->plane[across][side] - place;
     if (!outside)
-        return (double)at[surface->axis] >= surface->low &&
-               (double)at[surface->axis] <= surface->high;
+        return (double)place >= surface->low && (double)place <= surface->high;
     bool near = false;
     for (int axis = 0; axis < 3; axis++)
         for (int side = 0; side < 2; side++)
@@ -307,14 +312,15 @@ static void push_outside(struct layer *layer, const struct mpm_outside *outside)
 }
 
 /* Sets to zero what nodes of a block have that are not on the surface. */
-static void keep_surface(const struct layer *layer, const struct surface *surface, int32_t block)
+static void keep_surface(const struct mpm *mpm, const struct layer *layer,
+                         const struct surface *surface, int32_t block)
 {
     int64_t corner[3], at[3];
     grid_corner(&layer->grid, block, corner);
     for (int k = 0; k < BLOCK_CELLS; k++) {
         const double *node = grid_node(&layer->main, block, k);
         mpm_node_index(layer->grid.dimension, corner, k, at);
-        if (!(is_on(surface, at) && node[NODE_MASS] > 0.0))
+        if (!(is_on(mpm, surface, at) && node[NODE_MASS] > 0.0))
             memset(grid_node(&layer->back, block, k), 0, BACK_STRIDE * sizeof(double));
     }
 }
@@ -327,7 +333,7 @@ static void push_nodes(const struct mpm *mpm, struct simulation *simulation, str
 {
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++)
-        keep_surface(layer, surface, n);
+        keep_surface(mpm, layer, surface, n);
     if (surface->load)
         mpm_book_load(mpm, layer, dt, &simulation->load[surface->index]);
     mpm_note_pushed(layer,

@@ -179,7 +179,7 @@ materials:
 bodies: {{plate: {{material: metal, {shape}}}}}
 loads: {{b: {{on: plate, blast: {{mass: {self.mass:.12g} kg, at: {charge}}}{extra}}}}}
 run: {{until: {until:.12g} s}}
-output: {{pictures: no}}
+output: {{pictures: []}}
 """
 
 
@@ -246,7 +246,7 @@ materials:
 bodies: {{plate: {{material: metal, box: {{from: [0 mm, -10 mm], to: [60 mm, 0 mm]}}}}}}
 loads: {{b: {{on: plate, {load}}}}}
 run: {{until: {until}}}
-output: {{pictures: no}}
+output: {{pictures: []}}
 """
 CHARGE = "blast: {mass: 0.1 kg, at: [0 m, 0.3 m], time: -0.15 ms}"
 # what the load is, when the run ends, what a check and a run must say
