@@ -210,12 +210,14 @@ struct error *loads_push(struct loads *loads, struct simulation *simulation, int
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t e = 0; e < surface->elements; e++)
         loads->push[e] = push_of(&acting, surface, e);
+    loads->pushes = false;
     for (int32_t e = 0; e < surface->elements; e++) {
         const int32_t member = surface->member[surface->element[e].site];
         const struct push *push = &loads->push[e];
         const double impulse[3] = {dt * push->force.x, dt * push->force.y, dt * push->force.z};
-        if (member < 0)
+        if (member < 0 || push->size == 0.0)
             continue;
+        loads->pushes = true;
         if (surface->element[e].cover == SURFACE_AT_WALL) {
             const double back[3] = {-impulse[0], -impulse[1], -impulse[2]};
             if (!add)

@@ -20,6 +20,7 @@ struct loads {
     int *of;            /* the index of the surface of each load */
     bool **acts;        /* by element: a blast may push on it; NULL of other loads */
     struct push *push;  /* of each element; room for the largest surface */
+    bool pushes;        /* whether any of these is on a member of this rank */
     double (*force)[3]; /* of each member */
     int64_t capacity;
 };

@@ -10,7 +10,7 @@
 #include "model/walk.h"
 
 /* Parts of a cell along each axis, by dimension. */
-static const int parts_of_cell[] = {1, 1, 8, 4};
+static const int parts_of_cell[] = {1, 1, 16, 4};
 
 /* Cells between a particle and what of the surface it may carry. */
 enum { SAMPLER_REACH = 2 };
@@ -193,29 +193,68 @@ static int32_t nearest_carrier(const struct sampler *s, struct vec3 place)
     return found;
 }
 
-static bool fits(const struct piece *piece, struct vec3 normal, enum surface_cover cover)
+/* A face along AXIS of a part of a cell with its centre at AT, inside the body. */
+struct face {
+    struct vec3 at;
+    int axis;
+    double sign, end; /* the body ends so far from the centre */
+    struct vec3 normal;
+    enum surface_cover cover;
+};
+
+static bool fits(const struct piece *piece, const struct face *face)
 {
     const struct vec3 sum = piece->element.start.normal;
-    return piece->element.cover == cover &&
-           vec3_dot(sum, normal) > SAME_NORMAL * sqrt(vec3_dot(sum, sum));
+    return piece->element.cover == face->cover &&
+           vec3_dot(sum, face->normal) > SAME_NORMAL * sqrt(vec3_dot(sum, sum));
 }
 
-/* A face along AXIS of a part of a cell with its centre at AT, inside the body. */
+/* Whether the body ends at the plane of PIECE, which fills in FACE without a search. */
+static bool is_on_plane(const struct sampler *s, const struct piece *piece, struct face *face)
+{
+    static const double steepest = 0.1, margin = 1e-3;
+    const double slope = face->sign * axis_of(piece->normal, face->axis),
+                 step = s->step[face->axis],
+                 end = vec3_dot(vec3_sub(piece->point, face->at), piece->normal) / slope;
+    if (piece->element.cover != face->cover || !(slope > steepest) ||
+        !is_inside(s, moved(face->at, face->axis, face->sign * (end - margin * step))) ||
+        is_inside(s, moved(face->at, face->axis, face->sign * (end + margin * step))))
+        return false;
+    face->end = end;
+    face->normal = piece->normal;
+    return true;
+}
+
+/* The piece of the carrier OF that FACE, which is then known, is a part of; -1: there is none. */
+static int32_t find_piece(const struct sampler *s, int32_t of, struct face *face)
+{
+    int32_t found = s->carrier[of].element;
+    while (found >= 0 && !is_on_plane(s, &s->piece[found], face))
+        found = s->piece[found].next;
+    if (found >= 0)
+        return found;
+    face->end = crossing(s, face->at, face->axis, face->sign, 0.0);
+    if (isnan(face->end))
+        return -1;
+    face->normal = normal_at(s, face->at, face->axis, face->sign, face->end);
+    found = s->carrier[of].element;
+    while (found >= 0 && !fits(&s->piece[found], face))
+        found = s->piece[found].next;
+    return found;
+}
+
 static void add_face(struct sampler *s, struct vec3 at, int axis, double sign)
 {
-    const enum surface_cover cover = cover_at(s, moved(at, axis, sign * s->step[axis]));
     const int32_t of = nearest_carrier(s, at);
-    const double end = crossing(s, at, axis, sign, 0.0);
-    if (of < 0 || isnan(end))
+    struct face face = {.at = at,
+                        .axis = axis,
+                        .sign = sign,
+                        .cover = cover_at(s, moved(at, axis, sign * s->step[axis]))};
+    if (of < 0)
         return;
-    const struct vec3 normal = normal_at(s, at, axis, sign, end);
-    double size = 1.0;
-    for (int other = 0; other < s->dimension; other++)
-        size *= other == axis ? 1.0 : s->step[other];
-    struct carrier *carrier = &s->carrier[of];
-    int32_t found = carrier->element;
-    while (found >= 0 && !fits(&s->piece[found], normal, cover))
-        found = s->piece[found].next;
+    int32_t found = find_piece(s, of, &face);
+    if (isnan(face.end))
+        return;
     if (found < 0) {
         s->out_of_memory |=
             s->pieces == INT32_MAX || !memory_reserve((void **)&s->piece, &s->piece_capacity,
@@ -223,17 +262,22 @@ static void add_face(struct sampler *s, struct vec3 at, int axis, double sign)
         if (s->out_of_memory)
             return;
         found = (int32_t)s->pieces++;
-        s->piece[found] =
-            (struct piece){.element = {.site = of, .cover = cover}, .next = carrier->element};
-        carrier->element = found;
+        s->piece[found] = (struct piece){.element = {.site = of, .cover = face.cover},
+                                         .point = moved(at, axis, sign * face.end),
+                                         .normal = face.normal,
+                                         .next = s->carrier[of].element};
+        s->carrier[of].element = found;
     }
+    double size = 1.0;
+    for (int other = 0; other < s->dimension; other++)
+        size *= other == axis ? 1.0 : s->step[other];
     struct piece *piece = &s->piece[found];
     struct surface_state *sum = &piece->element.start;
-    const double weight = size * sign * axis_of(normal, axis);
+    const double weight = size * maximum(sign * axis_of(face.normal, axis), 1e-6);
     piece->weight += weight;
     sum->area = moved(sum->area, axis, sign * size);
-    sum->normal = vec3_add(sum->normal, vec3_scale(weight, normal));
-    sum->place = vec3_add(sum->place, vec3_scale(weight, moved(at, axis, sign * end)));
+    sum->normal = vec3_add(sum->normal, vec3_scale(weight, face.normal));
+    sum->place = vec3_add(sum->place, vec3_scale(weight, moved(at, axis, sign * face.end)));
 }
 
 /* Whether a part of the surface may be in the cell AT: it has a particle, and a cell around it has

@@ -16,6 +16,7 @@ struct carrier {
 struct piece {
     struct surface_element element; /* sums of place and normal, with weights */
     double weight;
+    struct vec3 point, normal; /* of its first face */
     int32_t next;
 };
 

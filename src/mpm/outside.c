@@ -206,6 +206,8 @@ static void give_bin(const struct mpm *mpm, const struct simulation *simulation,
         for (int32_t k = bin->cell[cell]; k < bin->cell[cell + 1]; k++) {
             const int32_t i = layer->bins.list[bin->first + k];
             const struct given given = surface->of(mpm, simulation, surface, i);
+            if (surface->force && !given.force)
+                continue;
             reached.x = p->position[i];
             reached.half = mpm->half_size[p->body[i]];
             if (surface->body < 0 || p->body[i] == surface->body)
@@ -360,9 +362,9 @@ static void push_surface(struct mpm *mpm, struct simulation *simulation,
     }
 }
 
-/* Fills in what load SURFACE is in a step of DT. */
+/* Fills in what load SURFACE is in a step of DT, and whether it may push ANY particle. */
 static struct error *find_load(struct mpm *mpm, struct simulation *simulation,
-                               struct surface *surface, double dt)
+                               struct surface *surface, double dt, bool *any)
 {
     static const char *const keys[] = {"traction.1", "traction.2", "traction.3"};
     const struct load_input *load = surface->load;
@@ -376,6 +378,7 @@ static struct error *find_load(struct mpm *mpm, struct simulation *simulation,
         surface->force = mpm->loads.force;
     }
     TRY(loads_push(&mpm->loads, simulation, surface->index, simulation->time, dt, blast));
+    *any = !blast || mpm->loads.pushes;
     for (int k = 0; k < load->traction.count; k++)
         TRY(simulation_value_at(simulation, time, &load->traction.at[k], name, keys[k],
                                 &surface->traction[k]));
@@ -402,8 +405,10 @@ static struct error *push_loads(struct mpm *mpm, struct simulation *simulation, 
                                   .index = i};
         if (!load_acts_at(load, simulation->time))
             continue;
-        TRY(find_load(mpm, simulation, &surface, dt));
-        push_surface(mpm, simulation, &surface, dt);
+        bool any;
+        TRY(find_load(mpm, simulation, &surface, dt, &any));
+        if (ranks_maximum(simulation->ranks, any) > 0.0)
+            push_surface(mpm, simulation, &surface, dt);
     }
     return NULL;
 }
