@@ -15,6 +15,9 @@ static const char *const heads[COLUMNS] = {"form",     "settings", "run",    "ch
                                            "measured", "unit",     "wanted", "low",
                                            "high",     "verdict",  "note"};
 
+/* The longest that comes with the program has a hundredth of it. */
+enum { RECORD_BYTES_MAX = 1 << 24 };
+
 char *record_path(const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
@@ -27,6 +30,11 @@ char *record_path(const char *path)
 
 struct error *record_read(const char *file, struct csv *record)
 {
+    if (file_size(file) > RECORD_BYTES_MAX)
+        return error_new(ERROR_INPUT,
+                         "%s: not a record of a case: it has more than %d MB; remove the file or "
+                         "restore it",
+                         file, RECORD_BYTES_MAX >> 20);
     TRY(csv_read(file, record));
     for (int i = 0; i < COLUMNS && record->columns > 0; i++)
         if (strcmp(csv_head(record, i), heads[i]) != 0 || record->columns != COLUMNS) {

@@ -99,7 +99,8 @@ static int run_command(int count, char **words, const struct ranks *ranks)
     else if (ranks->rank == 0 || command->bit & (COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH))
         status = command->run(&options);
     options_free(&options);
-    if (fflush(stdout) && status == EXIT_OK)
+    const bool unwritten = fflush(stdout) || ferror(stdout);
+    if (unwritten && status == EXIT_OK)
         status = report_error(error_new(ERROR_SYSTEM, "the output could not be written"));
     return status;
 }

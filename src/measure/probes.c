@@ -42,12 +42,8 @@ struct error *probes_create(const struct simulation_case *input, struct probes *
         probe->selection = (struct selection){.body = case_find_body(input, given->of),
                                               .axis = given->axis < 0 ? 0 : given->axis,
                                               .between = given->between};
-        probe->column = memory_allocate(PROBE_COLUMNS * sizeof *probe->column);
-        probe->fields = memory_allocate(sizeof *probe->fields);
         probe->step = -1;
         probe->failed = -1.0;
-        if (!probe->column || !probe->fields)
-            return out_of_memory();
     }
     return NULL;
 }
@@ -131,10 +127,23 @@ static struct error *check_key(const struct probe *probe, const struct simulatio
                        probe->input->probe.choice->name);
 }
 
+/* Cuts *ARRAY to SIZE bytes, of which one at least is kept. */
+static void shrink(void **array, size_t size)
+{
+    void *fit = realloc(*array, size ? size : 1);
+    *array = fit ? fit : *array;
+}
+
+/* Finds the columns and fields of PROBE, in memory for as many as there are: a case may have a
+ * hundred thousand probes. */
 static struct error *prepare(struct probe *probe, const struct simulation *simulation,
                              const struct population *population)
 {
     const struct probe_input *input = probe->input;
+    probe->column = memory_allocate(PROBE_COLUMNS * sizeof *probe->column);
+    probe->fields = memory_allocate(sizeof *probe->fields);
+    if (!probe->column || !probe->fields)
+        return out_of_memory();
     population = simulation_seen(simulation, input->of, population);
     TRY(check_key(probe, simulation, "of", input->of, PROBE_TAKES_OF));
     TRY(simulation_check_of(simulation, "probes", probe->name, input->of));
@@ -142,11 +151,12 @@ static struct error *prepare(struct probe *probe, const struct simulation *simul
     TRY(check_key(probe, simulation, "axis", input->axis >= 0, PROBE_TAKES_AXIS));
     TRY(check_key(probe, simulation, "between", input->between.count, PROBE_TAKES_AXIS));
     probe_add_column(probe, "time", "s");
-    TRY(class_of(probe)->prepare(probe, simulation, population));
-    struct probe_column *fit =
-        realloc(probe->column, (size_t)probe->columns * sizeof *probe->column);
-    probe->column = fit ? fit : probe->column;
-    return NULL;
+    struct error *error = class_of(probe)->prepare(probe, simulation, population);
+    shrink((void **)&probe->column, (size_t)probe->columns * sizeof *probe->column);
+    shrink((void **)&probe->fields,
+           offsetof(struct chosen_fields, field) +
+               (size_t)probe->fields->count * sizeof probe->fields->field[0]);
+    return error;
 }
 
 struct error *probes_prepare(struct probes *probes, const struct simulation *simulation,

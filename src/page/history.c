@@ -370,9 +370,7 @@ static struct error *each_probe(const struct page *page, bool plots, bool *liste
     for (int i = 0; i < count && !error; i++) {
         struct csv csv = {0};
         struct table table = {0};
-        char *path = path_join(folder, names[i]);
-        error = path ? csv_read(path, &csv) : error_new(ERROR_SYSTEM, "out of memory for a report");
-        free(path);
+        error = page_read_table(folder, names[i], &csv);
         if (!error)
             error = table_make(&csv, &table);
         names[i][strlen(names[i]) - 4] = '\0';

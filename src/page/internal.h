@@ -20,6 +20,9 @@ struct page {
 
 /* What a page begins and ends with. Its policy forbids the page whatever it does not hold
  * itself. */
+/* Reads the table NAME of FOLDER; one that is missing, or too large for a page, has no columns. */
+struct error *page_read_table(const char *folder, const char *name, struct csv *csv);
+
 void page_head(const struct page *page, const char *title);
 void page_foot(const struct page *page);
 

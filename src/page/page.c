@@ -14,10 +14,16 @@ static struct error *out_of_memory(void)
     return error_new(ERROR_SYSTEM, "out of memory for a report");
 }
 
-static struct error *read_table(const char *folder, const char *name, struct csv *csv)
+/* A folder may hold files of any size; what is larger than this does not fit on a page. */
+enum { TABLE_BYTES_MAX = 1 << 28, TEXT_BYTES_MAX = 1 << 22 };
+
+struct error *page_read_table(const char *folder, const char *name, struct csv *csv)
 {
+    *csv = (struct csv){0};
     char *path = path_join(folder, name);
-    struct error *error = path ? csv_read(path, csv) : out_of_memory();
+    struct error *error = !path                               ? out_of_memory()
+                          : file_size(path) > TABLE_BYTES_MAX ? NULL
+                                                              : csv_read(path, csv);
     free(path);
     return error;
 }
@@ -62,7 +68,10 @@ static struct error *put_file(const struct page *page, const char *name, const c
 {
     char *path = path_join(page->folder, name), *text = NULL;
     size_t size;
-    struct error *error = path ? file_read(path, &text, &size) : out_of_memory();
+    const bool shown = path && file_size(path) <= TEXT_BYTES_MAX;
+    struct error *error = !path ? out_of_memory() : shown ? file_read(path, &text, &size) : NULL;
+    if (path && !shown)
+        fprintf(page->file, "<p class=\"note\">%s is too large to be shown here.</p>\n", name);
     if (!error && text && *text) {
         fprintf(page->file, "<details><summary>%s</summary><pre>", words);
         page_text(page->file, text);
@@ -140,19 +149,19 @@ static struct error *look_for_run(const char *folder)
 static struct error *read_run(const char *folder, struct page *page)
 {
     TRY(look_for_run(folder));
-    TRY(read_table(folder, "summary.csv", &page->summary));
-    TRY(read_table(folder, "checks.csv", &page->checks));
-    return read_table(folder, "history.csv", &page->history);
+    TRY(page_read_table(folder, "summary.csv", &page->summary));
+    TRY(page_read_table(folder, "checks.csv", &page->checks));
+    return page_read_table(folder, "history.csv", &page->history);
 }
 
 /* The words of the sweep's page are those of its first run. */
 static struct error *read_first_run(const char *folder, struct page *page)
 {
-    TRY(read_table(folder, "checks.csv", &page->checks)); /* its fits */
-    TRY(read_table(folder, "statistics.csv", &page->statistics));
+    TRY(page_read_table(folder, "checks.csv", &page->checks)); /* its fits */
+    TRY(page_read_table(folder, "statistics.csv", &page->statistics));
     char *first = path_join(folder, csv_field(&page->sweep, 0, 0));
     struct error *error =
-        first ? read_table(first, "summary.csv", &page->summary) : out_of_memory();
+        first ? page_read_table(first, "summary.csv", &page->summary) : out_of_memory();
     free(first);
     return error;
 }
@@ -160,7 +169,7 @@ static struct error *read_first_run(const char *folder, struct page *page)
 struct error *page_write(const char *folder)
 {
     struct page page = {.folder = folder};
-    struct error *error = read_table(folder, "sweep.csv", &page.sweep);
+    struct error *error = page_read_table(folder, "sweep.csv", &page.sweep);
     if (!error)
         error = page.sweep.rows ? read_first_run(folder, &page) : read_run(folder, &page);
     char *path = path_join(folder, "report.html");

@@ -96,11 +96,16 @@ static struct error *pictures_find(const char *folder, struct pictures *pictures
     return NULL;
 }
 
+/* *BYTES is NULL where the file is too large for a page. */
 static struct error *read_picture(const struct pictures *pictures, const struct picture *picture,
                                   char **bytes, size_t *size)
 {
+    *bytes = NULL;
+    *size = 0;
     char *path = path_join(pictures->folder, picture->name);
-    struct error *error = path ? file_read(path, bytes, size) : out_of_memory();
+    struct error *error = !path                               ? out_of_memory()
+                          : file_size(path) > FRAME_BYTES_MAX ? NULL
+                                                              : file_read(path, bytes, size);
     free(path);
     return error;
 }

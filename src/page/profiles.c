@@ -90,16 +90,14 @@ static struct error *plot_field(const struct page *page, const struct csv *csv, 
 static struct error *plot_profile(const struct page *page, const char *folder, const char *file)
 {
     struct csv csv = {0};
-    char *path = path_join(folder, file);
     char *title = text_copy_part(file, strlen(file) - strlen("-000000.csv"));
-    struct error *error = path && title ? csv_read(path, &csv)
-                                        : error_new(ERROR_SYSTEM, "out of memory for a report");
+    struct error *error = title ? page_read_table(folder, file, &csv)
+                                : error_new(ERROR_SYSTEM, "out of memory for a report");
     bool named = !strcmp(csv_head(&csv, 0), "material") || !strcmp(csv_head(&csv, 0), "body");
     for (int i = 0; i < csv.columns && csv.rows && !error; i++)
         error = plot_field(page, &csv, title, named, i);
     csv_free(&csv);
     free(title);
-    free(path);
     return error;
 }
 
