@@ -77,7 +77,8 @@ def masked(text):
     text = PROGRESS.sub("", TIMES.sub("  ...\n", text))
     text = re.sub(r"[\d.]+ (?:[kMG] )?((?:particle |cell )?updates/s)", r"… \1", text)
     text = re.sub(r"(after |, )[\d.]+ s\b", r"\1… s", text)
-    text = re.sub(r"roughly [\d.]+ \w+", "roughly …", text)
+    text = re.sub(r"steps, \S+ \w+ \+ \S+ \w+ for output", "steps, … + … for output", text)
+    text = re.sub(r"\((?:a guess|at the rate of the last run);", "(…;", text)
     return re.sub(r"^seconds .*$", lambda line: re.sub(
         r"[\d.]+", lambda n: "…".rjust(len(n[0])), line[0]), text, flags=re.M)
 
@@ -89,7 +90,8 @@ def record(page, program):
         build = pathlib.Path(folder) / "build" / "release"
         build.mkdir(parents=True)
         (build / "bolide").symlink_to(program)
-        environment = dict(os.environ, PATH=f"{build}:{os.environ['PATH']}", OMP_NUM_THREADS="2")
+        environment = dict(os.environ, PATH=f"{build}:{os.environ['PATH']}", OMP_NUM_THREADS="2",
+                           XDG_CACHE_HOME=str(build.parent / "cache"))
         parts = [head_of(text)]
         for match, name, own in steps_of(text):
             if name:

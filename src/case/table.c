@@ -181,7 +181,8 @@ static const struct parameter output_table[] = {
      .standard = "10 min",
      .below = INFINITY,
      .closed = true,
-     .help = "wall-clock time between checkpoints; 0: only at the end"},
+     .help = "wall-clock time between checkpoints, of which the first is written after a minute at "
+             "most; 0: only at the end"},
     {.key = "pictures",
      .kind = PARAMETER_NAMES,
      .offset = offsetof(struct output_input, pictures),

@@ -19,7 +19,8 @@ struct text_list {
 struct cli_options {
     const char *output;
     int64_t threads, points, ranks_wanted;
-    bool overwrite, resume, quick, thorough, all, convergence, curves, record, compare;
+    bool overwrite, resume, quick, thorough, all, convergence, curves, record, compare, pilot,
+        force;
     const char *time, *template_name;
     const char *key, *from, *to, *check, *within; /* of a search */
     struct text_list settings, names;
@@ -169,6 +170,10 @@ char *share_folder(const char *name);
 struct error *case_locate(const char *given, char **path);
 /* Puts the paths of the cases in the place of OPTIONS' names; options_free frees them. */
 struct error *cases_locate(struct cli_options *options);
+
+/* The table of the rates of runs on this machine, $XDG_CACHE_HOME/bolide/rates.csv or
+ * ~/.cache/bolide/rates.csv, in fresh memory; NULL where there is no such place. */
+char *rates_path(void);
 
 /* How OPTIONS want a case to be read, with the materials in the folder MATERIALS (NULL: none). */
 struct case_options case_reading(const struct cli_options *options, const char *const *materials);

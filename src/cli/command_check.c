@@ -4,7 +4,7 @@
 
 #include "cli/cli.h"
 #include "model/solver.h"
-#include "run/estimate.h"
+#include "run/forecast.h"
 #include "run/run.h"
 #include "study/sweep.h"
 
@@ -105,30 +105,34 @@ static void print_explosives(const struct simulation_case *input)
     }
 }
 
-static void print_run(const struct simulation_case *input, const struct estimate *estimate,
-                      int threads)
+static void print_run(const struct simulation_case *input, const struct estimate *estimate)
 {
-    char step[48], until[48], memory[48], seconds[48];
+    char step[48], until[48];
     readable(estimate->step, "s", step, sizeof step);
     readable(input->run.until, "s", until, sizeof until);
-    readable(estimate->bytes, "B", memory, sizeof memory);
-    readable(estimate->seconds, "s", seconds, sizeof seconds);
     printf("  %lld %s, ", (long long)estimate->particles, members_of(input));
     if (estimate->cells > 0.0)
         printf("%.15g cells, ", round(estimate->cells));
     printf("%.6g %s; %d checks\n", estimate->mass, mass_unit(input), input->checks.count);
-    printf("  until %s; first step about %s (body %s); about %lld steps\n", until, step,
-           input->bodies.names[estimate->step_body], (long long)estimate->steps);
-    printf("  about %s of memory, roughly %s on %d thread%s\n", memory, seconds, threads,
-           threads == 1 ? "" : "s");
+    printf("  until %s; first step about %s (body %s)\n", until, step,
+           input->bodies.names[estimate->step_body]);
 }
 
-static void print_warnings(const struct simulation_case *input, const struct estimate *estimate)
+static void print_forecast(const struct forecast *forecast)
 {
-    if (estimate->steps > RUN_STEPS_HOPELESS)
+    char memory[48], *text = forecast_text(forecast);
+    readable(forecast->bytes, "B", memory, sizeof memory);
+    printf("  %s\n  about %s of memory\n", text ? text : "", memory);
+    free(text);
+}
+
+static void print_warnings(const struct simulation_case *input, const struct estimate *estimate,
+                           const struct forecast *forecast)
+{
+    if (forecast->steps > RUN_STEPS_HOPELESS)
         printf("  warning: about %.2g steps are more than any run takes: look at `run.until`, the "
                "resolution of %s, its speed and its material\n",
-               (double)estimate->steps, input->bodies.names[estimate->step_body]);
+               forecast->steps, input->bodies.names[estimate->step_body]);
     const struct solver_class *class = input->solver.choice->thing;
     if (class->count && !run_is_filled_in_check(input))
         printf(
@@ -151,13 +155,32 @@ static void print_work(const struct simulation_case *input)
     fflush(stdout);
 }
 
+/* The forecast of a run of INPUT as OPTIONS want it: with a pilot, or without. */
+static struct forecast forecast_for(const struct simulation_case *input,
+                                    const struct estimate *estimate,
+                                    const struct cli_options *options)
+{
+    const struct ranks alone = ranks_alone();
+    const int threads = options->threads > 0 ? (int)options->threads : 1;
+    char *rates = rates_path();
+    struct forecast forecast = forecast_make(input, estimate, threads, rates);
+    struct error *error = forecast_check_memory(input, &forecast, &alone);
+    if (options->pilot && (!error || options->force)) {
+        const struct run_options running = {
+            .ranks = &alone, .threads = threads, .stop = signals_catch()};
+        forecast_by_pilot(input, estimate, &running, FORECAST_PILOT_SECONDS, &forecast);
+    }
+    error_free(error);
+    free(rates);
+    return forecast;
+}
+
 /* The case at PATH, or the run RUN of its sweep; *runs is how many there are. */
 static struct error *check_run(const char *path, const struct cli_options *options, int run,
                                int *runs)
 {
     struct simulation_case *input;
     struct estimate estimate;
-    int threads = options->threads > 0 ? (int)options->threads : 1;
     TRY(read_run_of_sweep(path, options, run, &input));
     *runs = input->sweep_runs;
     if (*runs && !run) {
@@ -166,7 +189,7 @@ static struct error *check_run(const char *path, const struct cli_options *optio
     }
     char *name = run ? sweep_run_name(input->sweep, input->sweep_values) : NULL;
     print_work(input);
-    struct error *error = estimate_run(input, threads, &estimate);
+    struct error *error = estimate_run(input, &estimate);
     if (!error) {
         printf("%s%s%s%s%s: %s (%lld-D, %s)\n", colour(COLOUR_STRONG), input->name, name ? "/" : "",
                name ? name : "", colour(COLOUR_NONE), input->title ? input->title : "",
@@ -176,8 +199,12 @@ static struct error *check_run(const char *path, const struct cli_options *optio
             print_start(input->bodies.names[i], &estimate.body[i].summary);
         print_mixture(input, &estimate);
         print_explosives(input);
-        print_run(input, &estimate, threads);
-        print_warnings(input, &estimate);
+        print_run(input, &estimate);
+        const struct forecast forecast = forecast_for(input, &estimate, options);
+        print_forecast(&forecast);
+        print_warnings(input, &estimate, &forecast);
+        if (!options->force)
+            error = forecast_check_memory(input, &forecast, &(struct ranks){.size = 1});
         estimate_free(&estimate);
     }
     free(name);

@@ -1,8 +1,11 @@
 /* bolide run: one case, or all runs of its sweep, into one folder. */
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "cli/cli.h"
+#include "run/forecast.h"
 #include "study/verify.h"
 
 static struct run_options running_of(const struct cli_options *options, const char *folder,
@@ -23,12 +26,65 @@ static struct run_options running_of(const struct cli_options *options, const ch
     };
 }
 
+/* Adds a blank and WORD to TEXT, quoted where a shell would take it apart. */
+static void put_word(FILE *text, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "/._-+=,:@%";
+    const bool quoted = !*word || word[strspn(word, plain)];
+    fputs(quoted ? " '" : " ", text);
+    for (; *word; word++)
+        if (*word == '\'')
+            fputs("'\\''", text);
+        else
+            putc(*word, text);
+    fputs(quoted ? "'" : "", text);
+}
+
+/* The command that continues the run of OPTIONS in fresh memory; NULL when memory is out. */
+static char *resume_command(const struct cli_options *options)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+        return NULL;
+    fputs("bolide run", file);
+    put_word(file, options->names.text[0]);
+    fputs(options->quick ? " --short" : options->thorough ? " --long" : "", file);
+    for (int i = 0; i < options->settings.count; i++) {
+        fputs(" --set", file);
+        put_word(file, options->settings.text[i]);
+    }
+    if (options->output) {
+        fputs(" --output", file);
+        put_word(file, options->output);
+    }
+    if (options->ranks_wanted > 1)
+        fprintf(file, " --ranks %lld", (long long)options->ranks_wanted);
+    fputs(" --resume", file);
+    if (fclose(file)) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}
+
 /* Says TEXT (taken) as a line. */
 static void say(const struct listener *listener, char *text)
 {
     if (text)
         listener->line(listener->context, text);
     free(text);
+}
+
+/* How to go on with a run that was stopped. */
+static void say_how_to_resume(const struct listener *listener, const struct cli_options *options)
+{
+    char *command = resume_command(options);
+    if (command)
+        say(listener, text_format("continue with --resume: %s", command));
+    free(command);
 }
 
 static void report_sweep(const struct listener *listener, const struct verify_result *result,
@@ -60,7 +116,7 @@ static int run_sweep(const struct simulation_case *input, const struct cli_optio
         report_sweep(&listener, &result, input->sweep_runs, folder);
     int status = error ? report_error(error) : EXIT_OK;
     if (*verifying.running.stop) {
-        say(&listener, text_copy("continue with --resume"));
+        say_how_to_resume(&listener, options);
         status = signals_status();
     }
     verify_result_free(&result);
@@ -68,13 +124,59 @@ static int run_sweep(const struct simulation_case *input, const struct cli_optio
     return status;
 }
 
+/* A run of more than a minute is announced; the pilot for that takes a twentieth of it at most. */
+static const double WORTH_A_PILOT = 60.0, PILOT_FRACTION = 0.05;
+
+static void announce(const struct simulation_case *input, const struct estimate *estimate,
+                     const struct run_options *running, struct forecast *forecast)
+{
+    const double total = ranks_maximum(running->ranks, forecast_total(forecast));
+    if (!(total > WORTH_A_PILOT))
+        return;
+    forecast_by_pilot(input, estimate, running,
+                      minimum(FORECAST_PILOT_SECONDS, 0.5 * PILOT_FRACTION * total), forecast);
+    char *text = forecast_text(forecast);
+    if (text && forecast_total(forecast) > WORTH_A_PILOT)
+        say(running->listener, text_copy(text));
+    free(text);
+}
+
+/* Tells how long a run of INPUT will take, and refuses one that memory is too small for. A mistake
+ * of the case is left to the run. */
+static struct error *look_ahead(const struct simulation_case *input,
+                                const struct cli_options *options,
+                                const struct run_options *running)
+{
+    struct estimate estimate;
+    if (options->resume || generate_work(input, running->ranks) > GENERATE_LONG)
+        return NULL;
+    struct error *error = estimate_run(input, &estimate);
+    if (error) {
+        error_free(error);
+        return NULL;
+    }
+    struct forecast forecast =
+        forecast_make(input, &estimate, (int)options->threads, running->rates);
+    if (!options->force)
+        error = forecast_check_memory(input, &forecast, running->ranks);
+    if (!error)
+        announce(input, &estimate, running, &forecast);
+    estimate_free(&estimate);
+    return error;
+}
+
 static int run_input(const struct simulation_case *input, const struct cli_options *options,
                      const char *folder)
 {
     struct listener listener = terminal_listener();
     struct run_options running = running_of(options, folder, &listener);
-    struct run_result result;
-    struct error *error = run_case(input, &running, &result);
+    struct run_result result = {0};
+    char *rates = rates_path();
+    running.rates = rates;
+    struct error *error = look_ahead(input, options, &running);
+    if (!error)
+        error = run_case(input, &running, &result);
+    free(rates);
     int status = EXIT_OK;
     if (error)
         status = report_error(error);
@@ -83,9 +185,10 @@ static int run_input(const struct simulation_case *input, const struct cli_optio
     else if (result.checks.failed)
         status = ERROR_CHECK;
     if (!error) {
-        say(&listener, text_format("results in %s%s", folder,
-                                   result.finished ? "" : "; continue with --resume"));
+        say(&listener, text_format("results in %s", folder));
         say(&listener, text_format("report: %s/report.html", folder));
+        if (!result.finished)
+            say_how_to_resume(&listener, options);
     }
     run_result_free(&result);
     return status;

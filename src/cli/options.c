@@ -53,6 +53,12 @@ static const struct option option_table[] = {
      "study the errors of each case on several resolutions, into results/<its name>; with --all "
      "those that have `convergence`",
      OPTION_FLAG, AT(convergence), COMMAND_VERIFY},
+    {"--pilot", NULL,
+     "run the case with coarser particles or cells for up to 40 s, and forecast steps and time "
+     "from that",
+     OPTION_FLAG, AT(pilot), COMMAND_CHECK},
+    {"--force", NULL, "accept a run that needs more memory than the machine has", OPTION_FLAG,
+     AT(force), COMMAND_RUN | COMMAND_CHECK},
     {"--record", NULL,
      "store the measured values in results.csv beside each case; rows of runs with other options "
      "are kept",

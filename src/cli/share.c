@@ -49,6 +49,14 @@ char *share_folder(const char *name)
     return found;
 }
 
+char *rates_path(void)
+{
+    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    if (cache && cache[0] == '/')
+        return text_format("%s/bolide/rates.csv", cache);
+    return home && home[0] == '/' ? text_format("%s/.cache/bolide/rates.csv", home) : NULL;
+}
+
 struct error *case_locate(const char *given, char **path)
 {
     size_t length = strlen(given);

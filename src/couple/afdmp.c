@@ -238,6 +238,12 @@ static struct error *afdmp_coarse(const void *parameters, const struct simulatio
     return coarse_cells(input, part_edge(&of->mpm, input));
 }
 
+static void afdmp_coarsen(void *parameters, double factor)
+{
+    struct afdmp_parameters *of = parameters;
+    mpm_class.coarsen(&of->mpm, factor);
+}
+
 static const char *afdmp_energy_lost(const void *parameters)
 {
     const struct afdmp_parameters *of = parameters;
@@ -255,5 +261,6 @@ const struct solver_class afdmp_class = {.size = sizeof(struct afdmp),
                                          .bytes = afdmp_bytes,
                                          .count = afdmp_count,
                                          .step = afdmp_step,
+                                         .coarsen = afdmp_coarsen,
                                          .energy_lost = afdmp_energy_lost,
                                          .coarse = afdmp_coarse};

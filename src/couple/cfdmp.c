@@ -243,6 +243,12 @@ static struct error *cfdmp_coarse(const void *parameters, const struct simulatio
     return error_join(coarse_cells(input, edge), coarse_gases(input, edge));
 }
 
+static void cfdmp_coarsen(void *parameters, double factor)
+{
+    struct cfdmp_parameters *of = parameters;
+    mpm_class.coarsen(&of->mpm, factor);
+}
+
 static const char *cfdmp_energy_lost(const void *parameters)
 {
     const struct cfdmp_parameters *of = parameters;
@@ -262,4 +268,5 @@ const struct solver_class cfdmp_class = {.size = sizeof(struct cfdmp),
                                          .room = cfdmp_room,
                                          .coarse = cfdmp_coarse,
                                          .step = cfdmp_step,
+                                         .coarsen = cfdmp_coarsen,
                                          .energy_lost = cfdmp_energy_lost};

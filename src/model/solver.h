@@ -66,6 +66,9 @@ struct solver_class {
      * check`. */
     double (*step)(const void *parameters, int dimension, const struct material *material,
                    const struct point *point, double diameter);
+    /* Multiplies what of PARAMETERS is a length of cells or particles by FACTOR, for a run with a
+     * coarser resolution; NULL where nothing is. */
+    void (*coarsen)(void *parameters, double factor);
     /* The jump of velocity over the speed of sound up to which its Riemann problem holds; NULL
      * where that has no bound. */
     double (*largest_jump)(const void *parameters);

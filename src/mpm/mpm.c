@@ -208,6 +208,12 @@ static double mpm_step(const void *parameters, int dimension, const struct mater
     return courant * edge / any_material_evaluate(material, &at).sound_long;
 }
 
+static void mpm_coarsen(void *parameters, double factor)
+{
+    struct mpm_parameters *of = parameters;
+    of->cell *= factor;
+}
+
 static const struct field_row *const field_tables[] = {field_rows, NULL};
 
 static const char *mpm_energy_lost(const void *parameters)
@@ -227,6 +233,7 @@ const struct solver_class mpm_class = {.size = sizeof(struct mpm),
                                        .destroy = mpm_destroy,
                                        .bytes = mpm_bytes,
                                        .step = mpm_step,
+                                       .coarsen = mpm_coarsen,
                                        .energy_lost = mpm_energy_lost,
                                        .fields = field_tables,
                                        .warnings = mpm_warnings};

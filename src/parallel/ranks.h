@@ -61,6 +61,9 @@ void ranks_maximum_of(const struct ranks *ranks, double *values, int count);
 /* Collective: each of COUNT values becomes its sum over all ranks. */
 void ranks_sum_of(const struct ranks *ranks, int64_t *values, int count);
 
+/* Collective: how many ranks, this one among them, share the memory of this machine. */
+int ranks_beside(const struct ranks *ranks);
+
 /* Collective: the sum of VALUE over the lower ranks. */
 int64_t ranks_before(const struct ranks *ranks, int64_t value);
 

@@ -94,6 +94,18 @@ void ranks_sum_of(const struct ranks *ranks, int64_t *values, int count)
         MPI_Allreduce(MPI_IN_PLACE, values, count, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
 }
 
+int ranks_beside(const struct ranks *ranks)
+{
+    MPI_Comm machine;
+    int size = 1;
+    if (!ranks->joined)
+        return 1;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, ranks->rank, MPI_INFO_NULL, &machine);
+    MPI_Comm_size(machine, &size);
+    MPI_Comm_free(&machine);
+    return size;
+}
+
 int64_t ranks_before(const struct ranks *ranks, int64_t value)
 {
     int64_t sum = 0;

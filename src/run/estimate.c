@@ -11,9 +11,6 @@
 #include "run/input_warnings.h"
 #include "run/run.h"
 
-/* Updates a second that one thread is expected to make. */
-static const double expected_rate = 1e6;
-
 static void add_body(const struct simulation_case *input, int index, struct estimate *estimate)
 {
     const struct solver_class *class = input->solver.choice->thing;
@@ -73,8 +70,56 @@ static void find_mean_density(const struct simulation_case *input, struct estima
     estimate->mean_density = estimate->mass / volume;
 }
 
-struct error *estimate_run(const struct simulation_case *input, int threads,
-                           struct estimate *estimate)
+/* The velocity of BODY at the start, in the middle of it. */
+static struct vec3 velocity_of(const struct simulation_case *input, int body, struct vec3 middle)
+{
+    const struct field_list *given = &case_body(input, body)->velocity;
+    double velocity[3] = {0.0, 0.0, 0.0};
+    for (int axis = 0; axis < given->count && axis < 3; axis++)
+        velocity[axis] = field_at(&given->at[axis], middle, 0.0);
+    return vec3_make(velocity[0], velocity[1], velocity[2]);
+}
+
+static struct vec3 middle_of(const struct simulation_case *input, int body)
+{
+    const struct bounds bounds = body_bounds(input, body);
+    return vec3_scale(0.5, vec3_add(bounds.low, bounds.high));
+}
+
+/* How fast BODY runs into a wall, m/s. */
+static double speed_into_wall(const struct simulation_case *input, struct vec3 velocity)
+{
+    const double component[3] = {velocity.x, velocity.y, velocity.z};
+    double speed = 0.0;
+    for (int i = 0; i < input->walls.count; i++) {
+        const struct wall_input *wall = case_wall(input, i);
+        speed = maximum(speed, component[wall->axis] * (wall->side == WALL_LOW ? -1.0 : 1.0));
+    }
+    return speed;
+}
+
+/* The fastest approach of two bodies, or of one to a wall, over the lower of their speeds of
+ * sound. */
+static double fastest_impact(const struct simulation_case *input, const struct estimate *estimate)
+{
+    double fastest = 0.0;
+    for (int a = 0; a < input->bodies.count; a++) {
+        const struct vec3 place = middle_of(input, a), velocity = velocity_of(input, a, place);
+        const double sound = estimate->body[a].sound_long;
+        fastest = maximum(fastest, speed_into_wall(input, velocity) / sound);
+        for (int b = 0; b < a; b++) {
+            const struct vec3 there = middle_of(input, b);
+            const struct vec3 apart = vec3_sub(there, place),
+                              moves = vec3_sub(velocity_of(input, b, there), velocity);
+            if (vec3_dot(apart, moves) < 0.0)
+                fastest = maximum(fastest, sqrt(vec3_dot(moves, moves)) /
+                                               minimum(sound, estimate->body[b].sound_long));
+        }
+    }
+    return fastest;
+}
+
+struct error *estimate_run(const struct simulation_case *input, struct estimate *estimate)
 {
     int bodies = input->bodies.count;
     memset(estimate, 0, sizeof *estimate);
@@ -106,11 +151,7 @@ struct error *estimate_run(const struct simulation_case *input, int threads,
         (double)estimate->particles *
             (class->bytes(input->solver.value, (int)input->dimension) + history_bytes(input)) +
         counted.cells * counted.bytes;
-    double steps = ceil(input->run.until / estimate->step);
-    int64_t most = input->run.max_steps;
-    estimate->steps = most > 0 && steps > (double)most ? most : (int64_t)minimum(steps, 1e18);
-    estimate->seconds = (double)estimate->steps * ((double)estimate->particles + counted.cells) /
-                        (expected_rate * maximum(threads, 1));
+    estimate->impact = fastest_impact(input, estimate);
     return NULL;
 }
 

@@ -13,7 +13,7 @@ struct body_estimate {
 struct estimate {
     int bodies;
     struct body_estimate *body;
-    int64_t particles, steps;
+    int64_t particles;
     double cells; /* beside them */
     double mass;
     double *material_mass; /* of each material of the case */
@@ -21,13 +21,12 @@ struct estimate {
     double mean_density;   /* of that box, kg/m^3: voids count */
     double step;           /* s: the smallest that a body allows at the start */
     int step_body;         /* whose it is */
+    double impact;         /* the fastest, over the lower speed of sound of what meets */
     double bytes;          /* of all particles and cells */
-    double seconds;        /* rough: a million updates a second and thread */
 };
 
 /* Also finds what a run would refuse before its first step; then ESTIMATE holds nothing. */
-struct error *estimate_run(const struct simulation_case *input, int threads,
-                           struct estimate *estimate);
+struct error *estimate_run(const struct simulation_case *input, struct estimate *estimate);
 /* What is no mistake but may not be what the user wants: that of generate_warnings and of the
  * solver, input without effect or that contradicts itself, and contacts of bodies that are stronger
  * than the Riemann problem of the solver is made for. NULL, or messages, each located as an error

@@ -30,30 +30,29 @@ enum { PARTICLES_A_THREAD = 2000, PARTICLES_A_THREAD_AT_LEAST = 64 };
 /* Many more threads than processors do not help either, and the system may refuse to start them. */
 enum { THREADS_A_PROCESSOR = 4 };
 
-static int threads_at_most(const struct run_options *options)
+static int threads_at_most(int asked)
 {
 #ifdef _OPENMP
     int most = THREADS_A_PROCESSOR * omp_get_num_procs();
-    int wanted = options->threads > 0 ? options->threads : omp_get_max_threads();
+    int wanted = asked > 0 ? asked : omp_get_max_threads();
     return wanted < most ? wanted : most;
 #else
-    (void)options;
+    (void)asked;
     return 1;
 #endif
 }
 
 /* As many as there is work for. */
-static int threads_for(const struct run *run)
+int run_threads(int asked, double members)
 {
-    int most = run->simulation.threads;
-    int32_t each = run->options->threads > 0 ? PARTICLES_A_THREAD_AT_LEAST : PARTICLES_A_THREAD;
-    int32_t useful = 1 + simulation_population(&run->simulation).count / each;
-    return most < useful ? most : useful;
+    const int each = asked > 0 ? PARTICLES_A_THREAD_AT_LEAST : PARTICLES_A_THREAD;
+    return (int)minimum(threads_at_most(asked), 1.0 + floor(members / each));
 }
 
 static void start_threads(struct run *run)
 {
-    const int most = threads_for(run);
+    const int most =
+        run_threads(run->options->threads, simulation_population(&run->simulation).count);
     const bool fixed = run->options->fixed_threads || most == 1;
     run->threads = threads_start(most, clock_seconds(), fixed ? -1.0 : delay_seconds());
     run->simulation.threads = most;
@@ -171,7 +170,7 @@ static struct totals totals_at_start(const struct run *run)
 /* The state, the solver and the probes, without particles. */
 static struct error *make_solver(struct run *run)
 {
-    TRY(simulation_create(run->input, &run->ranks, threads_at_most(run->options),
+    TRY(simulation_create(run->input, &run->ranks, threads_at_most(run->options->threads),
                           &run->simulation));
     run->method = run->input->solver.choice->thing;
     run->solver = memory_allocate(run->method->size);
@@ -200,7 +199,7 @@ static struct error *make_particles(struct run *run)
     }
     run->first_step = run->simulation.step;
     run->particles = simulation_members(&run->simulation);
-    run->start_time = run->last_progress_time = run->simulation.time;
+    run->last_progress_time = run->simulation.time;
     return NULL;
 }
 
@@ -259,29 +258,6 @@ static struct error *begin(struct run *run)
     return ranks_agree(&run->ranks, error_join(error, look_ahead(run)));
 }
 
-static void report_beginning(struct run *run)
-{
-    const struct simulation *s = &run->simulation;
-    const int threads = (int)ranks_maximum(&run->ranks, s->threads);
-    char until[48], workers[64] = "";
-    if (run->ranks.size > 1)
-        snprintf(workers, sizeof workers, "%d ranks, each ", run->ranks.size);
-    readable(run->input->run.until, "s", until, sizeof until);
-    run_say(run, "%s: %s", run->input->name ? run->input->name : "case",
-            run->input->title ? run->input->title : "");
-    const struct population population = simulation_population(s);
-    run_say(run, "%lld %s, %d-D, %s, until %s, %s%d thread%s%s", (long long)simulation_members(s),
-            population_members(&population), s->problem->dimension, run->input->solver.choice->name,
-            until, workers, threads, threads == 1 ? "" : "s",
-            run->options->resume ? ", resumed" : "");
-    struct error *warnings = estimate_warnings(run->input);
-    for (int i = 0; warnings && i < error_count(warnings); i++)
-        run_say(run, "warning: %s", error_message(warnings, i));
-    error_free(warnings);
-    if (run->options->resume)
-        run_say(run, "resumed at step %lld, t = %.9g s", (long long)s->step, s->time);
-}
-
 /* Checks and the last files. */
 static struct error *conclude(struct run *run)
 {
@@ -307,74 +283,6 @@ static struct error *conclude(struct run *run)
     return NULL;
 }
 
-static void measure_speed(struct run *run)
-{
-    struct run_result *result = run->result;
-    const struct simulation *s = &run->simulation;
-    result->steps = s->step;
-    result->time = s->time;
-    result->particles = simulation_members(s);
-    result->seconds = clock_seconds() - run->began;
-    double stepping = maximum(result->seconds - run->watching, 1e-9);
-    result->updates_per_second = result->updates > 0 ? (double)result->updates / stepping : 0.0;
-}
-
-/* For the log alone: it is no concern of the results. */
-static void report_threads(const struct run *run)
-{
-    const double mean = threads_mean(&run->threads, clock_seconds());
-    if (run->log && mean < 0.95 * run->threads.most)
-        run_log_line(run->log, "%.1f of %d threads on average: others kept the processors busy",
-                     mean, run->threads.most);
-}
-
-static void report_end(struct run *run)
-{
-    const struct run_result *result = run->result;
-    const struct simulation *s = &run->simulation;
-    const struct population population = simulation_population(s);
-    run_say(run,
-            "%s at step %lld, t = %.9g s, after %.1f s; %.3g M updates/s of %s; energy drift %.2g",
-            result->finished ? "finished" : "stopped", (long long)result->steps, result->time,
-            result->seconds, 1e-6 * result->updates_per_second, population_members(&population),
-            result->energy_drift);
-    for (int i = 0; i < s->phases; i++)
-        run_say(run, "  %-18s %8.2f s  %4.1f %%", s->phase[i].name, s->phase[i].seconds,
-                100.0 * s->phase[i].seconds / maximum(result->seconds, 1e-9));
-    report_threads(run);
-    for (int i = 0; i < result->checks.count; i++) {
-        char measured[96], allowed[96];
-        const struct check_result *check = &result->checks.item[i];
-        check_measured_text(check, measured, sizeof measured);
-        check_allowed_text(check, allowed, sizeof allowed);
-        if (check->verdict == CHECK_MEASURED_ONLY) {
-            run_say(run, "  measured only: %s: %s%s%s", check->name, measured,
-                    check->nothing ? ": " : "", check->nothing ? check->nothing : "");
-            continue;
-        }
-        run_say(run, "  check %s: %s: %s (%s)%s%s", check_verdict_name(check->verdict), check->name,
-                measured, allowed, check->known_deviation || check->nothing ? ": " : "",
-                check->known_deviation               ? check->known_deviation
-                : check->nothing                     ? check->nothing
-                : check->verdict == CHECK_PASSES_NOW ? "; passes now: remove `known_deviation`"
-                : check->regression_bound            ? "; regression bound"
-                                                     : "");
-    }
-}
-
-/* No verdict stands alone over what the models do not cover. */
-static void report_warnings(struct run *run)
-{
-    const struct warning_results *warnings = &run->result->warnings;
-    for (int i = 0; i < warnings->count; i++) {
-        const struct warning *warning = &warnings->item[i];
-        if (warning->expected)
-            run_say(run, "  expected warning: %s: %s", warning->name, warning->expected);
-        else
-            run_say(run, "  warning: %s", warning->text);
-    }
-}
-
 /* Whether ERROR is known on this rank alone: collective operations would then wait for ever. */
 static bool is_local_error(const struct run *run, const struct error *error)
 {
@@ -386,23 +294,24 @@ static struct error *run_through(struct run *run)
     TRY(run_check_folder(run));
     TRY(begin(run));
     TRY(run_open_folder(run));
-    report_beginning(run);
+    run_report_beginning(run);
     run->began = run->last_checkpoint = run->last_progress = clock_seconds();
+    run->waited_before = delay_seconds();
+    run->mark[0] = run->mark[1] =
+        (struct progress_mark){run->began, run->simulation.time, run->simulation.step};
     struct error *error = run_summary_begin(run);
     if (!error)
         error = loop(run);
     if (is_local_error(run, error))
         return error;
-    measure_speed(run);
+    run_measure_speed(run);
     if (error && error_kind(error) == ERROR_STATE)
         error = run_save_failure(run, error);
     if (!error)
         error = conclude(run);
     if (!error) {
         run->result->hash = simulation_hash(&run->simulation);
-        report_end(run);
-        run_report_loads(run);
-        report_warnings(run);
+        run_report_end(run);
     } else
         for (int i = 0; run->log && i < error_count(error); i++)
             run_log_line(run->log, "error: %s", error_message(error, i));

@@ -26,6 +26,7 @@ struct run_options {
     int threads;               /* at most; 0: as many as OpenMP would take */
     bool fixed_threads;        /* never fewer than there is work for, however busy the machine is */
     int64_t max_steps;         /* of this call, which then stops as if told to; 0: no limit */
+    double max_seconds;        /* of wall clock, after the first step of this call; 0: no limit */
     const volatile sig_atomic_t *stop; /* not zero: write a checkpoint and stop; may be NULL */
     /* How many times a checkpoint was asked for; the run then continues. May be NULL. */
     const volatile sig_atomic_t *checkpoints;
@@ -34,6 +35,7 @@ struct run_options {
      * for it; NULL: nobody. */
     void (*alarm)(const struct ranks *ranks, const struct error *error);
     struct progress_pace progress;
+    const char *rates; /* the table that the rate of this run goes into; NULL: none */
 };
 
 struct run_result {
@@ -41,6 +43,10 @@ struct run_result {
     int64_t steps, particles,
         updates; /* steps since time zero; updates of particles in this call */
     double time, seconds, updates_per_second;
+    double step; /* s, the last one */
+    int threads; /* at most, of a rank */
+    /* Updates a second without the time that others kept the processors busy. */
+    double undisturbed_rate;
     double energy_drift;
     uint64_t hash;               /* of all particles' bits */
     struct check_results checks; /* empty unless finished */
@@ -53,6 +59,10 @@ struct run_result {
 struct error *run_case(const struct simulation_case *input, const struct run_options *options,
                        struct run_result *result);
 void run_result_free(struct run_result *result);
+
+/* The threads that a run of MEMBERS on one rank takes at most, where ASKED (0: any number) were
+ * asked for. */
+int run_threads(int asked, double members);
 
 /* The mistakes that a run of INPUT would tell before its first step, but for those of the particles
  * (generate_summary): walls, contacts, solver, checks, pictures; where run_is_filled_in_check also

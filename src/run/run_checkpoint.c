@@ -82,18 +82,24 @@ struct error *run_checkpoint(struct run *run)
     free(path);
     run->watching += clock_seconds() - begin;
     TRY(error);
+    const bool first = run->checkpoint_step < 0 && run->checkpoint_is_due;
     run->checkpoint_step = run->simulation.step;
     run->checkpoint_time = run->simulation.time;
-    if (run->checkpoint_is_wanted)
-        run_say(run, "checkpoint at step %lld, t = %.9g s", (long long)run->checkpoint_step,
-                run->checkpoint_time);
+    if (run->checkpoint_is_wanted || first)
+        run_say(run, "checkpoint at step %lld, t = %.9g s%s", (long long)run->checkpoint_step,
+                run->checkpoint_time,
+                first ? "; if the run is interrupted, --resume continues from the last one" : "");
     run->checkpoint_is_wanted = false;
     return NULL;
 }
 
+/* What a kill in the first minutes loses should be a minute. */
+static const double FIRST_CHECKPOINT = 60.0;
+
 bool run_checkpoint_is_due(const struct run *run)
 {
-    double interval = run->input->output.checkpoint;
+    const double given = run->input->output.checkpoint;
+    const double interval = run->checkpoint_step < 0 ? minimum(given, FIRST_CHECKPOINT) : given;
     return interval > 0.0 && clock_seconds() - run->last_checkpoint >= interval;
 }
 

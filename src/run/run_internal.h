@@ -11,6 +11,12 @@
 #include "run/threads.h"
 #include "run/warnings.h"
 
+/* How far a run was at a moment of wall clock. */
+struct progress_mark {
+    double clock, time;
+    int64_t step;
+};
+
 struct run {
     const struct simulation_case *input;
     const struct run_options *options;
@@ -55,7 +61,9 @@ struct run {
     struct run_log *log;
     struct history *history;
     double began, last_checkpoint, last_progress; /* clock_seconds() */
-    double start_time, last_progress_time;        /* of the simulation */
+    double waited_before;                         /* delay_seconds() when the steps began */
+    double last_progress_time;                    /* of the simulation */
+    struct progress_mark mark[2];                 /* what is left is judged since the first */
     double watching;                              /* wall-clock seconds spent in outputs */
     int64_t first_step;
 };
@@ -115,6 +123,12 @@ struct error *run_take_step(struct run *run);
 struct error *run_check_step(struct run *run);
 /* Says after the first step how many will follow if they are hopelessly many. */
 void run_warn_of_length(struct run *run);
+
+/* The lines at the beginning of a run, and at its end; before the latter, how fast it was goes into
+ * the result and the table of rates. */
+void run_report_beginning(struct run *run);
+void run_measure_speed(struct run *run);
+void run_report_end(struct run *run);
 
 /* summary.csv at the beginning of a run; and at its end, with what went wrong (ERROR, NULL:
  * nothing), then report.html. run_report returns ERROR, joined with what went wrong in the

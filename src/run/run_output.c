@@ -467,6 +467,23 @@ struct error *run_watch(struct run *run, bool last)
     return row || snapshot || drift ? ranks_agree(&run->ranks, error) : error;
 }
 
+/* Seconds to the end of the run at its present pace, outputs included: that of the last tenth of
+ * what it has taken, since steps get shorter and members more. */
+static double seconds_left(struct run *run, double now)
+{
+    const struct simulation *s = &run->simulation;
+    const struct progress_mark *since = &run->mark[0];
+    const double most = (double)run->input->run.max_steps, taken = now - since->clock;
+    double left = taken * (run->input->run.until - s->time) / (s->time - since->time);
+    if (most > 0.0 && s->step > since->step)
+        left = minimum(left, taken * (most - (double)s->step) / (double)(s->step - since->step));
+    if (now - run->mark[1].clock > maximum(1.0, 0.1 * (now - run->began))) {
+        run->mark[0] = run->mark[1];
+        run->mark[1] = (struct progress_mark){now, s->time, s->step};
+    }
+    return left;
+}
+
 void run_progress(struct run *run)
 {
     const struct listener *listener = run->options->listener;
@@ -481,10 +498,10 @@ void run_progress(struct run *run)
         return;
     run->last_progress = now;
     run->last_progress_time = time;
-    double elapsed = now - run->began, done = time - run->start_time;
+    double elapsed = now - run->began;
     char text[256];
     progress_text(&run->simulation, &run->limit,
                   (double)run->result->updates / maximum(elapsed - run->watching, 1e-9),
-                  elapsed * (until - time) / done, text, sizeof text);
+                  seconds_left(run, now), text, sizeof text);
     listener->progress(listener->context, text);
 }

@@ -2,6 +2,7 @@
  * the stop of a run whose steps have collapsed. */
 #include <stdio.h>
 
+#include "base/clock.h"
 #include "run/run_internal.h"
 
 double step_towards(double limit, double time, double until)
@@ -94,13 +95,21 @@ struct error *run_check_step(struct run *run)
                          "`run.until`");
 }
 
+/* A step is taken in any case. */
+static bool is_out_of_time(const struct run *run)
+{
+    const double most = run->options->max_seconds;
+    return most > 0.0 && run->simulation.step > run->first_step &&
+           clock_seconds() - run->began >= most;
+}
+
 struct error *run_agree(struct run *run, struct error *error)
 {
     const struct run_options *options = run->options;
     const sig_atomic_t wanted = options->checkpoints ? *options->checkpoints : 0;
     enum { CHANGED, STOP, CHECKPOINT, WANTED, SAID };
     double said[SAID] = {[CHANGED] = simulation_changed(&run->simulation),
-                         [STOP] = options->stop && *options->stop,
+                         [STOP] = (options->stop && *options->stop) || is_out_of_time(run),
                          [CHECKPOINT] = run_checkpoint_is_due(run),
                          [WANTED] = wanted != run->checkpoints_requested};
     run->checkpoints_requested = wanted;

@@ -183,4 +183,43 @@ expect 2 "nanometer" "$BOLIDE" run "$cases/riemann/gas/case.yaml" --overwrite \
 expect 3 "energy has drifted" "$BOLIDE" run "$cases/riemann/gas-standard/case.yaml" \
     --set solver.sph.courant=0.4 --set run.energy_drift=1e-3
 [ -s results/gas-standard/snapshots/failed.vtkhdf ] || { echo "FAILED: no failed.vtkhdf"; status=1; }
+# Output that cannot be written is an error, whichever line it was.
+cat >small.yaml <<'END'
+format: 1
+dimension: 2
+resolution: h
+let: {h: 1 mm}
+solver: mpm
+materials: {metal: {library: aluminium-wilkins}}
+bodies:
+  flyer: {material: metal, velocity: [2 km/s, 0 m/s], box: {from: [-4 mm, 0 mm], to: [0 mm, 8 mm]}}
+  target: {material: metal, box: {from: [0 mm, 0 mm], to: [8 mm, 8 mm]}}
+run: {until: 1 us}
+END
+"$BOLIDE" run small.yaml --overwrite >/dev/full 2>full.log
+[ $? = 4 ] && grep -q "could not be written" full.log || {
+    echo "FAILED: a full disk behind the output: $(cat full.log)"
+    status=1
+}
+
+# Forecasts: without and with a pilot, wherever the table of rates cannot be.
+expect 0 "(a guess; --pilot measures)" env XDG_CACHE_HOME=/proc/nowhere "$BOLIDE" check small.yaml
+expect 0 "(pilot: resolution 2 mm, " "$BOLIDE" check --pilot small.yaml
+expect 0 "finished at step" env XDG_CACHE_HOME=/proc/nowhere "$BOLIDE" run small.yaml --overwrite
+expect 2 "takes no value" "$BOLIDE" check --pilot=1 small.yaml
+
+# More memory than there is: refused with both numbers, unless --force.
+expect 2 "the run needs about" bash -c "ulimit -v 700000; exec '$BOLIDE' check small.yaml --set let.h=8um"
+expect 2 "there are 716.8 MB" bash -c "ulimit -v 700000; exec '$BOLIDE' run small.yaml --output large --set let.h=8um"
+[ -e large ] && echo "FAILED: a run without memory has begun" && status=1
+expect 0 "of memory" bash -c "ulimit -v 700000; exec '$BOLIDE' check --force small.yaml --set let.h=8um"
+
+# A case may have many probes.
+{
+    cat small.yaml
+    echo "probes:"
+    for i in $(seq 20000); do echo "  p$i: {gauge: {at: [1 mm, 1 mm]}}"; done
+} >probes.yaml
+expect 0 "of memory" bash -c "ulimit -v 700000; exec '$BOLIDE' check probes.yaml"
+
 exit $status

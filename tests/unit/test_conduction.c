@@ -173,7 +173,7 @@ static void what_conduction_lacks_is_told(void **state)
         struct simulation_case *input;
         assert_success(case_read(path, &options, &bolide_catalogue, &input));
         struct estimate estimate;
-        struct error *error = estimate_run(input, 1, &estimate);
+        struct error *error = estimate_run(input, &estimate);
         assert_non_null(error);
         assert_int_equal(error_kind(error), ERROR_INPUT);
         if (!strstr(error_message(error, 0), mistakes[k].place) ||

@@ -54,7 +54,7 @@ static void estimate_strip(const char *walls, struct estimate *estimate,
     struct error *error = read_text(strip, walls, input);
     if (error)
         fail_msg("%s", error_message(error, 0));
-    error = estimate_run(*input, 1, estimate);
+    error = estimate_run(*input, estimate);
     if (error)
         fail_msg("%s", error_message(error, 0));
 }
@@ -351,7 +351,7 @@ static void a_coupled_case_counts_the_particles_of_the_region_and_the_cells(void
                   "run: {until: 1 us}\n",
                   "solver: {cfdmp: {region: {low: [0.4 m], high: [0.8 m]}}}\n", &input);
     if (!error)
-        error = estimate_run(input, 1, &estimate);
+        error = estimate_run(input, &estimate);
     if (error)
         fail_msg("%s", error_message(error, 0));
     assert_int_equal(estimate.particles, 80);

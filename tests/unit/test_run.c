@@ -683,7 +683,7 @@ static void all_errors_of_a_run_are_found_before_it(void **state)
         "output.pictures=[velocity]", NULL};
     struct simulation_case *input = read_text(flight_text, settings);
     struct estimate estimate;
-    struct error *error = estimate_run(input, 1, &estimate);
+    struct error *error = estimate_run(input, &estimate);
     static const char *const words[] = {"overlaps", "speeed", "needs an exact solution",
                                         "velocity.x"};
     assert_non_null(error);

@@ -1,0 +1,17 @@
+/* What the machine has that a run needs. */
+#ifndef BOLIDE_MACHINE_H
+#define BOLIDE_MACHINE_H
+
+/* Bytes of memory that this process may have: those of the machine, or fewer where its control
+ * group or a limit of the process (ulimit -v) says so. INFINITY where the system does not tell. */
+double machine_memory(void);
+
+/* Bytes that this process occupies now, and the most that it ever has; 0 where the system does not
+ * tell. */
+double machine_resident(void);
+double machine_peak(void);
+
+/* Seconds that all threads of this process have computed, ended ones included. */
+double machine_cpu_seconds(void);
+
+#endif
