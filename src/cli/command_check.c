@@ -161,15 +161,15 @@ static struct forecast forecast_for(const struct simulation_case *input,
                                     const struct cli_options *options)
 {
     const struct ranks alone = ranks_alone();
-    const int threads = options->threads > 0 ? (int)options->threads : 1;
     char *rates = rates_path();
-    struct forecast forecast = forecast_make(input, estimate, threads, rates);
+    const struct run_options running = {.ranks = &alone,
+                                        .threads = options->threads > 0 ? (int)options->threads : 1,
+                                        .stop = options->pilot ? signals_catch() : NULL,
+                                        .rates = rates};
+    struct forecast forecast = forecast_make(input, estimate, &running);
     struct error *error = forecast_check_memory(input, &forecast, &alone);
-    if (options->pilot && (!error || options->force)) {
-        const struct run_options running = {
-            .ranks = &alone, .threads = threads, .stop = signals_catch()};
+    if (options->pilot && (!error || options->force))
         forecast_by_pilot(input, estimate, &running, FORECAST_PILOT_SECONDS, &forecast);
-    }
     error_free(error);
     free(rates);
     return forecast;

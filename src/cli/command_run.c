@@ -8,13 +8,15 @@
 #include "run/forecast.h"
 #include "study/verify.h"
 
+/* RATES is rates_path(). */
 static struct run_options running_of(const struct cli_options *options, const char *folder,
-                                     const struct listener *listener)
+                                     const struct listener *listener, const char *rates)
 {
     return (struct run_options){
         .output = folder,
         .overwrite = options->overwrite,
         .resume = options->resume,
+        .force = options->force,
         .ranks = options->ranks,
         .threads = (int)options->threads,
         .fixed_threads = options_fix_threads(),
@@ -23,6 +25,7 @@ static struct run_options running_of(const struct cli_options *options, const ch
         .listener = listener,
         .alarm = terminal_alarm,
         .progress = terminal_pace(),
+        .rates = rates,
     };
 }
 
@@ -102,12 +105,12 @@ static int run_sweep(const struct simulation_case *input, const struct cli_optio
                      const char *folder)
 {
     struct listener listener = terminal_listener();
-    char *materials = share_folder("materials");
+    char *materials = share_folder("materials"), *rates = rates_path();
     const char *const folders[] = {materials};
     struct verify_options verifying = {
         .reading = case_reading(options, folders),
         .catalogue = &bolide_catalogue,
-        .running = running_of(options, folder, &listener),
+        .running = running_of(options, folder, &listener, rates),
     };
     struct verify_result result = {0};
     struct error *error =
@@ -121,6 +124,7 @@ static int run_sweep(const struct simulation_case *input, const struct cli_optio
     }
     verify_result_free(&result);
     free(materials);
+    free(rates);
     return status;
 }
 
@@ -143,24 +147,22 @@ static void announce(const struct simulation_case *input, const struct estimate 
 
 /* Tells how long a run of INPUT will take, and refuses one that memory is too small for. A mistake
  * of the case is left to the run. */
-static struct error *look_ahead(const struct simulation_case *input,
-                                const struct cli_options *options,
-                                const struct run_options *running)
+static struct error *look_ahead(const struct simulation_case *input, struct run_options *running)
 {
     struct estimate estimate;
-    if (options->resume || generate_work(input, running->ranks) > GENERATE_LONG)
+    if (running->resume)
         return NULL;
     struct error *error = estimate_run(input, &estimate);
     if (error) {
         error_free(error);
         return NULL;
     }
-    struct forecast forecast =
-        forecast_make(input, &estimate, (int)options->threads, running->rates);
-    if (!options->force)
+    struct forecast forecast = forecast_make(input, &estimate, running);
+    if (!running->force)
         error = forecast_check_memory(input, &forecast, running->ranks);
     if (!error)
         announce(input, &estimate, running, &forecast);
+    running->force = true; /* it has been looked at */
     estimate_free(&estimate);
     return error;
 }
@@ -169,11 +171,10 @@ static int run_input(const struct simulation_case *input, const struct cli_optio
                      const char *folder)
 {
     struct listener listener = terminal_listener();
-    struct run_options running = running_of(options, folder, &listener);
-    struct run_result result = {0};
     char *rates = rates_path();
-    running.rates = rates;
-    struct error *error = look_ahead(input, options, &running);
+    struct run_options running = running_of(options, folder, &listener, rates);
+    struct run_result result = {0};
+    struct error *error = look_ahead(input, &running);
     if (!error)
         error = run_case(input, &running, &result);
     free(rates);

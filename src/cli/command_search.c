@@ -53,6 +53,7 @@ static int search_case(const struct simulation_case *input, const struct search 
         .reading = case_reading(options, folders),
         .catalogue = &bolide_catalogue,
         .running = {.overwrite = options->overwrite,
+                    .force = options->force,
                     .resume = options->resume,
                     .ranks = options->ranks,
                     .alarm = terminal_alarm,

@@ -111,6 +111,7 @@ static int verify_paths(const char *const *paths, int count, const struct cli_op
         .warnings_fail = true,
         .running = {.output = options->output,
                     .overwrite = options->overwrite,
+                    .force = options->force,
                     .ranks = options->ranks,
                     .alarm = terminal_alarm,
                     .threads = (int)options->threads,

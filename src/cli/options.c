@@ -58,7 +58,7 @@ static const struct option option_table[] = {
      "from that",
      OPTION_FLAG, AT(pilot), COMMAND_CHECK},
     {"--force", NULL, "accept a run that needs more memory than the machine has", OPTION_FLAG,
-     AT(force), COMMAND_RUN | COMMAND_CHECK},
+     AT(force), COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_SEARCH},
     {"--record", NULL,
      "store the measured values in results.csv beside each case; rows of runs with other options "
      "are kept",

@@ -23,6 +23,7 @@ static void add_body(const struct simulation_case *input, int index, struct esti
     of->sound_shear = response.sound_shear;
     double step = class->step(input->solver.value, (int)input->dimension, material, &point,
                               of->summary.diameter);
+    of->step = step;
     if (index == 0 || step < estimate->step) {
         estimate->step = step;
         estimate->step_body = index;

@@ -8,6 +8,7 @@
 struct body_estimate {
     struct body_summary summary;
     double sound_long, sound_shear; /* m/s */
+    double step;                    /* s, that it allows */
 };
 
 struct estimate {

@@ -12,20 +12,17 @@
 /* Updates a second of one thread where nothing was measured on this machine. */
 static const double ASSUMED_RATE = 1e6;
 
-/* What bodies that collide at more than this fraction of a speed of sound do to the step: the shock
- * compresses and heats them, and sound gets faster in what are smaller particles. */
-static const double FAST_IMPACT = 0.5, SHORTER_STEPS = 2.0;
-
 static double members_of(const struct estimate *estimate)
 {
     return (double)estimate->particles + estimate->cells;
 }
 
-/* Seconds of output a member and a time; and those of a picture whatever is in it. Measured on
+/* Seconds of output a member and a time; and those of a picture, or the report, whatever is in it.
+ * Measured on
  * runs of the examples, SPH, MPM and gas alike within a factor of two. */
-static const double SNAPSHOT_SECONDS = 1.0e-6, ROW_SECONDS = 6e-8, PROFILE_SECONDS = 1e-7,
-                    PICTURE_SECONDS = 2e-7, PAGE_SECONDS = 0.1, PROBE_SECONDS = 5e-9,
-                    PROBE_ROW_SECONDS = 2e-6, CHECKPOINT_SECONDS = 1.0e-6;
+static const double SNAPSHOT_SECONDS = 7e-7, CHECKPOINT_SECONDS = 7e-7, ROW_SECONDS = 1e-7,
+                    PROFILE_SECONDS = 1e-7, PICTURE_SECONDS = 3e-6, PAGE_SECONDS = 0.1,
+                    PROBE_SECONDS = 5e-9, PROBE_ROW_SECONDS = 2e-6;
 
 /* How many times an output with INTERVAL (NAN: none but the first and the last) is due. */
 static double times_of(double interval, double until)
@@ -45,10 +42,11 @@ static double seconds_of_probes(const struct simulation_case *input, double memb
     return seconds;
 }
 
-static double seconds_of_output(const struct simulation_case *input, double members,
-                                const struct forecast *forecast)
+double forecast_output(const struct simulation_case *input, const struct estimate *estimate,
+                       const struct forecast *forecast)
 {
     const struct output_input *output = &input->output;
+    const double members = members_of(estimate);
     const double until = input->run.until;
     const double snapshots = minimum(forecast->steps + 1.0, times_of(output->every, until));
     const double history = isnan(output->history) ? 0.01 * until : output->history;
@@ -58,21 +56,18 @@ static double seconds_of_output(const struct simulation_case *input, double memb
                         PICTURE_SECONDS * output->pictures.count;
     const double checkpoints =
         1.0 + (output->checkpoint > 0.0 ? forecast->seconds / output->checkpoint : 0.0);
-    return snapshots * (each * members + PAGE_SECONDS * output->pictures.count) +
+    return PAGE_SECONDS + snapshots * (each * members + PAGE_SECONDS * output->pictures.count) +
            rows * ROW_SECONDS * members + checkpoints * CHECKPOINT_SECONDS * members +
            seconds_of_probes(input, members, forecast->steps);
 }
 
-/* The case that INPUT starts from is computed with one thread: *SECONDS, and *STEP, the step that
- * its material allows in cells of the size that INPUT has. */
-static void look_at_start(const struct simulation_case *input, const char *rates, double *seconds,
-                          double *step)
+/* The case that INPUT starts from is computed with one thread. */
+static double seconds_before(const struct simulation_case *input, const char *rates)
 {
     const struct start_input *start = &input->start;
-    *seconds = 0.0;
-    *step = INFINITY;
+    const struct run_options alone = {.threads = 1, .rates = rates};
     if (!start->input)
-        return;
+        return 0.0;
     struct simulation_case source = *start->input;
     struct estimate estimate;
     if (!isnan(start->at))
@@ -80,12 +75,11 @@ static void look_at_start(const struct simulation_case *input, const char *rates
     struct error *error = estimate_run(&source, &estimate);
     if (error) {
         error_free(error);
-        return;
+        return 0.0;
     }
-    const struct forecast forecast = forecast_make(&source, &estimate, 1, rates);
-    *seconds = forecast.seconds + forecast.before;
-    *step = estimate.step * input->resolution / source.resolution;
+    const struct forecast forecast = forecast_make(&source, &estimate, &alone);
     estimate_free(&estimate);
+    return forecast.seconds + forecast.before;
 }
 
 /* Of the program and its libraries; and a member, of what sorts, draws and writes it. Measured on
@@ -103,22 +97,18 @@ static double bytes_of(const struct simulation_case *input, const struct estimat
 }
 
 struct forecast forecast_make(const struct simulation_case *input, const struct estimate *estimate,
-                              int threads, const char *rates)
+                              const struct run_options *options)
 {
     const double members = members_of(estimate);
-    struct forecast forecast = {.threads = run_threads(threads, members)};
-    const double found = rates_find(rates, input, forecast.threads);
+    const int ranks = options->ranks ? options->ranks->size : 1;
+    struct forecast forecast = {.threads = ranks * run_threads(options->threads, members / ranks)};
+    const double found = rates_find(options->rates, input, forecast.threads);
     const double rate = isnan(found) ? ASSUMED_RATE * forecast.threads : found;
-    const double most = (double)input->run.max_steps;
-    const double longer = estimate->impact > FAST_IMPACT ? SHORTER_STEPS : 1.0;
-    double step;
-    look_at_start(input, rates, &forecast.before, &step);
-    forecast.steps = ceil(longer * input->run.until / minimum(step, estimate->step));
-    if (most > 0.0)
-        forecast.steps = minimum(forecast.steps, most);
+    forecast.steps = forecast_steps(input, estimate);
+    forecast.before = seconds_before(input, options->rates);
     forecast.rate = isnan(found) ? RATE_ASSUMED : RATE_OF_EARLIER_RUN;
     forecast.seconds = forecast.steps * members / rate;
-    forecast.output = seconds_of_output(input, members, &forecast);
+    forecast.output = forecast_output(input, estimate, &forecast);
     forecast.bytes = bytes_of(input, estimate);
     return forecast;
 }

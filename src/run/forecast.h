@@ -16,15 +16,15 @@ struct forecast {
     double seconds, output; /* s: of the steps, of output */
     double before;          /* s: of the case that this one starts from */
     double bytes;           /* of memory, at most at any time */
-    int threads;            /* that the time is for */
+    int threads;            /* that the time is for, of all ranks */
     enum forecast_rate rate;
     double pilot_resolution, pilot_seconds; /* of the pilot, m and s; 0: there was none */
 };
 
-/* The forecast of INPUT, whose ESTIMATE is known, on at most THREADS, with the table at RATES
- * (NULL: none) of earlier rates. */
+/* The forecast of INPUT, whose ESTIMATE is known, with the ranks, the threads and the table of
+ * earlier rates of OPTIONS. */
 struct forecast forecast_make(const struct simulation_case *input, const struct estimate *estimate,
-                              int threads, const char *rates);
+                              const struct run_options *options);
 
 /* Collective: runs a pilot of INPUT, with OPTIONS but for the output, and puts what follows from it
  * into FORECAST. It takes at most about SECONDS twice. Where no pilot can be run, FORECAST stays as
@@ -32,6 +32,14 @@ struct forecast forecast_make(const struct simulation_case *input, const struct 
 void forecast_by_pilot(const struct simulation_case *input, const struct estimate *estimate,
                        const struct run_options *options, double seconds,
                        struct forecast *forecast);
+
+/* The steps to the end of INPUT as the state at its start, fast impacts and explosives let expect;
+ * `max_steps` bounds them. */
+double forecast_steps(const struct simulation_case *input, const struct estimate *estimate);
+
+/* Seconds of the output of a run with the steps and seconds of FORECAST. */
+double forecast_output(const struct simulation_case *input, const struct estimate *estimate,
+                       const struct forecast *forecast);
 
 /* All that passes until the run has ended, s. */
 double forecast_total(const struct forecast *forecast);

@@ -76,7 +76,7 @@ static double members_of(const struct estimate *estimate)
 /* What follows for the whole run from RESULT of the pilot COARSE; a pilot that was stopped would
  * have gone on with its last step. */
 static void extrapolate(const struct simulation_case *input, const struct estimate *estimate,
-                        const struct coarse *coarse, const struct run_result *result,
+                        const struct coarse *coarse, const struct run_result *result, int ranks,
                         struct forecast *forecast)
 {
     const double done = (double)result->steps, most = (double)input->run.max_steps;
@@ -87,7 +87,8 @@ static void extrapolate(const struct simulation_case *input, const struct estima
         steps = minimum(steps, most);
     const double members = members_of(estimate) / members_of(&coarse->estimate);
     const double stepping = (double)result->updates / result->undisturbed_rate;
-    forecast->seconds = stepping * (steps / done) * members * result->threads / forecast->threads;
+    forecast->seconds =
+        stepping * (steps / done) * members * ranks * result->threads / forecast->threads;
     forecast->steps = ceil(steps);
     forecast->rate = RATE_OF_PILOT;
     forecast->pilot_resolution = coarse->input.resolution;
@@ -103,7 +104,7 @@ static bool run_pilot(const struct simulation_case *input, const struct estimate
     struct error *error = run_case(&coarse->input, options, &result);
     const bool finished = !error && result.finished;
     if (result.steps > 0 && result.updates > 0 && result.step > 0.0)
-        extrapolate(input, estimate, coarse, &result, forecast);
+        extrapolate(input, estimate, coarse, &result, options->ranks->size, forecast);
     error_free(error);
     run_result_free(&result);
     return finished;
@@ -131,16 +132,16 @@ void forecast_by_pilot(const struct simulation_case *input, const struct estimat
 {
     static const double half[] = {2.0, 1.5, 2.5, 3.0}, quarter[] = {4.0, 5.0, 6.0, 3.0, 8.0},
                         whole[] = {1.0};
-    const struct ranks *ranks = options->ranks;
-    const struct ranks alone = ranks_alone();
+    const struct ranks alone = ranks_alone(), *ranks = options->ranks ? options->ranks : &alone;
     struct run_options running = {.ranks = ranks,
+                                  .force = true,
                                   .threads = options->threads,
                                   .fixed_threads = options->fixed_threads,
                                   .max_seconds = seconds,
                                   .stop = options->stop,
                                   .alarm = options->alarm};
-    const double expected = ranks_maximum(ranks ? ranks : &alone, forecast->seconds) /
-                            pow(2.0, (double)input->dimension + 1.0);
+    const double expected =
+        ranks_maximum(ranks, forecast->seconds) / pow(2.0, (double)input->dimension + 1.0);
     const double began = clock_seconds();
     bool finished = expected < 2.0 * seconds &&
                     try_factors(input, estimate, half, COUNT_OF(half), &running, forecast);
@@ -149,4 +150,5 @@ void forecast_by_pilot(const struct simulation_case *input, const struct estimat
     if (!finished && forecast->rate != RATE_OF_PILOT)
         try_factors(input, estimate, whole, COUNT_OF(whole), &running, forecast);
     forecast->pilot_seconds = clock_seconds() - began;
+    forecast->output = forecast_output(input, estimate, forecast);
 }

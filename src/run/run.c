@@ -19,8 +19,8 @@
 #include "measure/fragments.h"
 #include "model/generate.h"
 #include "picture/picture.h"
-#include "run/estimate.h"
 #include "run/fit_axes.h"
+#include "run/forecast.h"
 #include "run/run_internal.h"
 
 /* A thread with fewer particles costs more in waiting than it gains in work. The second number
@@ -289,9 +289,30 @@ static bool is_local_error(const struct run *run, const struct error *error)
     return error && run->ranks.joined && !error_is_known_to_all(error);
 }
 
+/* A mistake of the case is left to what follows. */
+static struct error *check_memory(const struct run *run)
+{
+    const struct run_options *options = run->options;
+    struct estimate estimate;
+    if (options->force || options->resume)
+        return NULL;
+    struct error *error = estimate_run(run->input, &estimate);
+    const bool wrong = error != NULL;
+    error_free(error);
+    if (ranks_maximum(&run->ranks, wrong) > 0.0) {
+        if (!wrong)
+            estimate_free(&estimate);
+        return NULL;
+    }
+    const struct forecast forecast = forecast_make(run->input, &estimate, options);
+    estimate_free(&estimate);
+    return forecast_check_memory(run->input, &forecast, &run->ranks);
+}
+
 static struct error *run_through(struct run *run)
 {
     TRY(run_check_folder(run));
+    TRY(check_memory(run));
     TRY(begin(run));
     TRY(run_open_folder(run));
     run_report_beginning(run);

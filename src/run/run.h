@@ -22,6 +22,7 @@ struct run_options {
     const char *output;        /* folder of the results; NULL: nothing is written */
     bool overwrite;            /* results that are there already give way */
     bool resume;               /* go on from the folder's checkpoint */
+    bool force;                /* whatever memory there is */
     const struct ranks *ranks; /* that run it together; NULL: this process alone */
     int threads;               /* at most; 0: as many as OpenMP would take */
     bool fixed_threads;        /* never fewer than there is work for, however busy the machine is */
@@ -54,8 +55,9 @@ struct run_result {
 };
 
 /* Runs INPUT to its end, or until told to stop. Watching a run never changes it. A failed check is
- * no error. ERROR_INPUT, ERROR_STATE (the folder then has snapshots/failed.vtkhdf) or ERROR_SYSTEM;
- * RESULT is then as far as the run came. Collective. */
+ * no error. ERROR_INPUT, also where the run needs more memory than there is (unless `force`),
+ * ERROR_STATE (the folder then has snapshots/failed.vtkhdf) or ERROR_SYSTEM; RESULT is then as far
+ * as the run came. Collective. */
 struct error *run_case(const struct simulation_case *input, const struct run_options *options,
                        struct run_result *result);
 void run_result_free(struct run_result *result);

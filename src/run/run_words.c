@@ -1,4 +1,5 @@
-/* What a run says when it begins and when it ends: size, threads, speed, verdicts, warnings. */
+/* What a run says when it begins, on its way and when it ends: size, threads, progress, speed,
+ * verdicts, warnings. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -29,6 +30,45 @@ void run_report_beginning(struct run *run)
     error_free(warnings);
     if (run->options->resume)
         run_say(run, "resumed at step %lld, t = %.9g s", (long long)s->step, s->time);
+}
+
+/* Seconds to the end of the run at its present pace, outputs included: that of the last tenth of
+ * what it has taken, since steps get shorter and members more. */
+static double seconds_left(struct run *run, double now)
+{
+    const struct simulation *s = &run->simulation;
+    const struct progress_mark *since = &run->mark[0];
+    const double most = (double)run->input->run.max_steps, taken = now - since->clock;
+    double left = taken * (run->input->run.until - s->time) / (s->time - since->time);
+    if (most > 0.0 && s->step > since->step)
+        left = minimum(left, taken * (most - (double)s->step) / (double)(s->step - since->step));
+    if (now - run->mark[1].clock > maximum(1.0, 0.1 * (now - run->began))) {
+        run->mark[0] = run->mark[1];
+        run->mark[1] = (struct progress_mark){now, s->time, s->step};
+    }
+    return left;
+}
+
+void run_progress(struct run *run)
+{
+    const struct listener *listener = run->options->listener;
+    if (!listener || !listener->progress)
+        return;
+    double now = clock_seconds(), time = run->simulation.time, until = run->input->run.until;
+    const struct progress_pace *pace = &run->options->progress;
+    double silent = now - run->last_progress;
+    double longest = minimum(maximum(pace->silence, 0.05 * (now - run->began)), 600.0);
+    if (silent < pace->seconds ||
+        (silent < longest && time - run->last_progress_time < pace->fraction * until))
+        return;
+    run->last_progress = now;
+    run->last_progress_time = time;
+    double elapsed = now - run->began;
+    char text[256];
+    progress_text(&run->simulation, &run->limit,
+                  (double)run->result->updates / maximum(elapsed - run->watching, 1e-9),
+                  seconds_left(run, now), text, sizeof text);
+    listener->progress(listener->context, text);
 }
 
 /* Steps of less say little about those of another run, s. */
