@@ -152,7 +152,7 @@ static struct error *look_ahead(const struct simulation_case *input, struct run_
     struct estimate estimate;
     if (running->resume)
         return NULL;
-    struct error *error = estimate_run(input, &estimate);
+    struct error *error = estimate_size(input, &estimate);
     if (error) {
         error_free(error);
         return NULL;

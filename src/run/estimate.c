@@ -120,7 +120,9 @@ static double fastest_impact(const struct simulation_case *input, const struct e
     return fastest;
 }
 
-struct error *estimate_run(const struct simulation_case *input, struct estimate *estimate)
+/* As estimate_run, with FOUND, the mistakes that are known already, taken. */
+static struct error *estimate_with(const struct simulation_case *input, struct error *found,
+                                   struct estimate *estimate)
 {
     int bodies = input->bodies.count;
     memset(estimate, 0, sizeof *estimate);
@@ -136,7 +138,7 @@ struct error *estimate_run(const struct simulation_case *input, struct estimate 
     struct error *error = estimate->body && estimate->material_mass && summary
                               ? generate_summary(input, class->count ? &counted.box : NULL, summary)
                               : error_new(ERROR_SYSTEM, "out of memory");
-    error = error_join(error, run_validate(input));
+    error = error_join(error, found);
     for (int i = 0; i < bodies && !error; i++) {
         estimate->body[i].summary = summary[i];
         add_body(input, i, estimate);
@@ -154,6 +156,16 @@ struct error *estimate_run(const struct simulation_case *input, struct estimate 
         counted.cells * counted.bytes;
     estimate->impact = fastest_impact(input, estimate);
     return NULL;
+}
+
+struct error *estimate_run(const struct simulation_case *input, struct estimate *estimate)
+{
+    return estimate_with(input, run_validate(input), estimate);
+}
+
+struct error *estimate_size(const struct simulation_case *input, struct estimate *estimate)
+{
+    return estimate_with(input, NULL, estimate);
 }
 
 struct contact_side {

@@ -72,7 +72,7 @@ static double seconds_before(const struct simulation_case *input, const char *ra
     struct estimate estimate;
     if (!isnan(start->at))
         source.run.until = minimum(source.run.until, start->at);
-    struct error *error = estimate_run(&source, &estimate);
+    struct error *error = estimate_size(&source, &estimate);
     if (error) {
         error_free(error);
         return 0.0;
@@ -82,18 +82,18 @@ static double seconds_before(const struct simulation_case *input, const char *ra
     return forecast.seconds + forecast.before;
 }
 
-/* Of the program and its libraries; and a member, of what sorts, draws and writes it. Measured on
- * blocks of 1e4 to 1e5 members with SPH, MPM and gas, in 2-D and 3-D. */
-static const double PROGRAM_BYTES = 2e7, WORKING_BYTES = 75.0, SNAPSHOT_BYTES = 140.0,
-                    PICTURE_BYTES = 230.0;
+/* Of the program and its libraries, of a picture in 1-D, 2-D and 3-D, and a member, of what sorts
+ * and writes it. Measured on blocks of 1e4 to 1e5 members with SPH, MPM and gas. */
+static const double PROGRAM_BYTES = 2e7, PICTURE_BYTES[] = {7e6, 2.2e7, 1.3e7},
+                    WORKING_BYTES = 75.0, SNAPSHOT_BYTES = 140.0;
 
 static double bytes_of(const struct simulation_case *input, const struct estimate *estimate)
 {
     const struct output_input *output = &input->output;
-    const double each = output->pictures.count ? PICTURE_BYTES
-                        : output->snapshots    ? SNAPSHOT_BYTES
-                                               : 0.0;
-    return PROGRAM_BYTES + estimate->bytes + (WORKING_BYTES + each) * members_of(estimate);
+    const double members = members_of(estimate);
+    const double written = output->snapshots ? SNAPSHOT_BYTES * members : 0.0;
+    const double drawn = output->pictures.count ? PICTURE_BYTES[input->dimension - 1] : 0.0;
+    return PROGRAM_BYTES + estimate->bytes + WORKING_BYTES * members + maximum(written, drawn);
 }
 
 struct forecast forecast_make(const struct simulation_case *input, const struct estimate *estimate,
@@ -104,7 +104,9 @@ struct forecast forecast_make(const struct simulation_case *input, const struct 
     struct forecast forecast = {.threads = ranks * run_threads(options->threads, members / ranks)};
     const double found = rates_find(options->rates, input, forecast.threads);
     const double rate = isnan(found) ? ASSUMED_RATE * forecast.threads : found;
-    forecast.steps = forecast_steps(input, estimate);
+    forecast.steps = ceil(forecast_steps(input, estimate, 0.0));
+    if (input->run.max_steps > 0)
+        forecast.steps = minimum(forecast.steps, (double)input->run.max_steps);
     forecast.before = seconds_before(input, options->rates);
     forecast.rate = isnan(found) ? RATE_ASSUMED : RATE_OF_EARLIER_RUN;
     forecast.seconds = forecast.steps * members / rate;

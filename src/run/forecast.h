@@ -33,9 +33,10 @@ void forecast_by_pilot(const struct simulation_case *input, const struct estimat
                        const struct run_options *options, double seconds,
                        struct forecast *forecast);
 
-/* The steps to the end of INPUT as the state at its start, fast impacts and explosives let expect;
- * `max_steps` bounds them. */
-double forecast_steps(const struct simulation_case *input, const struct estimate *estimate);
+/* The steps FROM a time, s, to the end of INPUT as the state at its start, fast impacts and
+ * explosives let expect, whatever `max_steps`. */
+double forecast_steps(const struct simulation_case *input, const struct estimate *estimate,
+                      double from);
 
 /* Seconds of the output of a run with the steps and seconds of FORECAST. */
 double forecast_output(const struct simulation_case *input, const struct estimate *estimate,

@@ -73,15 +73,28 @@ static double members_of(const struct estimate *estimate)
     return (double)estimate->particles + estimate->cells;
 }
 
-/* What follows for the whole run from RESULT of the pilot COARSE; a pilot that was stopped would
- * have gone on with its last step. */
+/* The steps of a pilot that was stopped with RESULT, had it gone on: as forecast_steps has it, from
+ * the last step on. */
+static double steps_left(const struct coarse *coarse, const struct run_result *result)
+{
+    static const double PIECE = 0.01;
+    const struct simulation_case *input = &coarse->input;
+    const double left = input->run.until - result->time;
+    if (result->finished || !(left > 0.0))
+        return 0.0;
+    const double all = forecast_steps(input, &coarse->estimate, result->time);
+    const double later = forecast_steps(input, &coarse->estimate, result->time + PIECE * left);
+    const double step = PIECE * left / (all - later);
+    return all * step / result->step;
+}
+
+/* What follows for the whole run from RESULT of the pilot COARSE. */
 static void extrapolate(const struct simulation_case *input, const struct estimate *estimate,
                         const struct coarse *coarse, const struct run_result *result, int ranks,
                         struct forecast *forecast)
 {
     const double done = (double)result->steps, most = (double)input->run.max_steps;
-    const double left = maximum(0.0, coarse->input.run.until - result->time);
-    double steps = done + (result->finished ? 0.0 : left / result->step);
+    double steps = done + steps_left(coarse, result);
     steps *= coarse->factor;
     if (most > 0.0)
         steps = minimum(steps, most);

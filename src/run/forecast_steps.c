@@ -10,8 +10,9 @@
 #include "model/solver.h"
 #include "run/forecast.h"
 
-/* What bodies that collide at more than this fraction of a speed of sound do to the step: the shock
- * compresses and heats them, and sound gets faster in what are smaller particles. */
+/* What bodies that collide at this fraction of a speed of sound, or faster, do to the step: the
+ * shock compresses and heats them, and sound gets faster in what are smaller particles. Slower ones
+ * do less. */
 static const double FAST_IMPACT = 0.5, SHORTER_STEPS = 2.0;
 
 /* Signals in the products of a blast do not get slower than this fraction of D. */
@@ -128,7 +129,7 @@ static bool find_earlier_blast(const struct simulation_case *input, struct blast
 {
     const struct simulation_case *source = input->start.input;
     struct estimate estimate;
-    struct error *error = source ? estimate_run(source, &estimate) : NULL;
+    struct error *error = source ? estimate_size(source, &estimate) : NULL;
     if (!source || error) {
         error_free(error);
         return false;
@@ -175,17 +176,17 @@ static double step_of_bodies(const struct simulation_case *input, const struct e
     return step;
 }
 
-double forecast_steps(const struct simulation_case *input, const struct estimate *estimate)
+double forecast_steps(const struct simulation_case *input, const struct estimate *estimate,
+                      double from)
 {
-    const double most = (double)input->run.max_steps, until = input->run.until;
+    const double until = input->run.until;
     struct blast blast;
     double before = 0.0, others, steps;
     if (find_blast(input, estimate, &blast) || find_earlier_blast(input, &blast, &before)) {
         const double gas = step_of_gas(input, estimate, &others);
-        steps = steps_of_blast(&blast, before, before + until, others, gas);
+        steps = steps_of_blast(&blast, before + from, before + until, others, gas);
     } else
-        steps = until / step_of_bodies(input, estimate);
-    if (estimate->impact > FAST_IMPACT)
-        steps *= SHORTER_STEPS;
-    return ceil(most > 0.0 ? minimum(steps, most) : steps);
+        steps = (until - from) / step_of_bodies(input, estimate);
+    const double fast = minimum(1.0, estimate->impact / FAST_IMPACT);
+    return steps * (1.0 + fast * (SHORTER_STEPS - 1.0));
 }

@@ -1,4 +1,5 @@
-/* The table of rates: solver, settings, dimension, threads, updates_per_second; see rates.h. */
+/* The table of rates: solver, settings, models, dimension, threads, updates_per_second; see
+ * rates.h. */
 #include "run/rates.h"
 
 #include <math.h>
@@ -11,9 +12,9 @@
 #include "base/file.h"
 #include "base/memory.h"
 
-enum { SOLVER, SETTINGS, DIMENSION, THREADS, RATE, COLUMNS };
-static const char *const heads[COLUMNS] = {"solver", "settings", "dimension", "threads",
-                                           "updates_per_second"};
+enum { SOLVER, SETTINGS, MODELS, DIMENSION, THREADS, RATE, COLUMNS };
+static const char *const heads[COLUMNS] = {"solver",    "settings", "models",
+                                           "dimension", "threads",  "updates_per_second"};
 
 /* More than any user collects. */
 enum { ROWS_MAX = 1000, BYTES_MAX = 1 << 20 };
@@ -21,7 +22,7 @@ enum { ROWS_MAX = 1000, BYTES_MAX = 1 << 20 };
 /* A run of a kind; the texts are owned. */
 struct key {
     const char *solver;
-    char *settings;
+    char *settings, *models;
     int dimension, threads;
 };
 
@@ -48,19 +49,49 @@ static void put_settings(FILE *file, const struct parameter *table, const void *
     }
 }
 
-static struct key key_of(const struct simulation_case *input, int threads)
+static void put_choice(FILE *file, const struct one_of *one_of)
+{
+    if (one_of->choice)
+        fprintf(file, "%s ", one_of->choice->name);
+}
+
+/* The models of the materials, whose cost differs. */
+static void put_models(FILE *file, const struct simulation_case *input)
+{
+    for (int i = 0; i < input->materials.count; i++) {
+        const struct material_input *material = case_material(input, i);
+        put_choice(file, &material->eos);
+        put_choice(file, &material->strength);
+        put_choice(file, &material->failure);
+        put_choice(file, &material->burn);
+    }
+}
+
+static void free_key(struct key *key)
+{
+    free(key->settings);
+    free(key->models);
+}
+
+/* False when memory is out. */
+static bool make_key(const struct simulation_case *input, int threads, struct key *key)
 {
     size_t size;
-    struct key key = {input->solver.choice->name, NULL, (int)input->dimension, threads};
-    FILE *file = open_memstream(&key.settings, &size);
-    if (file) {
-        put_settings(file, input->solver.choice->table, input->solver.value);
-        if (fclose(file)) {
-            free(key.settings);
-            key.settings = NULL;
-        }
-    }
-    return key;
+    *key = (struct key){.solver = input->solver.choice->name,
+                        .dimension = (int)input->dimension,
+                        .threads = threads};
+    FILE *settings = open_memstream(&key->settings, &size);
+    FILE *models = open_memstream(&key->models, &size);
+    if (settings)
+        put_settings(settings, input->solver.choice->table, input->solver.value);
+    if (models)
+        put_models(models, input);
+    bool made = settings && models;
+    made = settings && !fclose(settings) && made;
+    made = models && !fclose(models) && made;
+    if (!made)
+        free_key(key);
+    return made;
 }
 
 /* Fills *TABLE from PATH; false where that is no table of rates. */
@@ -82,7 +113,7 @@ static bool read_rates(const char *path, struct csv *table)
 }
 
 /* How far ROW is from KEY: 0 it is that, INFINITY it says nothing about it. Settings change the
- * rate more than threads, which it is taken in proportion to. */
+ * rate more than models, and these more than threads, which it is taken in proportion to. */
 static double distance(const struct csv *table, int64_t row, const struct key *key)
 {
     const double threads = csv_number(table, row, THREADS), rate = csv_number(table, row, RATE);
@@ -91,15 +122,18 @@ static double distance(const struct csv *table, int64_t row, const struct key *k
         !isfinite(rate))
         return INFINITY;
     return (strcmp(csv_field(table, row, SETTINGS), key->settings) != 0 ? 100.0 : 0.0) +
+           (strcmp(csv_field(table, row, MODELS), key->models) != 0 ? 10.0 : 0.0) +
            fabs(log(threads / key->threads));
 }
 
 double rates_find(const char *path, const struct simulation_case *input, int threads)
 {
     struct csv table;
-    struct key key = key_of(input, threads);
+    struct key key;
     double nearest = INFINITY, rate = NAN;
-    const bool there = key.settings && read_rates(path, &table);
+    if (!make_key(input, threads, &key))
+        return NAN;
+    const bool there = read_rates(path, &table);
     for (int64_t row = 0; there && row < table.rows; row++) {
         const double far = distance(&table, row, &key);
         if (far >= nearest)
@@ -109,17 +143,18 @@ double rates_find(const char *path, const struct simulation_case *input, int thr
     }
     if (there)
         csv_free(&table);
-    free(key.settings);
+    free_key(&key);
     return rate;
 }
 
-static void put_row(FILE *file, const char *solver, const char *settings, double dimension,
-                    double threads, double rate)
+static void put_row(FILE *file, const char *const *texts, double dimension, double threads,
+                    double rate)
 {
-    csv_put_text(file, solver);
-    putc(',', file);
-    csv_put_text(file, settings);
-    fprintf(file, ",%.0f,%.0f,%.6g\n", dimension, threads, rate);
+    for (int i = SOLVER; i <= MODELS; i++) {
+        csv_put_text(file, texts[i]);
+        putc(',', file);
+    }
+    fprintf(file, "%.0f,%.0f,%.6g\n", dimension, threads, rate);
 }
 
 /* The rows of TABLE, the one of KEY with RATE behind them. */
@@ -128,12 +163,15 @@ static void put_table(FILE *file, const struct csv *table, const struct key *key
     for (int i = 0; i < COLUMNS; i++)
         fprintf(file, "%s%c", heads[i], i + 1 < COLUMNS ? ',' : '\n');
     const int64_t first = table->rows > ROWS_MAX ? table->rows - ROWS_MAX : 0;
-    for (int64_t row = first; row < table->rows; row++)
+    for (int64_t row = first; row < table->rows; row++) {
+        const char *const texts[] = {csv_field(table, row, SOLVER), csv_field(table, row, SETTINGS),
+                                     csv_field(table, row, MODELS)};
         if (distance(table, row, key) > 0.0)
-            put_row(file, csv_field(table, row, SOLVER), csv_field(table, row, SETTINGS),
-                    csv_number(table, row, DIMENSION), csv_number(table, row, THREADS),
+            put_row(file, texts, csv_number(table, row, DIMENSION), csv_number(table, row, THREADS),
                     csv_number(table, row, RATE));
-    put_row(file, key->solver, key->settings, key->dimension, key->threads, rate);
+    }
+    const char *const own[] = {key->solver, key->settings, key->models};
+    put_row(file, own, key->dimension, key->threads, rate);
 }
 
 /* A file of this process alone takes the place of the table at once: of several that write at the
@@ -163,14 +201,15 @@ void rates_store(const char *path, const struct simulation_case *input, int thre
         return;
     char *folder = text_copy_part(path, (size_t)(slash - path));
     struct error *error = folder ? folder_make(folder) : NULL;
-    struct key key = key_of(input, threads);
-    struct csv table;
-    const bool there = read_rates(path, &table);
-    if (!error && key.settings)
+    struct key key;
+    if (folder && !error && make_key(input, threads, &key)) {
+        struct csv table;
+        const bool there = read_rates(path, &table);
         replace_table(path, &table, &key, rate);
-    if (there)
-        csv_free(&table);
+        if (there)
+            csv_free(&table);
+        free_key(&key);
+    }
     error_free(error);
-    free(key.settings);
     free(folder);
 }

@@ -296,7 +296,7 @@ static struct error *check_memory(const struct run *run)
     struct estimate estimate;
     if (options->force || options->resume)
         return NULL;
-    struct error *error = estimate_run(run->input, &estimate);
+    struct error *error = estimate_size(run->input, &estimate);
     const bool wrong = error != NULL;
     error_free(error);
     if (ranks_maximum(&run->ranks, wrong) > 0.0) {

@@ -92,8 +92,10 @@ void run_measure_speed(struct run *run)
     result->step = run->step;
     result->threads = run->threads.most;
     const double waited = run->waited_before < 0.0 ? 0.0 : delay_seconds() - run->waited_before;
-    const double undisturbed = stepping - maximum(waited, 0.0) / run->threads.most;
-    result->undisturbed_rate = (double)result->updates / maximum(undisturbed, 0.05 * stepping);
+    const double share =
+        maximum(waited, 0.0) / (run->threads.most * maximum(result->seconds, 1e-9));
+    const double undisturbed = stepping * maximum(1.0 - share, 0.01);
+    result->undisturbed_rate = (double)result->updates / undisturbed;
     if (run_writes_rates(run) && undisturbed > WORTH_A_RATE)
         rates_store(run->options->rates, run->input, run->ranks.size * run->threads.most,
                     result->undisturbed_rate);
