@@ -17,6 +17,11 @@ struct coarse {
     double factor;
 };
 
+/* What is run at both resolutions, in at most so many seconds each and with at most so many
+ * members. */
+enum { FIRST_STEPS = 20 };
+static const double FIRST_SECONDS = 1.0, FIRST_MEMBERS = 2e6;
+
 static void free_coarse(struct coarse *coarse)
 {
     estimate_free(&coarse->estimate);
@@ -107,8 +112,34 @@ static void extrapolate(const struct simulation_case *input, const struct estima
     forecast->pilot_resolution = coarse->input.resolution;
 }
 
-/* Runs COARSE for at most SECONDS; true where it came to its end, or *USEFUL where something
- * follows from how far it came. */
+/* Updates a second of the first steps of INPUT; NAN where it takes none. */
+static double first_rate(const struct simulation_case *input, const struct run_options *options)
+{
+    struct run_options few = *options;
+    struct run_result result;
+    few.max_steps = FIRST_STEPS;
+    few.max_seconds = minimum(few.max_seconds, FIRST_SECONDS);
+    struct error *error = run_case(input, &few, &result);
+    const double rate = !error && result.updates > 0 ? result.undisturbed_rate : NAN;
+    error_free(error);
+    run_result_free(&result);
+    return rate;
+}
+
+/* How much longer an update takes than in the pilot COARSE, by the first steps of both: the thin
+ * bodies of a pilot have fewer neighbours. */
+static double cost_of_update(const struct simulation_case *input, const struct estimate *estimate,
+                             const struct coarse *coarse, const struct run_options *options)
+{
+    struct simulation_case plain = *input;
+    leave_out_output(&plain);
+    if (members_of(estimate) > FIRST_MEMBERS)
+        return 1.0;
+    const double cost = first_rate(&coarse->input, options) / first_rate(&plain, options);
+    return isnan(cost) ? 1.0 : minimum(2.0, maximum(0.5, cost));
+}
+
+/* Runs COARSE; true where it came to its end. */
 static bool run_pilot(const struct simulation_case *input, const struct estimate *estimate,
                       const struct coarse *coarse, const struct run_options *options,
                       struct forecast *forecast)
@@ -116,8 +147,10 @@ static bool run_pilot(const struct simulation_case *input, const struct estimate
     struct run_result result;
     struct error *error = run_case(&coarse->input, options, &result);
     const bool finished = !error && result.finished;
-    if (result.steps > 0 && result.updates > 0 && result.step > 0.0)
+    if (result.steps > 0 && result.updates > 0 && result.step > 0.0) {
         extrapolate(input, estimate, coarse, &result, options->ranks->size, forecast);
+        forecast->seconds *= cost_of_update(input, estimate, coarse, options);
+    }
     error_free(error);
     run_result_free(&result);
     return finished;
