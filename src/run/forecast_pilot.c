@@ -17,10 +17,12 @@ struct coarse {
     double factor;
 };
 
-/* What is run at both resolutions, in at most so many seconds each and with at most so many
- * members. */
-enum { FIRST_STEPS = 20 };
-static const double FIRST_SECONDS = 1.0, FIRST_MEMBERS = 2e6;
+/* How many first steps are run at both resolutions: more of few members, whose clock is coarse; in
+ * at most so many seconds each and with at most so many members. The costs of their updates differ
+ * by no more than a factor. */
+enum { FIRST_STEPS = 20, FIRST_STEPS_MOST = 100 };
+static const double FIRST_UPDATES = 1e5, FIRST_SECONDS = 1.0, FIRST_MEMBERS = 2e6,
+                    FIRST_FACTOR = 1.5;
 
 static void free_coarse(struct coarse *coarse)
 {
@@ -112,12 +114,14 @@ static void extrapolate(const struct simulation_case *input, const struct estima
     forecast->pilot_resolution = coarse->input.resolution;
 }
 
-/* Updates a second of the first steps of INPUT; NAN where it takes none. */
-static double first_rate(const struct simulation_case *input, const struct run_options *options)
+/* Updates a second of the first steps of INPUT, of MEMBERS; NAN where it takes none. */
+static double first_rate(const struct simulation_case *input, double members,
+                         const struct run_options *options)
 {
     struct run_options few = *options;
     struct run_result result;
-    few.max_steps = FIRST_STEPS;
+    few.max_steps =
+        (int64_t)maximum(FIRST_STEPS, minimum(FIRST_STEPS_MOST, FIRST_UPDATES / members));
     few.max_seconds = minimum(few.max_seconds, FIRST_SECONDS);
     struct error *error = run_case(input, &few, &result);
     const double rate = !error && result.updates > 0 ? result.undisturbed_rate : NAN;
@@ -135,8 +139,9 @@ static double cost_of_update(const struct simulation_case *input, const struct e
     leave_out_output(&plain);
     if (members_of(estimate) > FIRST_MEMBERS)
         return 1.0;
-    const double cost = first_rate(&coarse->input, options) / first_rate(&plain, options);
-    return isnan(cost) ? 1.0 : minimum(2.0, maximum(0.5, cost));
+    const double cost = first_rate(&coarse->input, members_of(&coarse->estimate), options) /
+                        first_rate(&plain, members_of(estimate), options);
+    return isnan(cost) ? 1.0 : minimum(FIRST_FACTOR, maximum(1.0 / FIRST_FACTOR, cost));
 }
 
 /* Runs COARSE; true where it came to its end. */
