@@ -222,10 +222,10 @@ def campaign(seed, count):
     chance.shuffle(kinds)
     for k in range(count):
         geometry, angle, flying, thin = kinds[k % len(kinds)]
-        for particles in (20,) if geometry == "3-D" and k >= 6 else (20, 80):
+        for particles in (20,) if geometry == "3-D" and k % 6 else (20, 80):
             edge, mass = chance.uniform(0.1, 1.0), 10.0 ** chance.uniform(-2, 1)
             distance = mass ** (1.0 / 3.0) * chance.uniform(1.0, 4.0) + edge
-            layers = chance.choice((2, 3, 4, 6)) if thin else particles // 4
+            layers = chance.choice((2, 3, 4, 6)) if thin else 5 if geometry == "3-D" else particles // 4
             plate = Plate(geometry, angle, edge, layers * edge / particles, mass, distance, flying)
             solver = "mpm" if chance.random() < 0.8 else "sph"
             name = f"{k}-{geometry}-{angle}-{'flying' if flying else 'fixed'}-{layers}-{solver}-{particles}"
