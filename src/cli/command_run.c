@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/results.h"
 #include "cli/cli.h"
 #include "run/forecast.h"
 #include "study/verify.h"
@@ -128,17 +129,18 @@ static int run_sweep(const struct simulation_case *input, const struct cli_optio
     return status;
 }
 
-/* A run of more than a minute is announced; the pilot for that takes a twentieth of it at most. */
-static const double WORTH_A_PILOT = 60.0, PILOT_FRACTION = 0.05;
+/* A run of more than a minute is announced. Its pilot, of which two may be tried, takes a small
+ * fraction of it, and less than the user's patience. */
+static const double WORTH_A_PILOT = 60.0, PILOT_FRACTION = 0.02, PILOT_SECONDS = 5.0;
 
 static void announce(const struct simulation_case *input, const struct estimate *estimate,
                      const struct run_options *running, struct forecast *forecast)
 {
     const double total = ranks_maximum(running->ranks, forecast_total(forecast));
-    if (!(total > WORTH_A_PILOT))
+    if (!(total > WORTH_A_PILOT) || forecast->steps > RUN_STEPS_HOPELESS)
         return;
-    forecast_by_pilot(input, estimate, running,
-                      minimum(FORECAST_PILOT_SECONDS, 0.5 * PILOT_FRACTION * total), forecast);
+    forecast_by_pilot(input, estimate, running, minimum(PILOT_SECONDS, PILOT_FRACTION * total),
+                      forecast);
     char *text = forecast_text(forecast);
     if (text && forecast_total(forecast) > WORTH_A_PILOT)
         say(running->listener, text_copy(text));
@@ -152,6 +154,7 @@ static struct error *look_ahead(const struct simulation_case *input, struct run_
     struct estimate estimate;
     if (running->resume)
         return NULL;
+    TRY(ranks_agree(running->ranks, results_check(running->output, running->overwrite)));
     struct error *error = estimate_size(input, &estimate);
     if (error) {
         error_free(error);

@@ -53,7 +53,7 @@ materials: {aluminium: {library: aluminium}}
 bodies:
   flyer: {material: aluminium, box: {from: [-4 mm], to: [0 mm]}, velocity: [1 km/s]}
   target: {material: aluminium, box: {from: [0 mm], to: [8 mm]}}
-run: {until: 1 ms}
+run: {until: 20 us}
 output: {history: 0.1 us}
 END
 # begin FOLDER COMMAND...: the runner of long.yaml in FOLDER, which has begun.
