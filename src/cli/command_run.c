@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/memory.h"
 #include "base/results.h"
@@ -147,6 +148,21 @@ static void announce(const struct simulation_case *input, const struct estimate 
     free(text);
 }
 
+/* What a run would say of its folder, before a pilot. */
+static struct error *check_folder(const struct run_options *running)
+{
+    struct results_lock lock = {0};
+    struct error *error = NULL;
+    struct stat status;
+    if (running->ranks->rank == 0 && !stat(running->output, &status) && S_ISDIR(status.st_mode)) {
+        error = results_lock(running->output, &lock);
+        if (!error)
+            error = results_check(running->output, running->overwrite);
+        results_unlock(&lock);
+    }
+    return ranks_agree(running->ranks, error);
+}
+
 /* Tells how long a run of INPUT will take, and refuses one that memory is too small for. A mistake
  * of the case is left to the run. */
 static struct error *look_ahead(const struct simulation_case *input, struct run_options *running)
@@ -154,7 +170,7 @@ static struct error *look_ahead(const struct simulation_case *input, struct run_
     struct estimate estimate;
     if (running->resume)
         return NULL;
-    TRY(ranks_agree(running->ranks, results_check(running->output, running->overwrite)));
+    TRY(check_folder(running));
     struct error *error = estimate_size(input, &estimate);
     if (error) {
         error_free(error);
