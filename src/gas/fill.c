@@ -268,6 +268,32 @@ static void fill_block(struct filling *f, const struct cell_block *block)
         fill_cell(f, i);
 }
 
+/* The state of BODY at its middle; false where it has none. */
+static bool state_of(const struct simulation *simulation, int body, struct point *point)
+{
+    const struct body_input *of = case_body(simulation->problem->input, body);
+    const struct bounds bounds = shape_bounds(&of->shape);
+    const struct vec3 middle = vec3_scale(0.5, vec3_add(bounds.low, bounds.high));
+    const char *key = "";
+    double velocity[3];
+    return !body_start_at(of, &simulation->problem->material[of->material_index], middle, point,
+                          velocity, &key);
+}
+
+bool gas_starts_warm(const struct simulation *simulation, const struct gas *gas)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    const struct heat any = {1.0, 1.0, 1.0}; /* the curve of a gas does not depend on it */
+    bool warm = true;
+    for (int b = 0; b < input->bodies.count; b++) {
+        struct point point;
+        if (case_body(input, b)->material_index == gas->material[1] &&
+            state_of(simulation, b, &point))
+            warm &= point.energy >= eos_curve(&gas->eos[1], &any, point.density).energy;
+    }
+    return warm;
+}
+
 /* The pressure of the gas around an explosive that is lit, at the middle of the first body of gas;
  * that of the atmosphere where there is none. */
 static double pressure_around(const struct filling *f)
@@ -275,16 +301,10 @@ static double pressure_around(const struct filling *f)
     const struct simulation_case *input = f->simulation->problem->input;
     const struct gas *gas = f->gas;
     for (int b = 0; b < input->bodies.count && gas->layout.two; b++) {
-        const struct body_input *body = case_body(input, b);
-        const struct bounds bounds = shape_bounds(&body->shape);
-        const struct vec3 middle = vec3_scale(0.5, vec3_add(bounds.low, bounds.high));
         const double none[POINT_HISTORY] = {0.0};
-        const char *key = "";
-        double velocity[3];
         struct point point;
-        if (body->material_index == gas->material[0] &&
-            !body_start_at(body, &f->simulation->problem->material[gas->material[0]], middle,
-                           &point, velocity, &key))
+        if (case_body(input, b)->material_index == gas->material[0] &&
+            state_of(f->simulation, b, &point))
             return eos_evaluate(&gas->eos[0], point.density, point.energy, none).pressure;
     }
     return 101325.0;

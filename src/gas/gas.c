@@ -120,6 +120,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     gas->unburnt = gas->layout.lit;
     gas->layout.two = gas->material[1] != gas->material[0];
     gas->layout.marked = gas->layout.two && !gas->second_order;
+    gas->thaws = gas->layout.two && gas_starts_warm(simulation, gas);
     gas->layout.blocked = input->obstacles.count > 0;
     gas->afterburn = simulation->problem->material[gas->material[1]].afterburn;
     gas->layout.afterburns = gas->layout.two && gas->afterburn.energy > 0.0;
@@ -146,6 +147,8 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     gas->halo.depth = gas->second_order ? 2 : CELL_GHOSTS;
     gas->halo.numbers = gas->layout.fields;
     TRY(make_store(cells, &gas->layout));
+    if (gas->second_order)
+        simulation_add_event(simulation, gas_repetition);
     simulation_add_population(simulation, "gas", &cell_population, cells);
     return NULL;
 }
@@ -377,6 +380,7 @@ static void gas_destroy(void *solver)
     free(gas->block);
     free(gas->shocked);
     free(gas->through);
+    free(gas->kept_passed);
     if (gas->cells)
         cell_blocks_destroy(gas->cells);
     free(gas->cells);

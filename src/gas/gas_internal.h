@@ -29,6 +29,9 @@ struct gas_block {
     bool same; /* what sweeps wrote last is its state */
 };
 
+/* The event that sweeps are repeated in two halves, see strips.c. */
+extern const char gas_repetition[];
+
 struct gas {
     struct gas_parameters parameters;
     struct cell_blocks *cells;
@@ -41,6 +44,7 @@ struct gas {
     struct afterburn afterburn;
     double detonation; /* its speed, m/s, of an explosive that is lit */
     bool unburnt;      /* some of it is, on some rank */
+    bool thaws;        /* the second material is never colder than 0 K */
     int round;         /* the power of x in a volume: 0 unless x is a radius */
     struct cell_halo halo;
     uint64_t order; /* of the blocks when the strips were made */
@@ -52,6 +56,8 @@ struct gas {
     bool sleepless; /* all blocks are swept always: gravity pulls them, or a test wants it */
     struct gas_through *through; /* one a thread */
     int throughs;
+    struct ledger kept_ledger; /* what a sweep has changed that is repeated */
+    double *kept_passed;
     struct gas_strips strips[3];
     double *u[GAS_FIELDS];     /* conserved numbers, as the store has them */
     double *other[GAS_FIELDS]; /* where sweeps write */
@@ -113,6 +119,9 @@ void gas_lay_out(struct gas_layout *layout);
  * DT. */
 struct error *gas_burn(struct gas *gas, const struct simulation *simulation, double time);
 void gas_afterburn(struct gas *gas, struct simulation *simulation, double dt);
+
+/* Whether no body of the second material is colder than 0 K at the start. */
+bool gas_starts_warm(const struct simulation *simulation, const struct gas *gas);
 
 /* Collective: what the bodies of the case put into the cells. */
 struct error *gas_fill(void *solver, struct simulation *simulation);

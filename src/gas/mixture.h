@@ -12,6 +12,8 @@
 #ifndef BOLIDE_GAS_MIXTURE_H
 #define BOLIDE_GAS_MIXTURE_H
 
+#include <math.h>
+
 #include "material/eos.h"
 
 /* Below a fraction of volume a material is not there, and its mass goes to the other one: of the
@@ -110,6 +112,43 @@ BOLIDE_INLINE double mixture_sound_square(const struct mixture *mixture, double 
         all += part->weight;
     }
     return sum / (all * mixture->density);
+}
+
+/* The pressure of a material of a mixture at 0 K and its density. */
+BOLIDE_INLINE double mixture_coldest(const struct eos *eos, const struct mixture_part *part)
+{
+    const struct heat any = {1.0, 1.0, 1.0}; /* the energy does not depend on it */
+    return part->cold + part->ratio * eos_curve(eos, &any, part->density).energy;
+}
+
+/* The fraction of the second material at which it is not colder than 0 K, at least FRACTION, where
+ * the cell has ENERGY, rho e, and MASS of each per volume. Both expand alike in the flow, so that
+ * traces of products that come from high pressure would stay dense, with energy that others lack.
+ * Nothing but the volumes changes; FRACTION stays where no volume is enough. */
+static inline double mixture_thawed(const struct eos *const eos[2], const double mass[2],
+                                    double fraction, double energy)
+{
+    enum { HALVINGS = 40 };
+    static const double most = 0.999, all[2] = {1.0, 1.0};
+    double low = log(fraction), high = log(most), found = fraction;
+    for (int k = -2; k < HALVINGS && low < high; k++) {
+        const double at = k == -2   ? low
+                          : k == -1 ? high
+                                    : 0.5 * (low + high),
+                     part = k == -2 ? fraction : exp(at),
+                     density[2] = {mixture_density(eos[0], mass[0], 1.0 - part),
+                                   mixture_density(eos[1], mass[1], part)};
+        const struct mixture mixture = mixture_of(eos, density, part, all);
+        const bool warm =
+            mixture_pressure(&mixture, energy) >= mixture_coldest(eos[1], &mixture.part[1]);
+        if (k == -2 ? warm : k == -1 && !warm)
+            return fraction;
+        if (k >= 0)
+            *(warm ? &high : &low) = at;
+        if (warm)
+            found = part;
+    }
+    return found;
 }
 
 /* G = (dp/de)/rho at given fractions. */

@@ -11,7 +11,9 @@
  *
  * A face whose flux would take too much out of either cell in half a cell's width has the
  * first-order flux of the cells themselves (after Hu, Adams and Shu, J. Comput. Phys. 242 (2013)
- * 169): both cells and all ranks decide alike, since nothing but the two cells counts. */
+ * 169): both cells and all ranks decide alike, since nothing but the two cells counts. A row in
+ * which that leaves a cell with hardly any density or energy is `spent`: its sweep is repeated in
+ * two halves (strips.c). */
 #ifndef BOLIDE_GAS_MUSCL_HANCOCK_H
 #define BOLIDE_GAS_MUSCL_HANCOCK_H
 
@@ -363,11 +365,31 @@ BOLIDE_INLINE void row_mark_lost(const struct gas_row *row, const struct row_sta
     }
 }
 
+/* Whether the numbers TO, which a sweep gives cells, leave one of them with less than half of what
+ * GAS_LEAST keeps at its faces. */
+BOLIDE_INLINE bool row_is_spent(const struct gas_row *row, const struct row_states *cell,
+                                const double *fall, const struct gas_numbers *to)
+{
+    const double most = (1.0 - 0.5 * GAS_LEAST) / (1.0 - GAS_LEAST);
+    uint64_t spent = 0;
+    FOR_ROW (k, 0, row->cells - 1) {
+        const double density = to->of[GAS_DENSITY][k],
+                     kinetic = 0.5 * (square(to->of[GAS_MOMENTUM][k]) +
+                                      square(to->of[GAS_MOMENTUM + 1][k]) +
+                                      square(to->of[GAS_MOMENTUM + 2][k]));
+        const bool stays = (density > 0.5 * GAS_LEAST * row->u.of[GAS_DENSITY][k]) &
+                           (density * to->of[GAS_ENERGY][k] - kinetic >
+                            square(density) * (cell->energy[k] - most * fall[k]));
+        spent |= !stays;
+    }
+    return spent != 0;
+}
+
 /* Takes the cells of a row through a sweep of R = dt/h, and gives what flows through the faces
  * 0 .. cells, per area and time, in FLUX. Cells -2 .. cells + 1 are known. */
 BOLIDE_INLINE void row_muscl_hancock(struct gas_row *row, double r, struct gas_numbers *flux)
 {
-    struct row_states cell, below, above;
+    struct row_states cell = {0}, below, above;
     struct gas_numbers to;
     double fall[ROW_ROOM], push[ROW_ROOM], lost[ROW_ROOM], any = 0.0;
     row_states(row, -2, row->cells + 1, &cell, fall);
@@ -389,6 +411,9 @@ BOLIDE_INLINE void row_muscl_hancock(struct gas_row *row, double r, struct gas_n
             if (lost[k + ROW_GHOSTS] > 0.0)
                 row_hllc(row, &cell, -1, &cell, k, k, flux);
     row_advance(row, &row->u, flux, push, r, 0, row->cells - 1, &to);
+    /* on a plane no cell has less than the mean of its halves */
+    if (any > 0.0 || row->round)
+        row->spent |= row_is_spent(row, &cell, fall, &to);
     row_keep_push(row, push);
     for (int n = 0; n < GAS_NUMBERS; n++)
         FOR_ROW (k, 0, row->cells - 1)

@@ -38,9 +38,11 @@ struct gas_row {
     double shock[ROW_ROOM]; /* axes of strong shocks in cells: the sum of 1, 2, 4 for x, y, z */
     bool crossed; /* some of `shock` may not be zero; else it is zero in cells -2 .. cells + 1 */
     bool shocked; /* found by a sweep: a strong shock runs along the row */
+    bool spent;   /* and: some cell is left with hardly any density or energy */
     double part[PARTS][ROW_ROOM]; /* of the second material, where there are two */
     double gamma[ROW_ROOM];       /* p/(rho e), where markers divide them (markers.h) */
     bool afterburns;              /* it burns in the first */
+    bool thaws;                   /* the second is never colder than 0 K, see mixture.h */
     double afterburnt[ROW_ROOM];  /* its mass per volume of the cell that has */
     bool watched;                 /* who sweeps wants to know */
     double second_flux[ROW_ROOM]; /* what of its mass has passed through faces, where it does */
@@ -112,7 +114,7 @@ static inline void row_evaluate(const struct eos *eos, const double *density, co
  * detonation and energy is conserved whatever F is. Products that have done work may flow into it
  * and take that away: fluxes take some pressure then, until F grows by as much as they need
  * (burn.c). */
-static const double UNBURNT_LEAST = 1e4; /* Pa */
+static const double UNBURNT_LEAST = 1e-3; /* Pa; less than any air around it has */
 
 static inline void row_unburn(const struct eos *eos, const double *density, const double *energy,
                               const double *burnt, int first, int last, struct row_values *values)

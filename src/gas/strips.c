@@ -1,11 +1,16 @@
 /* Strips of blocks, and a sweep over all of them: those that need nothing of other ranks while
- * planes of these are under way, then the others. */
+ * planes of these are under way, then the others. A sweep that would leave a cell with hardly any
+ * density or energy is repeated in two halves, and these too, until its parts are short enough: the
+ * state does not change until all strips are swept, and what was booked is taken back. */
+#include <math.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "gas/gas_internal.h"
+
+const char gas_repetition[] = "repetition of sweeps that would empty a cell";
 
 static struct error *out_of_memory(void)
 {
@@ -91,9 +96,33 @@ static struct error *reserve_through(struct gas *gas, int threads)
     return gas->through ? NULL : out_of_memory();
 }
 
+/* How many numbers pass through the faces of a SIDE of the cut across AXIS. */
+static size_t numbers_passed(const struct gas_cut *cut, int axis, int side)
+{
+    size_t faces = cut && cut->open[axis][side] ? GAS_PASSED : 0;
+    for (int k = 0; k < 3 && faces; k++)
+        faces *= k == axis ? 1 : (size_t)(cut->high[k] - cut->low[k]);
+    return faces;
+}
+
+/* Room for what has passed through the faces of the cut. */
+static struct error *reserve_passed(struct gas *gas)
+{
+    size_t most = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        const size_t both = numbers_passed(gas->cut, axis, 0) + numbers_passed(gas->cut, axis, 1);
+        most = both > most ? both : most;
+    }
+    free(gas->kept_passed);
+    gas->kept_passed = memory_allocate(most * sizeof *gas->kept_passed);
+    return gas->kept_passed ? NULL : out_of_memory();
+}
+
 static struct error *plan_strips(struct gas *gas, const struct cell_blocks *cells, int threads)
 {
     TRY(reserve_through(gas, threads));
+    if (!gas->kept_passed)
+        TRY(reserve_passed(gas));
     if (gas->order == cells->order)
         return NULL;
     gas->order = cells->order;
@@ -198,12 +227,13 @@ static void choose_strips(struct gas *gas, const struct simulation *simulation, 
         }
 }
 
-/* The strips FIRST .. END - 1 of a sweep over DT. */
-static void sweep_strips(const struct gas *gas, struct simulation *simulation,
-                         const struct gas_sweep *sweep, int32_t first, int32_t end, double dt)
+/* The strips FIRST .. END - 1 of a SWEEP. Whether some cell is left with hardly anything. */
+static bool sweep_strips(const struct gas *gas, struct simulation *simulation,
+                         const struct gas_sweep *sweep, int32_t first, int32_t end)
 {
     const struct gas_strips *strips = &gas->strips[sweep->axis];
-#pragma omp parallel num_threads(simulation->threads)
+    bool spent = false;
+#pragma omp parallel num_threads(simulation->threads) reduction(|| : spent)
     {
         struct ledger own = {0};
         struct gas_through *of = &gas->through[omp_get_thread_num()];
@@ -212,11 +242,13 @@ static void sweep_strips(const struct gas *gas, struct simulation *simulation,
             if (strips->strip[s].sleeps && !strips->strip[s].bounds)
                 continue;
             gas_sweep_strip(sweep, &strips->strip[s], of);
-            gas_book(gas, simulation, &strips->strip[s], of, sweep->axis, dt, &own);
+            spent = spent || of->spent;
+            gas_book(gas, simulation, &strips->strip[s], of, sweep->axis, sweep->dt, &own);
         }
 #pragma omp critical(bolide_gas_sweep)
         ledger_join(&simulation->ledger, &own);
     }
+    return spent;
 }
 
 /* What sweeps have written becomes the state. */
@@ -238,7 +270,28 @@ static void take_written(struct gas *gas, struct cell_blocks *cells)
     cells->density = gas->u[GAS_DENSITY];
 }
 
-struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis, double dt)
+/* Keeps what a sweep along AXIS changes before its state is taken, or brings it back. */
+static void keep_books(struct gas *gas, struct simulation *simulation, int axis, bool back)
+{
+    struct ledger *from = back ? &gas->kept_ledger : &simulation->ledger,
+                  *to = back ? &simulation->ledger : &gas->kept_ledger;
+    double *kept = gas->kept_passed;
+    *to = *from;
+    for (int side = 0; side < 2; side++) {
+        const size_t count = numbers_passed(gas->cut, axis, side);
+        if (count)
+            memcpy(back ? gas->cut->passed[axis][side] : kept,
+                   back ? kept : gas->cut->passed[axis][side], count * sizeof *kept);
+        kept += count;
+    }
+    if (back)
+        memset(gas->shocked, 0, (size_t)gas->cells->blocks * sizeof *gas->shocked);
+}
+
+/* Collective: sweeps along AXIS over DT from the time BEGIN into what is not the state yet. SPENT:
+ * some cell of some rank is left with hardly anything. */
+static struct error *sweep_once(struct gas *gas, struct simulation *simulation, int axis,
+                                double begin, double dt, bool *spent)
 {
     struct cell_blocks *cells = gas->cells;
     struct gas_sweep sweep = {.cells = cells,
@@ -247,6 +300,7 @@ struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis
                               .other = gas->layout.two ? &gas->eos[1] : NULL,
                               .layout = &gas->layout,
                               .unburnt = gas->unburnt,
+                              .thaws = gas->thaws,
                               .axis = axis,
                               .r = dt / cells->edge,
                               .round = axis == 0 ? gas->round : 0,
@@ -257,20 +311,50 @@ struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis
                               .dt = dt};
     memcpy(sweep.from, gas->u, sizeof sweep.from);
     memcpy(sweep.to, gas->other, sizeof sweep.to);
-    struct error *error = plan_strips(gas, cells, simulation->threads);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
-    TRY(ranks_agree(simulation->ranks, error));
-    simulation_end_waiting(simulation);
     const struct gas_strips *strips = &gas->strips[axis];
     choose_strips(gas, simulation, axis);
     cell_halo_start(&gas->halo, cells, axis, sweep.from);
-    sweep_strips(gas, simulation, &sweep, 0, strips->early, dt);
+    bool own = sweep_strips(gas, simulation, &sweep, 0, strips->early);
     simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
     cell_halo_finish(&gas->halo, axis);
-    error = gas_fill_planes(gas, simulation, axis, simulation->time + 0.5 * dt);
+    struct error *error = gas_fill_planes(gas, simulation, axis, begin + 0.5 * dt);
     TRY(ranks_agree(simulation->ranks, error));
     simulation_end_waiting(simulation);
-    sweep_strips(gas, simulation, &sweep, strips->early, strips->count, dt);
-    take_written(gas, cells);
+    own |= sweep_strips(gas, simulation, &sweep, strips->early, strips->count);
+    *spent = ranks_maximum(simulation->ranks, own) > 0.0;
     return NULL;
+}
+
+/* Says so the first time in a run. */
+static void note_repetition(struct simulation *simulation)
+{
+    for (int k = 0; k < simulation->events; k++)
+        if (simulation->event[k].name == gas_repetition && isnan(simulation->event[k].time))
+            simulation_event(simulation, gas_repetition, simulation->time);
+}
+
+static struct error *sweep_parts(struct gas *gas, struct simulation *simulation, int axis,
+                                 double begin, double dt, int halvings)
+{
+    bool spent;
+    keep_books(gas, simulation, axis, false);
+    TRY(sweep_once(gas, simulation, axis, begin, dt, &spent));
+    if (!spent || halvings == 0) {
+        take_written(gas, gas->cells);
+        return NULL;
+    }
+    keep_books(gas, simulation, axis, true);
+    note_repetition(simulation);
+    TRY(sweep_parts(gas, simulation, axis, begin, 0.5 * dt, halvings - 1));
+    return sweep_parts(gas, simulation, axis, begin + 0.5 * dt, 0.5 * dt, halvings - 1);
+}
+
+struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis, double dt)
+{
+    enum { HALVINGS = 5 };
+    struct error *error = plan_strips(gas, gas->cells, simulation->threads);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
+    TRY(ranks_agree(simulation->ranks, error));
+    simulation_end_waiting(simulation);
+    return sweep_parts(gas, simulation, axis, simulation->time, dt, HALVINGS);
 }

@@ -52,6 +52,7 @@ struct gas_sweep {
     double *to[GAS_FIELDS];
     const struct gas_layout *layout;
     bool unburnt; /* some explosive is */
+    bool thaws;   /* the second material is never colder than 0 K */
     int axis;
     double r;          /* dt/h */
     int round;         /* the power of the radius in a volume: 0 unless the axis is one */
@@ -81,6 +82,7 @@ enum { STRIP_ROWS = 64, STRIP_BLOCKS = 8, STRIP_OBSTACLES = STRIP_ROWS * (ROW_CE
 struct gas_through {
     double end[2][STRIP_ROWS][GAS_NUMBERS];
     double push[STRIP_ROWS][STRIP_BLOCKS]; /* along a radius: mean pressures, summed over a block */
+    bool spent;                            /* some cell is left with hardly any density or energy */
     int obstacles;
     struct {
         int row, face, side;

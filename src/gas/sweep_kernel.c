@@ -218,6 +218,8 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
     row.round = sweep->round;
     row.shocked = true;
     row.watched = sweep->cut != NULL;
+    row.thaws = sweep->thaws;
+    row.spent = false;
     row.first = (double)block->corner[sweep->axis];
     through->obstacles = 0;
     for (int j = 0; j < columns; j++)
@@ -269,6 +271,7 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
             note_end(&flux, 0, through->end[0][number]);
             note_end(&flux, cells, through->end[1][number]);
         }
+    through->spent = row.spent;
 }
 
 /* Cells of a block, ROW_CELLS at most, as the equation of state and the store take them. */

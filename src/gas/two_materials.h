@@ -15,6 +15,7 @@
 #include "base/lanes.h"
 #include "gas/mixture.h"
 #include "gas/muscl_hancock.h"
+#include "gas/part_limits.h"
 
 /* Below this fraction of volume a cell says nothing of a material's density to its neighbours. */
 static const double PART_COUNTS = 1e-3;
@@ -32,12 +33,6 @@ struct row_parts {
     double flux[PARTS][ROW_ROOM], speed[ROW_ROOM];          /* of volume, through faces */
     double inner[2][2][ROW_ROOM], fraction_at[2][ROW_ROOM]; /* of cells of both at their faces */
 };
-
-/* What has burnt of material M in cell K. */
-BOLIDE_INLINE double parts_burnt(const struct gas_row *row, int m, int k)
-{
-    return row->lit && row->lit == (m ? row->other : row->eos) ? row->burnt[k] : 1.0;
-}
 
 BOLIDE_INLINE void parts_find(const struct gas_row *row, struct row_parts *parts)
 {
@@ -437,6 +432,7 @@ static inline void parts_sweep(struct gas_row *row, struct row_parts *parts, dou
     parts_mark_lost(row, parts, &cell, 0, -1.0, row_strict(row, r), flux, lost);
     parts_replace_lost(row, &cell, lost, parts, flux);
     row_advance(row, &row->u, flux, push, r, 0, row->cells - 1, &to);
+    row->spent |= row_is_spent(row, &cell, fall, &to);
     row_keep_push(row, push);
     for (int n = 0; n < GAS_NUMBERS; n++)
         FOR_ROW (k, 0, row->cells - 1)
@@ -451,6 +447,10 @@ static inline void parts_sweep(struct gas_row *row, struct row_parts *parts, dou
         row->second_flux[k] = parts->flux[PART_MASS][k];
     parts_advance(row, parts, r);
     parts_clean(row);
+    if (row->thaws)
+        parts_thaw(row);
+    if (!row->lit)
+        row->spent |= parts_are_spent(row, &cell);
 }
 
 /* Takes the cells of a row of two materials through a sweep, as row_muscl_hancock. */

@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include "parallel/exact_block.h"
+
 static const char *const cause_names[LEDGER_CAUSES] = {
     [LEDGER_WALLS] = "walls",         [LEDGER_AXIS] = "axis",        [LEDGER_PISTONS] = "pistons",
     [LEDGER_GRAVITY] = "gravity",     [LEDGER_LOADS] = "loads",      [LEDGER_OUTFLOWS] = "outflows",
@@ -87,20 +89,43 @@ struct totals ledger_totals(const struct ledger *ledger, const struct ranks *ran
     return totals;
 }
 
-/* Adds those of particle I. */
-static void add_member(const struct population *population, int32_t i, struct exact_sum *sums)
+/* What members have, MEMBERS of them at a time. */
+enum { MEMBERS = 256 };
+struct own_totals {
+    int count;
+    double of[TOTALS][MEMBERS];
+};
+
+static void take_member(const struct population *population, int32_t i, struct own_totals *own)
 {
     const double *x = population->position[i], *u = population->velocity[i];
     const double mass = population->mass[i];
     const struct vec3 velocity = vec3_make(u[0], u[1], u[2]);
     const struct vec3 momentum = vec3_scale(mass, velocity);
+    const struct vec3 angular = vec3_cross(vec3_make(x[0], x[1], x[2]), momentum);
     const double speed_square = vec3_dot(velocity, velocity);
-    exact_sum_add(&sums[LEDGER_MASS], mass);
-    add_vector(&sums[LEDGER_MOMENTUM_X], momentum);
-    add_vector(&sums[LEDGER_ANGULAR_X], vec3_cross(vec3_make(x[0], x[1], x[2]), momentum));
-    exact_sum_add(&sums[TOTAL_KINETIC], 0.5 * mass * speed_square);
-    exact_sum_add(&sums[TOTAL_INTERNAL], mass * population->energy[i]);
-    exact_sum_add(&sums[TOTAL_MOMENTUM_SCALE], mass * sqrt(speed_square));
+    const int k = own->count++;
+    own->of[LEDGER_MASS][k] = mass;
+    own->of[LEDGER_MOMENTUM_X][k] = momentum.x;
+    own->of[LEDGER_MOMENTUM_Y][k] = momentum.y;
+    own->of[LEDGER_MOMENTUM_Z][k] = momentum.z;
+    own->of[LEDGER_ANGULAR_X][k] = angular.x;
+    own->of[LEDGER_ANGULAR_Y][k] = angular.y;
+    own->of[LEDGER_ANGULAR_Z][k] = angular.z;
+    own->of[TOTAL_KINETIC][k] = 0.5 * mass * speed_square;
+    own->of[TOTAL_INTERNAL][k] = mass * population->energy[i];
+    own->of[TOTAL_MOMENTUM_SCALE][k] = mass * sqrt(speed_square);
+}
+
+/* Those of one BODY, or with -1 of all. */
+static void take_members(const struct population *population, int32_t first, int body,
+                         struct own_totals *own)
+{
+    const int32_t end = population->count - first < MEMBERS ? population->count : first + MEMBERS;
+    own->count = 0;
+    for (int32_t i = first; i < end; i++)
+        if (body < 0 || population->body[i] == body)
+            take_member(population, i, own);
 }
 
 struct totals population_totals(struct population population, const struct ranks *ranks, int body)
@@ -108,14 +133,18 @@ struct totals population_totals(struct population population, const struct ranks
     struct exact_sum sums[TOTALS] = {0};
 #pragma omp parallel num_threads(population.threads)
     {
-        struct exact_sum own[TOTALS] = {0};
+        struct exact_sum sum[TOTALS] = {0};
+        struct own_totals own;
 #pragma omp for schedule(static)
-        for (int32_t i = 0; i < population.count; i++)
-            if (body < 0 || population.body[i] == body)
-                add_member(&population, i, own);
+        for (int32_t first = 0; first < population.count; first += MEMBERS) {
+            take_members(&population, first, body, &own);
+            for (int entry = 0; entry < TOTALS; entry++)
+                if (entry != LEDGER_ENERGY)
+                    exact_sum_add_all(&sum[entry], own.of[entry], own.count);
+        }
 #pragma omp critical(bolide_totals)
         for (int entry = 0; entry < TOTALS; entry++)
-            exact_sum_join(&sums[entry], &own[entry]);
+            exact_sum_join(&sums[entry], &sum[entry]);
     }
     exact_sum_join(&sums[LEDGER_ENERGY], &sums[TOTAL_KINETIC]);
     exact_sum_join(&sums[LEDGER_ENERGY], &sums[TOTAL_INTERNAL]);

@@ -168,10 +168,11 @@ static void find_extremes(const struct simulation *simulation, struct row *row)
             count++;
             widen(&density, members->density[i]);
             widen(&pressure, members->pressure[i]);
-            widen(&speed, sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+            widen(&speed, u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
         }
         row->more[k] = ranks_sum(simulation->ranks, count);
     }
+    speed = (struct range){sqrt(maximum(speed.low, 0.0)), sqrt(maximum(speed.high, 0.0))};
     row->density = over_ranks(simulation->ranks, density);
     row->pressure = over_ranks(simulation->ranks, pressure);
     row->speed = over_ranks(simulation->ranks, speed);

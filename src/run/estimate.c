@@ -8,6 +8,7 @@
 #include "material/any.h"
 #include "material/material.h"
 #include "model/solver.h"
+#include "run/blast_cells.h"
 #include "run/input_warnings.h"
 #include "run/run.h"
 
@@ -233,6 +234,7 @@ struct error *estimate_warnings(const struct simulation_case *input)
         warnings = error_join(warnings, class->warnings(input->solver.value, input));
     if (class->coarse)
         warnings = error_join(warnings, class->coarse(input->solver.value, input));
+    warnings = error_join(warnings, blast_cells(input));
     return isfinite(largest) ? error_join(warnings, strong_contacts(input, largest)) : warnings;
 }
 

@@ -10,6 +10,7 @@
 #include "material/any.h"
 #include "material/material.h"
 #include "model/bodies.h"
+#include "run/blast_cells.h"
 #include "run/input_warnings.h"
 #include "run/warnings_internal.h"
 
@@ -83,6 +84,7 @@ static void ask_solver(struct warnings *w, const struct simulation_case *input)
             w->watch[m].limit[WARNING_REGION] = 0.0;
     if (class->coarse)
         w->coarse = class->coarse(input->solver.value, input);
+    w->coarse = error_join(w->coarse, blast_cells(input));
     w->input = input_warnings(input);
 }
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "parallel/exact_sum.h"
+#include "parallel/exact_block.h"
 
 enum { MANY = 100000 };
 
@@ -39,6 +39,32 @@ static double *many_numbers(uint64_t seed)
         value[i] = dice_word(&dice) & 1 ? size : -size;
     }
     return value;
+}
+
+static void a_sum_of_many_at_once_is_that_of_each(void **state)
+{
+    (void)state;
+    double *value = many_numbers(5);
+    struct dice dice = {6};
+    for (int k = 0; k < 300; k++) {
+        const int first = dice_below(&dice, MANY / 2), count = dice_below(&dice, 1500);
+        const double span = dice_between(&dice, 0.0, 2.0);
+        struct exact_sum one = {0}, many = {0};
+        for (int i = first; i < first + count; i++) /* narrow and wide ranges, and some zeros */
+            value[i] =
+                i % 7 ? copysign(pow(fabs(value[i]), span * span * span / 8.0), value[i]) : 0.0;
+        for (int i = first; i < first + count; i++)
+            exact_sum_add(&one, value[i]);
+        exact_sum_add_all(&many, value + first, count);
+        assert_same(exact_sum_value(&many), exact_sum_value(&one));
+        if (count == 0)
+            continue;
+        value[first + count / 2] = k % 2 ? NAN : -INFINITY;
+        exact_sum_add_all(&many, value + first, count);
+        assert_true(isnan(exact_sum_value(&many)));
+        value[first + count / 2] = 1.0;
+    }
+    free(value);
 }
 
 static void shuffle(double *value, int count, struct dice *dice)
@@ -266,6 +292,7 @@ static void carries_are_taken_before_they_overflow(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_sum_of_many_at_once_is_that_of_each),
         cmocka_unit_test(a_sum_over_600_orders_of_magnitude_does_not_depend_on_the_order),
         cmocka_unit_test(joined_parts_are_the_sum_of_all),
         cmocka_unit_test(a_sum_is_the_double_nearest_to_the_integer_sum),

@@ -125,6 +125,35 @@ static void the_speed_of_sound_of_a_mixture_is_that_of_its_isentrope(void **stat
     }
 }
 
+/* Traces of products that have come from high pressure: their volume grows until they are not
+ * colder than 0 K, and nothing else changes. */
+static void a_material_that_would_be_colder_than_nothing_takes_more_volume(void **state)
+{
+    (void)state;
+    const struct ring ring = make_ring(0.0, 1000.0);
+    const struct eos *const eos[2] = {&ring.eos[0], &ring.eos[1]};
+    struct dice dice = {3};
+    for (int k = 0; k < 200; k++) {
+        const double fraction = pow(10.0, dice_between(&dice, -6.0, -0.1)),
+                     density[2] = {dice_between(&dice, 0.01, 10.0),
+                                   dice_between(&dice, 1.0, 1500.0)},
+                     mass[2] = {(1.0 - fraction) * density[0], fraction * density[1]},
+                     heat =
+                         mass[0] * dice_between(&dice, 1e5, 2e7) -
+                         mass[1] * 0.999 * ring.eos[1].of.jwl.energy / ring.eos[1].of.jwl.density;
+        const struct mixture before = mixture_of(eos, density, fraction, whole);
+        const double found = mixture_thawed(eos, mass, fraction, heat);
+        const double after[2] = {mass[0] / (1.0 - found), mass[1] / found};
+        const struct mixture mixture = mixture_of(eos, after, found, whole);
+        const bool cold =
+            mixture_pressure(&before, heat) < mixture_coldest(eos[1], &before.part[1]);
+        assert_true(cold ? found >= fraction : found == fraction);
+        if (found > fraction)
+            assert_true(mixture_pressure(&mixture, heat) >=
+                        0.999 * mixture_coldest(eos[1], &mixture.part[1]));
+    }
+}
+
 static void a_contact_of_two_materials_keeps_pressure_and_width(void **state)
 {
     (void)state;
@@ -200,6 +229,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mixture_has_the_pressure_of_both_materials),
         cmocka_unit_test(the_speed_of_sound_of_a_mixture_is_that_of_its_isentrope),
+        cmocka_unit_test(a_material_that_would_be_colder_than_nothing_takes_more_volume),
         cmocka_unit_test(a_contact_of_two_materials_keeps_pressure_and_width),
         cmocka_unit_test(a_shared_cell_begins_with_one_pressure),
         cmocka_unit_test(rows_of_any_length_give_the_same_bits),

@@ -1,0 +1,58 @@
+/* What a sweep must leave to cells of two materials: neither material is colder than 0 K, and the
+ * pressure does not vanish. */
+#ifndef BOLIDE_GAS_PART_LIMITS_H
+#define BOLIDE_GAS_PART_LIMITS_H
+
+#include "gas/mixture.h"
+#include "gas/muscl_hancock.h"
+
+/* What has burnt of material M in cell K. */
+BOLIDE_INLINE double parts_burnt(const struct gas_row *row, int m, int k)
+{
+    return row->lit && row->lit == (m ? row->other : row->eos) ? row->burnt[k] : 1.0;
+}
+
+/* Gives the second material of cells of both that has become colder than 0 K more of the volume. */
+static inline void parts_thaw(struct gas_row *row)
+{
+    const struct eos *const eos[2] = {row->eos, row->other};
+    FOR_ROW (k, 0, row->cells - 1) {
+        double *fraction = &row->part[PART_FRACTION][k];
+        const double density = row->u.of[GAS_DENSITY][k],
+                     mass[2] = {density - row->part[PART_MASS][k], row->part[PART_MASS][k]};
+        double kinetic = 0.0;
+        if (!(*fraction > MIXTURE_TRACE && *fraction < 0.999) || parts_burnt(row, 1, k) < 1.0)
+            continue;
+        for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
+            kinetic += 0.5 * square(row->u.of[n][k]) / density;
+        *fraction = mixture_thawed(eos, mass, *fraction, row->u.of[GAS_ENERGY][k] - kinetic);
+    }
+}
+
+/* Whether a sweep leaves a cell of both materials with hardly any of the least pressure that it and
+ * its neighbours had. */
+static inline bool parts_are_spent(const struct gas_row *row, const struct row_states *cell)
+{
+    const struct eos *const eos[2] = {row->eos, row->other};
+    const double *pressure = cell->of.of[PRIMITIVE_PRESSURE];
+    bool spent = false;
+    FOR_ROW (k, 0, row->cells - 1) {
+        const double fraction = row->part[PART_FRACTION][k], density = row->u.of[GAS_DENSITY][k];
+        const double least = minimum(pressure[k], minimum(pressure[k - 1], pressure[k + 1]));
+        if (!(fraction > 0.0 && fraction < 1.0) || !(least > 0.0))
+            continue;
+        double kinetic = 0.0;
+        for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
+            kinetic += 0.5 * square(row->u.of[n][k]) / density;
+        const double mass = row->part[PART_MASS][k],
+                     of[2] = {mixture_density(eos[0], density - mass, 1.0 - fraction),
+                              mixture_density(eos[1], mass, fraction)},
+                     burnt[2] = {parts_burnt(row, 0, k), parts_burnt(row, 1, k)};
+        const struct mixture mixture = mixture_of(eos, of, fraction, burnt);
+        spent |= !(mixture_pressure(&mixture, row->u.of[GAS_ENERGY][k] - kinetic) >
+                   0.5 * GAS_LEAST * least);
+    }
+    return spent;
+}
+
+#endif
