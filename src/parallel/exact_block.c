@@ -7,24 +7,22 @@
 /* A sum of so many multiples of the last bit of 42 is exact. */
 enum { EXACT_SUM_BLOCK = 512 };
 
-/* Four numbers at once. */
-typedef double four __attribute__((vector_size(32)));
-typedef int64_t four_bits __attribute__((vector_size(32)));
+/* Two numbers at once, as every processor has them. */
+typedef double pair __attribute__((vector_size(16)));
+typedef int64_t pair_bits __attribute__((vector_size(16)));
 
 /* The largest magnitude of COUNT values; those that are not numbers do not count. */
 static double largest_of(const double *value, int count)
 {
-    const four_bits magnitude = {INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX};
-    four most = {0.0, 0.0, 0.0, 0.0};
-    for (int i = 0; i < count; i += 4) {
-        four v;
+    const pair_bits magnitude = {INT64_MAX, INT64_MAX};
+    pair most = {0.0, 0.0};
+    for (int i = 0; i < count; i += 2) {
+        pair v;
         memcpy(&v, value + i, sizeof v);
-        const four_bits size = (four_bits)v & magnitude, more = (four)size > most;
-        most = (four)((size & more) | ((four_bits)most & ~more));
+        const pair_bits size = (pair_bits)v & magnitude, more = (pair)size > most;
+        most = (pair)((size & more) | ((pair_bits)most & ~more));
     }
-    const double low = most[0] > most[1] ? most[0] : most[1],
-                 high = most[2] > most[3] ? most[2] : most[3];
-    return low > high ? low : high;
+    return most[0] > most[1] ? most[0] : most[1];
 }
 
 /* Takes from each of COUNT values, below 2^EXPONENT, what a number of 42 bits fewer can hold, and
@@ -34,21 +32,21 @@ static double largest_of(const double *value, int count)
 static double take_high(double *value, int count, int exponent, bool *more)
 {
     const double carrier = ldexp(1.5, exponent + 10);
-    four sum = {0.0, 0.0, 0.0, 0.0};
-    four_bits left = {0, 0, 0, 0};
-    for (int i = 0; i < count; i += 4) {
-        four v;
+    pair sum = {0.0, 0.0};
+    pair_bits left = {0, 0};
+    for (int i = 0; i < count; i += 2) {
+        pair v;
         memcpy(&v, value + i, sizeof v);
-        const four high = (v + carrier) - carrier, rest = v - high;
+        const pair high = (v + carrier) - carrier, rest = v - high;
         sum += high;
-        left |= (four_bits)rest;
+        left |= (pair_bits)rest;
         memcpy(value + i, &rest, sizeof rest);
     }
-    *more = ((left[0] | left[1] | left[2] | left[3]) & INT64_MAX) != 0;
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    *more = ((left[0] | left[1]) & INT64_MAX) != 0;
+    return sum[0] + sum[1];
 }
 
-/* COUNT is a multiple of four. */
+/* COUNT is a multiple of two. */
 static void add_block(struct exact_sum *sum, const double *value, int count)
 {
     enum { LARGEST = 900, BITS = 42 };
@@ -72,10 +70,10 @@ static void add_block(struct exact_sum *sum, const double *value, int count)
 void exact_sum_add_all(struct exact_sum *sum, const double *value, int count)
 {
     int begin = 0;
-    for (; begin + 4 <= count; begin += EXACT_SUM_BLOCK) {
-        const int left = (count - begin) / 4 * 4;
+    for (; begin + 2 <= count; begin += EXACT_SUM_BLOCK) {
+        const int left = (count - begin) / 2 * 2;
         add_block(sum, value + begin, left < EXACT_SUM_BLOCK ? left : EXACT_SUM_BLOCK);
     }
-    for (int i = count / 4 * 4; i < count; i++)
+    for (int i = count / 2 * 2; i < count; i++)
         exact_sum_add(sum, value[i]);
 }

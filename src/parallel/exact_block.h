@@ -4,7 +4,7 @@
 
 #include "parallel/exact_sum.h"
 
-/* Adds COUNT values to SUM, to the same bits as exact_sum_add of each, in a third of the time. */
+/* Adds COUNT values to SUM, to the same bits as exact_sum_add of each. */
 void exact_sum_add_all(struct exact_sum *sum, const double *value, int count);
 
 #endif
