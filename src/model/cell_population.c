@@ -31,6 +31,8 @@ static struct population members(const void *store)
                                .velocity = (const double(*)[3])cells->velocity,
                                .fraction = fraction_of(cells),
                                .edge = cells->edge,
+                               .blocks = cells->blocks,
+                               .block = cells->block,
                                .fields = cells->fields,
                                .field = cells->field};
 }

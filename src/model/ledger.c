@@ -1,9 +1,11 @@
 /* The ledger and the totals that it is compared with: exact sums, so that a balance does not depend
- * on the order of particles, threads or ranks. */
+ * on the order of particles, threads or ranks. Blocks of cells are the same on any number of ranks:
+ * what their cells have is summed by halves, and only the sums of blocks exactly. */
 #include "model/ledger.h"
 
 #include <string.h>
 
+#include "grid/cell_blocks.h"
 #include "parallel/exact_block.h"
 
 static const char *const cause_names[LEDGER_CAUSES] = {
@@ -93,39 +95,101 @@ struct totals ledger_totals(const struct ledger *ledger, const struct ranks *ran
 enum { MEMBERS = 256 };
 struct own_totals {
     int count;
+    bool move; /* some do; else only mass and internal energy are computed, the rest is zero */
+    int32_t member[MEMBERS];
     double of[TOTALS][MEMBERS];
 };
 
-static void take_member(const struct population *population, int32_t i, struct own_totals *own)
+static void take_motion(const struct population *population, struct own_totals *own)
 {
-    const double *x = population->position[i], *u = population->velocity[i];
-    const double mass = population->mass[i];
-    const struct vec3 velocity = vec3_make(u[0], u[1], u[2]);
-    const struct vec3 momentum = vec3_scale(mass, velocity);
-    const struct vec3 angular = vec3_cross(vec3_make(x[0], x[1], x[2]), momentum);
-    const double speed_square = vec3_dot(velocity, velocity);
-    const int k = own->count++;
-    own->of[LEDGER_MASS][k] = mass;
-    own->of[LEDGER_MOMENTUM_X][k] = momentum.x;
-    own->of[LEDGER_MOMENTUM_Y][k] = momentum.y;
-    own->of[LEDGER_MOMENTUM_Z][k] = momentum.z;
-    own->of[LEDGER_ANGULAR_X][k] = angular.x;
-    own->of[LEDGER_ANGULAR_Y][k] = angular.y;
-    own->of[LEDGER_ANGULAR_Z][k] = angular.z;
-    own->of[TOTAL_KINETIC][k] = 0.5 * mass * speed_square;
-    own->of[TOTAL_INTERNAL][k] = mass * population->energy[i];
-    own->of[TOTAL_MOMENTUM_SCALE][k] = mass * sqrt(speed_square);
+    for (int k = 0; k < own->count; k++) {
+        const int32_t i = own->member[k];
+        const double *x = population->position[i], *u = population->velocity[i];
+        const struct vec3 velocity = vec3_make(u[0], u[1], u[2]);
+        const struct vec3 momentum = vec3_scale(population->mass[i], velocity);
+        const struct vec3 angular = vec3_cross(vec3_make(x[0], x[1], x[2]), momentum);
+        const double speed_square = vec3_dot(velocity, velocity);
+        own->of[LEDGER_MOMENTUM_X][k] = momentum.x;
+        own->of[LEDGER_MOMENTUM_Y][k] = momentum.y;
+        own->of[LEDGER_MOMENTUM_Z][k] = momentum.z;
+        own->of[LEDGER_ANGULAR_X][k] = angular.x;
+        own->of[LEDGER_ANGULAR_Y][k] = angular.y;
+        own->of[LEDGER_ANGULAR_Z][k] = angular.z;
+        own->of[TOTAL_KINETIC][k] = 0.5 * population->mass[i] * speed_square;
+        own->of[TOTAL_MOMENTUM_SCALE][k] = population->mass[i] * sqrt(speed_square);
+    }
 }
 
-/* Those of one BODY, or with -1 of all. */
-static void take_members(const struct population *population, int32_t first, int body,
+/* Those FIRST to END - 1 of one BODY, or with -1 of all. */
+static void take_members(const struct population *population, int32_t first, int32_t end, int body,
                          struct own_totals *own)
 {
-    const int32_t end = population->count - first < MEMBERS ? population->count : first + MEMBERS;
-    own->count = 0;
-    for (int32_t i = first; i < end; i++)
-        if (body < 0 || population->body[i] == body)
-            take_member(population, i, own);
+    int count = 0;
+    own->move = false;
+    for (int32_t i = first; i < end; i++) {
+        if (body >= 0 && population->body[i] != body)
+            continue;
+        const double *u = population->velocity[i];
+        own->move |= u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0;
+        own->member[count] = i;
+        own->of[LEDGER_MASS][count] = population->mass[i];
+        own->of[TOTAL_INTERNAL][count++] = population->mass[i] * population->energy[i];
+    }
+    own->count = count;
+    if (own->move)
+        take_motion(population, own);
+}
+
+/* Whether members have something of an ENTRY to sum. */
+static bool has_entry(const struct own_totals *own, int entry)
+{
+    return own->count && entry != LEDGER_ENERGY &&
+           (own->move || entry == LEDGER_MASS || entry == TOTAL_INTERNAL);
+}
+
+static int32_t end_of(int32_t first, int32_t end)
+{
+    return end - first < MEMBERS ? end : first + MEMBERS;
+}
+
+static void add_particles(const struct population *population, int32_t first, int body,
+                          struct exact_sum sum[TOTALS])
+{
+    struct own_totals own;
+    take_members(population, first, end_of(first, population->count), body, &own);
+    for (int entry = 0; entry < TOTALS; entry++)
+        if (has_entry(&own, entry))
+            exact_sum_add_all(&sum[entry], own.of[entry], own.count);
+}
+
+/* The sum of COUNT values, at most MEMBERS, which it overwrites. Its rounding is that of the
+ * logarithm of COUNT additions, and what mirrored halves of a block have cancels exactly. */
+static double sum_by_halves(double value[MEMBERS], int count)
+{
+    int half = 1;
+    while (half < count)
+        half *= 2;
+    memset(value + count, 0, (size_t)(half - count) * sizeof *value);
+    for (half /= 2; half > 0; half /= 2) {
+        double *restrict low = value;
+        const double *restrict high = value + half;
+        for (int k = 0; k < half; k++)
+            low[k] += high[k];
+    }
+    return value[0];
+}
+
+static void add_block(const struct population *population, const struct cell_block *block, int body,
+                      struct exact_sum sum[TOTALS])
+{
+    const int32_t end = block->first + block->count[0] * block->count[1] * block->count[2];
+    for (int32_t first = block->first; first < end; first += MEMBERS) {
+        struct own_totals own;
+        take_members(population, first, end_of(first, end), body, &own);
+        for (int entry = 0; entry < TOTALS; entry++)
+            if (has_entry(&own, entry))
+                exact_sum_add(&sum[entry], sum_by_halves(own.of[entry], own.count));
+    }
 }
 
 struct totals population_totals(struct population population, const struct ranks *ranks, int body)
@@ -134,14 +198,13 @@ struct totals population_totals(struct population population, const struct ranks
 #pragma omp parallel num_threads(population.threads)
     {
         struct exact_sum sum[TOTALS] = {0};
-        struct own_totals own;
+#pragma omp for schedule(static) nowait
+        for (int32_t b = 0; b < population.blocks; b++)
+            add_block(&population, &population.block[b], body, sum);
+        const int32_t particles = population.block ? 0 : population.count;
 #pragma omp for schedule(static)
-        for (int32_t first = 0; first < population.count; first += MEMBERS) {
-            take_members(&population, first, body, &own);
-            for (int entry = 0; entry < TOTALS; entry++)
-                if (entry != LEDGER_ENERGY)
-                    exact_sum_add_all(&sum[entry], own.of[entry], own.count);
-        }
+        for (int32_t first = 0; first < particles; first += MEMBERS)
+            add_particles(&population, first, body, sum);
 #pragma omp critical(bolide_totals)
         for (int entry = 0; entry < TOTALS; entry++)
             exact_sum_join(&sums[entry], &sum[entry]);

@@ -66,7 +66,8 @@ void ledger_join(struct ledger *ledger, const struct ledger *other);
 struct totals ledger_totals(const struct ledger *ledger, const struct ranks *ranks,
                             enum ledger_cause cause);
 
-/* Collective: mass, momentum, angular momentum, energy of the members of BODY, of all for -1. */
+/* Collective: mass, momentum, angular momentum, energy of the members of BODY, of all for -1. The
+ * sum of particles is exact, that of cells rounded like eight additions of what a block has. */
 struct totals population_totals(struct population population, const struct ranks *ranks, int body);
 
 /* The energy that is neither in NOW nor BOOKED, against the largest energy of NOW and START (the

@@ -10,6 +10,7 @@
 
 enum population_kind { POPULATION_OF_PARTICLES, POPULATION_OF_CELLS };
 
+struct cell_block;
 struct population;
 struct problem;
 
@@ -39,7 +40,9 @@ struct population {
     const double (*deviator)[6]; /* of stress; NULL: no member bears shear */
     const double *fraction; /* of a second material in cells; NULL: members are of one material */
     double edge;            /* of a cell, m */
-    int fields;             /* that a store keeps by name, the above among them */
+    int32_t blocks;         /* of cells; a block has the same cells on any number of ranks */
+    const struct cell_block *block;
+    int fields; /* that a store keeps by name, the above among them */
     const struct field *field;
     int columns; /* the same throughout a run */
     const struct column *column;

@@ -178,16 +178,16 @@ static void find_extremes(const struct simulation *simulation, struct row *row)
     row->speed = over_ranks(simulation->ranks, speed);
 }
 
-static struct row find_row(const struct simulation *simulation, double dt,
+static struct row find_row(const struct simulation *simulation, double dt, const struct totals *now,
                            const struct totals *start, struct load_totals *totals)
 {
     const struct population population = simulation_population(simulation);
     struct row row = {.simulation = simulation,
                       .members = population_members(&population),
                       .dt = dt,
+                      .now = *now,
                       .loads = totals};
     row.count = ranks_sum(simulation->ranks, population.count);
-    row.now = simulation_totals(simulation);
     for (int i = 0; i < LEDGER_CAUSES; i++)
         row.booked[i] = ledger_totals(&simulation->ledger, simulation->ranks, (enum ledger_cause)i);
     struct totals all = ledger_totals(&simulation->ledger, simulation->ranks, LEDGER_CAUSES);
@@ -232,13 +232,13 @@ static void write_line(FILE *file, bool head, const struct row *row)
 }
 
 struct error *history_row(struct history *history, const struct simulation *simulation, double dt,
-                          const struct totals *start)
+                          const struct totals *now, const struct totals *start)
 {
     const size_t loads = (size_t)simulation->loads;
     struct load_totals *totals = memory_allocate(loads * sizeof *totals);
     TRY(ranks_agree(simulation->ranks,
                     totals ? NULL : error_new(ERROR_SYSTEM, "out of memory for the history")));
-    const struct row row = find_row(simulation, dt, start, totals);
+    const struct row row = find_row(simulation, dt, now, start, totals);
     if (history->rows++ == 0 && history->file)
         write_line(history->file, true, &row);
     if (history->file)

@@ -16,10 +16,10 @@ struct error *history_open(const char *path, int64_t keep, const struct csv_mark
 /* Collective. One row: time, step, dt, count, mass, momentum, angular momentum, kinetic, internal
  * and total energy, relative energy drift (ledger counted), the ledger's causes, smallest and
  * largest density, pressure and speed, and the impulse that each load has delivered and that it
- * should have. START are the totals at time zero. Rows reach the disk at
+ * should have. START are the totals at time zero, NOW those of the row. Rows reach the disk at
  * once. */
 struct error *history_row(struct history *history, const struct simulation *simulation, double dt,
-                          const struct totals *start);
+                          const struct totals *now, const struct totals *start);
 
 /* What a checkpoint must know of the rows up to now. */
 struct error *history_mark(struct history *history, struct csv_mark *mark);

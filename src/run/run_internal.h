@@ -97,8 +97,9 @@ void run_observe(struct run *run);
 struct error *run_watch(struct run *run, bool last);
 void run_progress(struct run *run);
 
-/* Collective, at a row of the history: warnings, and the error of an energy that drifts too far. */
-struct error *run_watch_physics(struct run *run);
+/* Collective, at a row of the history, where the totals are NOW: warnings, and the error of an
+ * energy that drifts too far. */
+struct error *run_watch_physics(struct run *run, const struct totals *now);
 /* Then too, after the probes: warnings of tracers. */
 struct error *run_watch_tracers(struct run *run);
 /* Collective: says what each load has delivered beside what it should have. */

@@ -441,13 +441,16 @@ struct error *run_watch(struct run *run, bool last)
     bool row = interval_is_due(time, history_interval(run), &run->history_due) || last;
     bool snapshot =
         interval_is_due(time, run->input->output.every, &run->snapshots_due) || last || n == 0;
-    struct error *drift = row ? run_watch_physics(run) : NULL, *error = NULL;
+    struct totals now = {0};
+    if (row)
+        now = simulation_totals(&run->simulation);
+    struct error *drift = row ? run_watch_physics(run, &now) : NULL, *error = NULL;
     if (!run->sound)
         return ranks_agree(&run->ranks, drift);
     row = row && run->history_step < step;
     snapshot = snapshot && (n == 0 || run->snapshot_times[n - 1] < time);
     if (row && run->history)
-        error = history_row(run->history, &run->simulation, run->step, &run->start);
+        error = history_row(run->history, &run->simulation, run->step, &now, &run->start);
     if (row) {
         run->history_step = step;
         error = ranks_agree(&run->ranks, error);

@@ -44,14 +44,13 @@ static double drift_to_watch(const struct run *run, const struct totals *now)
     return isnan(run->input->run.energy_drift) ? fabs(energy_drift(now, &booked, &start)) : 0.0;
 }
 
-struct error *run_watch_physics(struct run *run)
+struct error *run_watch_physics(struct run *run, const struct totals *now)
 {
-    const struct totals now = simulation_totals(&run->simulation);
-    struct error *error = watch_energy(run, &now);
+    struct error *error = watch_energy(run, now);
     error = error_join(error,
                        warnings_watch_loads(run->warnings, &run->simulation, report_warning, run));
-    return error_join(error, warnings_watch(run->warnings, &run->simulation, &now,
-                                            drift_to_watch(run, &now), report_warning, run));
+    return error_join(error, warnings_watch(run->warnings, &run->simulation, now,
+                                            drift_to_watch(run, now), report_warning, run));
 }
 
 void run_report_loads(struct run *run)

@@ -31,6 +31,13 @@ static int remove_file(void **state)
     return unlink(path);
 }
 
+static struct error *write_row(struct history *history, const struct simulation *simulation,
+                               const struct totals *start)
+{
+    const struct totals now = simulation_totals(simulation);
+    return history_row(history, simulation, 1e-7, &now, start);
+}
+
 /* Writes ROWS rows, one microsecond apart, from FIRST on. */
 static void write_rows(int64_t keep, int first, int rows)
 {
@@ -42,7 +49,7 @@ static void write_rows(int64_t keep, int first, int rows)
     for (int i = first; i < first + rows; i++) {
         simulation->time = i * 1e-6;
         simulation->step = i;
-        assert_null(history_row(history, simulation, 1e-7, &start));
+        assert_null(write_row(history, simulation, &start));
     }
     assert_int_equal(history_rows(history), (keep > 0 ? keep : 0) + rows);
     assert_null(history_close(history));
@@ -117,10 +124,10 @@ static void drift_counts_what_the_ledger_booked(void **state)
         47.0; /* of two kilograms: 94 J, half of what was there */
     struct history *history;
     assert_null(history_open(path, -1, NULL, &history));
-    assert_null(history_row(history, simulation, 1e-7, &start));
+    assert_null(write_row(history, simulation, &start));
     ledger_book(&simulation->ledger, LEDGER_WALLS, 0.0, vec3_make(1.0, 0.0, 0.0),
                 vec3_make(0.0, 0.0, 0.0), 94.0);
-    assert_null(history_row(history, simulation, 1e-7, &start));
+    assert_null(write_row(history, simulation, &start));
     assert_null(history_close(history));
     assert_float_equal(number("energy_drift", 1), 94.0 / (188.0 + 94.0), 1e-15);
     assert_true(number("energy_drift", 2) == 0.0);
@@ -137,7 +144,7 @@ static void units_follow_the_dimension(void **state)
     const struct totals start = {0};
     struct history *history;
     assert_null(history_open(path, -1, NULL, &history));
-    assert_null(history_row(history, simulation, 1e-7, &start));
+    assert_null(write_row(history, simulation, &start));
     assert_null(history_close(history));
     assert_true(number("mass [kg/m]", 1) == 2.0);
     number("momentum.x [kg/s]", 1);
@@ -197,15 +204,15 @@ static void rows_that_were_changed_since_the_checkpoint_are_an_error(void **stat
     struct history *history;
     struct csv_mark early, late;
     assert_null(history_open(path, -1, NULL, &history));
-    assert_null(history_row(history, simulation, 1e-7, &start));
+    assert_null(write_row(history, simulation, &start));
     assert_null(history_mark(history, &early));
-    assert_null(history_row(history, simulation, 1e-7, &start));
+    assert_null(write_row(history, simulation, &start));
     assert_null(history_close(history));
 
     /* What follows is no row of the checkpoint's. The mark goes on as the rows do. */
     change_byte(early.bytes + 1);
     assert_null(history_open(path, 1, &early, &history));
-    assert_null(history_row(history, simulation, 1e-7, &start));
+    assert_null(write_row(history, simulation, &start));
     assert_null(history_mark(history, &late));
     assert_true(early.bytes < late.bytes && early.hash != late.hash);
     assert_null(history_close(history));
@@ -235,7 +242,7 @@ static void a_full_disk_is_an_error(void **state)
     few = before;
     few.rlim_cur = 1;
     setrlimit(RLIMIT_FSIZE, &few);
-    struct error *error = history_row(history, simulation, 1e-7, &start);
+    struct error *error = write_row(history, simulation, &start);
     setrlimit(RLIMIT_FSIZE, &before);
     assert_non_null(error);
     assert_int_equal(error_kind(error), ERROR_SYSTEM);

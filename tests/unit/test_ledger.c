@@ -1,4 +1,4 @@
-/* The ledger and the totals of the particles: what is booked is found again, exactly, in any
+/* The ledger and the totals of particles and cells: what is booked is found again, exactly, in any
  * order. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -8,6 +8,7 @@
 #include <cmocka.h>
 #include <string.h>
 
+#include "grid/cell_blocks.h"
 #include "model/ledger.h"
 #include "populations.h"
 
@@ -181,6 +182,129 @@ static void totals_do_not_depend_on_the_order_of_the_particles(void **state)
     particles_destroy(&particles[1]);
 }
 
+/* Gas in 2 x 2 x 2 blocks around the origin, from which it flows away. */
+enum { SIDE = 8, BLOCKS = 8, CELLS = BLOCKS * SIDE * SIDE * SIDE };
+struct cube {
+    struct cell_block block[BLOCKS];
+    uint16_t body[CELLS];
+    double mass[CELLS], energy[CELLS], position[CELLS][3], velocity[CELLS][3];
+};
+
+static void fill_block(struct cube *cube, struct cell_block *block, int layers, bool flowing)
+{
+    *block =
+        (struct cell_block){.key = block->key,
+                            .count = {SIDE, SIDE, layers},
+                            .corner = {(block->key & 1) ? 0 : -SIDE, (block->key & 2) ? 0 : -SIDE,
+                                       (block->key & 4) ? 0 : -SIDE},
+                            .first = block->first};
+    for (int c = 0; c < SIDE * SIDE * layers; c++) {
+        const int at[3] = {c % SIDE, c / SIDE % SIDE, c / (SIDE * SIDE)}, i = block->first + c;
+        double square_of_radius = 0.0;
+        for (int axis = 0; axis < 3; axis++) {
+            cube->position[i][axis] = ((double)(block->corner[axis] + at[axis]) + 0.5) * 0.1;
+            square_of_radius += square(cube->position[i][axis]);
+        }
+        const double law = exp(-square_of_radius);
+        cube->mass[i] = 1.0 + law / 3.0;
+        cube->energy[i] = 1e5 * (1.0 + law);
+        for (int axis = 0; axis < 3; axis++)
+            cube->velocity[i][axis] = flowing ? law * cube->position[i][axis] : 0.0;
+    }
+}
+
+/* The last block has only so many LAYERS of cells along z. */
+static struct population make_cube(struct cube *cube, bool reversed, int layers, bool flowing)
+{
+    int32_t first = 0;
+    memset(cube, 0, sizeof *cube);
+    for (int b = 0; b < BLOCKS; b++) {
+        struct cell_block *block = &cube->block[b];
+        block->key = (uint64_t)(reversed ? BLOCKS - 1 - b : b);
+        block->first = first;
+        const int of = block->key == BLOCKS - 1 ? layers : SIDE;
+        fill_block(cube, block, of, flowing);
+        first += SIDE * SIDE * of;
+    }
+    return (struct population){.kind = POPULATION_OF_CELLS,
+                               .dimension = 3,
+                               .threads = 1,
+                               .count = first,
+                               .body = cube->body,
+                               .mass = cube->mass,
+                               .energy = cube->energy,
+                               .position = (const double(*)[3])cube->position,
+                               .velocity = (const double(*)[3])cube->velocity,
+                               .blocks = BLOCKS,
+                               .block = cube->block};
+}
+
+static void totals_of_cells_do_not_depend_on_the_order_of_blocks_or_threads(void **state)
+{
+    (void)state;
+    static struct cube cubes[2];
+    const struct ranks alone = ranks_alone();
+    const struct totals a = population_totals(make_cube(&cubes[0], false, 5, true), &alone, -1);
+    for (int threads = 1; threads <= 3; threads++) {
+        struct population other = make_cube(&cubes[1], true, 5, true);
+        other.threads = threads;
+        const struct totals b = population_totals(other, &alone, -1);
+        assert_same_totals(&a, &b);
+    }
+}
+
+static void totals_of_cells_are_exact_but_for_rounding(void **state)
+{
+    (void)state;
+    static struct cube cube;
+    const struct ranks alone = ranks_alone();
+    const struct population cells = make_cube(&cube, false, 5, true);
+    struct population particles = cells; /* whose sums are exact */
+    particles.blocks = 0;
+    particles.block = NULL;
+    const struct totals rounded = population_totals(cells, &alone, -1),
+                        exact = population_totals(particles, &alone, -1);
+    const double mass = exact.entry[LEDGER_MASS], energy = exact.entry[LEDGER_ENERGY],
+                 momentum = exact.momentum_scale;
+    assert_float_equal(rounded.entry[LEDGER_MASS], mass, 3e-16 * mass);
+    assert_float_equal(rounded.entry[LEDGER_ENERGY], energy, 3e-16 * energy);
+    assert_float_equal(rounded.kinetic, exact.kinetic, 3e-16 * exact.kinetic);
+    assert_float_equal(rounded.momentum_scale, momentum, 3e-16 * momentum);
+    for (int entry = LEDGER_MOMENTUM_X; entry <= LEDGER_ANGULAR_Z; entry++)
+        assert_float_equal(rounded.entry[entry], exact.entry[entry], 3e-16 * momentum);
+}
+
+static void what_mirrored_blocks_have_cancels_exactly(void **state)
+{
+    (void)state;
+    static struct cube cube;
+    const struct ranks alone = ranks_alone();
+    const struct totals totals = population_totals(make_cube(&cube, false, SIDE, true), &alone, -1);
+    for (int entry = LEDGER_MOMENTUM_X; entry <= LEDGER_ANGULAR_Z; entry++)
+        assert_true(totals.entry[entry] == 0.0);
+    assert_true(totals.kinetic > 0.0);
+}
+
+static void cells_at_rest_have_mass_and_internal_energy(void **state)
+{
+    (void)state;
+    static struct cube cube;
+    const struct ranks alone = ranks_alone();
+    struct population cells = make_cube(&cube, false, SIDE, false);
+    struct totals totals = population_totals(cells, &alone, -1);
+    assert_true(totals.kinetic == 0.0 && totals.momentum_scale == 0.0);
+    assert_true(totals.entry[LEDGER_MASS] > CELLS);
+    assert_true(totals.entry[LEDGER_ENERGY] == totals.internal && totals.internal > 1e5 * CELLS);
+    cube.velocity[CELLS - 1][1] = 1.0; /* one moves, of another body */
+    cube.body[CELLS - 1] = 1;
+    totals = population_totals(cells, &alone, -1);
+    assert_true(totals.entry[LEDGER_MOMENTUM_Y] == cube.mass[CELLS - 1]);
+    assert_true(population_totals(cells, &alone, 1).entry[LEDGER_MASS] == cube.mass[CELLS - 1]);
+    assert_true(population_totals(cells, &alone, 0).kinetic == 0.0);
+    cube.energy[7] = NAN;
+    assert_true(isnan(population_totals(cells, &alone, -1).internal));
+}
+
 static void drift_is_measured_by_the_largest_energy_there_is(void **state)
 {
     (void)state;
@@ -206,6 +330,10 @@ int main(void)
         cmocka_unit_test(a_saved_ledger_loads_with_every_digit),
         cmocka_unit_test(totals_of_the_particles_are_sums_of_what_each_has),
         cmocka_unit_test(totals_do_not_depend_on_the_order_of_the_particles),
+        cmocka_unit_test(totals_of_cells_do_not_depend_on_the_order_of_blocks_or_threads),
+        cmocka_unit_test(totals_of_cells_are_exact_but_for_rounding),
+        cmocka_unit_test(what_mirrored_blocks_have_cancels_exactly),
+        cmocka_unit_test(cells_at_rest_have_mass_and_internal_energy),
         cmocka_unit_test(drift_is_measured_by_the_largest_energy_there_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
