@@ -331,6 +331,9 @@ struct error *sph_check_periods(const struct simulation *simulation, double supp
 /* Takes particles that left through a periodic face in at the other. */
 void sph_wrap(const struct simulation *simulation, const struct particles *particles);
 
+/* unequal.c. Warnings of gases that touch and whose particles differ too much in mass. */
+struct error *sph_coarse(const void *parameters, const struct simulation_case *input);
+
 /* outside.c. ERROR_INPUT, located, for what no scheme can do of what acts from outside. */
 struct error *sph_refuse(const struct simulation *simulation);
 

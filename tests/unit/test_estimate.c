@@ -282,6 +282,45 @@ static void a_shape_of_another_volume_than_its_particles_is_a_warning(void **sta
     assert_in_range(warned, 10, 50);
 }
 
+/* Gases of a ratio of 1 to 100 in density and in pressure, in 1-D and 2-D, with particles of
+ * another size in the denser one; some are apart. Only in 1-D they move with their contacts. */
+static void gases_of_too_unequal_particles_are_a_warning(void **state)
+{
+    (void)state;
+    struct dice dice = {62};
+    int warned = 0;
+    for (int round = 0; round < 100; round++) {
+        const int dimension = 1 + round % 2;
+        const double finer = dice_between(&dice, 1.0, 3.0), gap = round % 10 == 0 ? 0.5 : 0.0;
+        const double denser = pow(10.0, dice_between(&dice, 0.0, 2.0));
+        const double higher = pow(10.0, dice_between(&dice, 0.0, 2.0));
+        char text[900];
+        snprintf(text, sizeof text,
+                 "format: 1\ndimension: %d\nresolution: 0.1 m\nsolver: sph\n"
+                 "materials: {gas: {eos: {ideal-gas: {density: 1 kg/m^3, gamma: 1.4}}}}\n"
+                 "run: {until: 1 us}\nbodies:\n"
+                 "  dense: {material: gas, density: %.17g kg/m^3, pressure: %.17g Pa, resolution: "
+                 "%.17g m,\n          box: {from: [-1 m%s], to: [%g m%s]}}\n"
+                 "  thin: {material: gas, pressure: 1 Pa, box: {from: [0 m%s], to: [1 m%s]}}\n",
+                 dimension, denser, higher, 0.1 / finer, dimension > 1 ? ", 0 m" : "", -gap,
+                 dimension > 1 ? ", 1 m" : "", dimension > 1 ? ", 0 m" : "",
+                 dimension > 1 ? ", 1 m" : "");
+        struct simulation_case *input;
+        assert_success(read_text(text, "", &input));
+        struct error *warnings = estimate_warnings(input);
+        const double ratio = denser / pow(finer, dimension);
+        const bool found =
+            warnings && strstr(error_message(warnings, 0), "bodies.dense: its particles are");
+        if (found != (dimension == 1 && ratio > 15.0 && higher > 5.0 && gap == 0.0))
+            fail_msg("round %d: masses %g, pressures %g, %s", round, ratio, higher,
+                     found ? "a warning" : "no warning");
+        warned += found;
+        error_free(warnings);
+        case_free(input);
+    }
+    assert_in_range(warned, 5, 25);
+}
+
 static void a_plate_of_less_than_three_particles_is_a_warning(void **state)
 {
     (void)state;
@@ -371,6 +410,7 @@ int main(void)
         cmocka_unit_test(a_body_that_is_cut_unless_in_half_is_a_warning),
         cmocka_unit_test(a_shape_of_another_volume_than_its_particles_is_a_warning),
         cmocka_unit_test(a_plate_of_less_than_three_particles_is_a_warning),
+        cmocka_unit_test(gases_of_too_unequal_particles_are_a_warning),
         cmocka_unit_test(a_start_below_0_k_is_a_warning),
         cmocka_unit_test(particles_on_nodes_of_linear_functions_are_a_warning),
         cmocka_unit_test(a_coupled_case_counts_the_particles_of_the_region_and_the_cells),
