@@ -107,7 +107,7 @@ static struct error *warn_of_cut(const struct simulation_case *input, int body)
 }
 
 /* The volume of the sites of BODY that become particles, about an axis times their radius; NAN
- * where its lattice is refused, which is told elsewhere. */
+ * where its lattice is refused, which has its own message. */
 static double volume_of_body(const struct overlaps *overlaps, int body)
 {
     const struct ranks alone = ranks_alone();
