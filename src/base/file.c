@@ -143,6 +143,8 @@ struct error *file_publish(const char *path)
     else
         number = flush_folder_of(path);
     free(beside);
+    if (number == ENOENT) /* what was written is elsewhere: the folder was replaced */
+        TRY(file_check_folder(path));
     return number ? system_error(path, number) : NULL;
 }
 

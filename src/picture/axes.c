@@ -46,9 +46,11 @@ void canvas_destroy(struct canvas *canvas)
     canvas->surface = NULL;
 }
 
-struct error *canvas_publish(const struct canvas *canvas, const char *path)
+struct error *canvas_publish(const struct canvas *canvas, const char *path, bool own_folder)
 {
     char *beside;
+    if (own_folder)
+        TRY(file_check_folder(path));
     TRY(file_clear_beside(path, &beside));
     cairo_status_t status = cairo_status(canvas->pen);
     errno = 0;

@@ -134,7 +134,7 @@ static struct keyed *sort_dots(const struct dots *dots)
     if (!order)
         return NULL;
     for (size_t k = 0; k < count; ++k)
-        order[k] = (struct keyed){dots->dot[k].id, (int32_t)k};
+        order[k] = (struct keyed){dots->dot[k].order, (int32_t)k};
     radix_sort(order, order + count, dots->count, 1);
     for (size_t k = 0; k < count; ++k)
         order[k].key = key_of_depth(dots->dot[order[k].index].depth);

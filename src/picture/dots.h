@@ -25,7 +25,7 @@ struct plane plane_find(const struct simulation *simulation, const struct popula
 /* A particle in the picture, in metres from the middle of the extents: floats halve the memory. */
 struct dot {
     float across, up, depth, diameter, value;
-    uint64_t id;
+    uint64_t order; /* of dots of one depth: cells first, then particles, each by their ids */
 };
 
 /* Those of this rank. */
@@ -51,7 +51,7 @@ struct viewport {
 };
 
 /* Collective: paints the dots of all ranks over each other, what lies deeper first, of equal depth
- * the lower id, so that the picture is the same however they are stored. Rank 0 gets the rows,
+ * in their order, so that the picture is the same however they are stored. Rank 0 gets the rows,
  * right pixels each, in fresh memory at *image; the others NULL. DOTS lose their order. */
 struct error *dots_paint(const struct ranks *ranks, struct dots *dots,
                          const struct viewport *viewport, uint32_t **image);

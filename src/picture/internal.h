@@ -22,8 +22,8 @@ struct canvas {
 struct error *canvas_create(double width, double height, struct canvas *canvas);
 void canvas_destroy(struct canvas *canvas);
 
-/* Writes the picture to PATH as PNG. */
-struct error *canvas_publish(const struct canvas *canvas, const char *path);
+/* Writes the picture to PATH as PNG; OWN_FOLDER: in a folder of the run, which is no link. */
+struct error *canvas_publish(const struct canvas *canvas, const char *path, bool own_folder);
 
 enum text_style { TEXT_TITLE, TEXT_NOTE, TEXT_LABEL, TEXT_TICK };
 

@@ -271,7 +271,7 @@ static struct error *write_page(const char *path, struct page *page, const struc
         legend_draw(&canvas, &(struct legend){around->entry, around->entries, LEFT, top,
                                               page->width - LEFT - RIGHT});
         draw_page(&canvas, page, dots, around, viewport, image);
-        error = canvas_publish(&canvas, path);
+        error = canvas_publish(&canvas, path, true);
     }
     canvas_destroy(&canvas);
     return error;
@@ -346,6 +346,7 @@ static struct error *plot_line_problem(const char *path, const struct simulation
                         .count = 1,
                         .series = &series,
                         .note = note,
+                        .own_folder = true,
                         .y_low = isnan(fixed.high) ? NAN : fixed.low,
                         .y_high = fixed.high};
     return picture_plot(path, &plot);

@@ -43,6 +43,7 @@ struct plot {
     bool log_x, log_y;
     const char *note;     /* a line under the title, the time for example; NULL: none */
     double y_low, y_high; /* fix the y axis; equal: the series' own range */
+    bool own_folder;      /* it goes into a folder of the run: refused where that is a link */
 };
 
 struct error *picture_plot(const char *path, const struct plot *plot);

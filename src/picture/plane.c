@@ -56,6 +56,7 @@ static void measure(const struct simulation *simulation, const struct population
         extent[axis] = range_of_all(ranks, extent[axis]);
     ranks_sum_exact(ranks, &logarithms, 1);
     counted = ranks_sum(ranks, counted);
+    plane->cells = ranks_sum(ranks, plane->cells) > 0;
     plane->diameter = counted > 0 ? exp(exact_sum_value(&logarithms) / (double)counted) : 0.0;
 }
 
@@ -116,7 +117,7 @@ static bool take_one(const struct population *population, const struct plane *pl
     dot->depth = (float)depth;
     dot->diameter = (float)diameter;
     dot->value = (float)value;
-    dot->id = population->id[i];
+    dot->order = (uint64_t)(population->kind == POPULATION_OF_PARTICLES) << 63 | population->id[i];
     range_include(&dots->values, value);
     return true;
 }

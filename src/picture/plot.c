@@ -269,7 +269,7 @@ struct error *picture_plot(const char *path, const struct plot *plot)
     if (!error)
         error = draw_plot(&canvas, plot);
     if (!error)
-        error = canvas_publish(&canvas, path);
+        error = canvas_publish(&canvas, path, plot->own_folder);
     canvas_destroy(&canvas);
     return error;
 }

@@ -165,7 +165,8 @@ static struct error *draw(const struct measurement *m, const struct scatter *par
                             .y_name = parameters->field,
                             .y_unit = unit,
                             .count = 2,
-                            .series = series};
+                            .series = series,
+                            .own_folder = true};
         error = picture_plot(path, &plot);
     } else
         error = error_new(ERROR_SYSTEM, "out of memory for a picture");
@@ -205,10 +206,8 @@ static struct error *draw_field(const struct measurement *measurement, const cha
     struct error *error = take_dots(&m, &dots);
     if (!error && dots.count > 1) {
         char *path = path_join(folder, name);
-        error =
-            path ? file_check_folder(path) : error_new(ERROR_SYSTEM, "out of memory for a picture");
-        if (!error)
-            error = draw(&m, &dots, unit, path);
+        error = path ? draw(&m, &dots, unit, path)
+                     : error_new(ERROR_SYSTEM, "out of memory for a picture");
         free(path);
     }
     scatter_free(&dots);

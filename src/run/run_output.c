@@ -344,7 +344,7 @@ static struct error *draw_pictures(struct run *run, const struct population *pop
     for (int i = 0; i < fields->count && !error; i++) {
         char *name = text_format("pictures/%s-%06lld.png", fields->names[i], (long long)number);
         char *path = name ? run_path(run, name) : NULL;
-        error = ranks_agree(&run->ranks, path ? file_check_folder(path) : out_of_memory());
+        error = ranks_agree(&run->ranks, path ? NULL : out_of_memory());
         if (!error)
             error =
                 picture_particles(path, &run->simulation, population, fields->names[i], NAN, NAN);
