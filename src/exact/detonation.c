@@ -42,10 +42,10 @@ static double hugoniot(const struct material *material, double ahead, double vol
 double detonation_temperature(const struct material *material, double density, double pressure,
                               double burnt, double explosive)
 {
-    if (material->eos.kind != EOS_reactive_jwl)
-        return NAN;
-    return reactive_jwl_temperature(&material->eos.of.reactive_jwl, density, pressure, burnt,
-                                    explosive);
+    double history[POINT_HISTORY];
+    set_burnt(burnt, history);
+    history[HISTORY_explosive_volume] = explosive;
+    return eos_phases_temperature(&material->eos, density, pressure, history);
 }
 
 static struct detonation_state state_at(const struct material *material, double ahead, double speed,

@@ -10,7 +10,7 @@
 #include "exact/detonation.h"
 #include "exact/waves.h"
 
-enum { PANELS = 120, RANGES = 4, NODES = PANELS * RANGES };
+enum { PANELS = 120, RANGES = BURN_ENDS + 1, NODES = PANELS * RANGES };
 
 struct znd {
     struct detonation detonation;
@@ -66,14 +66,9 @@ static void znd_take_material(void *parameters, int index, const struct material
 /* The fractions burnt, in order, between which the rate is smooth. */
 static void find_ranges(const struct material *material, double range[RANGES + 1])
 {
-    for (int k = 0; k <= RANGES; k++)
-        range[k] = k < RANGES ? 0.0 : 1.0;
-    if (material->burn.kind != BURN_ignition_growth)
-        return;
-    const struct burn_ignition_growth *burn = &material->burn.of.ignition_growth;
-    range[1] = burn->ignition_until;
-    range[2] = burn->growth_until;
-    range[3] = burn->completion_from;
+    range[0] = 0.0;
+    range[RANGES] = 1.0;
+    burn_rate_ends(&material->burn, range + 1);
     for (int i = 2; i < RANGES; i++)
         for (int k = i; k > 1 && range[k] < range[k - 1]; k--) {
             const double smaller = range[k];

@@ -15,10 +15,7 @@ struct error *marker_no_memory(void)
 void gas_count_heat(struct gas *gas)
 {
     for (int m = 0; m < 2; m++)
-        if (gas->eos[m].kind == EOS_jwl) {
-            gas->heat[m] = gas->eos[m].of.jwl.energy / gas->eos[m].of.jwl.density;
-            gas->eos[m].of.jwl.energy = 0.0;
-        }
+        gas->heat[m] = eos_take_heat(&gas->eos[m]);
 }
 
 /* The value at XI, -1 to 1 of a cell from the middle of three, of the parabola through A, B and C

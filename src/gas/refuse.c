@@ -77,7 +77,7 @@ static const char *refuse_material(const struct material *material)
 {
     if (material_has_strength(material))
         return "the solver gas computes fluids: leave the strength out";
-    if (material_burns(material) && material->burn.kind != BURN_programmed)
+    if (material_burns(material) && !burn_traits(&material->burn).by_time)
         return "the solver gas burns explosives as programmed: choose `burn: programmed`, or leave "
                "`burn` out and begin with products";
     if (material_burns(material) && !is_linear(&material->eos))

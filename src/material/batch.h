@@ -140,13 +140,12 @@ BOLIDE_INLINE void batch_leave_rubble(const struct material *material, struct ba
 BOLIDE_INLINE void batch_fail(const struct material *material, struct batch *b,
                               const double *strain, struct batch_matter *matter)
 {
-    const bool softens = material->strength.kind == STRENGTH_johnson_cook &&
-                         johnson_cook_softens(&material->strength.of.johnson_cook);
-    double pressure[BATCH], damage[BATCH];
+    double pressure[BATCH], damage[BATCH], homologous[BATCH];
     uint64_t failed = 0;
     for (int k = 0; k < b->count; k++)
         matter->density[k] = b->new_density[k] / (1.0 + b->void_ratio[k]);
     batch_trial(&material->eos, b, matter, pressure);
+    strength_batch_homologous(&material->strength, b, homologous);
     switch (material->failure.kind) {
 #define BATCH_CASE(name)                                                                          \
     case FAILURE_##name:                                                                          \
@@ -157,9 +156,7 @@ BOLIDE_INLINE void batch_fail(const struct material *material, struct batch *b,
             struct failing failing =                                                              \
                 material_failing(&motion, &point, b->plastic_strain[k] - strain[k], pressure[k]); \
             failing.relative = 1.0 + b->scatter[k];                                               \
-            if (softens)                                                                          \
-                failing.homologous = johnson_cook_homologous(&material->strength.of.johnson_cook, \
-                                                             b->plastic_heating[k]);              \
+            failing.homologous = homologous[k];                                                   \
             damage[k] = failure_##name(&material->failure.of.name, &failing, b->damage[k]);       \
         }                                                                                         \
         break;

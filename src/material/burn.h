@@ -15,13 +15,22 @@
 #include "material/burn/programmed.h"
 
 /* X(identifier): in burn/<identifier>.h struct burn_<identifier>, whose first member is the speed
- * of the detonation, burn_<identifier>(), which gives F, and its name, help and parameters (see
- * choices.c). */
-#define BURN_LIST(X)   \
-    X(programmed)      \
-    X(beta)            \
+ * of the detonation, burn_<identifier>_traits(), and its name, help and parameters (see choices.c).
+ */
+#define BURN_LIST(X)  \
+    BURN_FRACTIONS(X) \
+    BURN_RATES(X)
+
+/* Those whose fraction follows from the state and the time: burn_<identifier>() gives F. */
+#define BURN_FRACTIONS(X) \
+    X(programmed)         \
+    X(beta)               \
+    X(cj_threshold)
+
+/* Those with a rate: burn_<identifier>_rate() gives dF/dt, 1/s, and burn_<identifier>_ends() sets
+ * the fractions at which terms of it end, in any order. */
+#define BURN_RATES(X)  \
     X(ignition_growth) \
-    X(cj_threshold)    \
     X(pressure_power)
 
 #define BURN_ENUM(name) BURN_##name,
@@ -38,16 +47,33 @@ struct burn {
 };
 #undef BURN_MEMBER
 
-/* Whether it burns at a rate, which its state decides. */
-BOLIDE_INLINE bool burn_has_rate(const struct burn *burn)
+BOLIDE_INLINE struct burn_traits burn_traits(const struct burn *burn)
 {
-    return burn->kind == BURN_ignition_growth || burn->kind == BURN_pressure_power;
+    switch (burn->kind) {
+#define BURN_CASE(name) \
+    case BURN_##name:   \
+        return burn_##name##_traits(&burn->of.name);
+        BURN_LIST(BURN_CASE)
+#undef BURN_CASE
+    default:
+        return burn_default_traits();
+    }
 }
 
 /* Whether it burns by itself, where it is compressed; the others are lit. */
-BOLIDE_INLINE bool burn_is_kinetic(const struct burn *burn)
+BOLIDE_INLINE bool burn_is_kinetic(const struct burn *burn) { return burn_traits(burn).kinetic; }
+
+/* Whether it burns at a rate, which its state decides. */
+BOLIDE_INLINE bool burn_has_rate(const struct burn *burn)
 {
-    return burn->kind == BURN_cj_threshold || burn_has_rate(burn);
+    switch (burn->kind) {
+#define BURN_CASE(name) case BURN_##name:
+        BURN_RATES(BURN_CASE)
+#undef BURN_CASE
+        return true;
+    default:
+        return false;
+    }
 }
 
 /* The fraction burnt of POINT after a step; BEFORE: after the step before. */
@@ -58,10 +84,41 @@ BOLIDE_INLINE double burn_fraction(const struct burn *burn, const struct burning
 #define BURN_CASE(name) \
     case BURN_##name:   \
         return maximum(before, burn_##name(&burn->of.name, point));
-        BURN_LIST(BURN_CASE)
+        BURN_FRACTIONS(BURN_CASE)
 #undef BURN_CASE
     default:
         return 1.0;
+    }
+}
+
+/* The rate of POINT, 1/s; zero where the model has none. */
+BOLIDE_INLINE double burn_rate(const struct burn *burn, const struct reacting *point)
+{
+    switch (burn->kind) {
+#define BURN_CASE(name) \
+    case BURN_##name:   \
+        return burn_##name##_rate(&burn->of.name, point);
+        BURN_RATES(BURN_CASE)
+#undef BURN_CASE
+    default:
+        return 0.0;
+    }
+}
+
+/* The fractions at which terms of the rate end, in any order; zero for those that there are not. */
+BOLIDE_INLINE void burn_rate_ends(const struct burn *burn, double end[BURN_ENDS])
+{
+    for (int k = 0; k < BURN_ENDS; k++)
+        end[k] = 0.0;
+    switch (burn->kind) {
+#define BURN_CASE(name)                          \
+    case BURN_##name:                            \
+        burn_##name##_ends(&burn->of.name, end); \
+        break;
+        BURN_RATES(BURN_CASE)
+#undef BURN_CASE
+    default:
+        break;
     }
 }
 

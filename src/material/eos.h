@@ -50,6 +50,15 @@
 /* Models of irreversible compaction: eos_<identifier>_compact() notes it in the history. */
 #define EOS_COMPACTING(X) X(hjc)
 
+/* Mixtures of an explosive and products with volumes of their own: eos_<identifier>_react() is
+ * eos_<identifier>() and notes the volume of the explosive in the history, eos_<identifier>_temperature()
+ * gives the temperature that both have, K, of density, pressure and that history. */
+#define EOS_PHASES(X) X(reactive_jwl)
+
+/* Products whose energy counts from the explosive at rest: eos_<identifier>_take_heat() makes it count
+ * from cold products and returns the difference, J/kg. */
+#define EOS_CHARGED(X) X(jwl)
+
 /* Models whose published formula has a limited range: outside it eos_<identifier>() returns
  * POINT_BEYOND, and eos_<identifier>_beyond() continues it. */
 #define EOS_CONTINUED(X)     \
@@ -184,6 +193,51 @@ BOLIDE_INLINE double eos_compact(const struct eos *eos, double density, double *
     case EOS_##name:   \
         return eos_##name##_compact(&eos->of.name, density, history);
         EOS_COMPACTING(EOS_CASE)
+#undef EOS_CASE
+    default:
+        return 0.0;
+    }
+}
+
+/* eos_evaluate, and HISTORY gets the volume of the explosive, over that at rest. */
+BOLIDE_INLINE struct eos_value eos_react(const struct eos *eos, double density, double energy,
+                                         double *history)
+{
+    switch (eos->kind) {
+#define EOS_CASE(name) \
+    case EOS_##name:   \
+        return eos_##name##_react(&eos->of.name, density, energy, history);
+        EOS_PHASES(EOS_CASE)
+#undef EOS_CASE
+    default:
+        history[HISTORY_explosive_volume] = eos_reference_density(eos) / density;
+        return eos_evaluate(eos, density, energy, history);
+    }
+}
+
+/* The temperature of a mixture whose phases have one, K; NAN: it has none of its own. */
+BOLIDE_INLINE double eos_phases_temperature(const struct eos *eos, double density, double pressure,
+                                            const double *history)
+{
+    switch (eos->kind) {
+#define EOS_CASE(name) \
+    case EOS_##name:   \
+        return eos_##name##_temperature(&eos->of.name, density, pressure, history);
+        EOS_PHASES(EOS_CASE)
+#undef EOS_CASE
+    default:
+        return NAN;
+    }
+}
+
+/* Makes the energy of products count from cold ones; by how much it grows, J/kg. */
+BOLIDE_INLINE double eos_take_heat(struct eos *eos)
+{
+    switch (eos->kind) {
+#define EOS_CASE(name) \
+    case EOS_##name:   \
+        return eos_##name##_take_heat(&eos->of.name);
+        EOS_CHARGED(EOS_CASE)
 #undef EOS_CASE
     default:
         return 0.0;

@@ -51,12 +51,9 @@ BOLIDE_INLINE bool material_is_lit(const struct material *material)
  * less than those of the explosive; zero where nothing reacts by a rate or a threshold. */
 BOLIDE_INLINE double material_reaction_heat(const struct material *material)
 {
-    const struct eos *eos = &material->eos;
-    if (!burn_is_kinetic(&material->burn))
-        return 0.0;
-    return (eos->kind == EOS_blended_jwl ? eos->of.blended_jwl.energy
-                                         : eos->of.reactive_jwl.energy) /
-           material_density(material);
+    return burn_is_kinetic(&material->burn)
+               ? eos_traits(&material->eos).reaction_energy / material_density(material)
+               : 0.0;
 }
 
 /* The speed of its detonation, m/s; of one that burns by a rate an estimate from its heat, that of
@@ -232,7 +229,8 @@ BOLIDE_INLINE void material_fail(const struct material *material, const struct m
         struct failing failing = material_failing(motion, point, flow, value.pressure);
         failing.sound = sqrt(maximum(bulk, 0.0));
         failing.yield = strength_yield(&material->strength, point);
-        failing.homologous = strength_homologous(&material->strength, point);
+        failing.homologous =
+            strength_homologous(&material->strength, point->history[HISTORY_plastic_heating]);
         *damage = minimum(failure_damage(&material->failure, &failing, *damage), 1.0);
     }
     if (*damage >= 1.0)
@@ -248,44 +246,23 @@ struct reaction {
     double rate;
 };
 
-/* That at DENSITY and ENERGY; HISTORY gets the volume of the unburnt part where the phases have
- * volumes of their own. */
+/* That at DENSITY and ENERGY; HISTORY gets the volume of the unburnt part. */
 BOLIDE_INLINE struct reaction material_reaction(const struct material *material, double density,
                                                 double energy, double *history)
 {
-    const struct burn *burn = &material->burn;
-    const double burnt = history[HISTORY_burnt], volume = material_density(material) / density;
-    double *const explosive = &history[HISTORY_explosive_volume];
     struct reaction reaction;
-    if (material->eos.kind == EOS_reactive_jwl) {
-        reaction.value =
-            reactive_jwl_state(&material->eos.of.reactive_jwl, density, energy, burnt, explosive);
-    } else {
-        reaction.value = eos_evaluate(&material->eos, density, energy, history);
-        *explosive = volume;
-    }
-    if (burn->kind == BURN_pressure_power) {
-        reaction.rate =
-            pressure_power_rate(&burn->of.pressure_power, burnt, reaction.value.pressure);
-        return reaction;
-    }
-    const struct burn_ignition_growth *growth = &burn->of.ignition_growth;
-    const double pressed =
-        1.0 / (growth->compression == IGNITION_MIXTURE ? volume : *explosive) - 1.0;
-    reaction.rate = ignition_growth_rate(growth, burnt, reaction.value.pressure, pressed);
+    reaction.value = eos_react(&material->eos, density, energy, history);
+    const struct reacting point = {history[HISTORY_burnt], reaction.value.pressure,
+                                   material_density(material) / density,
+                                   history[HISTORY_explosive_volume]};
+    reaction.rate = burn_rate(&material->burn, &point);
     return reaction;
 }
 
-/* Burns POINT, at its new density, for DT. */
+/* Burns POINT, at its new density, for DT at the rate of its state. */
 BOLIDE_INLINE void material_react(const struct material *material, double dt, struct point *point)
 {
     double *const burnt = &point->history[HISTORY_burnt];
-    if (!burn_has_rate(&material->burn)) {
-        if (cj_threshold_burns(&material->burn.of.cj_threshold,
-                               material_density(material) / point->density))
-            *burnt = 1.0;
-        return;
-    }
     for (double left = dt; left > 0.0 && *burnt < 1.0;) {
         const double rate =
             material_reaction(material, point->density, point->energy, point->history).rate;
@@ -293,6 +270,24 @@ BOLIDE_INLINE void material_react(const struct material *material, double dt, st
         *burnt = minimum(*burnt + rate * time, 1.0);
         left = time < left ? left - time : 0.0;
     }
+}
+
+/* The fraction of POINT that has burnt after a step, at its new density. */
+BOLIDE_INLINE void material_burn(const struct material *material, const struct motion *motion,
+                                 struct point *point)
+{
+    if (burn_has_rate(&material->burn)) {
+        material_react(material, motion->dt, point);
+        return;
+    }
+    const double rest = material_density(material);
+    struct burning burning;
+    burning.passed = motion->time - point->history[HISTORY_lighting_time];
+    burning.length = motion->length;
+    burning.volume = rest / point->density;
+    burning.rest = rest;
+    point->history[HISTORY_burnt] =
+        burn_fraction(&material->burn, &burning, point->history[HISTORY_burnt]);
 }
 
 /* Takes deviator and history of a point to its new density: burning, compaction, then elastic
@@ -304,18 +299,8 @@ BOLIDE_INLINE void material_flow(const struct material *material, struct point *
     point->density = motion->density;
     if (material_fails(material))
         point->density /= 1.0 + point->history[HISTORY_void_ratio];
-    if (burn_is_kinetic(&material->burn))
-        material_react(material, motion->dt, point);
-    if (material_is_lit(material)) {
-        double rest = material_density(material);
-        struct burning burning;
-        burning.passed = motion->time - point->history[HISTORY_lighting_time];
-        burning.length = motion->length;
-        burning.volume = rest / point->density;
-        burning.rest = rest;
-        point->history[HISTORY_burnt] =
-            burn_fraction(&material->burn, &burning, point->history[HISTORY_burnt]);
-    }
+    if (material_burns(material))
+        material_burn(material, motion, point);
     double compaction = eos_compact(&material->eos, point->density, point->history);
     if (strength_takes_pressure(&material->strength)) {
         struct eos_value trial = material_pressure(material, point);
@@ -349,14 +334,15 @@ BOLIDE_INLINE const char *material_failure_wrong(const struct material *material
 /* Why equation of state and burning do not go together; NULL when they do. */
 BOLIDE_INLINE const char *material_burn_wrong(const struct material *material)
 {
-    const enum eos_kind eos = material->eos.kind;
-    const bool phases = eos == EOS_reactive_jwl, both = phases || eos == EOS_blended_jwl;
+    const unsigned history = eos_history(&material->eos);
+    const bool phases = history & HISTORY_BIT(explosive_volume),
+               both = history & HISTORY_BIT(burnt);
     if (both && !burn_is_kinetic(&material->burn))
         return phases ? "`eos: reactive-jwl` needs `burn: ignition-growth` or `pressure-power`, "
                         "which tells how much has burnt"
                       : "`eos: blended-jwl` needs `burn: cj-threshold` or `pressure-power`, which "
                         "tells how much has burnt";
-    if (material->burn.kind == BURN_ignition_growth && !phases)
+    if (burn_traits(&material->burn).phases && !phases)
         return "ignition-growth needs an equation of state of explosive and products: "
                "`eos: reactive-jwl`";
     if (!both && burn_is_kinetic(&material->burn))

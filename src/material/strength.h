@@ -30,6 +30,9 @@
     X(perfect_plastic)      \
     X(johnson_cook)
 
+/* Those that heat softens: strength_<identifier>_homologous(). */
+#define STRENGTH_SOFTENED(X) X(johnson_cook)
+
 /* Those that limit the tension: strength_<identifier>_cut(). */
 #define STRENGTH_CUTTING(X) X(hjc)
 
@@ -166,13 +169,38 @@ BOLIDE_INLINE void strength_cut(const struct strength *strength, const double *h
     }
 }
 
-/* T* = (T - room)/(melt - room) at POINT, at most one; zero where heat does not soften it. */
-BOLIDE_INLINE double strength_homologous(const struct strength *strength, const struct point *point)
+/* T* = (T - room)/(melt - room) of a point that plastic work has heated by HEATING, K: at most one;
+ * zero where heat does not soften it. */
+BOLIDE_INLINE double strength_homologous(const struct strength *strength, double heating)
 {
-    return strength->kind == STRENGTH_johnson_cook
-               ? johnson_cook_homologous(&strength->of.johnson_cook,
-                                         point->history[HISTORY_plastic_heating])
-               : 0.0;
+    switch (strength->kind) {
+#define STRENGTH_CASE(name) \
+    case STRENGTH_##name:   \
+        return strength_##name##_homologous(&strength->of.name, heating);
+        STRENGTH_SOFTENED(STRENGTH_CASE)
+#undef STRENGTH_CASE
+    default:
+        return 0.0;
+    }
+}
+
+/* The same of many points. */
+BOLIDE_INLINE void strength_batch_homologous(const struct strength *strength,
+                                             const struct batch *batch, double *homologous)
+{
+    switch (strength->kind) {
+#define STRENGTH_CASE(name)                                                                  \
+    case STRENGTH_##name:                                                                    \
+        for (int k = 0; k < batch->count; k++)                                               \
+            homologous[k] =                                                                  \
+                strength_##name##_homologous(&strength->of.name, batch->plastic_heating[k]); \
+        break;
+        STRENGTH_SOFTENED(STRENGTH_CASE)
+#undef STRENGTH_CASE
+    default:
+        for (int k = 0; k < batch->count; k++)
+            homologous[k] = 0.0;
+    }
 }
 
 /* The slots of history that it needs. */

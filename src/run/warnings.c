@@ -65,7 +65,7 @@ static void find_limits(struct material_watch *watch, const struct material *mat
     watch->limit[WARNING_INSTABILITY] = 1.0;
     watch->limit[WARNING_DENSITY] =
         eos_traits(&material->eos).largest_compression * material_density(material);
-    if (material->burn.kind == BURN_programmed)
+    if (burn_traits(&material->burn).by_time)
         watch->limit[WARNING_UNLIT] = UNLIT_COMPRESSION * material_density(material);
     watch->warm = !heat_wrong(&material->heat, &material->eos);
     if (!watch->warm)

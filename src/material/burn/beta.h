@@ -28,4 +28,10 @@ BOLIDE_INLINE double burn_beta(const struct burn_beta *burn, const struct burnin
     return maximum(burn_programmed(&programmed, point), pressed > 0.95 ? 1.0 : pressed);
 }
 
+BOLIDE_INLINE struct burn_traits burn_beta_traits(const struct burn_beta *burn)
+{
+    (void)burn;
+    return burn_default_traits();
+}
+
 #endif

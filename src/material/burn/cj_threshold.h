@@ -10,7 +10,7 @@
 #ifndef BOLIDE_BURN_CJ_THRESHOLD_H
 #define BOLIDE_BURN_CJ_THRESHOLD_H
 
-#include "material/point.h"
+#include "material/burn/common.h"
 
 struct burn_cj_threshold {
     double speed;     /* not given: the speed follows from the products */
@@ -28,19 +28,19 @@ struct burn_cj_threshold {
     NUMBER(T, threshold, "", "0.9", FROM_ZERO_TO_ONE,                                      \
            "fraction of the compression to that state at which it burns")
 
-/* Whether it burns at VOLUME, over that at rest. */
-BOLIDE_INLINE bool cj_threshold_burns(const struct burn_cj_threshold *burn, double volume)
-{
-    return 1.0 - volume >= burn->threshold * (1.0 - burn->volume);
-}
-
-/* What burns by itself is not lit. */
+/* F. */
 BOLIDE_INLINE double burn_cj_threshold(const struct burn_cj_threshold *burn,
                                        const struct burning *point)
 {
+    return 1.0 - point->volume >= burn->threshold * (1.0 - burn->volume) ? 1.0 : 0.0;
+}
+
+BOLIDE_INLINE struct burn_traits burn_cj_threshold_traits(const struct burn_cj_threshold *burn)
+{
+    struct burn_traits traits = burn_default_traits();
     (void)burn;
-    (void)point;
-    return 0.0;
+    traits.kinetic = true;
+    return traits;
 }
 
 #endif

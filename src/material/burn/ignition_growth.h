@@ -12,8 +12,7 @@
 #ifndef BOLIDE_BURN_IGNITION_GROWTH_H
 #define BOLIDE_BURN_IGNITION_GROWTH_H
 
-#include "base/exponential.h"
-#include "material/point.h"
+#include "material/burn/common.h"
 
 enum ignition_compression { IGNITION_EXPLOSIVE, IGNITION_MIXTURE };
 
@@ -74,13 +73,29 @@ BOLIDE_INLINE double ignition_growth_rate(const struct burn_ignition_growth *bur
     return rate;
 }
 
-/* Its fraction follows from its rate (material_react); there is nothing to light. */
-BOLIDE_INLINE double burn_ignition_growth(const struct burn_ignition_growth *burn,
-                                          const struct burning *point)
+BOLIDE_INLINE double burn_ignition_growth_rate(const struct burn_ignition_growth *burn,
+                                               const struct reacting *point)
 {
+    const double volume =
+        burn->compression == IGNITION_MIXTURE ? point->volume : point->explosive_volume;
+    return ignition_growth_rate(burn, point->burnt, point->pressure, 1.0 / volume - 1.0);
+}
+
+BOLIDE_INLINE void burn_ignition_growth_ends(const struct burn_ignition_growth *burn,
+                                             double end[BURN_ENDS])
+{
+    end[0] = burn->ignition_until;
+    end[1] = burn->growth_until;
+    end[2] = burn->completion_from;
+}
+
+BOLIDE_INLINE struct burn_traits burn_ignition_growth_traits(
+    const struct burn_ignition_growth *burn)
+{
+    struct burn_traits traits = burn_default_traits();
     (void)burn;
-    (void)point;
-    return 0.0;
+    traits.kinetic = traits.phases = true;
+    return traits;
 }
 
 #endif

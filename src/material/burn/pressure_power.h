@@ -36,13 +36,25 @@ BOLIDE_INLINE double pressure_power_rate(const struct burn_pressure_power *burn,
            burn_power(maximum(1.0 - burnt, 0.0), burn->depletion);
 }
 
-/* What burns by itself is not lit. */
-BOLIDE_INLINE double burn_pressure_power(const struct burn_pressure_power *burn,
-                                         const struct burning *point)
+BOLIDE_INLINE double burn_pressure_power_rate(const struct burn_pressure_power *burn,
+                                              const struct reacting *point)
+{
+    return pressure_power_rate(burn, point->burnt, point->pressure);
+}
+
+BOLIDE_INLINE void burn_pressure_power_ends(const struct burn_pressure_power *burn,
+                                            double end[BURN_ENDS])
 {
     (void)burn;
-    (void)point;
-    return 0.0;
+    (void)end;
+}
+
+BOLIDE_INLINE struct burn_traits burn_pressure_power_traits(const struct burn_pressure_power *burn)
+{
+    struct burn_traits traits = burn_default_traits();
+    (void)burn;
+    traits.kinetic = true;
+    return traits;
 }
 
 #endif

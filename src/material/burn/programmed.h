@@ -8,7 +8,7 @@
 #ifndef BOLIDE_BURN_PROGRAMMED_H
 #define BOLIDE_BURN_PROGRAMMED_H
 
-#include "material/point.h"
+#include "material/burn/common.h"
 
 struct burn_programmed {
     double speed; /* D, m/s */
@@ -25,6 +25,14 @@ BOLIDE_INLINE double burn_programmed(const struct burn_programmed *burn,
 {
     return point->passed >= 0.0 ? minimum(point->passed * burn->speed / (1.5 * point->length), 1.0)
                                 : 0.0;
+}
+
+BOLIDE_INLINE struct burn_traits burn_programmed_traits(const struct burn_programmed *burn)
+{
+    struct burn_traits traits = burn_default_traits();
+    (void)burn;
+    traits.by_time = true;
+    return traits;
 }
 
 #endif

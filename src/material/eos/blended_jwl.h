@@ -108,6 +108,7 @@ BOLIDE_INLINE struct eos_traits eos_blended_jwl_traits(const struct eos_blended_
 {
     struct eos_traits traits = eos_default_traits();
     traits.shock_slope = blend->slope;
+    traits.reaction_energy = blend->energy;
     traits.history = HISTORY_BIT(burnt);
     return traits;
 }

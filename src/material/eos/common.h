@@ -23,6 +23,9 @@ struct eos_traits {
     double largest_compression;
     /* Its tension has a limit that is a strength, not the form of a curve. */
     bool limits_tension;
+    /* Q, J/m^3 of an explosive at rest: the heat that its reaction frees, by which energies of its
+     * products are lower; 0: it does not react. */
+    double reaction_energy;
     /* The history that it needs: a sum of HISTORY_BIT. */
     unsigned history;
     /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
@@ -32,7 +35,7 @@ struct eos_traits {
 /* The traits of a model that says no more. */
 BOLIDE_INLINE struct eos_traits eos_default_traits(void)
 {
-    struct eos_traits traits = {NAN, NAN, NAN, false, 4.0, false, 0, NULL, NULL};
+    struct eos_traits traits = {NAN, NAN, NAN, false, 4.0, false, 0.0, 0, NULL, NULL};
     return traits;
 }
 

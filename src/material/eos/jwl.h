@@ -74,6 +74,14 @@ BOLIDE_INLINE struct eos_value eos_jwl_beyond(const struct eos_jwl *jwl, double 
     return eos_expanded(&edge, density, energy);
 }
 
+/* See EOS_CHARGED. */
+BOLIDE_INLINE double eos_jwl_take_heat(struct eos_jwl *jwl)
+{
+    const double heat = jwl->energy / jwl->density;
+    jwl->energy = 0.0;
+    return heat;
+}
+
 BOLIDE_INLINE struct eos_traits eos_jwl_traits(const struct eos_jwl *jwl)
 {
     struct eos_traits traits = eos_default_traits();

@@ -287,11 +287,20 @@ BOLIDE_INLINE struct eos_value reactive_jwl_state(const struct eos_reactive_jwl 
     return value;
 }
 
-/* The temperature of the state of DENSITY and PRESSURE that reactive_jwl_state() gives, K, from the
- * phase of which there is more; EXPLOSIVE is the volume of the explosive that it gives. */
-BOLIDE_INLINE double reactive_jwl_temperature(const struct eos_reactive_jwl *jwl, double density,
-                                              double pressure, double burnt, double explosive)
+/* See EOS_PHASES: the state, and the temperature from the phase of which there is more. */
+BOLIDE_INLINE struct eos_value eos_reactive_jwl_react(const struct eos_reactive_jwl *jwl,
+                                                      double density, double energy,
+                                                      double *history)
 {
+    return reactive_jwl_state(jwl, density, energy, history[HISTORY_burnt],
+                              &history[HISTORY_explosive_volume]);
+}
+
+BOLIDE_INLINE double eos_reactive_jwl_temperature(const struct eos_reactive_jwl *jwl,
+                                                  double density, double pressure,
+                                                  const double *history)
+{
+    const double burnt = history[HISTORY_burnt], explosive = history[HISTORY_explosive_volume];
     const bool few = burnt<0.5, pure = burnt> 1.0 - JWL_PURE;
     const struct jwl_phase phase = few ? reactive_jwl_explosive(jwl) : reactive_jwl_products(jwl);
     const double total = jwl->density / density;
@@ -312,7 +321,7 @@ BOLIDE_INLINE struct eos_value eos_reactive_jwl(const struct eos_reactive_jwl *j
 BOLIDE_INLINE struct eos_traits eos_reactive_jwl_traits(const struct eos_reactive_jwl *jwl)
 {
     struct eos_traits traits = eos_default_traits();
-    (void)jwl;
+    traits.reaction_energy = jwl->energy;
     traits.history = HISTORY_BIT(burnt) | HISTORY_BIT(explosive_volume);
     return traits;
 }

@@ -59,8 +59,8 @@ BOLIDE_INLINE bool johnson_cook_softens(const struct strength_johnson_cook *soli
 }
 
 /* T* after HEATING by K, from zero to one; zero where heat does not soften it. */
-BOLIDE_INLINE double johnson_cook_homologous(const struct strength_johnson_cook *solid,
-                                             double heating)
+BOLIDE_INLINE double strength_johnson_cook_homologous(const struct strength_johnson_cook *solid,
+                                                      double heating)
 {
     return johnson_cook_softens(solid)
                ? minimum(maximum(heating, 0.0) / (solid->melt - solid->room), 1.0)
@@ -73,7 +73,7 @@ BOLIDE_INLINE double johnson_cook_softening(const struct strength_johnson_cook *
 {
     if (!johnson_cook_softens(solid))
         return 1.0;
-    return 1.0 - power(johnson_cook_homologous(solid, heating), solid->m);
+    return 1.0 - power(strength_johnson_cook_homologous(solid, heating), solid->m);
 }
 
 /* 1 + C ln max(rate/rate_0, 1). */
