@@ -60,6 +60,9 @@ BOLIDE_INLINE struct burn_traits burn_traits(const struct burn *burn)
     }
 }
 
+/* Whether all has burnt at the start. */
+BOLIDE_INLINE bool burn_is_instant(const struct burn *burn) { return burn->kind == BURN_INSTANT; }
+
 /* Whether it burns by itself, where it is compressed; the others are lit. */
 BOLIDE_INLINE bool burn_is_kinetic(const struct burn *burn) { return burn_traits(burn).kinetic; }
 

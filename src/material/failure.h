@@ -41,10 +41,16 @@ struct failure {
 };
 #undef FAILURE_MEMBER
 
+/* Whether the material has a failure model. */
+BOLIDE_INLINE bool failure_acts(const struct failure *failure)
+{
+    return failure->kind != FAILURE_NONE;
+}
+
 /* Whether strength differs from point to point. */
 BOLIDE_INLINE bool failure_scatters(const struct failure *failure)
 {
-    return failure->kind != FAILURE_NONE && failure->of.common.weibull_modulus > 0.0;
+    return failure_acts(failure) && failure->of.common.weibull_modulus > 0.0;
 }
 
 /* The strength of a particle of VOLUME, m^3, over the characteristic one, as Weibull distributes

@@ -33,12 +33,12 @@ BOLIDE_INLINE double material_density(const struct material *material)
 
 BOLIDE_INLINE bool material_has_strength(const struct material *material)
 {
-    return material->strength.kind != STRENGTH_NONE;
+    return strength_is_solid(&material->strength);
 }
 
 BOLIDE_INLINE bool material_burns(const struct material *material)
 {
-    return material->burn.kind != BURN_INSTANT;
+    return !burn_is_instant(&material->burn);
 }
 
 /* Whether it is an explosive that a detonation of the case lights. */
@@ -67,7 +67,7 @@ BOLIDE_INLINE double material_detonation_speed(const struct material *material)
 
 BOLIDE_INLINE bool material_fails(const struct material *material)
 {
-    return material->failure.kind != FAILURE_NONE;
+    return failure_acts(&material->failure);
 }
 
 /* Whether POINT has failed by the failure model. */

@@ -50,10 +50,16 @@ struct strength {
 };
 #undef STRENGTH_MEMBER
 
+/* Whether it is that of a solid. */
+BOLIDE_INLINE bool strength_is_solid(const struct strength *strength)
+{
+    return strength->kind != STRENGTH_NONE;
+}
+
 /* Shear modulus, Pa; zero for a fluid. */
 BOLIDE_INLINE double strength_shear_modulus(const struct strength *strength)
 {
-    return strength->kind != STRENGTH_NONE ? strength->of.shear_modulus : 0.0;
+    return strength_is_solid(strength) ? strength->of.shear_modulus : 0.0;
 }
 
 /* Yield stress in simple tension, Pa, of slow flow at POINT; zero for a fluid. */

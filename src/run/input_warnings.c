@@ -13,12 +13,6 @@
 /* Measured pressures of Chapman and Jouguet scatter by about a tenth. */
 static const double PRESSURE_TOLERANCE = 0.2;
 
-/* The pressure that MATERIAL gives for its detonation; NAN where it gives none. */
-static double given_pressure(const struct material *material)
-{
-    return material->burn.kind == BURN_beta ? material->burn.of.beta.pressure : NAN;
-}
-
 /* The pressure of products in the volume of the explosive. */
 static double closed_pressure(const struct material *material)
 {
@@ -33,7 +27,7 @@ char *detonation_wrong(const struct material *material)
     struct detonation d;
     const bool lit = material_is_lit(material), gas = eos_traits(&material->eos).gas;
     const double given = lit ? material_detonation_speed(material) : NAN,
-                 pressure = given_pressure(material);
+                 pressure = burn_traits(&material->burn).pressure;
     if (!lit && (material_burns(material) || !gas || closed_pressure(material) == 0.0))
         return NULL;
     if (!gas)

@@ -30,8 +30,9 @@ BOLIDE_INLINE double burn_beta(const struct burn_beta *burn, const struct burnin
 
 BOLIDE_INLINE struct burn_traits burn_beta_traits(const struct burn_beta *burn)
 {
-    (void)burn;
-    return burn_default_traits();
+    struct burn_traits traits = burn_default_traits();
+    traits.pressure = burn->pressure;
+    return traits;
 }
 
 #endif

@@ -18,15 +18,16 @@ struct reacting {
 enum { BURN_ENDS = 3 };
 
 struct burn_traits {
-    bool kinetic; /* it burns by itself, where it is compressed; others are lit */
-    bool by_time; /* the time since it was lit alone decides the fraction burnt */
-    bool phases;  /* it needs the volume of the explosive apart from that of the products */
+    bool kinetic;    /* it burns by itself, where it is compressed; others are lit */
+    bool by_time;    /* the time since it was lit alone decides the fraction burnt */
+    bool phases;     /* it needs the volume of the explosive apart from that of the products */
+    double pressure; /* p_CJ, Pa, of its detonation; NAN: its parameters do not say */
 };
 
 /* The traits of a model that says no more. */
 BOLIDE_INLINE struct burn_traits burn_default_traits(void)
 {
-    struct burn_traits traits = {false, false, false};
+    struct burn_traits traits = {false, false, false, NAN};
     return traits;
 }
 

@@ -86,7 +86,7 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
     if (f->sph.thickness) /* no stress rate across the plate */
         strain.zz = -(strain.xx + strain.yy) * (1.0 - 2.0 * shear_square / sound_square);
     const double bulk = p->density[i] * (sound_square - 4.0 / 3.0 * shear_square);
-    if (strength->kind != STRENGTH_NONE && !failed) {
+    if (strength_is_solid(strength) && !failed) {
         struct motion motion = {
             .dt = ahead, .density = p->density[i], .strain_rate = strain, .spin = spin};
         struct point point = {p->density[i], p->energy[i], p->pressure[i], start, {0.0}};
