@@ -88,10 +88,13 @@ static double courant_of(const struct gas_parameters *parameters)
 
 static void choose_scheme(struct gas *gas)
 {
-    const struct lax_wendroff_options *options = gas->parameters.method.value;
     gas->second_order = gas->parameters.method.index == GAS_MUSCL_HANCOCK;
-    if (gas->second_order)
+    if (gas->second_order) {
+        gas->riemann =
+            ((const struct muscl_hancock_options *)gas->parameters.method.value)->riemann;
         return;
+    }
+    const struct lax_wendroff_options *options = gas->parameters.method.value;
     gas->mixing = options->mixing;
     gas->scheme = (struct lax_wendroff){.form = options->form,
                                         .viscosity = options->viscosity_of,
@@ -182,16 +185,24 @@ void gas_bind(struct gas *gas, const struct cell_blocks *cells)
     }
 }
 
+struct gas_closure gas_closure_of(const struct gas *gas)
+{
+    const struct gas_layout *layout = &gas->layout;
+    const struct gas_closure closure = {.eos = &gas->eos[0],
+                                        .other = layout->two ? &gas->eos[1] : NULL,
+                                        .lit = gas->unburnt ? &gas->eos[layout->explosive] : NULL,
+                                        .marked = layout->marked};
+    return closure;
+}
+
 struct error *gas_derive(struct gas *gas, const struct simulation *simulation, const bool *blocks)
 {
     const struct cell_blocks *cells = gas->cells;
     struct gas_look look = {.cells = cells,
-                            .eos = &gas->eos[0],
-                            .other = gas->layout.two ? &gas->eos[1] : NULL,
+                            .closure = gas_closure_of(gas),
                             .material = {(uint16_t)gas->material[0], (uint16_t)gas->material[1]},
                             .open = gas->open,
                             .layout = &gas->layout,
-                            .unburnt = gas->unburnt,
                             .sound = gas->sound,
                             .round = gas->round};
     struct ranked first = {INFINITY, UINT64_MAX, 0};

@@ -6,6 +6,10 @@
 #include "gas/sweep.h"
 #include "model/cell_population.h"
 
+struct muscl_hancock_options {
+    int riemann; /* enum gas_riemann */
+};
+
 struct lax_wendroff_options {
     int form, viscosity_of; /* enum lax_wendroff_form, _viscosity */
     double viscosity;       /* NAN: by the speed of waves */
@@ -36,6 +40,7 @@ struct gas {
     struct gas_parameters parameters;
     struct cell_blocks *cells;
     bool second_order;
+    int riemann; /* enum gas_riemann */
     struct lax_wendroff scheme;
     int mixing; /* enum gas_mixing */
     struct eos eos[2];
@@ -71,6 +76,9 @@ struct gas {
     double fastest; /* |u_i| + c of all of this rank's cells, m/s */
     uint64_t fastest_id;
 };
+
+/* The closure of cells as they are now. */
+struct gas_closure gas_closure_of(const struct gas *gas);
 
 /* Collective: derived fields of BLOCKS, a flag each, or with NULL of those that are awake; which of
  * them are still, and the fastest cell. */

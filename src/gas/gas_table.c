@@ -1,12 +1,25 @@
 /* The parameters of the gas solver and of its methods. */
 #include "gas/gas_internal.h"
+#include "riemann/gas_solvers.h"
 
 static const char *const form_names[] = {"richtmyer", "printed", NULL};
 static const char *const viscosity_names[] = {"faces", "cells", NULL};
 
 static const char *const mixing_names[] = {"conservative", "printed", NULL};
 
-static const struct parameter muscl_hancock_table[] = {PARAMETER_END};
+#define RIEMANN_NAME(name) #name,
+static const char *const riemann_names[] = {GAS_RIEMANN_LIST(RIEMANN_NAME) NULL};
+#define RIEMANN_HELP(name) "; " #name ": " GAS_RIEMANN_##name##_HELP
+
+static const struct parameter muscl_hancock_table[] = {
+    {.key = "riemann",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct muscl_hancock_options, riemann),
+     .standard = "hllc",
+     .names = riemann_names,
+     .help = "the Riemann solver of the faces" GAS_RIEMANN_LIST(RIEMANN_HELP)},
+    PARAMETER_END,
+};
 
 static const struct parameter lax_wendroff_table[] = {
     {.key = "viscosity",
@@ -41,8 +54,8 @@ static const struct parameter lax_wendroff_table[] = {
 };
 
 const struct choice gas_method_choices[GAS_METHODS] = {
-    {"muscl-hancock", "second order, positive: limited slopes and HLLC fluxes", muscl_hancock_table,
-     0, NULL},
+    {"muscl-hancock", "second order, positive: limited slopes and a Riemann solver",
+     muscl_hancock_table, sizeof(struct muscl_hancock_options), NULL},
     {"lax-wendroff",
      "Lax-Wendroff with adaptive viscosity, and markers between two materials (Cui 2014), restored",
      lax_wendroff_table, sizeof(struct lax_wendroff_options), NULL},

@@ -39,26 +39,29 @@ BOLIDE_INLINE void row_theta(const struct gas_numbers *u, int first, int last, d
 }
 
 /* Pressures of the cells FIRST to LAST of a row, or where FACES is 1 of what flows through the
- * faces below them. With two materials, in mixed cells and between different ones, p = Gamma rho e
- * with the Gamma that cells had before the step, at faces the mean of both. */
+ * faces below them: between different materials with the mean of what p/(rho e) cells had before
+ * the step. */
 BOLIDE_INLINE void row_wendroff_pressures(const struct gas_row *row, const struct gas_numbers *u,
                                           int first, int last, int faces, double *pressure)
 {
-    double second[ROW_ROOM], energy[ROW_ROOM] = {0.0};
-    row_pressures(row->eos, u, first, last, pressure);
-    if (!row->other)
-        return;
-    row_pressures(row->other, u, first, last, second);
-    row_energies(u, first, last, energy);
-    FOR_ROW (k, first, last) {
-        const double below = row->part[PART_FRACTION][k - faces],
-                     above = row->part[PART_FRACTION][k];
-        const double mixed =
-            0.5 * (row->gamma[k - faces] + row->gamma[k]) * u->of[GAS_DENSITY][k] * energy[k];
-        pressure[k] = below == 0.0 && above == 0.0   ? pressure[k]
-                      : below == 1.0 && above == 1.0 ? second[k]
-                                                     : mixed;
+    struct row_values values;
+    struct gas_content content = {.kind = NULL};
+    double energy[ROW_ROOM] = {0.0}, gamma[ROW_ROOM];
+    uint8_t kind[ROW_ROOM];
+    if (row->closure.other) {
+        FOR_ROW (k, first, last) {
+            const double *fraction = row->part[PART_FRACTION];
+            const uint8_t below = content_kind_of(fraction[k - faces]);
+            kind[k] = below == content_kind_of(fraction[k]) ? below : CONTENT_BOTH;
+            gamma[k] = 0.5 * (row->gamma[k - faces] + row->gamma[k]);
+        }
+        content.kind = kind;
+        content.gamma = gamma;
     }
+    row_energies(u, first, last, energy);
+    gas_evaluate(&row->closure, &content, u->of[GAS_DENSITY], energy, first, last, &values);
+    FOR_ROW (k, first, last)
+        pressure[k] = values.pressure[k];
 }
 
 /* Smooths cells -2 .. cells + 1 of a row. SMOOTHED may not be its own numbers. What the viscosity
@@ -169,10 +172,11 @@ BOLIDE_INLINE bool row_guard(const struct gas_row *row, const struct gas_numbers
             for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
                 kinetic += 0.5 * square(smoothed->of[n][side] / density);
             const double energy = smoothed->of[GAS_ENERGY][side] / density - kinetic;
-            const struct eos_value value = eos_evaluate(row->eos, density, energy, none);
+            const struct eos_value value = eos_evaluate(row->closure.eos, density, energy, none);
             const double sound =
-                row->other ? 4.0 * fabs(pressure[side]) / density /* above any of products */
-                           : eos_sound_square(value.pressure, value.dp_drho, value.dp_de, density);
+                row->closure.other
+                    ? 4.0 * fabs(pressure[side]) / density /* above any of products */
+                    : eos_sound_square(value.pressure, value.dp_drho, value.dp_de, density);
             speed = maximum(speed, fabs(u) + sqrt(maximum(sound, 0.0)));
         }
         for (int n = 0; n < GAS_NUMBERS; n++)

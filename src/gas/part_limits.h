@@ -3,25 +3,20 @@
 #ifndef BOLIDE_GAS_PART_LIMITS_H
 #define BOLIDE_GAS_PART_LIMITS_H
 
-#include "gas/mixture.h"
-#include "gas/muscl_hancock.h"
-
-/* What has burnt of material M in cell K. */
-BOLIDE_INLINE double parts_burnt(const struct gas_row *row, int m, int k)
-{
-    return row->lit && row->lit == (m ? row->other : row->eos) ? row->burnt[k] : 1.0;
-}
+#include "gas/states.h"
 
 /* Gives the second material of cells of both that has become colder than 0 K more of the volume. */
 static inline void parts_thaw(struct gas_row *row)
 {
-    const struct eos *const eos[2] = {row->eos, row->other};
+    const struct gas_closure *closure = &row->closure;
+    const struct eos *const eos[2] = {closure->eos, closure->other};
     FOR_ROW (k, 0, row->cells - 1) {
         double *fraction = &row->part[PART_FRACTION][k];
         const double density = row->u.of[GAS_DENSITY][k],
                      mass[2] = {density - row->part[PART_MASS][k], row->part[PART_MASS][k]};
         double kinetic = 0.0;
-        if (!(*fraction > MIXTURE_TRACE && *fraction < 0.999) || parts_burnt(row, 1, k) < 1.0)
+        if (!(*fraction > MIXTURE_TRACE && *fraction < 0.999) ||
+            (closure->lit == closure->other && row->burnt[k] < 1.0))
             continue;
         for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
             kinetic += 0.5 * square(row->u.of[n][k]) / density;
@@ -33,7 +28,6 @@ static inline void parts_thaw(struct gas_row *row)
  * its neighbours had. */
 static inline bool parts_are_spent(const struct gas_row *row, const struct row_states *cell)
 {
-    const struct eos *const eos[2] = {row->eos, row->other};
     const double *pressure = cell->of.of[PRIMITIVE_PRESSURE];
     bool spent = false;
     FOR_ROW (k, 0, row->cells - 1) {
@@ -44,11 +38,8 @@ static inline bool parts_are_spent(const struct gas_row *row, const struct row_s
         double kinetic = 0.0;
         for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
             kinetic += 0.5 * square(row->u.of[n][k]) / density;
-        const double mass = row->part[PART_MASS][k],
-                     of[2] = {mixture_density(eos[0], density - mass, 1.0 - fraction),
-                              mixture_density(eos[1], mass, fraction)},
-                     burnt[2] = {parts_burnt(row, 0, k), parts_burnt(row, 1, k)};
-        const struct mixture mixture = mixture_of(eos, of, fraction, burnt);
+        const double second = row->part[PART_MASS][k], mass[2] = {density - second, second};
+        const struct mixture mixture = gas_mixture_of(&row->closure, mass, fraction, row->burnt[k]);
         spent |= !(mixture_pressure(&mixture, row->u.of[GAS_ENERGY][k] - kinetic) >
                    0.5 * GAS_LEAST * least);
     }

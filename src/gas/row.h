@@ -13,12 +13,9 @@
 #ifndef BOLIDE_GAS_ROW_H
 #define BOLIDE_GAS_ROW_H
 
-#include "material/eos.h"
+#include "gas/closure.h"
 
 enum { GAS_DENSITY, GAS_MOMENTUM, GAS_ENERGY = 4, GAS_NUMBERS = 5 };
-
-/* Cells of a row at most, and those known beyond either end of it. */
-enum { ROW_CELLS = 64, ROW_GHOSTS = 4, ROW_ROOM = ROW_CELLS + 2 * ROW_GHOSTS };
 
 /* What cells have of a second material: its mass per volume of the cell, kg/m^3, and the fraction
  * of the volume that it fills. */
@@ -30,10 +27,11 @@ struct gas_numbers {
 };
 
 struct gas_row {
-    const struct eos *eos, *other; /* of the second material, NULL: there is one */
-    int cells, axis;               /* the axis that it runs along */
-    int round;                     /* s along a radius, else 0 */
-    double first;                  /* radius of the face below its first cell, in cells */
+    struct gas_closure closure;
+    int riemann;     /* enum gas_riemann, of sweeps of second order */
+    int cells, axis; /* the axis that it runs along */
+    int round;       /* s along a radius, else 0 */
+    double first;    /* radius of the face below its first cell, in cells */
     struct gas_numbers u;
     double shock[ROW_ROOM]; /* axes of strong shocks in cells: the sum of 1, 2, 4 for x, y, z */
     bool crossed; /* some of `shock` may not be zero; else it is zero in cells -2 .. cells + 1 */
@@ -46,14 +44,10 @@ struct gas_row {
     double afterburnt[ROW_ROOM];  /* its mass per volume of the cell that has */
     bool watched;                 /* who sweeps wants to know */
     double second_flux[ROW_ROOM]; /* what of its mass has passed through faces, where it does */
-    const struct eos *lit;        /* that of an explosive of which some is unburnt, NULL: none is */
-    double burnt[ROW_ROOM];       /* the fraction of it that is not */
+    double burnt[ROW_ROOM];       /* the fraction burnt of an explosive, where some is not */
     double
         push[ROW_ROOM]; /* found along a radius: mean pressures in a sweep, Pa, times s r^(s-1) */
 };
-
-/* Where the cells or faces FIRST to LAST are in the numbers of a row. */
-#define FOR_ROW(k, first, last) for (int k = (first) + ROW_GHOSTS; k <= (last) + ROW_GHOSTS; k++)
 
 /* Before a loop whose arrays never overlap although one is found by an axis, so that the compiler
  * cannot know: without it a check at run time takes them for overlapping and the loop is scalar. */
@@ -64,71 +58,6 @@ struct gas_row {
 #else
 #define ROWS_APART
 #endif
-
-/* What the equation of state says of the cells or faces of a row. */
-struct row_values {
-    double pressure[ROW_ROOM], dp_drho[ROW_ROOM], dp_de[ROW_ROOM];
-};
-
-/* Evaluates EOS at FIRST to LAST. The loops evaluate the form of the source, which has no branches;
- * the few places beyond it are done once more. */
-static inline void row_evaluate(const struct eos *eos, const double *density, const double *energy,
-                                int first, int last, struct row_values *values)
-{
-    const double none[POINT_HISTORY] = {0.0};
-    uint64_t beyond[ROW_ROOM], any = 0;
-    switch (eos->kind) {
-#define ROW_CASE(name)                                                                             \
-    case EOS_##name:                                                                               \
-        FOR_ROW (k, first, last) {                                                                 \
-            const struct eos_value value = eos_##name(&eos->of.name, density[k], energy[k], none); \
-            values->pressure[k] = value.pressure;                                                  \
-            values->dp_drho[k] = value.dp_drho;                                                    \
-            values->dp_de[k] = value.dp_de;                                                        \
-            beyond[k] = value.status & POINT_BEYOND;                                               \
-            any |= beyond[k];                                                                      \
-        }                                                                                          \
-        break;
-        EOS_STATELESS(ROW_CASE)
-#undef ROW_CASE
-    default:
-        break;
-    }
-    if (any)
-        FOR_ROW (k, first, last)
-            if (beyond[k]) {
-                const struct eos_value value = eos_beyond(eos, density[k], energy[k]);
-                values->pressure[k] = value.pressure;
-                values->dp_drho[k] = value.dp_drho;
-                values->dp_de[k] = value.dp_de;
-            }
-}
-
-/* What values at FIRST to LAST become where only the fraction BURNT of the explosive EOS is. Its
- * ENERGY counts from the explosive at rest, whose pressure vanishes: with the pressure P(rho, e) =
- * P_0(rho) + b(rho) e of the products
- *
- *   p = F P_0 + b e
- *
- * Unburnt it is a gas without pressure but that of its heat, so that nothing runs ahead of a
- * detonation and energy is conserved whatever F is. Products that have done work may flow into it
- * and take that away: fluxes take some pressure then, until F grows by as much as they need
- * (burn.c). */
-static const double UNBURNT_LEAST = 1e-3; /* Pa; less than any air around it has */
-
-static inline void row_unburn(const struct eos *eos, const double *density, const double *energy,
-                              const double *burnt, int first, int last, struct row_values *values)
-{
-    double none[ROW_ROOM] = {0.0};
-    struct row_values rest;
-    row_evaluate(eos, density, none, first, last, &rest);
-    FOR_ROW (k, first, last) {
-        const double pressure = burnt[k] * rest.pressure[k] + values->dp_de[k] * energy[k],
-                     slope = values->dp_drho[k] - (1.0 - burnt[k]) * rest.dp_drho[k];
-        values->pressure[k] = maximum(pressure, UNBURNT_LEAST);
-        values->dp_drho[k] = maximum(slope, 0.0);
-    }
-}
 
 /* The specific energies of the cells FIRST to LAST, whose numbers are U, less that of their
  * motion. */
@@ -141,18 +70,6 @@ BOLIDE_INLINE void row_energies(const struct gas_numbers *u, int first, int last
                           square(u->of[GAS_MOMENTUM + 2][k])) /
                          u->of[GAS_DENSITY][k]) /
                     u->of[GAS_DENSITY][k];
-}
-
-/* Pressures of the cells FIRST to LAST of a row, whose numbers are U. */
-BOLIDE_INLINE void row_pressures(const struct eos *eos, const struct gas_numbers *u, int first,
-                                 int last, double *pressure)
-{
-    struct row_values values;
-    double energy[ROW_ROOM] = {0.0};
-    row_energies(u, first, last, energy);
-    row_evaluate(eos, u->of[GAS_DENSITY], energy, first, last, &values);
-    FOR_ROW (k, first, last)
-        pressure[k] = values.pressure[k];
 }
 
 /* The radius of the face below cell k, in cells; the sources want k as FOR_ROW counts it. */

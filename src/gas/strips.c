@@ -296,19 +296,20 @@ static struct error *sweep_once(struct gas *gas, struct simulation *simulation, 
     struct cell_blocks *cells = gas->cells;
     struct gas_sweep sweep = {.cells = cells,
                               .halo = &gas->halo,
-                              .eos = &gas->eos[0],
-                              .other = gas->layout.two ? &gas->eos[1] : NULL,
+                              .closure = gas_closure_of(gas),
                               .layout = &gas->layout,
-                              .unburnt = gas->unburnt,
                               .thaws = gas->thaws,
                               .axis = axis,
                               .r = dt / cells->edge,
                               .round = axis == 0 ? gas->round : 0,
                               .shocked = gas->shocked,
                               .second_order = gas->second_order,
+                              .riemann = gas->riemann,
                               .scheme = gas->scheme,
                               .cut = gas->cut,
                               .dt = dt};
+    if (!gas->second_order) /* Lax-Wendroff takes explosives for burnt */
+        sweep.closure.lit = NULL;
     memcpy(sweep.from, gas->u, sizeof sweep.from);
     memcpy(sweep.to, gas->other, sizeof sweep.to);
     const struct gas_strips *strips = &gas->strips[axis];

@@ -47,17 +47,17 @@ struct gas_cut {
 struct gas_sweep {
     const struct cell_blocks *cells;
     const struct cell_halo *halo;
-    const struct eos *eos, *other; /* of the second material, NULL: there is one */
+    struct gas_closure closure;
     const double *from[GAS_FIELDS];
     double *to[GAS_FIELDS];
     const struct gas_layout *layout;
-    bool unburnt; /* some explosive is */
-    bool thaws;   /* the second material is never colder than 0 K */
+    bool thaws; /* the second material is never colder than 0 K */
     int axis;
     double r;          /* dt/h */
     int round;         /* the power of the radius in a volume: 0 unless the axis is one */
     bool *shocked;     /* of each block, found: it has strong shocks */
     bool second_order; /* MUSCL-Hancock, else Lax-Wendroff */
+    int riemann;       /* enum gas_riemann */
     struct lax_wendroff scheme;
     const struct gas_cut *cut; /* NULL: none */
     double dt;
@@ -97,11 +97,10 @@ void gas_sweep_strip(const struct gas_sweep *sweep, const struct gas_strip *stri
 /* Cells whose derived fields are to be found. */
 struct gas_look {
     const struct cell_blocks *cells;
-    const struct eos *eos, *other; /* of the second material, NULL: there is one */
+    struct gas_closure closure;
     uint16_t material[2];
     const double *u[GAS_FIELDS], *open; /* NULL: all cells are open */
     const struct gas_layout *layout;
-    bool unburnt;  /* some explosive is */
     double *sound; /* m/s */
     int round;     /* the power of x in a volume */
 };

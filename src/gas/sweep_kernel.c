@@ -7,7 +7,6 @@
 #include "base/isa.h"
 #include "gas/muscl_hancock.h"
 #include "gas/sweep_through.h"
-#include "gas/two_materials.h"
 
 static int32_t place_of(const struct gather *g, const struct cell_block *block)
 {
@@ -88,7 +87,7 @@ static void store_row(const struct gather *g, const struct gas_row *row, int fir
             for (int c = begin; c < end; c++)
                 sweep->shocked[g->strip->block[s]] |= row->shock[in + c] != 0.0;
         }
-        for (int n = 0; n < PARTS && row->other; n++)
+        for (int n = 0; n < PARTS && row->closure.other; n++)
             store_cells(row->part[n] + in, sweep->to[GAS_SECOND + n] + at, stride, begin, end);
         if (row->afterburns)
             store_cells(row->afterburnt + in, sweep->to[GAS_AFTERBURNT] + at, stride, begin, end);
@@ -98,9 +97,7 @@ static void store_row(const struct gather *g, const struct gas_row *row, int fir
 
 static void sweep_row(const struct gas_sweep *sweep, struct gas_row *row, struct gas_numbers *flux)
 {
-    if (row->other && sweep->second_order)
-        row_two_materials(row, sweep->r, flux);
-    else if (sweep->second_order)
+    if (sweep->second_order)
         row_muscl_hancock(row, sweep->r, flux);
     else
         row_lax_wendroff(row, &sweep->scheme, sweep->r, flux);
@@ -112,11 +109,11 @@ static void copy_cell(double (*all)[ROW_ROOM], const struct gas_layout *layout, 
 {
     const int axis = to->axis;
     to->shock[k] = all[GAS_SHOCK][from];
-    for (int n = 0; n < PARTS && to->other; n++)
+    for (int n = 0; n < PARTS && to->closure.other; n++)
         to->part[n][k] = all[GAS_SECOND + n][from];
     if (to->afterburns)
         to->afterburnt[k] = all[GAS_AFTERBURNT][from];
-    if (to->lit)
+    if (to->closure.lit)
         to->burnt[k] = all[layout->burnt][from];
     if (layout->marked)
         to->gamma[k] = all[layout->gamma][from];
@@ -210,10 +207,9 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
     const struct across across = across_of(sweep->axis);
     const int rows = block->count[across.first], columns = block->count[across.second];
     struct gas_row row;
-    row.eos = sweep->eos;
-    row.other = sweep->other;
+    row.closure = sweep->closure;
+    row.riemann = sweep->riemann;
     row.afterburns = layout->afterburns;
-    row.lit = !sweep->unburnt ? NULL : layout->explosive ? sweep->other : sweep->eos;
     row.axis = sweep->axis;
     row.round = sweep->round;
     row.shocked = true;
@@ -245,11 +241,11 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
             else if (row.shocked)
                 memset(row.shock, 0, sizeof row.shock);
             row.shocked = false;
-            if (!layout->blocked && row.other)
+            if (!layout->blocked && row.closure.other)
                 load_row(&g, GAS_SECOND, GAS_SECOND + PARTS, row.part);
             if (!layout->blocked && row.afterburns)
                 load_row(&g, GAS_AFTERBURNT, GAS_AFTERBURNT + 1, &row.afterburnt);
-            if (!layout->blocked && row.lit)
+            if (!layout->blocked && row.closure.lit)
                 load_row(&g, layout->burnt, layout->burnt + 1, &row.burnt);
             if (!layout->blocked && layout->marked)
                 load_row(&g, layout->gamma, layout->gamma + 1, &row.gamma);
@@ -274,59 +270,49 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
     through->spent = row.spent;
 }
 
-/* Cells of a block, ROW_CELLS at most, as the equation of state and the store take them. */
+/* Cells of a block, ROW_CELLS at most, as the closure and the store take them. */
 struct run {
     int32_t first;
     int count;
     double density[ROW_ROOM], energy[ROW_ROOM], velocity[3][ROW_ROOM], fastest[ROW_ROOM];
+    uint8_t kind[ROW_ROOM]; /* where there are two materials */
+    double own[2][ROW_ROOM];
 };
 
-/* Pressures, and derivatives that give the speed of sound, of cells of one or two materials. */
-static void evaluate_run(const struct gas_look *look, const struct run *run,
-                         struct row_values *values)
+/* The kinds of the cells of a run, and the densities of both materials in them. */
+static void find_parts(const struct gas_look *look, struct run *run)
 {
-    const int last = run->count - 1;
-    const struct gas_layout *layout = look->layout;
-    double burnt[ROW_ROOM];
-    row_evaluate(look->eos, run->density, run->energy, 0, last, values);
-    FOR_ROW (k, 0, last)
-        burnt[k] = look->unburnt ? look->u[layout->burnt][run->first + k - ROW_GHOSTS] : 1.0;
-    if (look->unburnt && layout->explosive == 0)
-        row_unburn(look->eos, run->density, run->energy, burnt, 0, last, values);
-    if (!look->other)
-        return;
-    const struct eos *const eos[2] = {look->eos, look->other};
     const double *second = look->u[GAS_SECOND] + run->first,
-                 *fractions = look->u[GAS_FRACTION] + run->first;
-    struct row_values of_second;
-    row_evaluate(look->other, run->density, run->energy, 0, last, &of_second);
-    if (look->unburnt && layout->explosive == 1)
-        row_unburn(look->other, run->density, run->energy, burnt, 0, last, &of_second);
-    FOR_ROW (k, 0, last) {
-        const double fraction = fractions[k - ROW_GHOSTS], mass = second[k - ROW_GHOSTS];
-        if (fraction >= 1.0) {
-            values->pressure[k] = of_second.pressure[k];
-            values->dp_drho[k] = of_second.dp_drho[k];
-            values->dp_de[k] = of_second.dp_de[k];
-        } else if (fraction > 0.0 && layout->marked) {
-            const double density = run->density[k],
-                         gamma = look->u[layout->gamma][run->first + k - ROW_GHOSTS],
-                         pressure = gamma * density * run->energy[k];
-            values->pressure[k] = pressure;
-            values->dp_drho[k] = 4.0 * fabs(pressure) / density; /* above that of both */
-            values->dp_de[k] = 0.0;
-        } else if (fraction > 0.0) {
-            const double density[2] = {
-                mixture_density(eos[0], run->density[k] - mass, 1.0 - fraction),
-                mixture_density(eos[1], mass, fraction)};
-            const double of[2] = {layout->explosive == 0 ? burnt[k] : 1.0,
-                                  layout->explosive == 1 ? burnt[k] : 1.0};
-            const struct mixture mixture = mixture_of(eos, density, fraction, of);
-            values->pressure[k] = mixture_pressure(&mixture, run->density[k] * run->energy[k]);
-            values->dp_drho[k] = mixture_sound_square(&mixture, values->pressure[k]);
-            values->dp_de[k] = 0.0;
-        }
+                 *fraction = look->u[GAS_FRACTION] + run->first;
+    for (int c = 0; c < run->count; c++) {
+        const int k = c + ROW_GHOSTS;
+        run->kind[k] = content_kind_of(fraction[c]);
+        if (run->kind[k] != CONTENT_BOTH)
+            continue;
+        run->own[0][k] =
+            mixture_density(look->closure.eos, run->density[k] - second[c], 1.0 - fraction[c]);
+        run->own[1][k] = mixture_density(look->closure.other, second[c], fraction[c]);
     }
+}
+
+/* Pressures, and derivatives that give the speed of sound. */
+static void evaluate_run(const struct gas_look *look, struct run *run, struct row_values *values)
+{
+    const struct gas_layout *layout = look->layout;
+    const double *const *u = look->u;
+    const int32_t at = run->first - ROW_GHOSTS;
+    struct gas_content content = {.kind = NULL, .least = -(double)INFINITY};
+    if (look->closure.lit)
+        content.burnt = u[layout->burnt] + at;
+    if (look->closure.other) {
+        find_parts(look, run);
+        content.kind = run->kind;
+        content.own[0] = run->own[0];
+        content.own[1] = run->own[1];
+        content.fraction = u[GAS_FRACTION] + at;
+        content.gamma = layout->marked ? u[layout->gamma] + at : NULL;
+    }
+    gas_evaluate(&look->closure, &content, run->density, run->energy, 0, run->count - 1, values);
 }
 
 static bool is_closed(const struct gas_look *look, int32_t i)
@@ -356,7 +342,7 @@ static void take_run(const struct gas_look *look, struct run *run)
     for (int k = 0; k < run->count && look->open; k++)
         if (is_closed(look, first + k)) {
             const int at = k + ROW_GHOSTS;
-            run->density[at] = eos_reference_density(look->eos);
+            run->density[at] = eos_reference_density(look->closure.eos);
             run->energy[at] = run->fastest[at] = 0.0;
             for (int axis = 0; axis < 3; axis++)
                 run->velocity[axis][at] = 0.0;
@@ -383,7 +369,7 @@ static void put_run(const struct gas_look *look, const struct run *run,
                               : 0.0;
         cells->pressure[i] = open ? values->pressure[at] : 0.0;
         look->sound[i] = open ? sqrt(sound) : 0.0;
-        if (look->other)
+        if (look->closure.other)
             cells->material[i] = look->material[look->u[GAS_FRACTION][i] > 0.5];
     }
 }

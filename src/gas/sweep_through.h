@@ -69,7 +69,7 @@ BOLIDE_INLINE void note_cut(const struct gather *g, const struct gas_row *row,
         const int k = (int)(plane - first) + ROW_GHOSTS;
         for (int n = 0; n < GAS_NUMBERS; n++)
             passed[n] += sweep->dt * flux->of[n][k];
-        passed[GAS_NUMBERS] += row->other ? sweep->dt * row->second_flux[k] : 0.0;
+        passed[GAS_NUMBERS] += row->closure.other ? sweep->dt * row->second_flux[k] : 0.0;
     }
 }
 

@@ -51,12 +51,13 @@
 #define EOS_COMPACTING(X) X(hjc)
 
 /* Mixtures of an explosive and products with volumes of their own: eos_<identifier>_react() is
- * eos_<identifier>() and notes the volume of the explosive in the history, eos_<identifier>_temperature()
- * gives the temperature that both have, K, of density, pressure and that history. */
+ * eos_<identifier>() and notes the volume of the explosive in the history,
+ * eos_<identifier>_temperature() gives the temperature that both have, K, of density, pressure and
+ * that history. */
 #define EOS_PHASES(X) X(reactive_jwl)
 
-/* Products whose energy counts from the explosive at rest: eos_<identifier>_take_heat() makes it count
- * from cold products and returns the difference, J/kg. */
+/* Products whose energy counts from the explosive at rest: eos_<identifier>_take_heat() makes it
+ * count from cold products and returns the difference, J/kg. */
 #define EOS_CHARGED(X) X(jwl)
 
 /* Models whose published formula has a limited range: outside it eos_<identifier>() returns

@@ -10,7 +10,7 @@
 
 #include "dice.h"
 #include "gas/gas_internal.h"
-#include "gas/two_materials.h"
+#include "gas/muscl_hancock.h"
 
 enum { CELLS = 200, NUMBERS = GAS_NUMBERS + PARTS, STEPS = 1000 };
 
@@ -47,7 +47,7 @@ static void sweep(struct ring *ring, int rows, double r)
 {
     struct ring next = *ring;
     for (int first = 0; first < CELLS; first += rows) {
-        struct gas_row row = {.eos = &ring->eos[0], .other = &ring->eos[1]};
+        struct gas_row row = {.closure = {.eos = &ring->eos[0], .other = &ring->eos[1]}};
         struct gas_numbers flux;
         row.cells = CELLS - first < rows ? CELLS - first : rows;
         FOR_ROW (k, -2, row.cells + 1) {
@@ -56,7 +56,7 @@ static void sweep(struct ring *ring, int rows, double r)
                 *(n < GAS_NUMBERS ? &row.u.of[n][k] : &row.part[n - GAS_NUMBERS][k]) =
                     ring->u[n][c];
         }
-        row_two_materials(&row, r, &flux);
+        row_muscl_hancock(&row, r, &flux);
         FOR_ROW (k, 0, row.cells - 1)
             for (int n = 0; n < NUMBERS; n++)
                 next.u[n][first + k - ROW_GHOSTS] =

@@ -1,4 +1,4 @@
-/* What the headers of the burn models have in common: what the fraction burnt and its rate may depend
+/* What the headers of the burn models have in common: what the fraction burnt and its rate depend
  * on, and the traits that others ask of a model. */
 #ifndef BOLIDE_BURN_COMMON_H
 #define BOLIDE_BURN_COMMON_H
