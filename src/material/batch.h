@@ -1,5 +1,5 @@
-/* A step of many points of one material at once, in lanes: material_step_by_work point by point, to
- * the last bit, for the materials of which there are many. For files that are compiled once an
+/* A step of many points of one material at once, in lanes: material_step or material_step_by_work
+ * point by point, to the last bit, for the materials of which there are many. For files that are compiled once an
  * instruction set: a loop here is one over the points of a batch, and has no branch that a point
  * decides. */
 #ifndef BOLIDE_BATCH_H
@@ -43,22 +43,25 @@ BOLIDE_INLINE struct eos_value batch_value(const struct eos *eos, const struct b
     return value;
 }
 
-/* Point K, whose energy is ENERGY but for the work of the new pressure. */
+/* Point K, whose energy is ENERGY, or that but for the work of the new pressure. */
 BOLIDE_INLINE void batch_finish(const struct eos *eos, struct batch *b,
                                 const struct batch_matter *matter, int k, double energy,
-                                double shear_modulus)
+                                enum batch_energy from, double shear_modulus)
 {
     struct eos_value value = batch_value(eos, matter, k, energy);
-    b->energy[k] = energy + material_work_of_pressure(b->density[k], b->new_density[k], &value);
-    value = batch_value(eos, matter, k, b->energy[k]);
+    b->energy[k] = energy;
+    if (from == ENERGY_BY_WORK) {
+        b->energy[k] += material_work_of_pressure(b->density[k], b->new_density[k], &value);
+        value = batch_value(eos, matter, k, b->energy[k]);
+    }
     b->pressure[k] = value.pressure;
     b->sound_long[k] = material_response(&value, matter->density[k], shear_modulus, 0.0).sound_long;
 }
 
-/* Energies and pressures after the step. The loop evaluates the form of the source, which has no
+/* Energies, where they are not GIVEN, and pressures after the step. The loop evaluates the form of the source, which has no
  * branches; the few points beyond it are done once more. */
 BOLIDE_INLINE void batch_energies(const struct material *material, struct batch *b,
-                                  const struct batch_matter *matter)
+                                  const struct batch_matter *matter, enum batch_energy from)
 {
     const double shear_modulus = strength_shear_modulus(&material->strength);
     const double none[POINT_HISTORY] = {0.0};
@@ -73,9 +76,12 @@ BOLIDE_INLINE void batch_energies(const struct material *material, struct batch 
             energy[k] = b->energy[k];                                                             \
             struct eos_value value = eos_##name(eos, density, energy[k], none);                   \
             value.pressure = maximum(value.pressure, least);                                      \
-            b->energy[k] += material_work_of_pressure(b->density[k], b->new_density[k], &value);  \
-            value = eos_##name(eos, density, b->energy[k], none);                                 \
-            value.pressure = maximum(value.pressure, least);                                      \
+            if (from == ENERGY_BY_WORK) {                                                         \
+                b->energy[k] +=                                                                   \
+                    material_work_of_pressure(b->density[k], b->new_density[k], &value);          \
+                value = eos_##name(eos, density, b->energy[k], none);                             \
+                value.pressure = maximum(value.pressure, least);                                  \
+            }                                                                                     \
             b->pressure[k] = value.pressure;                                                      \
             b->sound_long[k] = material_response(&value, density, shear_modulus, 0.0).sound_long; \
             beyond[k] = value.status & POINT_BEYOND; /* which depends on the density alone */     \
@@ -89,7 +95,7 @@ BOLIDE_INLINE void batch_energies(const struct material *material, struct batch 
     }
     for (int k = 0; any && k < b->count; k++)
         if (beyond[k])
-            batch_finish(&material->eos, b, matter, k, energy[k], shear_modulus);
+            batch_finish(&material->eos, b, matter, k, energy[k], from, shear_modulus);
 }
 
 /* Pressures at the densities of MATTER and the energies before the work of the step. */
@@ -174,8 +180,9 @@ BOLIDE_INLINE void batch_fail(const struct material *material, struct batch *b,
             batch_leave_rubble(material, b, matter, k);
 }
 
-/* Takes the points of a batch through the step. */
-BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b)
+/* Takes the points of a batch through the step: strength, failure, work, pressure. */
+BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b,
+                              enum batch_energy from)
 {
     const bool fails = material_fails(material);
     struct batch_matter matter;
@@ -189,8 +196,9 @@ BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b)
     }
     if (fails)
         batch_fail(material, b, strain, &matter);
-    batch_work(b);
-    batch_energies(material, b, &matter);
+    if (from == ENERGY_BY_WORK)
+        batch_work(b);
+    batch_energies(material, b, &matter, from);
     if (fails)
         memcpy(b->new_density, matter.density, sizeof b->new_density);
 }

@@ -21,5 +21,6 @@ struct error *broken_check_axis(const struct measurement *measurement, int along
 struct error *broken_find(const struct measurement *measurement, double link,
                           struct fragments *fragments)
 {
-    return fragments_find(measurement->simulation, measure_body(measurement), link, fragments);
+    return fragments_find(measurement->simulation->ranks, measurement->population,
+                          measure_body(measurement), link, fragments);
 }

@@ -211,24 +211,22 @@ static struct error *search_all(struct search *search, const struct ranks *ranks
     return NULL;
 }
 
-struct error *connected_find(const struct simulation *simulation, const double *diameter,
-                             const bool *failed, const struct connection *connection,
-                             uint64_t *label)
+struct error *connected_find(const struct ranks *ranks, const struct population *population,
+                             const double *diameter, const bool *failed,
+                             const struct connection *connection, uint64_t *label)
 {
-    const struct population population = simulation_population(simulation);
     struct ghosts ghosts = {0};
     struct search search = {0};
     uint64_t *came = NULL;
-    struct error *error =
-        particles_see(&simulation->population[0], diameter, connection->link, &ghosts);
+    struct error *error = particles_see(population, diameter, connection->link, &ghosts);
     if (!error) {
         came = memory_allocate(((size_t)ghosts.remotes + 1) * sizeof *came);
-        const bool made = search_allocate(&search, population.count, ghosts.remotes) && came;
-        error = ranks_agree(simulation->ranks, made ? NULL : out_of_memory(population.count));
+        const bool made = search_allocate(&search, population->count, ghosts.remotes) && came;
+        error = ranks_agree(ranks, made ? NULL : out_of_memory(population->count));
     }
     if (!error) {
-        take_own(&search, &population, diameter, failed, connection, label);
-        error = search_all(&search, simulation->ranks, &ghosts, label, came);
+        take_own(&search, population, diameter, failed, connection, label);
+        error = search_all(&search, ranks, &ghosts, label, came);
     }
     search_free(&search);
     free(came);

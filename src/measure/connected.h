@@ -35,8 +35,8 @@ struct error *connected_failures(const struct population *population, bool **fai
 /* Collective: fills LABEL, a number for each owned particle: the lowest id of those that it is
  * connected with, itself included; CONNECTED_NONE for those that CONNECTION leaves out. FAILED may
  * be NULL. The labels do not depend on the order of storage, threads or ranks. */
-struct error *connected_find(const struct simulation *simulation, const double *diameter,
-                             const bool *failed, const struct connection *connection,
-                             uint64_t *label);
+struct error *connected_find(const struct ranks *ranks, const struct population *population,
+                             const double *diameter, const bool *failed,
+                             const struct connection *connection, uint64_t *label);
 
 #endif

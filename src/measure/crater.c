@@ -74,7 +74,7 @@ struct columns {
 static void find_range(const struct measurement *m, const struct broken_plate *plate,
                        const struct broken_axis *axis, double low[2], double high[2])
 {
-    const struct population population = simulation_population(m->simulation), *p = &population;
+    const struct population *p = m->population;
     double far[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY}, across[2];
     for (int32_t i = 0; i < p->count; i++)
         for (int image = 0; image < BROKEN_IMAGES && plate->is_part[i]; image++) {
@@ -151,7 +151,7 @@ static void find_surface(const struct measurement *m, const struct broken_plate 
                          struct columns *columns)
 {
     const struct measure_crater *parameters = m->check->measure.value;
-    const struct population population = simulation_population(m->simulation), *p = &population;
+    const struct population *p = m->population;
     const double face = broken_face(m, parameters->along, parameters->side);
     double across[2];
     for (int32_t i = 0; i < p->count; i++) {

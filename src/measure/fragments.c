@@ -105,11 +105,11 @@ static void find_extent(const struct member *member, int64_t count, int dimensio
                                              : volume;
 }
 
-static struct fragment sum_fragment(const struct simulation *simulation,
-                                    const struct member *member, int64_t count)
+static struct fragment sum_fragment(const struct problem *problem, const struct member *member,
+                                    int64_t count)
 {
-    const int dimension = simulation->problem->dimension;
-    const bool round = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
+    const int dimension = problem->dimension;
+    const bool round = problem->geometry == GEOMETRY_AXISYMMETRIC;
     struct fragment fragment = {
         .particles = count, .label = member[0].label, .body = member[0].body};
     find_center(member, count, &fragment);
@@ -120,8 +120,8 @@ static struct fragment sum_fragment(const struct simulation *simulation,
 }
 
 /* Sums the fragments of the COUNT members that came, which it sorts; *ITEM is fresh. */
-static struct error *sum_all(const struct simulation *simulation, struct member *member,
-                             int32_t count, struct fragment **item, int64_t *items)
+static struct error *sum_all(const struct problem *problem, struct member *member, int32_t count,
+                             struct fragment **item, int64_t *items)
 {
     *items = 0;
     qsort(member, (size_t)count, sizeof *member, compare_members);
@@ -134,22 +134,21 @@ static struct error *sum_all(const struct simulation *simulation, struct member 
     for (int32_t first = 0, end; first < count; first = end) {
         for (end = first; end < count && member[end].label == member[first].label;)
             end++;
-        (*item)[made++] = sum_fragment(simulation, member + first, end - first);
+        (*item)[made++] = sum_fragment(problem, member + first, end - first);
     }
     return NULL;
 }
 
 /* The owned particles that have a LABEL, and to which rank each goes. */
-static int32_t take_members(const struct simulation *simulation, const double *diameter,
-                            const uint64_t *label, struct member *member, struct send_item *send)
+static int32_t take_members(const struct ranks *ranks, const struct population *p,
+                            const double *diameter, const uint64_t *label, struct member *member,
+                            struct send_item *send)
 {
-    const struct population population = simulation_population(simulation), *p = &population;
     int32_t count = 0;
     for (int32_t i = 0; i < p->count; i++) {
         if (label[i] == CONNECTED_NONE)
             continue;
-        send[count] =
-            (struct send_item){(int32_t)(label[i] % (uint64_t)simulation->ranks->size), count};
+        send[count] = (struct send_item){(int32_t)(label[i] % (uint64_t)ranks->size), count};
         struct member *taken = &member[count++];
         *taken = (struct member){.label = label[i],
                                  .id = p->id[i],
@@ -163,18 +162,19 @@ static int32_t take_members(const struct simulation *simulation, const double *d
 }
 
 /* Collective: this rank's members to the ranks that sum them. */
-static struct error *send_members(const struct simulation *simulation, const double *diameter,
-                                  const uint64_t *label, struct member **came, int32_t *count)
+static struct error *send_members(const struct ranks *ranks, const struct population *population,
+                                  const double *diameter, const uint64_t *label,
+                                  struct member **came, int32_t *count)
 {
-    const size_t room = (size_t)simulation_population(simulation).count + 1;
+    const size_t room = (size_t)population->count + 1;
     struct member *own = memory_allocate(room * sizeof *own);
     struct send_item *send = memory_allocate(room * sizeof *send);
     void *received = NULL;
-    struct error *error = ranks_agree(simulation->ranks, own && send ? NULL : out_of_memory());
+    struct error *error = ranks_agree(ranks, own && send ? NULL : out_of_memory());
     if (!error) {
         assert(own && send);
-        const int32_t sent = take_members(simulation, diameter, label, own, send);
-        error = exchange_once(simulation->ranks, send, sent, own, sizeof *own, &received, count);
+        const int32_t sent = take_members(ranks, population, diameter, label, own, send);
+        error = exchange_once(ranks, send, sent, own, sizeof *own, &received, count);
     }
     free(send);
     free(own);
@@ -183,11 +183,10 @@ static struct error *send_members(const struct simulation *simulation, const dou
 }
 
 /* The failed particles of BODY together. */
-static void sum_dust(const struct simulation *simulation, const bool *failed, int body,
-                     struct fragment *dust)
+static void sum_dust(const struct ranks *ranks, const struct population *p, const bool *failed,
+                     int body, struct fragment *dust)
 {
     enum { MASS, PLACE, MOTION = PLACE + 3, SUMS = MOTION + 3 };
-    const struct population population = simulation_population(simulation), *p = &population;
     struct exact_sum sums[SUMS] = {{{0}, 0, false}};
     *dust = (struct fragment){.body = body};
     for (int32_t i = 0; i < p->count; i++) {
@@ -200,8 +199,8 @@ static void sum_dust(const struct simulation *simulation, const bool *failed, in
             exact_sum_add(&sums[MOTION + k], p->mass[i] * p->velocity[i][k]);
         }
     }
-    ranks_sum_exact(simulation->ranks, sums, SUMS);
-    dust->particles = ranks_sum(simulation->ranks, dust->particles);
+    ranks_sum_exact(ranks, sums, SUMS);
+    dust->particles = ranks_sum(ranks, dust->particles);
     dust->mass = exact_sum_value(&sums[MASS]);
     for (int k = 0; k < 3; k++) {
         dust->center[k] = exact_sum_value(&sums[PLACE + k]) / dust->mass;
@@ -246,49 +245,48 @@ static struct error *number_members(const uint64_t *label, struct fragments *fra
 }
 
 /* Collective: the fragments of the particles with LABEL. */
-static struct error *gather(const struct simulation *simulation, const double *diameter,
-                            const uint64_t *label, struct fragments *fragments)
+static struct error *gather(const struct ranks *ranks, const struct population *population,
+                            const double *diameter, const uint64_t *label,
+                            struct fragments *fragments)
 {
     struct member *came = NULL;
     struct fragment *own = NULL;
     int64_t items = 0;
     int32_t count = 0;
     void *all = NULL;
-    struct error *error = send_members(simulation, diameter, label, &came, &count);
+    struct error *error = send_members(ranks, population, diameter, label, &came, &count);
     if (!error)
-        error = ranks_agree(simulation->ranks, sum_all(simulation, came, count, &own, &items));
+        error = ranks_agree(ranks, sum_all(population->problem, came, count, &own, &items));
     free(came);
     if (!error)
-        error =
-            ranks_gather(simulation->ranks, -1, own, items, sizeof *own, &all, &fragments->count);
+        error = ranks_gather(ranks, -1, own, items, sizeof *own, &all, &fragments->count);
     free(own);
     if (error)
         return error;
     fragments->item = all;
     qsort(fragments->item, (size_t)fragments->count, sizeof *fragments->item, compare_fragments);
-    return ranks_agree(simulation->ranks, number_members(label, fragments));
+    return ranks_agree(ranks, number_members(label, fragments));
 }
 
-struct error *fragments_find(const struct simulation *simulation, int body, double link,
-                             struct fragments *fragments)
+struct error *fragments_find(const struct ranks *ranks, const struct population *population,
+                             int body, double link, struct fragments *fragments)
 {
-    const struct population population = simulation_population(simulation);
     const struct connection connection = {link, body, false};
     double *diameter = NULL;
     bool *failed = NULL;
-    *fragments = (struct fragments){.members = population.count};
+    *fragments = (struct fragments){.members = population->count};
     uint64_t *label = memory_allocate(((size_t)fragments->members + 1) * sizeof *label);
     struct error *error = label ? NULL : out_of_memory();
     if (!error)
-        error = connected_diameters(&population, &diameter);
+        error = connected_diameters(population, &diameter);
     if (!error)
-        error = connected_failures(&population, &failed);
-    error = ranks_agree(simulation->ranks, error);
+        error = connected_failures(population, &failed);
+    error = ranks_agree(ranks, error);
     if (!error)
-        error = connected_find(simulation, diameter, failed, &connection, label);
+        error = connected_find(ranks, population, diameter, failed, &connection, label);
     if (!error) {
-        sum_dust(simulation, failed, body, &fragments->dust);
-        error = gather(simulation, diameter, label, fragments);
+        sum_dust(ranks, population, failed, body, &fragments->dust);
+        error = gather(ranks, population, diameter, label, fragments);
     }
     free(failed);
     free(diameter);

@@ -27,11 +27,11 @@ struct fragments {
 };
 enum { FRAGMENT_NONE = -1 };
 
-/* Collective: the fragments of BODY (-1: all), whose particles connect over LINK times the sum of
- * their diameters. They do not depend on the order of storage, threads or ranks. Free FRAGMENTS
- * also after an error. */
-struct error *fragments_find(const struct simulation *simulation, int body, double link,
-                             struct fragments *fragments);
+/* Collective: the fragments of BODY (-1: all) in POPULATION, whose particles connect over LINK
+ * times the sum of their diameters. They do not depend on the order of storage, threads or ranks.
+ * Free FRAGMENTS also after an error. */
+struct error *fragments_find(const struct ranks *ranks, const struct population *population,
+                             int body, double link, struct fragments *fragments);
 void fragments_free(struct fragments *fragments);
 
 /* The name of the column with the fragment of each particle, from 1, heaviest first; 0: of none. */

@@ -69,8 +69,7 @@ static int sector_of(const struct broken_axis *axis, const double across[2], int
 /* Collective: the radii of COUNT sectors; INFINITY where nothing bounds the opening. */
 static void look_along(const struct look *look, int count, double *radius)
 {
-    const struct simulation *simulation = look->measurement->simulation;
-    const struct population population = simulation_population(simulation), *p = &population;
+    const struct population *p = look->measurement->population;
     double inward[SECTORS], across[2];
     for (int s = 0; s < count; s++)
         inward[s] = -INFINITY;
@@ -82,7 +81,7 @@ static void look_along(const struct look *look, int count, double *radius)
             const double edge = hypot(across[0], across[1]) - 0.5 * look->plate.diameter[i];
             inward[s] = maximum(inward[s], -maximum(edge, 0.0));
         }
-    ranks_maximum_of(simulation->ranks, inward, count);
+    ranks_maximum_of(look->measurement->simulation->ranks, inward, count);
     for (int s = 0; s < count; s++)
         radius[s] = -inward[s];
 }

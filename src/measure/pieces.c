@@ -195,8 +195,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     error = ranks_agree(measurement->simulation->ranks, error);
     if (!error) {
         column_read(particles, column, 0, particles->count, diameter);
-        error = particles_see(&measurement->simulation->population[0], diameter, parameters->link,
-                              &ghosts);
+        error = particles_see(particles, diameter, parameters->link, &ghosts);
     }
     if (!error)
         error = find_pieces(measurement, diameter, &ghosts, value);

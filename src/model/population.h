@@ -24,9 +24,12 @@ struct column {
 };
 enum { COLUMNS_MAX = 40 };
 
+struct population_source;
+
 /* The members that this rank owns. A handful of pointers, to be asked for again after each step. */
 struct population {
-    const char *name; /* "particles", "gas" */
+    const struct population_source *source; /* of the simulation */
+    const char *name;                       /* "particles", "gas" */
     enum population_kind kind;
     const struct problem *problem;
     int dimension;

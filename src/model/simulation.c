@@ -40,6 +40,7 @@ struct population simulation_population_at(const struct simulation *simulation, 
     assert(index < simulation->populations);
     const struct population_source *source = &simulation->population[index];
     struct population population = source->type->members(source->store);
+    population.source = source;
     population.name = source->name;
     population.problem = simulation->problem;
     population.columns = source->columns;

@@ -88,11 +88,6 @@ BOLIDE_INLINE void point_advance(const struct point_loop *loop, const struct mat
 BOLIDE_INLINE void points_load(const struct point_loop *loop, const int32_t *list,
                                const double *rate, int count, struct batch *b)
 {
-    const double *strain = loop->history[HISTORY_plastic_strain],
-                 *heating = loop->history[HISTORY_plastic_heating],
-                 *damage = loop->history[HISTORY_damage],
-                 *voids = loop->history[HISTORY_void_ratio],
-                 *scatter = loop->history[HISTORY_strength_scatter];
     b->dt = loop->dt;
     b->count = (count + LANES - 1) / LANES * LANES;
     for (int c = 0; c < 9; c++)
@@ -105,11 +100,7 @@ BOLIDE_INLINE void points_load(const struct point_loop *loop, const int32_t *lis
         b->density[k] = loop->density[i];
         b->energy[k] = loop->energy[i];
         b->pressure[k] = loop->pressure[i];
-        b->plastic_strain[k] = strain[i];
-        b->plastic_heating[k] = heating ? heating[i] : 0.0;
-        b->damage[k] = voids ? damage[i] : 0.0;
-        b->void_ratio[k] = voids ? voids[i] : 0.0;
-        b->scatter[k] = scatter ? scatter[i] : 0.0;
+        batch_load_history(b, k, loop->history, i);
         b->viscous_pressure[k] = loop->viscosity[i];
         b->sound_long[k] = loop->sound[i];
     }
@@ -163,10 +154,7 @@ BOLIDE_INLINE void points_start(const struct point_loop *loop, struct batch *b,
 BOLIDE_INLINE bool points_keep(const struct point_loop *loop, const int32_t *list, int count,
                                const struct batch *b, const struct batch_flow *of)
 {
-    double *strain = loop->history[HISTORY_plastic_strain],
-           *heating = loop->history[HISTORY_plastic_heating],
-           *damage = loop->history[HISTORY_damage], *voids = loop->history[HISTORY_void_ratio],
-           *energy = loop->at_state ? loop->at_state : loop->energy;
+    double *energy = loop->at_state ? loop->at_state : loop->energy;
     int64_t wrong = 0;
     double zero = 0.0; /* unless a place or velocity is not finite */
     for (int k = 0; k < b->count; k++) {
@@ -182,13 +170,7 @@ BOLIDE_INLINE bool points_keep(const struct point_loop *loop, const int32_t *lis
         loop->density[i] = b->new_density[k];
         energy[i] = b->energy[k];
         loop->pressure[i] = b->pressure[k];
-        strain[i] = b->plastic_strain[k];
-        if (heating)
-            heating[i] = b->plastic_heating[k];
-        if (voids) {
-            damage[i] = b->damage[k];
-            voids[i] = b->void_ratio[k];
-        }
+        batch_keep_history(b, k, loop->history, i);
         loop->viscosity[i] = of->viscosity[k];
         if (loop->shock)
             loop->shock[i] =

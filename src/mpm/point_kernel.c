@@ -1,5 +1,6 @@
 /* The step of particles for one instruction set, named by BOLIDE_ISA; see point_kernel.h. */
 #include "base/isa.h"
+#include "material/batch_run.h"
 #include "mpm/point_body.h"
 
 ISA_KERNEL(bool, point_loop_run, const struct point_loop *loop, const struct material *material,
@@ -14,7 +15,7 @@ ISA_KERNEL(bool, point_loop_run, const struct point_loop *loop, const struct mat
         points_load(loop, list + first, loop->rate + first, count, &batch);
         points_start(loop, &batch, loop->rate + first + (size_t)RATE_UNRESOLVED * loop->rate_stride,
                      &flow);
-        batch_step(material, &batch);
+        batch_run(material, &batch, ENERGY_BY_WORK);
         possible &= points_keep(loop, list + first, count, &batch, &flow);
     }
     return possible;

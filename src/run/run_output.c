@@ -396,8 +396,8 @@ static struct error *write_with_fragments(struct run *run, int64_t number)
 {
     struct fragments fragments;
     struct column columns[COLUMNS_MAX];
-    struct error *error =
-        fragments_find(&run->simulation, -1, run->input->output.fragment_link, &fragments);
+    struct error *error = fragments_find(&run->ranks, &run->population, -1,
+                                         run->input->output.fragment_link, &fragments);
     if (!error)
         error = ranks_agree(&run->ranks, write_fragments(run, &fragments));
     if (!error) {

@@ -4,6 +4,8 @@
 
 #include "base/exponential.h"
 #include "material/any.h"
+#include "material/batch.h"
+#include "material/batch_run.h"
 #include "sph/deform.h"
 #include "sph/evaluate.h"
 #include "sph/scheme.h"
@@ -121,19 +123,14 @@ struct advance {
 };
 
 /* Particles FIRST .. FIRST + COUNT - 1, all of one material, on their way through a step: they
- * move, their material takes them to their new density and energy, and their sizes follow. Only the
- * second of these loops is compiled for each model. */
-enum { PASSAGE = 64 };
+ * move, their material takes them to their new density and energy, and their sizes follow. */
 struct passage {
     const struct material *material;
     int32_t first;
     int count;
-    double density[PASSAGE], energy[PASSAGE]; /* new */
-    double a2[PASSAGE];                       /* square of the acceleration by contacts */
-    double sound[PASSAGE];                    /* at level n, where supports need it */
-    unsigned status[PASSAGE];
-    const double (*strain_rate)[6], (*spin)[3]; /* from FIRST on: of the fields, or */
-    double deformed_rate[PASSAGE][6], deformed_spin[PASSAGE][3];
+    struct batch batch;
+    double a2[BATCH];    /* square of the acceleration by contacts */
+    double sound[BATCH]; /* at level n, where supports need it */
 };
 
 /* Moves particle I; returns the square of its acceleration by contacts. */
@@ -157,17 +154,21 @@ BOLIDE_INLINE double move(struct particles *p, const struct advance *step, int32
     return a2;
 }
 
-/* The volume ratio of a step with a finite velocity gradient, with the rates that the material is
- * to see. */
-static double deform(const struct advance *step, struct passage *passage, int k)
+/* The rates that the material of number K of a passage is to see; returns the volume ratio of the
+ * step where the velocity gradient is finite, else 1. */
+static double keep_rates(const struct advance *step, struct passage *passage, int k)
 {
+    struct batch *b = &passage->batch;
     const double *rate = step->fields->rates.strain_rate[passage->first + k],
                  *turn = step->fields->rates.spin[passage->first + k];
     struct sym3 strain_rate = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]};
     struct vec3 spin = vec3_make(turn[0], turn[1], turn[2]);
-    const double ratio = sph_deform(step->dt, &strain_rate, &spin);
-    memcpy(passage->deformed_rate[k], &strain_rate, sizeof strain_rate);
-    memcpy(passage->deformed_spin[k], &spin, sizeof spin);
+    const double ratio = step->finite ? sph_deform(step->dt, &strain_rate, &spin) : 1.0;
+    batch_keep_tensor(b->strain_rate, k, strain_rate);
+    b->spin[0][k] = spin.x;
+    b->spin[1][k] = spin.y;
+    b->spin[2][k] = spin.z;
+    b->viscous_pressure[k] = 0.0;
     return ratio;
 }
 
@@ -180,8 +181,8 @@ BOLIDE_INLINE void start_point(struct particles *p, const struct advance *step,
     const double dt = step->dt, *rate = f->rates.strain_rate[i];
     const double divergence = rate[0] + rate[1] + rate[2], a2 = move(p, step, i);
     double density = p->density[i] * (2.0 - divergence * dt) / (2.0 + divergence * dt); /* (1.82) */
+    double ratio = keep_rates(step, passage, k);
     if (step->finite) {
-        double ratio = deform(step, passage, k);
         if (f->volume && f->rates.hoop_pull)
             ratio = ring_volume_ratio(f, i, dt, ratio);
         else if (f->volume)
@@ -197,98 +198,71 @@ BOLIDE_INLINE void start_point(struct particles *p, const struct advance *step,
         p->energy[i] + dt * f->rates.power[i] - (step->total ? 0.5 * square(dt) * a2 : 0.0);
     if (f->heat_rate)
         energy += dt * f->heat_rate[i];
-    passage->density[k] = density;
-    passage->energy[k] = energy;
+    passage->batch.new_density[k] = density;
+    passage->batch.energy[k] = energy;
     passage->a2[k] = a2;
     if (f->support)
         passage->sound[k] = f->sound_long[i];
 }
 
-/* What a loop is compiled for: points that remember no more than their plastic strain; all; those
- * of a plate that thins. */
-enum kind_of_points { PLAIN_POINTS, ANY_POINTS, THIN_POINTS };
-
-/* Takes a passage through MATERIAL, whose kinds are constants where plain points are stepped. */
-BOLIDE_INLINE void step_points(const struct material *material, enum kind_of_points kind,
-                               struct particles *p, const struct advance *step,
-                               struct passage *passage)
+/* Takes number K of a passage through the step alone; under plane stress where particles have a
+ * thickness. */
+static void step_point(struct particles *p, const struct advance *step,
+                       const struct passage *passage, int k)
 {
     const struct sph_fields *const f = step->fields;
-    for (int k = 0; k < passage->count; k++) {
-        const int32_t i = passage->first + k;
-        const double *rate = passage->strain_rate[k], *spin = passage->spin[k];
-        double *s = p->deviator[i];
-        struct motion motion = {
-            .dt = step->dt,
-            .density = passage->density[k],
-            .energy = passage->energy[k],
-            .strain_rate = {rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]},
-            .spin = {spin[0], spin[1], spin[2]},
-            .time = step->time,
-            .length = f->diameter[i]};
-        struct point point = {.density = p->density[i],
-                              .deviator = {s[0], s[1], s[2], s[3], s[4], s[5]},
-                              .history = {p->plastic_strain[i]}};
-        struct response r;
-        if (kind != PLAIN_POINTS)
-            particle_load_history(p, i, point.history);
-        if (kind == PLAIN_POINTS) {
-            r = material_step(material, &point, &motion);
-        } else if (kind == THIN_POINTS) {
-            const double *plane = f->rates.strain_rate[i];
-            r = sph_thin_step(material, plane[0] + plane[1] + plane[2], &point, &motion,
-                              &f->thickness[i]);
-        } else {
-            r = any_material_step(material, &point, &motion);
-        }
-        p->density[i] = point.density;
-        p->energy[i] = point.energy;
-        p->pressure[i] = point.pressure;
-        if (kind == PLAIN_POINTS)
-            p->plastic_strain[i] = point.history[HISTORY_plastic_strain];
-        else
-            particle_keep_history(p, i, point.history);
-        s[0] = point.deviator.xx;
-        s[1] = point.deviator.yy;
-        s[2] = point.deviator.zz;
-        s[3] = point.deviator.xy;
-        s[4] = point.deviator.yz;
-        s[5] = point.deviator.zx;
-        f->sound_long[i] = r.sound_long;
-        f->sound_shear[i] = r.sound_shear;
-        passage->status[k] = r.status;
-    }
+    const int32_t i = passage->first + k;
+    const double *plane = f->rates.strain_rate[i];
+    double *s = p->deviator[i];
+    struct motion motion = batch_motion(&passage->batch, k);
+    struct point point = {.density = p->density[i], .deviator = sym3_make(s)};
+    motion.energy = passage->batch.energy[k];
+    motion.time = step->time;
+    motion.length = f->diameter[i];
+    particle_load_history(p, i, point.history);
+    const struct response r = f->thickness
+                                  ? sph_thin_step(passage->material, plane[0] + plane[1] + plane[2],
+                                                  &point, &motion, &f->thickness[i])
+                                  : any_material_step(passage->material, &point, &motion);
+    p->density[i] = point.density;
+    p->energy[i] = point.energy;
+    p->pressure[i] = point.pressure;
+    particle_keep_history(p, i, point.history);
+    sym3_store(point.deviator, s);
+    f->sound_long[i] = r.status & POINT_NO_SOUND ? 0.0 : r.sound_long;
+    f->sound_shear[i] = r.sound_shear;
 }
 
-/* One switch for all points. */
-static void step_plain_points(struct particles *p, const struct advance *step,
-                              struct passage *passage)
+/* Takes a passage through the step as a batch, which number K - 1 fills up. */
+static void step_batch(struct particles *p, const struct advance *step, struct passage *passage)
 {
-    struct material m = *passage->material;
-    const enum strength_kind strength = m.strength.kind;
-    m.failure.kind = FAILURE_NONE; /* constants here, as for all plain points */
-    m.burn.kind = BURN_INSTANT;
-    switch (m.eos.kind) {
-#define STEP_SOLID(name)                                 \
-    case STRENGTH_##name:                                \
-        m.strength.kind = STRENGTH_##name;               \
-        step_points(&m, PLAIN_POINTS, p, step, passage); \
-        break;
-#define STEP_CASE(name)                                      \
-    case EOS_##name:                                         \
-        m.eos.kind = EOS_##name;                             \
-        switch (strength) {                                  \
-            STRENGTH_PLAIN(STEP_SOLID)                       \
-        default:                                             \
-            m.strength.kind = STRENGTH_NONE;                 \
-            step_points(&m, PLAIN_POINTS, p, step, passage); \
-        }                                                    \
-        break;
-        EOS_STATELESS(STEP_CASE)
-#undef STEP_CASE
-#undef STEP_SOLID
-    default:
-        break;
+    const struct sph_fields *const f = step->fields;
+    const double modulus = strength_shear_modulus(&passage->material->strength);
+    struct batch *b = &passage->batch;
+    b->count = (passage->count + LANES - 1) / LANES * LANES;
+    for (int k = 0; k < b->count; k++) {
+        const int from = k < passage->count ? k : passage->count - 1;
+        const int32_t i = passage->first + from;
+        b->density[k] = p->density[i];
+        b->new_density[k] = b->new_density[from];
+        b->energy[k] = b->energy[from];
+        b->viscous_pressure[k] = 0.0;
+        batch_keep_tensor(b->deviator, k, sym3_make(p->deviator[i]));
+        batch_keep_tensor(b->strain_rate, k, batch_tensor(b->strain_rate, from));
+        for (int c = 0; c < 3; c++)
+            b->spin[c][k] = b->spin[c][from];
+        batch_load_history(b, k, p->history, i);
+    }
+    batch_run(passage->material, b, ENERGY_GIVEN);
+    for (int k = 0; k < passage->count; k++) {
+        const int32_t i = passage->first + k;
+        p->density[i] = b->new_density[k];
+        p->energy[i] = b->energy[k];
+        p->pressure[i] = b->pressure[k];
+        sym3_store(batch_tensor(b->new_deviator, k), p->deviator[i]);
+        batch_keep_history(b, k, p->history, i);
+        f->sound_long[i] = b->sound_long[k];
+        f->sound_shear[i] = sqrt(modulus / b->new_density[k]);
     }
 }
 
@@ -309,7 +283,7 @@ BOLIDE_INLINE void finish_point(struct particles *p, const struct advance *step,
         f->support[i] = ratio * f->diameter[i];
     const bool possible = p->density[i] > 0.0 && isfinite(p->density[i]) &&
                           isfinite(p->pressure[i]) && isfinite(p->energy[i]) &&
-                          isfinite(passage->a2[k]) && !(passage->status[k] & POINT_NO_SOUND);
+                          isfinite(passage->a2[k]) && f->sound_long[i] > 0.0;
     if (!possible)
         note_impossible(impossible, p->id[i], i);
 }
@@ -319,24 +293,19 @@ static void update_run(const struct material *material, struct particles *p,
                        const struct advance *step, int32_t begin, int32_t end,
                        struct impossible *impossible)
 {
-    const struct sph_fields *const f = step->fields;
+    const bool batches = !step->fields->thickness && batch_takes(material);
     struct passage passage;
     passage.material = material;
-    for (int32_t first = begin; first < end; first += PASSAGE) {
+    passage.batch.dt = step->dt;
+    for (int32_t first = begin; first < end; first += BATCH) {
         passage.first = first;
-        passage.count = end - first < PASSAGE ? end - first : PASSAGE;
+        passage.count = end - first < BATCH ? end - first : BATCH;
         for (int k = 0; k < passage.count; k++)
             start_point(p, step, &passage, k);
-        passage.strain_rate = (const double(*)[6])(step->finite ? passage.deformed_rate
-                                                                : f->rates.strain_rate + first);
-        passage.spin =
-            (const double(*)[3])(step->finite ? passage.deformed_spin : f->rates.spin + first);
-        if (f->thickness)
-            step_points(material, THIN_POINTS, p, step, &passage);
-        else if (material_is_plain(material))
-            step_plain_points(p, step, &passage);
-        else
-            step_points(material, ANY_POINTS, p, step, &passage);
+        if (batches)
+            step_batch(p, step, &passage);
+        for (int k = 0; k < passage.count && !batches; k++)
+            step_point(p, step, &passage, k);
         for (int k = 0; k < passage.count; k++)
             finish_point(p, step, &passage, k, impossible);
     }

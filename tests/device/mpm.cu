@@ -34,7 +34,7 @@ __global__ void step_batch(struct point_loop loop, const struct material *materi
 {
     points_load(&loop, list, loop.rate, BATCH, batch);
     points_start(&loop, batch, loop.rate + (size_t)RATE_UNRESOLVED * loop.rate_stride, flow);
-    batch_step(material, batch);
+    batch_step(material, batch, ENERGY_BY_WORK);
     points_keep(&loop, list, BATCH, batch, flow);
 }
 

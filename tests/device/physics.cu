@@ -16,7 +16,7 @@ __global__ void step_points(const struct material *material, const struct motion
 __global__ void step_batches(const struct material *material, struct batch *batch)
 {
     if (batch_takes(material))
-        batch_step(material, &batch[blockIdx.x]);
+        batch_step(material, &batch[blockIdx.x], ENERGY_BY_WORK);
 }
 
 __global__ void solve_contacts(const struct side *left, const struct side *right,

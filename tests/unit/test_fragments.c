@@ -16,6 +16,12 @@
     "  strength: {perfect-plastic: {shear_modulus: 1 kPa, yield: 1 Pa}},\n"              \
     "  failure: {spall: {strength: 1 Pa}}}}\n"
 
+static struct error *find(const struct simulation *simulation, int body, struct fragments *found)
+{
+    const struct population population = simulation_population(simulation);
+    return fragments_find(simulation->ranks, &population, body, 0.8, found);
+}
+
 /* A bar of 20 x 4 particles and a block of 3 x 3 that touches it. */
 static const char plane[] =
     "format: 1\n"
@@ -149,7 +155,7 @@ static void fragments_are_listed_heaviest_first(void **state)
             p->velocity[i][0] = 7.0 - 5.0 * (p->position[i][1] - 2e-3);
             p->velocity[i][1] = 5.0 * (p->position[i][0] - 2e-3);
         }
-    expect_success(fragments_find(&s.simulation, -1, 0.8, &found));
+    expect_success(find(&s.simulation, -1, &found));
     assert_int_equal(found.count, 3);
     assert_int_equal(found.item[0].particles, 60);
     assert_int_equal(found.item[1].particles, 16);
@@ -187,7 +193,7 @@ static void fragments_of_space_have_the_size_and_spin_of_cubes(void **state)
         p->velocity[i][1] = p->body[i] ? 0.0 : -9.0 * z;
         p->velocity[i][2] = p->body[i] ? 0.0 : 9.0 * y;
     }
-    expect_success(fragments_find(&s.simulation, 0, 0.8, &found));
+    expect_success(find(&s.simulation, 0, &found));
     assert_int_equal(found.count, 1);
     assert_float_equal(found.item[0].size, cbrt(6.0 / M_PI * 27e-9), 1e-12);
     assert_float_equal(found.item[0].mass, 54e-9, 1e-18);
@@ -203,7 +209,7 @@ static void size_in_axisymmetry_is_that_of_the_sphere(void **state)
     struct stage s;
     struct fragments found;
     stage_begin(&s, round_case, no_check);
-    expect_success(fragments_find(&s.simulation, -1, 0.8, &found));
+    expect_success(find(&s.simulation, -1, &found));
     assert_int_equal(found.count, 1);
     assert_float_equal(found.item[0].size, cbrt(6.0 * 32e-9), 1e-9);
     assert_float_equal(found.item[0].low[0], 0.0, 1e-12);
@@ -236,7 +242,7 @@ static void the_order_of_storage_does_not_matter(void **state)
                     memcpy(b, kept, bytes);
                 }
             }
-        expect_success(fragments_find(&s[k].simulation, -1, 0.8, &found[k]));
+        expect_success(find(&s[k].simulation, -1, &found[k]));
     }
     assert_int_equal(found[0].count, 3);
     assert_int_equal(found[1].count, 3);
@@ -257,7 +263,7 @@ static void the_field_numbers_fragments_from_one(void **state)
     double number;
     stage_begin(&s, plane, no_check);
     break_at(&s, 4.0);
-    expect_success(fragments_find(&s.simulation, -1, 0.8, &found));
+    expect_success(find(&s.simulation, -1, &found));
     const struct population shown = fragments_show(look(&s), &found, columns);
     const struct column *column = column_find(&shown, fragments_column, &component);
     assert_non_null(column);
@@ -282,7 +288,7 @@ static void the_table_ends_with_the_dust(void **state)
     char line[512];
     stage_begin(&s, plane, no_check);
     break_at(&s, 4.0);
-    expect_success(fragments_find(&s.simulation, -1, 0.8, &found));
+    expect_success(find(&s.simulation, -1, &found));
     expect_success(fragments_write(path, &s.simulation, &found));
     FILE *file = fopen(path, "r");
     assert_non_null(file);

@@ -33,8 +33,13 @@ BOLIDE_INLINE struct strength_traits strength_default_traits(void)
 
 enum { BATCH = 64 };
 
+/* Where the energy of a step comes from: it is known before, or follows from the power of the
+ * stress (material_step, material_step_by_work). */
+enum batch_energy { ENERGY_GIVEN, ENERGY_BY_WORK };
+
 /* Points before and after a step, and what the step does to them; see struct point and struct
- * motion. COUNT is a multiple of LANES; what fills it up must only be some point. */
+ * motion. COUNT is a multiple of LANES; what fills it up must only be some point. `energy` is that
+ * before the step, or where it is given that after it. */
 struct batch {
     int count;
     double dt;
@@ -60,6 +65,31 @@ BOLIDE_INLINE void batch_keep_tensor(double (*of)[BATCH], int k, struct sym3 s)
     of[3][k] = s.xy;
     of[4][k] = s.yz;
     of[5][k] = s.zx;
+}
+
+/* What batches know of the HISTORY of a store, by slot, of its point I. */
+BOLIDE_INLINE void batch_load_history(struct batch *b, int k, double *const history[POINT_HISTORY],
+                                      int32_t i)
+{
+    const double *heating = history[HISTORY_plastic_heating], *voids = history[HISTORY_void_ratio],
+                 *scatter = history[HISTORY_strength_scatter];
+    b->plastic_strain[k] = history[HISTORY_plastic_strain][i];
+    b->plastic_heating[k] = heating ? heating[i] : 0.0;
+    b->damage[k] = voids ? history[HISTORY_damage][i] : 0.0;
+    b->void_ratio[k] = voids ? voids[i] : 0.0;
+    b->scatter[k] = scatter ? scatter[i] : 0.0;
+}
+
+BOLIDE_INLINE void batch_keep_history(const struct batch *b, int k,
+                                      double *const history[POINT_HISTORY], int32_t i)
+{
+    history[HISTORY_plastic_strain][i] = b->plastic_strain[k];
+    if (history[HISTORY_plastic_heating])
+        history[HISTORY_plastic_heating][i] = b->plastic_heating[k];
+    if (history[HISTORY_void_ratio]) {
+        history[HISTORY_damage][i] = b->damage[k];
+        history[HISTORY_void_ratio][i] = b->void_ratio[k];
+    }
 }
 
 BOLIDE_INLINE struct motion batch_motion(const struct batch *b, int k)

@@ -78,12 +78,12 @@ void particles_drop(struct particles *particles)
     free(particles);
 }
 
-struct error *particles_see(const struct population_source *population, const double *diameter,
+struct error *particles_see(const struct population *population, const double *diameter,
                             double link, struct ghosts *ghosts)
 {
     struct halo halo = {0};
-    struct error *error = halo_plan(particles_in(population), NULL, (struct reach){diameter, link},
-                                    0.0, ghosts, &halo);
+    struct error *error = halo_plan(particles_in(population->source), NULL,
+                                    (struct reach){diameter, link}, 0.0, ghosts, &halo);
     halo_free(&halo);
     return error;
 }

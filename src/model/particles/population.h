@@ -27,7 +27,7 @@ void particles_drop(struct particles *particles);
 /* Collective: plans the exchange of GHOSTS, the particles of other ranks within LINK diameters of
  * those of POPULATION, and takes down what they are. Nothing crosses periodic faces. Free them also
  * after an error. */
-struct error *particles_see(const struct population_source *population, const double *diameter,
+struct error *particles_see(const struct population *population, const double *diameter,
                             double link, struct ghosts *ghosts);
 
 #endif
