@@ -1,7 +1,7 @@
-/* A step of many points of one material at once, in lanes: material_step or material_step_by_work
- * point by point, to the last bit, for the materials of which there are many. For files that are compiled once an
- * instruction set: a loop here is one over the points of a batch, and has no branch that a point
- * decides. */
+/* A step of many points of one material at once, in lanes: that of material_step or
+ * material_step_by_work point by point, to the last bit, for the materials of which there are many.
+ * For files that are compiled once an instruction set: a loop here is one over the points of a
+ * batch, and has no branch that a point decides. */
 #ifndef BOLIDE_BATCH_H
 #define BOLIDE_BATCH_H
 
@@ -58,8 +58,8 @@ BOLIDE_INLINE void batch_finish(const struct eos *eos, struct batch *b,
     b->sound_long[k] = material_response(&value, matter->density[k], shear_modulus, 0.0).sound_long;
 }
 
-/* Energies, where they are not GIVEN, and pressures after the step. The loop evaluates the form of the source, which has no
- * branches; the few points beyond it are done once more. */
+/* Energies, where they are not given, and pressures after the step. The loop evaluates the form of
+ * the source, which has no branches; the few points beyond it are done once more. */
 BOLIDE_INLINE void batch_energies(const struct material *material, struct batch *b,
                                   const struct batch_matter *matter, enum batch_energy from)
 {

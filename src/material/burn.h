@@ -17,21 +17,21 @@
 /* X(identifier): in burn/<identifier>.h struct burn_<identifier>, whose first member is the speed
  * of the detonation, burn_<identifier>_traits(), and its name, help and parameters (see choices.c).
  */
-#define BURN_LIST(X)  \
-    BURN_FRACTIONS(X) \
-    BURN_RATES(X)
+#define BURN_LIST(X, ...)            \
+    BURN_FRACTIONS(X, ##__VA_ARGS__) \
+    BURN_RATES(X, ##__VA_ARGS__)
 
 /* Those whose fraction follows from the state and the time: burn_<identifier>() gives F. */
-#define BURN_FRACTIONS(X) \
-    X(programmed)         \
-    X(beta)               \
-    X(cj_threshold)
+#define BURN_FRACTIONS(X, ...)   \
+    X(programmed, ##__VA_ARGS__) \
+    X(beta, ##__VA_ARGS__)       \
+    X(cj_threshold, ##__VA_ARGS__)
 
 /* Those with a rate: burn_<identifier>_rate() gives dF/dt, 1/s, and burn_<identifier>_ends() sets
  * the fractions at which terms of it end, in any order. */
-#define BURN_RATES(X)  \
-    X(ignition_growth) \
-    X(pressure_power)
+#define BURN_RATES(X, ...)            \
+    X(ignition_growth, ##__VA_ARGS__) \
+    X(pressure_power, ##__VA_ARGS__)
 
 #define BURN_ENUM(name) BURN_##name,
 enum burn_kind { BURN_INSTANT, BURN_LIST(BURN_ENUM) BURN_KINDS };
@@ -47,14 +47,15 @@ struct burn {
 };
 #undef BURN_MEMBER
 
+/* In a switch: models of a list answer by burn_<identifier>FUNCTION() of their parameters. */
+#define BURN_ANSWER(name, function, ...) \
+    case BURN_##name:                    \
+        return burn_##name##function(&burn->of.name, ##__VA_ARGS__);
+
 BOLIDE_INLINE struct burn_traits burn_traits(const struct burn *burn)
 {
     switch (burn->kind) {
-#define BURN_CASE(name) \
-    case BURN_##name:   \
-        return burn_##name##_traits(&burn->of.name);
-        BURN_LIST(BURN_CASE)
-#undef BURN_CASE
+        BURN_LIST(BURN_ANSWER, _traits)
     default:
         return burn_default_traits();
     }
@@ -98,11 +99,7 @@ BOLIDE_INLINE double burn_fraction(const struct burn *burn, const struct burning
 BOLIDE_INLINE double burn_rate(const struct burn *burn, const struct reacting *point)
 {
     switch (burn->kind) {
-#define BURN_CASE(name) \
-    case BURN_##name:   \
-        return burn_##name##_rate(&burn->of.name, point);
-        BURN_RATES(BURN_CASE)
-#undef BURN_CASE
+        BURN_RATES(BURN_ANSWER, _rate, point)
     default:
         return 0.0;
     }
@@ -114,12 +111,7 @@ BOLIDE_INLINE void burn_rate_ends(const struct burn *burn, double end[BURN_ENDS]
     for (int k = 0; k < BURN_ENDS; k++)
         end[k] = 0.0;
     switch (burn->kind) {
-#define BURN_CASE(name)                          \
-    case BURN_##name:                            \
-        burn_##name##_ends(&burn->of.name, end); \
-        break;
-        BURN_RATES(BURN_CASE)
-#undef BURN_CASE
+        BURN_RATES(BURN_ANSWER, _ends, end)
     default:
         break;
     }

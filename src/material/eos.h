@@ -26,47 +26,47 @@
  * eos_<identifier>_traits(), eos_<identifier>_curve(), and the name, help and parameters
  * EOS_<identifier>_NAME, _HELP and _PARAMETERS (see choices.c), and EOS_<identifier>_SAMPLE, the
  * constants of some material for the tests of all equations of state. */
-#define EOS_LIST(X)  \
-    EOS_STATELESS(X) \
-    X(hjc)           \
-    X(reactive_jwl)  \
-    X(blended_jwl)
+#define EOS_LIST(X, ...)            \
+    EOS_STATELESS(X, ##__VA_ARGS__) \
+    X(hjc, ##__VA_ARGS__)           \
+    X(reactive_jwl, ##__VA_ARGS__)  \
+    X(blended_jwl, ##__VA_ARGS__)
 
 /* Those that need no history, of density and energy alone: loops over many points know no
  * others. */
-#define EOS_STATELESS(X)     \
-    X(ideal_gas)             \
-    X(stiffened_gas)         \
-    X(barotropic)            \
-    X(rubber)                \
-    X(polynomial)            \
-    X(mie_grueneisen)        \
-    X(grueneisen_eta)        \
-    X(grueneisen_polynomial) \
-    X(tillotson)             \
-    X(jwl)                   \
-    X(noble_abel)
+#define EOS_STATELESS(X, ...)               \
+    X(ideal_gas, ##__VA_ARGS__)             \
+    X(stiffened_gas, ##__VA_ARGS__)         \
+    X(barotropic, ##__VA_ARGS__)            \
+    X(rubber, ##__VA_ARGS__)                \
+    X(polynomial, ##__VA_ARGS__)            \
+    X(mie_grueneisen, ##__VA_ARGS__)        \
+    X(grueneisen_eta, ##__VA_ARGS__)        \
+    X(grueneisen_polynomial, ##__VA_ARGS__) \
+    X(tillotson, ##__VA_ARGS__)             \
+    X(jwl, ##__VA_ARGS__)                   \
+    X(noble_abel, ##__VA_ARGS__)
 
 /* Models of irreversible compaction: eos_<identifier>_compact() notes it in the history. */
-#define EOS_COMPACTING(X) X(hjc)
+#define EOS_COMPACTING(X, ...) X(hjc, ##__VA_ARGS__)
 
 /* Mixtures of an explosive and products with volumes of their own: eos_<identifier>_react() is
  * eos_<identifier>() and notes the volume of the explosive in the history,
  * eos_<identifier>_temperature() gives the temperature that both have, K, of density, pressure and
  * that history. */
-#define EOS_PHASES(X) X(reactive_jwl)
+#define EOS_PHASES(X, ...) X(reactive_jwl, ##__VA_ARGS__)
 
 /* Products whose energy counts from the explosive at rest: eos_<identifier>_take_heat() makes it
  * count from cold products and returns the difference, J/kg. */
-#define EOS_CHARGED(X) X(jwl)
+#define EOS_CHARGED(X, ...) X(jwl, ##__VA_ARGS__)
 
 /* Models whose published formula has a limited range: outside it eos_<identifier>() returns
  * POINT_BEYOND, and eos_<identifier>_beyond() continues it. */
-#define EOS_CONTINUED(X)     \
-    X(mie_grueneisen)        \
-    X(grueneisen_eta)        \
-    X(grueneisen_polynomial) \
-    X(jwl)
+#define EOS_CONTINUED(X, ...)               \
+    X(mie_grueneisen, ##__VA_ARGS__)        \
+    X(grueneisen_eta, ##__VA_ARGS__)        \
+    X(grueneisen_polynomial, ##__VA_ARGS__) \
+    X(jwl, ##__VA_ARGS__)
 
 #define EOS_ENUM(name) EOS_##name,
 enum eos_kind { EOS_LIST(EOS_ENUM) EOS_KINDS };
@@ -81,6 +81,11 @@ struct eos {
     } of;
 };
 #undef EOS_MEMBER
+
+/* In a switch: models of a list answer by eos_<identifier>FUNCTION() of their parameters. */
+#define EOS_ANSWER(name, function, ...) \
+    case EOS_##name:                    \
+        return eos_##name##function(&eos->of.name, ##__VA_ARGS__);
 
 /* eos_make_<identifier>(): PARAMETERS as an equation of state. */
 #define EOS_MAKE(name)                                                            \
@@ -104,11 +109,7 @@ BOLIDE_INLINE struct eos_value eos_beyond(const struct eos *eos, double density,
 {
     struct eos_value none = {0.0, 0.0, 0.0, POINT_NO_SOUND};
     switch (eos->kind) {
-#define EOS_CASE(name) \
-    case EOS_##name:   \
-        return eos_##name##_beyond(&eos->of.name, density, energy);
-        EOS_CONTINUED(EOS_CASE)
-#undef EOS_CASE
+        EOS_CONTINUED(EOS_ANSWER, _beyond, density, energy)
     default:
         return none;
     }
@@ -142,11 +143,7 @@ BOLIDE_INLINE double eos_sound_square(double pressure, double dp_drho, double dp
 BOLIDE_INLINE struct eos_traits eos_traits(const struct eos *eos)
 {
     switch (eos->kind) {
-#define EOS_CASE(name) \
-    case EOS_##name:   \
-        return eos_##name##_traits(&eos->of.name);
-        EOS_LIST(EOS_CASE)
-#undef EOS_CASE
+        EOS_LIST(EOS_ANSWER, _traits)
     default:
         return eos_default_traits();
     }
@@ -158,11 +155,7 @@ BOLIDE_INLINE struct heat_curve eos_curve(const struct eos *eos, const struct he
 {
     struct heat_curve none = {NAN, 0.0};
     switch (eos->kind) {
-#define EOS_CASE(name) \
-    case EOS_##name:   \
-        return eos_##name##_curve(&eos->of.name, heat, density);
-        EOS_LIST(EOS_CASE)
-#undef EOS_CASE
+        EOS_LIST(EOS_ANSWER, _curve, heat, density)
     default:
         return none;
     }
@@ -190,11 +183,7 @@ BOLIDE_INLINE const char *eos_wrong(const struct eos *eos, const char **key)
 BOLIDE_INLINE double eos_compact(const struct eos *eos, double density, double *history)
 {
     switch (eos->kind) {
-#define EOS_CASE(name) \
-    case EOS_##name:   \
-        return eos_##name##_compact(&eos->of.name, density, history);
-        EOS_COMPACTING(EOS_CASE)
-#undef EOS_CASE
+        EOS_COMPACTING(EOS_ANSWER, _compact, density, history)
     default:
         return 0.0;
     }
@@ -205,11 +194,7 @@ BOLIDE_INLINE struct eos_value eos_react(const struct eos *eos, double density, 
                                          double *history)
 {
     switch (eos->kind) {
-#define EOS_CASE(name) \
-    case EOS_##name:   \
-        return eos_##name##_react(&eos->of.name, density, energy, history);
-        EOS_PHASES(EOS_CASE)
-#undef EOS_CASE
+        EOS_PHASES(EOS_ANSWER, _react, density, energy, history)
     default:
         history[HISTORY_explosive_volume] = eos_reference_density(eos) / density;
         return eos_evaluate(eos, density, energy, history);
@@ -221,11 +206,7 @@ BOLIDE_INLINE double eos_phases_temperature(const struct eos *eos, double densit
                                             const double *history)
 {
     switch (eos->kind) {
-#define EOS_CASE(name) \
-    case EOS_##name:   \
-        return eos_##name##_temperature(&eos->of.name, density, pressure, history);
-        EOS_PHASES(EOS_CASE)
-#undef EOS_CASE
+        EOS_PHASES(EOS_ANSWER, _temperature, density, pressure, history)
     default:
         return NAN;
     }
@@ -235,11 +216,7 @@ BOLIDE_INLINE double eos_phases_temperature(const struct eos *eos, double densit
 BOLIDE_INLINE double eos_take_heat(struct eos *eos)
 {
     switch (eos->kind) {
-#define EOS_CASE(name) \
-    case EOS_##name:   \
-        return eos_##name##_take_heat(&eos->of.name);
-        EOS_CHARGED(EOS_CASE)
-#undef EOS_CASE
+        EOS_CHARGED(EOS_ANSWER, _take_heat)
     default:
         return 0.0;
     }

@@ -16,12 +16,12 @@
 /* X(identifier): in failure/<identifier>.h struct failure_<identifier>, that begins with
  * FAILURE_MEMBERS, failure_<identifier>(), which gives the damage after a step,
  * failure_<identifier>_traits(), and its name, help and parameters (see choices.c). */
-#define FAILURE_LIST(X) \
-    X(spall)            \
-    X(johnson_cook)     \
-    X(cockcroft_latham) \
-    X(grady)            \
-    X(threshold)
+#define FAILURE_LIST(X, ...)           \
+    X(spall, ##__VA_ARGS__)            \
+    X(johnson_cook, ##__VA_ARGS__)     \
+    X(cockcroft_latham, ##__VA_ARGS__) \
+    X(grady, ##__VA_ARGS__)            \
+    X(threshold, ##__VA_ARGS__)
 
 #define FAILURE_ENUM(name) FAILURE_##name,
 enum failure_kind { FAILURE_NONE, FAILURE_LIST(FAILURE_ENUM) FAILURE_KINDS };
@@ -40,6 +40,11 @@ struct failure {
     } of;
 };
 #undef FAILURE_MEMBER
+
+/* In a switch: models of a list answer by failure_<identifier>FUNCTION() of their parameters. */
+#define FAILURE_ANSWER(name, function, ...) \
+    case FAILURE_##name:                    \
+        return failure_##name##function(&failure->of.name, ##__VA_ARGS__);
 
 /* Whether the material has a failure model. */
 BOLIDE_INLINE bool failure_acts(const struct failure *failure)
@@ -69,11 +74,7 @@ BOLIDE_INLINE double failure_damage(const struct failure *failure, const struct 
                                     double damage)
 {
     switch (failure->kind) {
-#define FAILURE_CASE(name) \
-    case FAILURE_##name:   \
-        return failure_##name(&failure->of.name, point, damage);
-        FAILURE_LIST(FAILURE_CASE)
-#undef FAILURE_CASE
+        FAILURE_LIST(FAILURE_ANSWER, , point, damage)
     default:
         return damage;
     }
@@ -82,11 +83,7 @@ BOLIDE_INLINE double failure_damage(const struct failure *failure, const struct 
 BOLIDE_INLINE struct failure_traits failure_traits(const struct failure *failure)
 {
     switch (failure->kind) {
-#define FAILURE_CASE(name) \
-    case FAILURE_##name:   \
-        return failure_##name##_traits(&failure->of.name);
-        FAILURE_LIST(FAILURE_CASE)
-#undef FAILURE_CASE
+        FAILURE_LIST(FAILURE_ANSWER, _traits)
     default:
         return failure_default_traits();
     }

@@ -15,26 +15,26 @@
 /* X(identifier): in strength/<identifier>.h struct strength_<identifier>, strength_<identifier>(),
  * strength_<identifier>_yield(), strength_<identifier>_traits(), and the name, help and parameters
  * STRENGTH_<identifier>_NAME, _HELP and _PARAMETERS (see choices.c). */
-#define STRENGTH_LIST(X) \
-    X(perfect_plastic)   \
-    X(johnson_cook)      \
-    X(drucker_prager)    \
-    X(hjc)
+#define STRENGTH_LIST(X, ...)         \
+    X(perfect_plastic, ##__VA_ARGS__) \
+    X(johnson_cook, ##__VA_ARGS__)    \
+    X(drucker_prager, ##__VA_ARGS__)  \
+    X(hjc, ##__VA_ARGS__)
 
 /* The plain ones: they remember the plastic strain alone and leave the pressure as it is. Hot loops
  * are compiled for each of them. */
-#define STRENGTH_PLAIN(X) X(perfect_plastic)
+#define STRENGTH_PLAIN(X, ...) X(perfect_plastic, ##__VA_ARGS__)
 
 /* Those with a step of many points at once, strength_<identifier>_batch(): see batch.h. */
-#define STRENGTH_BATCHED(X) \
-    X(perfect_plastic)      \
-    X(johnson_cook)
+#define STRENGTH_BATCHED(X, ...)      \
+    X(perfect_plastic, ##__VA_ARGS__) \
+    X(johnson_cook, ##__VA_ARGS__)
 
 /* Those that heat softens: strength_<identifier>_homologous(). */
-#define STRENGTH_SOFTENED(X) X(johnson_cook)
+#define STRENGTH_SOFTENED(X, ...) X(johnson_cook, ##__VA_ARGS__)
 
 /* Those that limit the tension: strength_<identifier>_cut(). */
-#define STRENGTH_CUTTING(X) X(hjc)
+#define STRENGTH_CUTTING(X, ...) X(hjc, ##__VA_ARGS__)
 
 #define STRENGTH_ENUM(name) STRENGTH_##name,
 enum strength_kind { STRENGTH_NONE, STRENGTH_LIST(STRENGTH_ENUM) STRENGTH_KINDS };
@@ -49,6 +49,11 @@ struct strength {
     } of;
 };
 #undef STRENGTH_MEMBER
+
+/* In a switch: models of a list answer by strength_<identifier>FUNCTION() of their parameters. */
+#define STRENGTH_ANSWER(name, function, ...) \
+    case STRENGTH_##name:                    \
+        return strength_##name##function(&strength->of.name, ##__VA_ARGS__);
 
 /* Whether it is that of a solid. */
 BOLIDE_INLINE bool strength_is_solid(const struct strength *strength)
@@ -66,11 +71,7 @@ BOLIDE_INLINE double strength_shear_modulus(const struct strength *strength)
 BOLIDE_INLINE double strength_yield(const struct strength *strength, const struct point *point)
 {
     switch (strength->kind) {
-#define STRENGTH_CASE(name) \
-    case STRENGTH_##name:   \
-        return strength_##name##_yield(&strength->of.name, point);
-        STRENGTH_LIST(STRENGTH_CASE)
-#undef STRENGTH_CASE
+        STRENGTH_LIST(STRENGTH_ANSWER, _yield, point)
     default:
         return 0.0;
     }
@@ -79,11 +80,7 @@ BOLIDE_INLINE double strength_yield(const struct strength *strength, const struc
 BOLIDE_INLINE struct strength_traits strength_traits(const struct strength *strength)
 {
     switch (strength->kind) {
-#define STRENGTH_CASE(name) \
-    case STRENGTH_##name:   \
-        return strength_##name##_traits(&strength->of.name);
-        STRENGTH_LIST(STRENGTH_CASE)
-#undef STRENGTH_CASE
+        STRENGTH_LIST(STRENGTH_ANSWER, _traits)
     default:
         return strength_default_traits();
     }
@@ -115,12 +112,7 @@ BOLIDE_INLINE void strength_step(const struct strength *strength, const struct m
                                  double bulk_modulus, struct point *point)
 {
     switch (strength->kind) {
-#define STRENGTH_CASE(name)                                               \
-    case STRENGTH_##name:                                                 \
-        strength_##name(&strength->of.name, motion, bulk_modulus, point); \
-        break;
-        STRENGTH_LIST(STRENGTH_CASE)
-#undef STRENGTH_CASE
+        STRENGTH_LIST(STRENGTH_ANSWER, , motion, bulk_modulus, point)
     default:
         break;
     }
@@ -131,12 +123,7 @@ BOLIDE_INLINE void strength_plain_step(const struct strength *strength, const st
                                        struct point *point)
 {
     switch (strength->kind) {
-#define STRENGTH_CASE(name)                                      \
-    case STRENGTH_##name:                                        \
-        strength_##name(&strength->of.name, motion, 0.0, point); \
-        break;
-        STRENGTH_PLAIN(STRENGTH_CASE)
-#undef STRENGTH_CASE
+        STRENGTH_PLAIN(STRENGTH_ANSWER, , motion, 0.0, point)
     default:
         break;
     }
@@ -147,12 +134,7 @@ BOLIDE_INLINE void strength_plain_step(const struct strength *strength, const st
 BOLIDE_INLINE void strength_batch(const struct strength *strength, struct batch *batch)
 {
     switch (strength->kind) {
-#define STRENGTH_CASE(name)                                 \
-    case STRENGTH_##name:                                   \
-        strength_##name##_batch(&strength->of.name, batch); \
-        break;
-        STRENGTH_BATCHED(STRENGTH_CASE)
-#undef STRENGTH_CASE
+        STRENGTH_BATCHED(STRENGTH_ANSWER, _batch, batch)
     default:
         memcpy(batch->new_deviator, batch->deviator, sizeof batch->deviator);
     }
@@ -164,12 +146,7 @@ BOLIDE_INLINE void strength_cut(const struct strength *strength, const double *h
                                 struct eos_value *value)
 {
     switch (strength->kind) {
-#define STRENGTH_CASE(name)                                        \
-    case STRENGTH_##name:                                          \
-        strength_##name##_cut(&strength->of.name, history, value); \
-        break;
-        STRENGTH_CUTTING(STRENGTH_CASE)
-#undef STRENGTH_CASE
+        STRENGTH_CUTTING(STRENGTH_ANSWER, _cut, history, value)
     default:
         break;
     }
@@ -180,11 +157,7 @@ BOLIDE_INLINE void strength_cut(const struct strength *strength, const double *h
 BOLIDE_INLINE double strength_homologous(const struct strength *strength, double heating)
 {
     switch (strength->kind) {
-#define STRENGTH_CASE(name) \
-    case STRENGTH_##name:   \
-        return strength_##name##_homologous(&strength->of.name, heating);
-        STRENGTH_SOFTENED(STRENGTH_CASE)
-#undef STRENGTH_CASE
+        STRENGTH_SOFTENED(STRENGTH_ANSWER, _homologous, heating)
     default:
         return 0.0;
     }
