@@ -1,5 +1,21 @@
 /* Sweeps over strips: blocks that follow one another along an axis, whose cells make rows. For
- * files that are compiled once an instruction set, and for those that call them. */
+ * files that are compiled once an instruction set, and for those that call them.
+ *
+ *   fields `from` of blocks, halo outside the strip
+ *     | load_row
+ *     v
+ *   row: U, content --closure--> states W --limited slopes, half a step--> W on both sides of faces
+ *     |                                                                      | closure: e, c
+ *     |                                                                      v
+ *     |                                        fluxes F <--Riemann solver-- sides
+ *     |                                          |
+ *     +-- U - dt/h (F above - F below) <---------+--> gas_through: ends of the strip, faces of
+ *     | store_row                                     obstacles, the cut --> ledger, coupling
+ *     v
+ *   fields `to`, which become the state when all strips of all ranks are done (strips.c)
+ *     | gas_look_at_block: closure
+ *     v
+ *   pressure, velocity, energy, sound --> time step, observers */
 #ifndef BOLIDE_GAS_SWEEP_H
 #define BOLIDE_GAS_SWEEP_H
 

@@ -1,6 +1,22 @@
 /* Sums from particles to nodes and back: the loops of the material point method. A block of cells
- * at a time; particles in the order of bins. Compiled once an instruction set
- * (transfer_kernel.h). */
+ * at a time; particles in the order of bins. Compiled once an instruction set (transfer_kernel.h).
+ *
+ *   particles: mass, velocity, stress
+ *     | transfer_scatter, transfer_push: weights N, grad N       transfer_slopes --> normals
+ *     v                                                                                 |
+ *   patches of nodes: mass, momentum, force                                             v
+ *     | summed over blocks and ranks --> walls, loads, contact of bodies (nodes.c, contact.c)
+ *     v
+ *   nodes: velocity, acceleration
+ *     | transfer_velocity: new velocities and places --> momentum on `back` --> nodes again
+ *     | transfer_gradient: strain rate and spin                                   |
+ *     v                                                                           |
+ *   particles: rates <------------------------------------------------------------+
+ *     | points.c: material/batch
+ *     v
+ *   particles: density, stress, energy of the next level
+ *
+ * Heat and mixing in shocks go over `back` too (transfer_warm; transfer_heat, transfer_mix). */
 #ifndef BOLIDE_MPM_TRANSFER_H
 #define BOLIDE_MPM_TRANSFER_H
 
