@@ -17,7 +17,7 @@ def charge_in_air(seed, number):
     end = draw.randint(4, 12) * cells
     h = radius / cells
     size = end * h
-    walls = "" if geometry != "plane" else "walls: {middle: {mirror: x, at: 0 m, side: low}}\n"
+    walls = "" if geometry != "plane" else "boundaries: {middle: {kind: symmetry, axis: x, at: 0 m, side: low}}\n"
     shape = "" if geometry == "plane" else f"geometry: {geometry}\n"
     air = f"material: air, pressure: {thin * 101.35e3:.9g} Pa, density: {thin * 1.225:.9g} kg/m^3"
     if kind == "charge":

@@ -102,7 +102,7 @@ checks:
             walls += f"  {name}0: {{mirror: {name}, at: 0 m, side: low}}\n"
         if axis != along and draw.random() < 0.5:
             walls += f"  {name}1: {{mirror: {name}, at: {high[axis] * EDGE:.9g} m, side: high}}\n"
-    text += f"walls:\n{walls}" if walls else ""
+    text += f"boundaries:\n{walls}" if walls else ""
     return text, (f"coupled {'afdmp' if alternating else 'cfdmp'}",
                   f"coupled {geometry}", f"coupled {charge}", f"coupled {plate}",
                   f"coupled, region {'given' if region else 'derived'}")

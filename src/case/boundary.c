@@ -1,4 +1,4 @@
-/* The domain of a solver on a grid, and what is outside its faces: keys, what the keys must be, and
+/* The domain and what is outside its faces: keys, what the keys must be, where the faces are, and
  * the state of what flows in. */
 #include "case/checking.h"
 #include "material/material.h"
@@ -6,7 +6,16 @@
 
 static const char *const axis_names[] = {"x", "y", "z", NULL};
 static const char *const side_names[] = {"low", "high", NULL};
-static const char *const kind_names[] = {"transmitting", "reflecting", "inflow", "periodic", NULL};
+static const char *const kind_names[] = {[BOUNDARY_REFLECTING] = "reflecting",
+                                         [BOUNDARY_SYMMETRY] = "symmetry",
+                                         [BOUNDARY_TRANSMITTING] = "transmitting",
+                                         [BOUNDARY_OUTFLOW] = "outflow",
+                                         [BOUNDARY_INFLOW] = "inflow",
+                                         [BOUNDARY_PERIODIC] = "periodic",
+                                         [BOUNDARY_RIGID_BODY] = "rigid-body",
+                                         [BOUNDARY_KINDS] = NULL};
+
+const char *boundary_kind_name(int kind) { return kind_names[kind]; }
 
 const struct parameter case_domain_table[] = {
     {.key = "low",
@@ -14,9 +23,8 @@ const struct parameter case_domain_table[] = {
      .offset = offsetof(struct domain_input, low),
      .unit = "m",
      .standard = PARAMETER_OPTIONAL,
-     .help =
-         "low corner, one value for each dimension; default: the walls, and where there are none "
-         "the bounds of all bodies"},
+     .help = "low corner, one value for each dimension; default: `at` of the boundaries, and where "
+             "there is none the bounds of all bodies"},
     {.key = "high",
      .kind = PARAMETER_VECTOR,
      .offset = offsetof(struct domain_input, high),
@@ -27,34 +35,41 @@ const struct parameter case_domain_table[] = {
 };
 
 const struct parameter case_boundary_table[] = {
-    {.key = "axis",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct boundary_input, axis),
-     .standard = PARAMETER_REQUIRED,
-     .names = axis_names,
-     .help = "the axis across which the face lies"},
-    {.key = "side",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct boundary_input, side),
-     .standard = PARAMETER_OPTIONAL,
-     .names = side_names,
-     .help = "the face of the axis; none for a periodic axis"},
     {.key = "kind",
      .kind = PARAMETER_CHOICE,
      .offset = offsetof(struct boundary_input, kind),
      .standard = PARAMETER_REQUIRED,
      .names = kind_names,
-     .help = "transmitting: waves leave; reflecting: a rigid wall without friction; inflow: the "
-             "state outside is given; periodic: what leaves comes in at the opposite face. Gas has "
-             "all, "
-             "SPH reflecting and periodic, MPM none"},
+     .help = "reflecting: a rigid wall without friction; symmetry: the same, as a plane of "
+             "symmetry; transmitting: waves leave; outflow: particles leave; inflow: the state "
+             "outside is given; periodic: what leaves comes in at the opposite face; rigid-body: "
+             "no face, a body at rest that blocks the cells whose centres it contains"},
+    {.key = "axis",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct boundary_input, axis),
+     .standard = PARAMETER_OPTIONAL,
+     .names = axis_names,
+     .help = "the axis normal to the face; none for a rigid body"},
+    {.key = "side",
+     .kind = PARAMETER_CHOICE,
+     .offset = offsetof(struct boundary_input, side),
+     .standard = PARAMETER_OPTIONAL,
+     .names = side_names,
+     .help = "which end of the bodies the face is at; none for a periodic axis"},
+    {.key = "at",
+     .kind = PARAMETER_NUMBER,
+     .offset = offsetof(struct boundary_input, at),
+     .unit = "m",
+     .standard = PARAMETER_OPTIONAL,
+     .help = "position of the face on the axis; bodies are cut there. Default: that of `domain`, "
+             "and without one where the bodies end"},
     {.key = "part",
      .kind = PARAMETER_ONE_OF,
      .offset = offsetof(struct boundary_input, part),
      .standard = PARAMETER_OPTIONAL,
      .kind_of_thing = "shape",
-     .help = "a shape that contains the part of the face; default: the whole face. The last "
-             "boundary that names a position counts"},
+     .help = "a shape that contains the part of the face, or the rigid body; default: the whole "
+             "face. The last boundary that names a position counts"},
     {.key = "density",
      .kind = PARAMETER_FIELD,
      .offset = offsetof(struct boundary_input, density),
@@ -69,7 +84,8 @@ const struct parameter case_boundary_table[] = {
      .arguments = ARGUMENT_POSITION | ARGUMENT_TIME,
      .unit = "Pa",
      .standard = PARAMETER_OPTIONAL,
-     .help = "pressure of what flows in"},
+     .help = "pressure of what flows in; of an outflow, the ambient pressure outside (transmitting "
+             "boundary); default there: the stress of what leaves, for supersonic flow"},
     {.key = "energy",
      .kind = PARAMETER_FIELD,
      .offset = offsetof(struct boundary_input, energy),
@@ -87,24 +103,48 @@ const struct parameter case_boundary_table[] = {
     PARAMETER_END,
 };
 
-const struct parameter case_obstacle_table[] = {
-    {.kind = PARAMETER_ONE_OF,
-     .offset = offsetof(struct obstacle_input, shape),
-     .standard = PARAMETER_REQUIRED,
-     .kind_of_thing = "shape",
-     .help = "where the obstacle is"},
-    PARAMETER_END,
-};
-
-void case_check_obstacle(struct checking *checking, int index)
+static double end_of(struct vec3 place, int axis)
 {
-    const struct obstacle_input *obstacle = case_obstacle(checking->input, index);
-    const struct choice *shape = obstacle->shape.choice;
-    if (!shape || !case_dimension_known(checking) || case_is_wrong(checking, shape->name))
-        return;
-    const char *text = shape_wrong(&obstacle->shape, (int)checking->input->dimension);
-    if (text)
-        case_wrong(checking, shape->name, "%s", text);
+    return axis == 0 ? place.x : axis == 1 ? place.y : place.z;
+}
+
+struct face_place domain_face(const struct simulation_case *input, int axis, int side)
+{
+    const struct vector_value *given = side ? &input->domain.high : &input->domain.low;
+    if (given->count > axis)
+        return (struct face_place){given->at[axis], "domain", side ? "high" : "low"};
+    for (int b = 0; b < input->boundaries.count; b++) {
+        const struct boundary_input *boundary = case_boundary(input, b);
+        if (boundary->axis == axis && boundary->side == side && !isnan(boundary->at))
+            return (struct face_place){boundary->at, "boundaries", input->boundaries.names[b]};
+    }
+    struct face_place place = {side ? -INFINITY : INFINITY, "bodies", NULL};
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
+        double at = end_of(side ? bounds.high : bounds.low, axis);
+        if (geometry_power(input->geometry) > 0 && axis == 0 && !side)
+            at = maximum(at, 0.0);
+        if (side ? at > place.at : at < place.at)
+            place = (struct face_place){at, "bodies", input->bodies.names[b]};
+    }
+    return place;
+}
+
+int rigid_body_at(const struct simulation_case *input, struct vec3 place)
+{
+    for (int b = 0; b < input->boundaries.count; b++)
+        if (case_boundary(input, b)->kind == BOUNDARY_RIGID_BODY &&
+            shape_inside(&case_boundary(input, b)->part, place))
+            return b;
+    return -1;
+}
+
+bool has_rigid_body(const struct simulation_case *input)
+{
+    bool has = false;
+    for (int b = 0; b < input->boundaries.count; b++)
+        has |= case_boundary(input, b)->kind == BOUNDARY_RIGID_BODY;
+    return has;
 }
 
 void case_check_domain(struct checking *checking)
@@ -125,15 +165,18 @@ void case_check_domain(struct checking *checking)
                        "xyz"[axis]);
 }
 
-/* A state belongs to an inflow alone. */
+/* What is outside is given for an inflow, and the pressure alone for an outflow. */
 static void check_state(struct checking *checking, const struct boundary_input *boundary)
 {
-    const bool inflow = boundary->kind == BOUNDARY_INFLOW;
+    const bool inflow = boundary->kind == BOUNDARY_INFLOW,
+               outflow = boundary->kind == BOUNDARY_OUTFLOW;
     const int64_t dimension = checking->input->dimension;
-    const bool given = field_is_given(&boundary->density) || field_is_given(&boundary->pressure) ||
-                       field_is_given(&boundary->energy) || boundary->velocity.count > 0;
-    if (!inflow && given)
+    const bool given = field_is_given(&boundary->density) || field_is_given(&boundary->energy) ||
+                       boundary->velocity.count > 0;
+    if (!inflow && (given || (!outflow && field_is_given(&boundary->pressure))))
         case_wrong(checking, "kind", "only an inflow has a density, pressure, energy or velocity");
+    if (outflow && boundary->pressure.varying)
+        case_wrong(checking, "pressure", "the pressure outside an outflow is constant");
     if (!inflow)
         return;
     if (!field_is_given(&boundary->density))
@@ -150,40 +193,102 @@ static void check_state(struct checking *checking, const struct boundary_input *
                    dimension == 1 ? "" : "s", boundary->velocity.count);
 }
 
+/* The shape of the part of a face, or of a rigid body. */
+static void check_part(struct checking *checking, const struct one_of *part)
+{
+    if (!part->choice || !case_dimension_known(checking) || case_is_wrong(checking, "part"))
+        return;
+    const char *text = shape_wrong(part, (int)checking->input->dimension);
+    if (text)
+        case_wrong(checking, "part", "%s", text);
+}
+
+static void check_rigid_body(struct checking *checking, const struct boundary_input *boundary)
+{
+    const bool face = boundary->axis >= 0 || boundary->side >= 0 || !isnan(boundary->at);
+    if (face)
+        case_wrong(checking,
+                   boundary->axis >= 0   ? "axis"
+                   : boundary->side >= 0 ? "side"
+                                         : "at",
+                   "a rigid body is no face: remove this key");
+    if (!boundary->part.choice)
+        case_wrong(checking, "part", "give the shape of the body");
+    check_part(checking, &boundary->part);
+    check_state(checking, boundary);
+}
+
+/* x is the radius. */
+static void check_radius(struct checking *checking, const struct boundary_input *boundary)
+{
+    const bool low = boundary->side == SIDE_LOW;
+    if (boundary->kind == BOUNDARY_PERIODIC)
+        case_wrong(checking, "axis", "x is the radius, which does not repeat");
+    else if (boundary->kind == BOUNDARY_OUTFLOW && low)
+        case_wrong(checking, "side", "nothing flows out through the axis of symmetry");
+    else if (boundary_closes(boundary) &&
+             (low ? boundary->at != 0.0 && !isnan(boundary->at) : boundary->at <= 0.0))
+        case_wrong(checking, "at", "x is a radius, which begins at 0 m: %s",
+                   low ? "leave this boundary out" : "put this boundary above it");
+}
+
+/* What the whole boundaries I and INDEX of an axis say of each other. */
+static bool check_pair(struct checking *checking, int i, int index)
+{
+    const struct simulation_case *input = checking->input;
+    const struct boundary_input *other = case_boundary(input, i),
+                                *own = case_boundary(input, index);
+    const struct boundary_input *low = own->side == SIDE_LOW ? own : other,
+                                *high = own->side == SIDE_LOW ? other : own;
+    char path[PATH_TEXT];
+    snprintf(path, sizeof path, "boundaries.%s", input->boundaries.names[i]);
+    if (other->axis != own->axis || own->part.choice || other->part.choice ||
+        other->kind == BOUNDARY_RIGID_BODY || document_is_wrong(input->document, path))
+        return true;
+    if (other->side == own->side || own->kind == BOUNDARY_PERIODIC || other->side < 0)
+        case_wrong(checking, "axis", "\"%s\" names this face already: leave one of the two out",
+                   input->boundaries.names[i]);
+    else if (low->at >= high->at)
+        case_wrong(checking, "at", "the low face on the %c axis does not lie below the high one",
+                   "xyz"[own->axis]);
+    else
+        return true;
+    return false;
+}
+
 void case_check_boundary(struct checking *checking, int index)
 {
     const struct simulation_case *input = checking->input;
     const struct boundary_input *boundary = case_boundary(input, index);
-    case_check_axis(checking, "axis", boundary->axis);
+    if (boundary->axis >= 0)
+        case_check_axis(checking, "axis", boundary->axis);
     if (case_is_wrong(checking, ""))
         return;
-    const bool periodic = boundary->kind == BOUNDARY_PERIODIC;
-    if (periodic && (boundary->side >= 0 || boundary->part.choice))
-        case_wrong(checking, boundary->side >= 0 ? "side" : "part",
-                   "a periodic axis has no side and no part: remove this key");
+    if (boundary->kind == BOUNDARY_RIGID_BODY) {
+        check_rigid_body(checking, boundary);
+        return;
+    }
+    if (boundary->axis < 0) {
+        case_wrong(checking, "axis", "expected `x`, `y` or `z`");
+        return;
+    }
+    const bool periodic = boundary->kind == BOUNDARY_PERIODIC, placed = !isnan(boundary->at);
+    if (periodic && (boundary->side >= 0 || boundary->part.choice || placed))
+        case_wrong(checking,
+                   boundary->side >= 0 ? "side"
+                   : placed            ? "at"
+                                       : "part",
+                   "a periodic axis has no side and no part, and is as long as the domain: remove "
+                   "this key");
     if (!periodic && boundary->side < 0)
         case_wrong(checking, "side", "expected `low` or `high`");
-    if (geometry_power(input->geometry) > 0 && boundary->axis == 0 && periodic)
-        case_wrong(checking, "axis", "x is the radius, which does not repeat");
-    if (boundary->part.choice && case_dimension_known(checking)) {
-        const char *text = shape_wrong(&boundary->part, (int)input->dimension);
-        if (text)
-            case_wrong(checking, "part", "%s", text);
-    }
+    if (geometry_power(input->geometry) > 0 && boundary->axis == 0)
+        check_radius(checking, boundary);
+    check_part(checking, &boundary->part);
     check_state(checking, boundary);
-    for (int i = 0; i < index; i++) {
-        const struct boundary_input *other = case_boundary(input, i);
-        if (other->axis == boundary->axis && !boundary->part.choice && !other->part.choice &&
-            (other->side == boundary->side || periodic || other->side < 0))
-            case_wrong(checking, "axis", "\"%s\" names this face already",
-                       input->boundaries.names[i]);
-    }
-    for (int i = 0; i < input->walls.count; i++)
-        if (case_wall(input, i)->axis == boundary->axis && !boundary->part.choice &&
-            (periodic || case_wall(input, i)->side == boundary->side))
-            case_wrong(checking, "axis",
-                       "the wall \"%s\" closes this face: leave one of the two out",
-                       input->walls.names[i]);
+    for (int i = 0; i < index; i++)
+        if (!check_pair(checking, i, index))
+            break; /* one of many that are alike is enough */
 }
 
 const char *boundary_state_at(const struct boundary_input *boundary,

@@ -141,6 +141,7 @@ static struct error *read_document(struct simulation_case *input,
     TRY(check_format(input->document));
     struct error *error = case_take_sweep(input, options->convergence ? 0 : options->sweep_run);
     error = error_join(error, case_take_study(input, options));
+    error = error_join(error, case_take_spellings(input));
     error = error_join(error, include_library(input->document, options));
     error = error_join(error,
                        document_read_partly(input->document, case_table, input->catalogue, input));
@@ -217,6 +218,7 @@ void case_free(struct simulation_case *input)
     case_free(input->start.input);
     sweep_values_free(input->sweep, input->sweep_values);
     document_free(input->document);
+    error_free(input->notes);
     free(input->name);
     free(input);
 }

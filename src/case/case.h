@@ -46,15 +46,6 @@ struct body_input {
     bool cut;           /* of such a case: cut to a region, in which it may have no member */
 };
 
-/* walls: NAME: {mirror: x, at: 0 mm, side: low}: a rigid slip wall normal to an axis; the material
- * is on its high side for `low`, on its low side for `high`. */
-enum wall_side { WALL_LOW, WALL_HIGH };
-struct wall_input {
-    int axis; /* 0, 1, 2 */
-    int side; /* enum wall_side */
-    double at;
-};
-
 /* contacts: NAME: {between: [cube, plate], shear: slip, tension: none}: the law where two bodies
  * meet. Pairs that no contact names stick in shear and carry tension. */
 enum contact_shear { SHEAR_STICK, SHEAR_SLIP };
@@ -70,17 +61,9 @@ struct contact_input {
     int body[2];     /* filled by case_read */
 };
 
-/* outflows: NAME: {across: x, at: 1 m, side: high}: a face behind which particles leave the
- * case. */
-struct outflow_input {
-    int axis, side; /* side: enum wall_side */
-    double at;
-    double pressure; /* of what is behind it; NAN: that of what leaves */
-};
-
 /* domain: {low: [0 m, 0 m], high: [1 m, 1 m]}: the box that a solver on a grid computes. */
 struct domain_input {
-    struct vector_value low, high; /* count 0: where walls are, else the bounds of all bodies */
+    struct vector_value low, high; /* count 0: the boundaries', else the bounds of all bodies */
 };
 
 /* start: {from: FILE}: a blast that another case has computed in 1-D takes the place of what the
@@ -94,26 +77,31 @@ struct start_input {
     struct simulation_case *input; /* filled by case_read; owned */
 };
 
-/* boundaries: NAME: {axis: x, side: low, kind: inflow, density: ...}: what is outside a face of the
- * domain. A face with a wall is reflecting; one that nothing names is transmitting. */
+/* boundaries: NAME: {kind: reflecting, axis: x, side: low, at: 0 mm}: what is outside a face, of
+ * which bodies are on the high side for `low` and on the low side for `high`; or a rigid body among
+ * them. What a face is that nothing names is the solver's to say. Other spellings of such entries
+ * are in spelling.c. */
+enum face_side { SIDE_LOW, SIDE_HIGH };
 enum boundary_kind {
-    BOUNDARY_TRANSMITTING,
-    BOUNDARY_REFLECTING,
-    BOUNDARY_INFLOW,
-    BOUNDARY_PERIODIC
+    BOUNDARY_REFLECTING,   /* a rigid slip wall */
+    BOUNDARY_SYMMETRY,     /* the same: a plane of symmetry */
+    BOUNDARY_TRANSMITTING, /* waves leave through it */
+    BOUNDARY_OUTFLOW,      /* particles leave through it */
+    BOUNDARY_INFLOW,       /* the state outside is given */
+    BOUNDARY_PERIODIC,     /* what leaves comes in at the opposite face */
+    BOUNDARY_RIGID_BODY, /* no face: a body at rest that blocks the cells whose centres it holds */
+    BOUNDARY_KINDS
 };
 struct boundary_input {
-    int axis, side;     /* side: enum wall_side; -1: not given, both of a periodic axis */
-    int kind;           /* enum boundary_kind */
-    struct one_of part; /* "shape", which holds the part of the face; not given: all of it */
-    struct field_value density, pressure, energy; /* of what flows in, at a place and time */
+    int axis, side; /* side: enum face_side; -1: not given, both of a periodic axis */
+    int kind;       /* enum boundary_kind */
+    double at;      /* m, of the face; NAN: that of the domain */
+    double place;   /* filled by case_read: where the face is */
+    /* "shape", which holds the part of the face, or is the rigid body; not given: all of it */
+    struct one_of part;
+    struct field_value density, energy; /* of what flows in, at a place and time */
+    struct field_value pressure;        /* of that, or outside an outflow */
     struct field_list velocity;
-};
-
-/* obstacles: NAME: {box: ...}: a rigid body at rest, which blocks the cells whose centres it
- * holds. */
-struct obstacle_input {
-    struct one_of shape; /* "shape", inline */
 };
 
 /* {mass: 5 kg, at: [0 m, 1 m]}: a charge whose blast pushes. */
@@ -131,7 +119,7 @@ struct load_input {
     struct field_value pressure; /* of the time */
     /* of the time, on the surface that looks to `side` of `axis`; count 0: not given */
     struct field_list traction;
-    int axis, side;
+    int axis, side;              /* side: enum face_side; -1: both */
     struct vector_value between; /* positions along `axis`; count 0: everywhere */
     double after, before;        /* s; before NAN: to the end */
     int body;                    /* filled by case_read */
@@ -289,12 +277,9 @@ struct simulation_case {
     struct one_of solver;       /* "solver" */
     struct named_map materials; /* struct material_input */
     struct named_map bodies;    /* struct body_input */
-    struct named_map walls;     /* struct wall_input */
-    struct named_map outflows;  /* struct outflow_input */
     struct domain_input domain;
     struct start_input start;
     struct named_map boundaries;  /* struct boundary_input */
-    struct named_map obstacles;   /* struct obstacle_input */
     struct named_map loads;       /* struct load_input */
     struct named_map contacts;    /* struct contact_input */
     struct named_map detonations; /* struct detonation_input */
@@ -316,6 +301,7 @@ struct simulation_case {
     /* filled by case_read: "normal", or "short" or "long" where it has what was asked for */
     const char *form;
     const struct catalogue *catalogue;
+    struct error *notes;       /* filled by case_read: what it was read as; NULL: as it is; owned */
     struct document *document; /* for located messages; owned */
 };
 
@@ -353,6 +339,35 @@ void sweep_values_free(struct sweep_value *values, int count);
 /* Writes the case as run: YAML with every default filled in, that case_read takes again. */
 struct error *case_write(const struct simulation_case *input, FILE *file);
 
+/* `reflecting`: the kind of a boundary. */
+const char *boundary_kind_name(int kind);
+
+/* Whether BOUNDARY closes the part of its face that it names. */
+static inline bool boundary_closes(const struct boundary_input *boundary)
+{
+    return boundary->kind == BOUNDARY_REFLECTING || boundary->kind == BOUNDARY_SYMMETRY;
+}
+
+/* How far AT is outside the face of BOUNDARY, m; negative inside. */
+static inline double boundary_beyond(const struct boundary_input *boundary, const double at[3])
+{
+    const double beyond = at[boundary->axis] - boundary->place;
+    return boundary->side == SIDE_LOW ? -beyond : beyond;
+}
+
+/* A face and where it stands in the case, for messages. */
+struct face_place {
+    double at; /* m */
+    const char *section, *name;
+};
+
+/* The low or high face across AXIS: of `domain`, else of a boundary, else of the bodies. */
+struct face_place domain_face(const struct simulation_case *input, int axis, int side);
+
+/* The rigid body at PLACE, an index of boundaries; -1: none is there. */
+int rigid_body_at(const struct simulation_case *input, struct vec3 place);
+bool has_rigid_body(const struct simulation_case *input);
+
 /* The state and the velocity of what flows in through BOUNDARY at PLACE and TIME: NULL, or what is
  * wrong, and *key the key that it is about. */
 const char *boundary_state_at(const struct boundary_input *boundary,
@@ -387,18 +402,6 @@ static inline struct material_input *case_material(const struct simulation_case 
 static inline struct body_input *case_body(const struct simulation_case *c, int index)
 {
     return (struct body_input *)c->bodies.items + index;
-}
-static inline struct wall_input *case_wall(const struct simulation_case *c, int index)
-{
-    return (struct wall_input *)c->walls.items + index;
-}
-static inline struct outflow_input *case_outflow(const struct simulation_case *c, int index)
-{
-    return (struct outflow_input *)c->outflows.items + index;
-}
-static inline struct obstacle_input *case_obstacle(const struct simulation_case *c, int index)
-{
-    return (struct obstacle_input *)c->obstacles.items + index;
 }
 static inline struct boundary_input *case_boundary(const struct simulation_case *c, int index)
 {

@@ -419,15 +419,12 @@ struct error *case_check_meaning(struct simulation_case *input)
     }
     check_map(&checking, "bodies", &input->bodies, check_body);
     check_mutual(&checking);
-    check_map(&checking, "walls", &input->walls, case_check_wall);
     check_map(&checking, "contacts", &input->contacts, check_contact);
     check_map(&checking, "detonations", &input->detonations, check_detonation);
     check_map(&checking, "bodies", &input->bodies, check_lit);
-    check_map(&checking, "outflows", &input->outflows, case_check_outflow);
     case_check_domain(&checking);
     case_check_start(&checking);
     check_map(&checking, "boundaries", &input->boundaries, case_check_boundary);
-    check_map(&checking, "obstacles", &input->obstacles, case_check_obstacle);
     check_map(&checking, "loads", &input->loads, case_check_load);
     case_check_gravity(&checking);
     checking.map = "output";
@@ -445,5 +442,11 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "expected_warnings", &input->expected, check_expected);
     case_check_study(&checking);
     check_map(&checking, "convergence.order", &input->convergence.order, case_check_order);
+    for (int b = 0; b < input->boundaries.count && !checking.error; b++) {
+        struct boundary_input *boundary = case_boundary(input, b);
+        boundary->place = boundary->at;
+        if (isnan(boundary->at) && boundary->side >= 0)
+            boundary->place = domain_face(input, boundary->axis, boundary->side).at;
+    }
     return checking.error;
 }

@@ -1,69 +1,8 @@
-/* What the tables cannot say of what acts on a case from outside: walls, outflows, loads, driven
- * bodies, gravity. */
+/* What the tables cannot say of what acts on a case from outside: loads, driven bodies,
+ * gravity. */
 #include "case/checking.h"
 #include "exact/kingery_curves.h"
 #include "shape/shape.h"
-
-void case_check_wall(struct checking *checking, int index)
-{
-    static const char *const axes = "xyz";
-    const struct simulation_case *input = checking->input;
-    const struct wall_input *wall = case_wall(input, index);
-    case_check_axis(checking, "mirror", wall->axis);
-    if (geometry_power(input->geometry) > 0 && wall->axis == 0 &&
-        (wall->side == WALL_LOW ? wall->at != 0.0 : wall->at <= 0.0))
-        case_wrong(checking, "at", "x is a radius, which begins at 0 m: %s",
-                   wall->side == WALL_LOW ? "leave this wall out" : "put this wall above it");
-    const bool wrong = case_is_wrong(checking, "");
-    bool told = false; /* one of many that are alike is enough */
-    for (int i = 0; i < index && !wrong && !told; i++) {
-        const struct wall_input *other = case_wall(input, i);
-        char path[PATH_TEXT];
-        snprintf(path, sizeof path, "walls.%s", input->walls.names[i]);
-        if (other->axis != wall->axis || document_is_wrong(input->document, path))
-            continue;
-        double low = wall->side == WALL_LOW ? wall->at : other->at;
-        double high = wall->side == WALL_LOW ? other->at : wall->at;
-        told = other->side == wall->side || low >= high;
-        if (other->side == wall->side)
-            case_wrong(checking, "side", "\"%s\" is a %s wall on the %c axis already",
-                       input->walls.names[i], wall->side == WALL_LOW ? "low" : "high",
-                       axes[wall->axis]);
-        else if (low >= high)
-            case_wrong(checking, "at",
-                       "the low wall on the %c axis does not lie below the high wall",
-                       axes[wall->axis]);
-    }
-}
-
-void case_check_outflow(struct checking *checking, int index)
-{
-    const struct simulation_case *input = checking->input;
-    const struct outflow_input *outflow = case_outflow(input, index);
-    case_check_axis(checking, "across", outflow->axis);
-    if (geometry_power(input->geometry) > 0 && outflow->axis == 0 && outflow->side == WALL_LOW)
-        case_wrong(checking, "side", "nothing flows out through the axis of symmetry");
-    for (int i = 0; i < input->walls.count; i++)
-        if (case_wall(input, i)->axis == outflow->axis &&
-            case_wall(input, i)->side == outflow->side)
-            case_wrong(checking, "side",
-                       "the wall \"%s\" closes this end: leave one of the two out",
-                       input->walls.names[i]);
-    bool told = false;
-    for (int i = 0; i < index && !told; i++) {
-        const struct outflow_input *other = case_outflow(input, i);
-        const double low = outflow->side == WALL_LOW ? outflow->at : other->at;
-        const double high = outflow->side == WALL_LOW ? other->at : outflow->at;
-        if (other->axis != outflow->axis)
-            continue;
-        told = other->side == outflow->side || low >= high;
-        if (other->side == outflow->side)
-            case_wrong(checking, "side", "\"%s\" is an outflow of this end already",
-                       input->outflows.names[i]);
-        else if (low >= high)
-            case_wrong(checking, "at", "the low outflow does not lie below the high one");
-    }
-}
 
 /* The nearest and the farthest distance of BOUNDS from PLACE, in the dimensions of the case. */
 static void distances(const struct bounds *bounds, const struct vector_value *place,
@@ -129,7 +68,7 @@ void case_check_load(struct checking *checking, int index)
     case_check_axis(checking, "axis", load->axis);
     case_check_between(checking, &load->between);
     if (load->side < 0 && load->traction.count)
-        load->side = WALL_HIGH;
+        load->side = SIDE_HIGH;
     if (case_is_wrong(checking, ""))
         return;
     const bool blast = !isnan(load->blast.mass) || load->blast.at.count > 0;

@@ -48,12 +48,9 @@ void case_check_repetitions(struct checking *checking);
 void case_check_order(struct checking *checking, int index);
 void case_check_study(struct checking *checking);
 
-/* Of what acts from outside (check_outside.c). */
-void case_check_wall(struct checking *checking, int index);
-void case_check_outflow(struct checking *checking, int index);
+/* Of what acts from outside (check_outside.c, boundary.c). */
 void case_check_domain(struct checking *checking);
 void case_check_start(struct checking *checking);
-void case_check_obstacle(struct checking *checking, int index);
 void case_check_boundary(struct checking *checking, int index);
 void case_check_load(struct checking *checking, int index);
 /* What is driven may follow the time, all of it alike. */

@@ -9,14 +9,11 @@ enum { CASE_FORMAT = 1 };
 
 /* An entry of `materials`, and a file of the library. */
 extern const struct parameter case_material_table[];
-extern const struct parameter case_detonation_table[]; /* struct detonation_input */
-extern const struct parameter case_contact_table[];    /* struct contact_input */
-extern const struct parameter case_outflow_table[];    /* struct outflow_input */
-extern const struct parameter case_start_table[];
+extern const struct parameter case_detonation_table[];  /* struct detonation_input */
+extern const struct parameter case_contact_table[];     /* struct contact_input */
 extern const struct parameter case_domain_table[];      /* struct domain_input */
 extern const struct parameter case_start_table[];       /* struct start_input */
 extern const struct parameter case_boundary_table[];    /* struct boundary_input */
-extern const struct parameter case_obstacle_table[];    /* struct obstacle_input */
 extern const struct parameter case_load_table[];        /* struct load_input */
 extern const struct parameter case_probe_table[];       /* struct probe_input */
 extern const struct parameter case_profile_table[];     /* struct profile_input */
@@ -38,6 +35,10 @@ struct error *case_take_sweep(struct simulation_case *input, int run);
 /* Looks at what `convergence` varies and tells its mistakes. With OPTIONS->convergence its runs are
  * those of the sweep, and the value of the run that is asked for is put where it belongs. */
 struct error *case_take_study(struct simulation_case *input, const struct case_options *options);
+
+/* Puts what other spellings say of boundaries under `boundaries`, with a note of each
+ * (spelling.c). */
+struct error *case_take_spellings(struct simulation_case *input);
 
 /* Fills the quantities of the values of a case that has been read. */
 void case_measure_sweep(struct simulation_case *input);

@@ -1,37 +1,8 @@
-/* The keys of outflows and of loads. */
+/* The keys of loads. */
 #include "case/internal.h"
 
 static const char *const axis_names[] = {"x", "y", "z", NULL};
 static const char *const side_names[] = {"low", "high", NULL};
-
-const struct parameter case_outflow_table[] = {
-    {.key = "across",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct outflow_input, axis),
-     .standard = PARAMETER_REQUIRED,
-     .names = axis_names,
-     .help = "axis normal to the face"},
-    {.key = "at",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct outflow_input, at),
-     .unit = "m",
-     .standard = PARAMETER_REQUIRED,
-     .help = "position of the face on that axis"},
-    {.key = "side",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct outflow_input, side),
-     .standard = PARAMETER_REQUIRED,
-     .names = side_names,
-     .help = "which end of the bodies the face is at: low or high"},
-    {.key = "pressure",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct outflow_input, pressure),
-     .unit = "Pa",
-     .standard = PARAMETER_OPTIONAL,
-     .help = "ambient pressure outside (transmitting boundary); default: the stress of what "
-             "leaves, for supersonic flow"},
-    PARAMETER_END,
-};
 
 static const char *const charge_names[] = {"free-air", "surface", NULL};
 

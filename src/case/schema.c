@@ -424,6 +424,9 @@ static void write_shaping_keys(struct writer *w)
         {"sweep", "\"type\": [\"object\", \"null\"], \"additionalProperties\": {\"anyOf\": [" SWEPT
                   ", {\"type\": \"object\", \"minProperties\": 1, "
                   "\"additionalProperties\": " SWEPT "}]}"},
+        {"walls", "\"type\": [\"object\", \"null\"]"},
+        {"outflows", "\"type\": [\"object\", \"null\"]"},
+        {"obstacles", "\"type\": [\"object\", \"null\"]"},
     };
     for (const struct parameter *p = case_shaping_table; !PARAMETER_IS_END(p); p++) {
         begin(w, p->key, '{');

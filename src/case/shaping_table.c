@@ -26,5 +26,19 @@ const struct parameter case_shaping_table[] = {
          "names of let, paths, or include, each with the values to run with: {speed: [1 km/s, 2 "
          "km/s]}; those that change together in a map: {gas: {gamma: [1.4, 3], front: [2 mm, 3 "
          "mm]}}"},
+    {.key = "walls",
+     .kind = PARAMETER_MAP,
+     .standard = PARAMETER_OPTIONAL,
+     .help =
+         "another spelling of reflecting `boundaries`: {left: {mirror: x, at: 0 mm, side: low}}"},
+    {.key = "outflows",
+     .kind = PARAMETER_MAP,
+     .standard = PARAMETER_OPTIONAL,
+     .help = "another spelling of outflows among `boundaries`: {end: {across: x, at: 1 m, side: "
+             "high}}"},
+    {.key = "obstacles",
+     .kind = PARAMETER_MAP,
+     .standard = PARAMETER_OPTIONAL,
+     .help = "another spelling of rigid bodies among `boundaries`: {block: {box: ...}}"},
     PARAMETER_END,
 };

@@ -138,6 +138,8 @@ static void print_warnings(const struct simulation_case *input, const struct est
         printf(
             "  not filled, for it would take too long: `run` looks for gaps between the bodies%s\n",
             input->start.input ? ", and whether the blast of `start` fits" : "");
+    for (int i = 0; input->notes && i < error_count(input->notes); i++)
+        printf("  note: %s\n", error_message(input->notes, i));
     struct error *warnings = estimate_warnings(input);
     for (int i = 0; warnings && i < error_count(warnings); i++)
         printf("  warning: %s\n", error_message(warnings, i));

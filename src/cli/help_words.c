@@ -172,7 +172,8 @@ static const struct answer answers[] = {
      "is for waves that leave.",
      "case.md"},
     {" symmetry symmetric mirror half.model quarter.model ",
-     "A mirror wall is a plane of symmetry:  walls: {below: {mirror: y, at: 0 mm, side: low}}\n"
+     "A plane of symmetry:\n"
+     "    boundaries: {below: {kind: symmetry, axis: y, side: low, at: 0 mm}}\n"
      "`geometry: axisymmetric` makes bodies of revolution in 2-D: x is the radius, y the axis.\n"
      "`geometry: spherical` or `cylindrical` makes x the radius in 1-D, with the gas solver.",
      "case.md"},
@@ -182,7 +183,8 @@ static const struct answer answers[] = {
      "case.md"},
     {" absorbing transmitting non.reflecting nonreflecting infinite ",
      "With SPH and MPM: a body of the same material with `frozen: yes`, a few particles thick,\n"
-     "lets waves leave. With MPM also `outflows`. With gas every face without a wall transmits.",
+     "lets waves leave. With MPM also a boundary of kind outflow. With gas every face without\n"
+     "a boundary transmits.",
      "case.md"},
     {" unit.of.stress units.of.stress stress.unit unit.of.pressure units.of.pressure "
      "pressure.unit ",
@@ -224,7 +226,7 @@ static const struct answer answers[] = {
     {" shock.tube sod gas.dynamics cfd euler wind.tunnel air grid cells fdm ",
      "`solver: gas` computes a gas in cells, with walls, inflow, outflow, periodic faces and "
      "rigid\n"
-     "obstacles. A shock tube beside its exact solution: see the page below; docs/gas.md has\n"
+     "bodies. A shock tube beside its exact solution: see the page below; docs/gas.md has\n"
      "the method.",
      "tasks/shock-tube.md"},
     {" underwater underwater.explosion undex water.shock ",

@@ -251,6 +251,8 @@ static const char *afdmp_energy_lost(const void *parameters)
 }
 
 const struct solver_class afdmp_class = {.size = sizeof(struct afdmp),
+                                         .boundaries = BOUNDARIES_CLOSED | BOUNDARY_PARTS |
+                                                       1u << BOUNDARY_TRANSMITTING,
                                          .create = afdmp_create,
                                          .fill = afdmp_fill,
                                          .start = afdmp_start,

@@ -255,18 +255,21 @@ static const char *cfdmp_energy_lost(const void *parameters)
     return mpm_class.energy_lost(&of->mpm);
 }
 
-const struct solver_class cfdmp_class = {.size = sizeof(struct cfdmp),
-                                         .create = cfdmp_create,
-                                         .fill = cfdmp_fill,
-                                         .start = cfdmp_start,
-                                         .prepare = cfdmp_prepare,
-                                         .advance = cfdmp_advance,
-                                         .state = cfdmp_state,
-                                         .destroy = cfdmp_destroy,
-                                         .bytes = cfdmp_bytes,
-                                         .count = cfdmp_count,
-                                         .room = cfdmp_room,
-                                         .coarse = cfdmp_coarse,
-                                         .step = cfdmp_step,
-                                         .coarsen = cfdmp_coarsen,
-                                         .energy_lost = cfdmp_energy_lost};
+const struct solver_class cfdmp_class = {
+    .size = sizeof(struct cfdmp),
+    .boundaries = BOUNDARIES_CLOSED | BOUNDARY_PARTS | 1u << BOUNDARY_TRANSMITTING |
+                  1u << BOUNDARY_INFLOW | 1u << BOUNDARY_PERIODIC | 1u << BOUNDARY_RIGID_BODY,
+    .create = cfdmp_create,
+    .fill = cfdmp_fill,
+    .start = cfdmp_start,
+    .prepare = cfdmp_prepare,
+    .advance = cfdmp_advance,
+    .state = cfdmp_state,
+    .destroy = cfdmp_destroy,
+    .bytes = cfdmp_bytes,
+    .count = cfdmp_count,
+    .room = cfdmp_room,
+    .coarse = cfdmp_coarse,
+    .step = cfdmp_step,
+    .coarsen = cfdmp_coarsen,
+    .energy_lost = cfdmp_energy_lost};

@@ -6,7 +6,6 @@
 #include "couple/part.h"
 #include "gas/gas_phases.h"
 #include "material/material.h"
-#include "model/domain.h"
 #include "shape/shape.h"
 
 /* Cells through a plate below which it hardly bends, and shares its cells with the gas on both

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "model/domain.h"
 #include "shape/kinds.h"
 
 struct error *owned_error(void)
@@ -102,8 +101,8 @@ struct error *part_cut_bodies(const struct part_maker *maker, struct part *part,
 struct error *part_block(const struct part_maker *maker, struct part *part, const int64_t low[3],
                          const int64_t high[3])
 {
-    const int old = part->input.obstacles.count;
-    struct obstacle_input *items = owned_new(maker->owned, ((size_t)old + 1) * sizeof *items);
+    const int old = part->input.boundaries.count;
+    struct boundary_input *items = owned_new(maker->owned, ((size_t)old + 1) * sizeof *items);
     char **names = owned_new(maker->owned, ((size_t)old + 1) * sizeof *names);
     const struct one_of box = box_of(maker, low, high);
     if (!items || !names || box.index < 0)
@@ -112,28 +111,27 @@ struct error *part_block(const struct part_maker *maker, struct part *part, cons
     for (int axis = 0; axis < maker->dimension; axis++)
         any &= low[axis] < high[axis];
     for (int k = 0; k < old; k++) {
-        items[k] = *case_obstacle(&part->input, k);
-        names[k] = part->input.obstacles.names[k];
+        items[k] = *case_boundary(&part->input, k);
+        names[k] = part->input.boundaries.names[k];
     }
-    items[old] = (struct obstacle_input){.shape = box};
+    items[old] = (struct boundary_input){
+        .axis = -1, .side = -1, .kind = BOUNDARY_RIGID_BODY, .at = NAN, .place = NAN, .part = box};
     names[old] = "region";
-    part->input.obstacles = (struct named_map){.count = old + any, .names = names, .items = items};
+    part->input.boundaries = (struct named_map){.count = old + any, .names = names, .items = items};
     return NULL;
 }
 
 struct error *part_close_faces(const struct part_maker *maker, struct part *part,
-                               const struct gas_cut *cut, const struct mirrors *mirrors)
+                               const struct gas_cut *cut, const struct face face[3][2])
 {
     enum { FACES = 6 };
     static const char *const faces[FACES] = {"the face low in x", "the face high in x",
                                              "the face low in y", "the face high in y",
                                              "the face low in z", "the face high in z"};
     char **names = owned_new(maker->owned, FACES * sizeof *names);
-    struct wall_input *wall = owned_new(maker->owned, FACES * sizeof *wall);
-    struct outflow_input *outflow = owned_new(maker->owned, FACES * sizeof *outflow);
-    part->input.walls = (struct named_map){.names = names, .items = wall};
-    part->input.outflows = (struct named_map){.names = names, .items = outflow};
-    if (!names || !wall || !outflow)
+    struct boundary_input *item = owned_new(maker->owned, FACES * sizeof *item);
+    part->input.boundaries = (struct named_map){.names = names, .items = item};
+    if (!names || !item)
         return owned_error();
     for (int k = 0; k < FACES; k++) {
         names[k] = owned_new(maker->owned, strlen(faces[k]) + 1);
@@ -144,14 +142,16 @@ struct error *part_close_faces(const struct part_maker *maker, struct part *part
     for (int axis = 0; axis < maker->dimension; axis++)
         for (int side = 0; side < 2; side++) {
             const double at = (double)(side ? cut->high : cut->low)[axis] * maker->edge;
-            const double mirror = side ? mirrors->high[axis] : mirrors->low[axis];
+            const struct face *outer = &face[axis][side];
             if (cut->open[axis][side])
                 continue;
-            if (!isnan(mirror))
-                wall[part->input.walls.count++] = (struct wall_input){axis, side, mirror};
-            else
-                outflow[part->input.outflows.count++] =
-                    (struct outflow_input){.axis = axis, .side = side, .at = at, .pressure = NAN};
+            item[part->input.boundaries.count++] =
+                (struct boundary_input){.axis = axis,
+                                        .side = side,
+                                        .kind = face_closes(outer) ? outer->kind : BOUNDARY_OUTFLOW,
+                                        .at = face_closes(outer) ? outer->at : at,
+                                        .place = face_closes(outer) ? outer->at : at,
+                                        .pressure = {.constant = NAN}};
         }
     return NULL;
 }

@@ -43,10 +43,9 @@ struct error *part_cut_bodies(const struct part_maker *maker, struct part *part,
 struct error *part_block(const struct part_maker *maker, struct part *part, const int64_t low[3],
                          const int64_t high[3]);
 
-/* The faces of the box of CUT that are not open become walls, where MIRRORS has them, or
- * outflows. */
+/* The faces of the box of CUT that are not open are closed where FACE is, else outflows. */
 struct error *part_close_faces(const struct part_maker *maker, struct part *part,
-                               const struct gas_cut *cut, const struct mirrors *mirrors);
+                               const struct gas_cut *cut, const struct face face[3][2]);
 
 /* Makes the simulation of the part's case and its solver, of TYPE with PARAMETERS. */
 struct error *part_create(const struct part_maker *maker, struct part *part,

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "couple/cfdmp.h"
 #include "material/material.h"
-#include "model/domain.h"
+#include "model/boundaries.h"
 #include "shape/kinds.h"
 
 /* Blocks the cells behind the band. */
@@ -24,9 +24,10 @@ static struct error *make_gas_part(struct cfdmp *cfdmp, const struct simulation 
 {
     const struct simulation_case *input = simulation->problem->input;
     struct part *part = &cfdmp->gas_part;
+    TRY(boundaries_refuse(input, cfdmp_class.boundaries));
     part->input = *input;
     part->input.resolution = cfdmp->edge;
-    part->input.outflows = part->input.contacts = part->input.loads = (struct named_map){0};
+    part->input.contacts = part->input.loads = (struct named_map){0};
     TRY(part_copy_bodies(&cfdmp->maker, part));
     for (int b = 0; b < input->bodies.count; b++) {
         struct body_input *body = case_body(&part->input, b);
@@ -46,13 +47,12 @@ static struct error *make_mpm_part(struct cfdmp *cfdmp, const struct simulation 
     const struct simulation_case *input = simulation->problem->input;
     struct part *part = &cfdmp->mpm_part;
     part->input = *input;
-    part->input.boundaries = part->input.obstacles = (struct named_map){0};
     part->input.domain = (struct domain_input){0};
     part->input.start = (struct start_input){0};
     TRY(part_copy_bodies(&cfdmp->maker, part));
     TRY(part_cut_bodies(&cfdmp->maker, part, cfdmp->cut.low, cfdmp->cut.high));
     TRY(part_close_faces(&cfdmp->maker, part, &cfdmp->cut,
-                         &cfdmp->gas_part.simulation.problem->mirrors));
+                         (const struct face(*)[2])cfdmp->gas_part.simulation.problem->face));
     TRY(part_create(&cfdmp->maker, part, simulation, &mpm_class, &cfdmp->parameters.mpm));
     cfdmp->mpm = part->solver;
     return NULL;

@@ -200,26 +200,29 @@ static struct error *check_solids(const struct cfdmp *cfdmp, const struct simula
     return error;
 }
 
-/* Particles go through obstacles, so that none may be among them. */
-static struct error *check_obstacles(const struct cfdmp *cfdmp, const struct simulation_case *input)
+/* Particles go through rigid bodies, so that none may be among them. */
+static struct error *check_rigid_bodies(const struct cfdmp *cfdmp,
+                                        const struct simulation_case *input)
 {
     const int64_t *low = cfdmp->cut.low, *high = cfdmp->cut.high;
     const double h = cfdmp->edge;
     struct error *error = NULL;
-    for (int k = 0; k < input->obstacles.count; k++) {
+    for (int k = 0; k < input->boundaries.count; k++) {
+        const struct boundary_input *body = case_boundary(input, k);
         bool found = false;
+        if (body->kind != BOUNDARY_RIGID_BODY)
+            continue;
         for (int64_t c = low[2]; c < high[2]; c++)
             for (int64_t b = low[1]; b < high[1]; b++)
                 for (int64_t a = low[0]; a < high[0] && !found; a++) {
                     const double at[3] = {((double)a + 0.5) * h,
                                           cfdmp->dimension > 1 ? ((double)b + 0.5) * h : 0.0,
                                           cfdmp->dimension > 2 ? ((double)c + 0.5) * h : 0.0};
-                    found = shape_inside(&case_obstacle(input, k)->shape,
-                                         vec3_make(at[0], at[1], at[2]));
+                    found = shape_inside(&body->part, vec3_make(at[0], at[1], at[2]));
                 }
         if (found)
             error = error_join(
-                error, input_error(input, "obstacles", input->obstacles.names[k],
+                error, input_error(input, "boundaries", input->boundaries.names[k],
                                    "it reaches into the region of material points, which pass "
                                    "through it: make it a body with `driven: yes`, or a smaller "
                                    "`region`"));
@@ -229,7 +232,7 @@ static struct error *check_obstacles(const struct cfdmp *cfdmp, const struct sim
 
 struct error *cfdmp_check_region(const struct cfdmp *cfdmp, const struct simulation_case *input)
 {
-    return error_join(check_solids(cfdmp, input), check_obstacles(cfdmp, input));
+    return error_join(check_solids(cfdmp, input), check_rigid_bodies(cfdmp, input));
 }
 
 /* The region of INPUT, which may be wrong: the run reports it. */

@@ -5,6 +5,7 @@
 #include "case/internal.h"
 #include "couple/afdmp.h"
 #include "material/material.h"
+#include "model/boundaries.h"
 #include "model/problem.h"
 #include "shape/shape.h"
 
@@ -198,7 +199,7 @@ static struct error *make_gas_part(struct afdmp *afdmp, const struct simulation 
     struct part *part = &afdmp->gas_part;
     part->input = *input;
     part->input.resolution = afdmp->edge;
-    part->input.outflows = part->input.contacts = part->input.loads = (struct named_map){0};
+    part->input.contacts = part->input.loads = (struct named_map){0};
     TRY(part_copy_bodies(&afdmp->maker, part));
     for (int b = 0; b < input->bodies.count; b++) {
         struct body_input *body = case_body(&part->input, b);
@@ -221,14 +222,14 @@ static struct error *make_mpm_part(struct afdmp *afdmp, const struct simulation 
 {
     const struct simulation_case *input = simulation->problem->input;
     part->input = *input;
-    part->input.boundaries = part->input.obstacles = (struct named_map){0};
     part->input.domain = (struct domain_input){0};
     part->input.start = (struct start_input){0};
     TRY(part_copy_bodies(&afdmp->maker, part));
     for (int b = 0; b < input->bodies.count; b++)
         case_body(&part->input, b)->elsewhere = is_solid(input, b) && !solids;
     TRY(part_cut_bodies(&afdmp->maker, part, box->low, box->high));
-    TRY(part_close_faces(&afdmp->maker, part, ends, &afdmp->gas_part.simulation.problem->mirrors));
+    TRY(part_close_faces(&afdmp->maker, part, ends,
+                         (const struct face(*)[2])afdmp->gas_part.simulation.problem->face));
     return part_create(&afdmp->maker, part, simulation, &mpm_class, &afdmp->parameters.mpm);
 }
 
@@ -244,23 +245,12 @@ static struct error *refuse(const struct simulation *simulation)
                                    "the solver afdmp keeps the gas around a charge at rest while "
                                    "the charge burns: this body must not move at the start; the "
                                    "solvers cfdmp and mpm move it"));
-    if (input->obstacles.count > 0)
-        error = input_error(input, "obstacles", input->obstacles.names[0],
-                            "material points of the solver afdmp know no obstacles: make it a "
-                            "body");
     if (input->loads.count > 0)
         error = error_join(error, input_error(input, "loads", input->loads.names[0],
                                               "the solver afdmp computes solids from when on a "
                                               "wave of the gas comes to them: use the solver mpm "
                                               "or cfdmp"));
-    for (int k = 0; k < input->boundaries.count; k++)
-        if (case_boundary(input, k)->kind == BOUNDARY_INFLOW ||
-            case_boundary(input, k)->kind == BOUNDARY_PERIODIC)
-            error =
-                error_join(error, input_error(input, "boundaries", input->boundaries.names[k],
-                                              "material points of the solver afdmp know no inflow "
-                                              "and no periodic faces"));
-    return error;
+    return error_join(boundaries_refuse(input, afdmp_class.boundaries), error);
 }
 
 static bool count_beside(void *context, int64_t number, const int64_t at[3])

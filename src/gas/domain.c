@@ -5,34 +5,36 @@
 #include "case/internal.h"
 #include "gas/gas_internal.h"
 #include "material/material.h"
-#include "model/domain.h"
+#include "model/boundaries.h"
 #include "shape/shape.h"
 
-/* A wall inside the domain, or a second one of a face, would close nothing. */
-static struct error *check_walls(const struct simulation_case *input,
+/* A face inside the domain would be none. */
+static struct error *check_faces(const struct simulation_case *input,
                                  const struct face_place (*face)[2], double edge)
 {
     struct error *error = NULL;
-    for (int w = 0; w < input->walls.count; w++) {
-        const struct wall_input *wall = case_wall(input, w);
-        const double at = face[wall->axis][wall->side].at;
-        if (wall->axis < input->dimension && fabs(wall->at - at) > 1e-6 * edge)
-            error = error_join(error, input_error(input, "walls", input->walls.names[w],
-                                                  "in the solver gas a wall is a face of the "
-                                                  "domain, which lies at %.6g m",
+    for (int b = 0; b < input->boundaries.count; b++) {
+        const struct boundary_input *boundary = case_boundary(input, b);
+        if (isnan(boundary->at))
+            continue;
+        const double at = face[boundary->axis][boundary->side].at;
+        if (fabs(boundary->at - at) > 1e-6 * edge)
+            error = error_join(error, input_error(input, "boundaries", input->boundaries.names[b],
+                                                  "in the solver gas this is a face of the domain, "
+                                                  "which lies at %.6g m",
                                                   at));
     }
     return error;
 }
 
-/* The error of a domain that ends beyond all bodies; obstacles may fill what is there. */
+/* The error of a domain that ends beyond all bodies; rigid bodies may fill what is there. */
 static struct error *check_filled(const struct simulation_case *input,
                                   const struct face_place (*face)[2], double edge)
 {
     struct error *error = NULL;
     if (!input->domain.low.count && !input->domain.high.count)
         return NULL;
-    for (int axis = 0; axis < input->dimension && !input->obstacles.count; axis++)
+    for (int axis = 0; axis < input->dimension && !has_rigid_body(input); axis++)
         for (int side = 0; side < 2; side++) {
             double reached = side ? -INFINITY : INFINITY;
             for (int b = 0; b < input->bodies.count; b++) {
@@ -97,7 +99,7 @@ struct error *gas_find_domain(const struct simulation *simulation, struct cell_b
         return input_error(input, "resolution", NULL,
                            "the domain has %.3g cells, and a rank computes 2e9 at most", all);
     const struct face_place(*faces)[2] = (const struct face_place(*)[2])face;
-    return error_join(check_walls(input, faces, edge), check_filled(input, faces, edge));
+    return error_join(check_faces(input, faces, edge), check_filled(input, faces, edge));
 }
 
 static bool varies(const struct boundary_input *boundary)
@@ -168,20 +170,19 @@ void gas_find_faces(const struct simulation *simulation, const struct cell_block
                     struct cell_halo *halo)
 {
     const struct simulation_case *input = simulation->problem->input;
-    for (int w = 0; w < input->walls.count; w++)
-        halo->face[case_wall(input, w)->axis][case_wall(input, w)->side] = CELL_FACE_MIRROR;
     if (geometry_power(input->geometry) > 0 && cells->low[0] == 0)
         halo->face[0][0] = CELL_FACE_MIRROR;
     for (int b = 0; b < input->boundaries.count; b++) {
         const struct boundary_input *boundary = case_boundary(input, b);
-        enum cell_face *face = halo->face[boundary->axis];
+        enum cell_face *face = boundary->axis < 0 ? NULL : halo->face[boundary->axis];
+        if (boundary->kind == BOUNDARY_RIGID_BODY)
+            continue;
         if (boundary->kind == BOUNDARY_PERIODIC)
             face[0] = face[1] = CELL_FACE_PERIODIC;
         else if (boundary->kind == BOUNDARY_INFLOW || boundary->part.choice)
             face[boundary->side] = CELL_FACE_FILLED;
         else if (face[boundary->side] != CELL_FACE_FILLED)
-            face[boundary->side] =
-                boundary->kind == BOUNDARY_REFLECTING ? CELL_FACE_MIRROR : CELL_FACE_COPIES;
+            face[boundary->side] = boundary_closes(boundary) ? CELL_FACE_MIRROR : CELL_FACE_COPIES;
     }
 }
 
@@ -201,11 +202,8 @@ static int boundary_at(const struct simulation_case *input, int axis, int side, 
 static bool is_closed(const struct simulation *simulation, const struct cell_blocks *cells,
                       int axis, int side)
 {
-    const struct simulation_case *input = simulation->problem->input;
-    for (int w = 0; w < input->walls.count; w++)
-        if (case_wall(input, w)->axis == axis && case_wall(input, w)->side == side)
-            return true;
-    return geometry_power(input->geometry) > 0 && axis == 0 && side == 0 && cells->low[0] == 0;
+    return geometry_power((int)simulation->problem->geometry) > 0 && axis == 0 && side == 0 &&
+           cells->low[0] == 0;
 }
 
 /* Conserved numbers of what flows in. */
@@ -276,19 +274,16 @@ static struct error *fill_plane(const struct gas *gas, const struct simulation *
             row_place(cells, block, first, second, i + j * rows, at);
             at[axis] = (double)(filled->side ? cells->high : cells->low)[axis] * edge;
             const int b = boundary_at(input, axis, filled->side, vec3_make(at[0], at[1], at[2]));
-            const int kind = b < 0 ? (closed ? BOUNDARY_REFLECTING : BOUNDARY_TRANSMITTING)
-                                   : case_boundary(input, b)->kind;
-            if (kind == BOUNDARY_INFLOW) {
+            const bool mirror = b < 0 ? closed : boundary_closes(case_boundary(input, b));
+            if (b >= 0 && case_boundary(input, b)->kind == BOUNDARY_INFLOW) {
                 /* the state is one of the cell outside */
                 at[axis] = ((double)filled->at + 0.5) * edge;
                 TRY(inflow(simulation, gas->material[0], b, vec3_make(at[0], at[1], at[2]), time,
                            number));
             } else
                 for (int n = 0; n < gas->halo.numbers; n++)
-                    number[n] =
-                        from_source(gas, cells, axis,
-                                    kind == BOUNDARY_REFLECTING ? &filled->mirror : &filled->copy,
-                                    i, j, rows, n);
+                    number[n] = from_source(
+                        gas, cells, axis, mirror ? &filled->mirror : &filled->copy, i, j, rows, n);
             for (int n = 0; n < gas->halo.numbers; n++)
                 cell_plane(&gas->halo, cells->dimension, axis, filled->plane, n)[i + j * rows] =
                     number[n];

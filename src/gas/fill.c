@@ -200,7 +200,7 @@ static void fill_parts(struct filling *f, const double centre[3], double *sum)
             all += weight;
         } else if (!gas_in_obstacle(f->simulation->problem->input, place))
             f->error = tell(f, -1, "", place,
-                            "no body fills the domain here: bodies and obstacles must fill all of "
+                            "no body fills the domain here: bodies and rigid ones must fill all of "
                             "it");
     }
     for (int n = 0; n < FILLS && all > 0.0; n++)

@@ -12,7 +12,6 @@
 #include "material/any.h"
 #include "material/material.h"
 #include "model/bodies.h"
-#include "model/domain.h"
 
 static const struct field_row field_rows[] = {
     {.field = {"sound_long", "m/s", "longitudinal sound speed", NUMBER_DOUBLE, 1, FIELD_DERIVED}},
@@ -124,7 +123,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     gas->layout.two = gas->material[1] != gas->material[0];
     gas->layout.marked = gas->layout.two && !gas->second_order;
     gas->thaws = gas->layout.two && gas_starts_warm(simulation, gas);
-    gas->layout.blocked = input->obstacles.count > 0;
+    gas->layout.blocked = has_rigid_body(input);
     gas->afterburn = simulation->problem->material[gas->material[1]].afterburn;
     gas->layout.afterburns = gas->layout.two && gas->afterburn.energy > 0.0;
     gas->layout.explosive = gas->layout.two ? gas->layout.explosive : 0;
@@ -447,18 +446,21 @@ static struct error *gas_coarse(const void *parameters, const struct simulation_
 
 static const struct field_row *const field_tables[] = {field_rows, NULL};
 
-const struct solver_class gas_class = {.members = "cells",
-                                       .size = sizeof(struct gas),
-                                       .create = gas_create,
-                                       .fill = gas_fill,
-                                       .start = gas_start,
-                                       .prepare = gas_prepare,
-                                       .advance = gas_advance,
-                                       .state = gas_state,
-                                       .destroy = gas_destroy,
-                                       .bytes = gas_bytes,
-                                       .count = gas_count,
-                                       .step = gas_step,
-                                       .coarse = gas_coarse,
-                                       .instead = gas_instead,
-                                       .fields = field_tables};
+const struct solver_class gas_class = {
+    .members = "cells",
+    .boundaries = BOUNDARIES_CLOSED | BOUNDARY_PARTS | 1u << BOUNDARY_TRANSMITTING |
+                  1u << BOUNDARY_INFLOW | 1u << BOUNDARY_PERIODIC | 1u << BOUNDARY_RIGID_BODY,
+    .size = sizeof(struct gas),
+    .create = gas_create,
+    .fill = gas_fill,
+    .start = gas_start,
+    .prepare = gas_prepare,
+    .advance = gas_advance,
+    .state = gas_state,
+    .destroy = gas_destroy,
+    .bytes = gas_bytes,
+    .count = gas_count,
+    .step = gas_step,
+    .coarse = gas_coarse,
+    .instead = gas_instead,
+    .fields = field_tables};

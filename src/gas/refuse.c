@@ -4,6 +4,7 @@
 #include "gas/gas_internal.h"
 #include "gas/gas_phases.h"
 #include "material/material.h"
+#include "model/boundaries.h"
 #include "shape/shape.h"
 
 static struct error *refuse_map(const struct simulation_case *input, const char *section,
@@ -179,9 +180,7 @@ struct error *gas_refuse(const struct simulation *simulation,
     error = error_join(error, refuse_map(input, "loads", &input->loads,
                                          "bodies of gas have no surfaces in the solver gas; a "
                                          "boundary of kind inflow pushes"));
-    error = error_join(error, refuse_map(input, "outflows", &input->outflows,
-                                         "outflows are for particles: use a boundary of kind "
-                                         "transmitting"));
+    error = error_join(error, boundaries_refuse(input, gas_class.boundaries));
     error = error_join(error, gas_check_start(simulation));
     for (int b = 0; b < input->bodies.count; b++)
         error = error_join(error, refuse_body(input, b));
@@ -190,10 +189,7 @@ struct error *gas_refuse(const struct simulation *simulation,
 
 bool gas_in_obstacle(const struct simulation_case *input, struct vec3 place)
 {
-    for (int i = 0; i < input->obstacles.count; i++)
-        if (shape_inside(&case_obstacle(input, i)->shape, place))
-            return true;
-    return false;
+    return rigid_body_at(input, place) >= 0;
 }
 
 /* The centre of cell K of the COUNT of a box that begins at LOW; along an axis across which the box
@@ -262,13 +258,13 @@ struct error *gas_check_shapes(const struct simulation *simulation, const struct
 {
     const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
-    if (input->obstacles.count && !any_open(input, cells))
-        error = input_error(input, "obstacles", NULL,
-                            "they block all cells of the domain: leave room for the gas");
+    if (has_rigid_body(input) && !any_open(input, cells))
+        error = input_error(input, "boundaries", NULL,
+                            "rigid bodies block all cells of the domain: leave room for the gas");
     for (int b = 0; b < input->boundaries.count; b++) {
         const struct boundary_input *boundary = case_boundary(input, b);
         char name[160];
-        if (!boundary->part.choice || part_holds_any(boundary, cells))
+        if (!boundary->part.choice || boundary->axis < 0 || part_holds_any(boundary, cells))
             continue;
         snprintf(name, sizeof name, "%.100s.part", input->boundaries.names[b]);
         error = error_join(

@@ -1,7 +1,7 @@
-/* Obstacles that cells do not see: those thinner than a cell, between whose centres gas passes. */
+/* Rigid bodies that cells do not see: those thinner than a cell, between whose centres gas
+ * passes. */
 #include "gas/gas_phases.h"
 
-#include "model/domain.h"
 #include "model/problem.h"
 #include "shape/shape.h"
 
@@ -109,35 +109,36 @@ static bool find_cells(const struct simulation_case *input, struct look *look)
     return true;
 }
 
-static struct error *judge(const struct simulation_case *input, int obstacle, double edge)
+static struct error *judge(const struct simulation_case *input, int body, double edge)
 {
-    const char *name = input->obstacles.names[obstacle];
-    struct look look = {.shape = &case_obstacle(input, obstacle)->shape,
+    const char *name = input->boundaries.names[body];
+    struct look look = {.shape = &case_boundary(input, body)->part,
                         .edge = edge,
                         .dimension = (int)input->dimension};
     if (!find_cells(input, &look))
-        return input_error(input, "obstacles", name,
+        return input_error(input, "boundaries", name,
                            "it lies outside the domain: it blocks nothing");
     int64_t blocked = 0;
     for (int axis = 0; axis < look.dimension; axis++) {
         const struct crossings crossings = cross(&look, axis);
         blocked += crossings.blocked;
         if ((double)crossings.thin > THIN_PART * (double)crossings.lines)
-            return input_error(input, "obstacles", name,
+            return input_error(input, "boundaries", name,
                                "%.3g m thick along %c, thinner than a cell of %.3g m: gas passes "
                                "where no centre of a cell is in it; make it a cell thick, or the "
                                "cells finer",
                                crossings.thickness, "xyz"[axis], edge);
     }
     return blocked ? NULL
-                   : input_error(input, "obstacles", name,
+                   : input_error(input, "boundaries", name,
                                  "no centre of a cell of %.3g m is in it: it blocks nothing", edge);
 }
 
 struct error *gas_thin_obstacles(const struct simulation_case *input, double edge)
 {
     struct error *error = NULL;
-    for (int i = 0; i < input->obstacles.count; i++)
-        error = error_join(error, judge(input, i, edge));
+    for (int b = 0; b < input->boundaries.count; b++)
+        if (case_boundary(input, b)->kind == BOUNDARY_RIGID_BODY)
+            error = error_join(error, judge(input, b, edge));
     return error;
 }

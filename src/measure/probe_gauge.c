@@ -6,7 +6,6 @@
 
 #include "base/memory.h"
 #include "measure/probes.h"
-#include "model/domain.h"
 #include "shape/shape.h"
 
 const struct parameter probe_gauge_table[] = {
@@ -55,15 +54,6 @@ static double radius_of(const struct probe *probe, const struct simulation *simu
     return isnan(gauge->radius) ? simulation->problem->input->resolution : gauge->radius;
 }
 
-/* The obstacle at PLACE, -1: none is there. */
-static int obstacle_at(const struct simulation_case *input, const double place[3])
-{
-    for (int i = 0; i < input->obstacles.count; i++)
-        if (shape_inside(&case_obstacle(input, i)->shape, vector_at(place)))
-            return i;
-    return -1;
-}
-
 /* Whether an open cell of EDGE has its centre within RADIUS of PLACE. */
 static bool reaches_cell(const struct simulation_case *input, const struct vector_value *place,
                          double radius, double edge)
@@ -88,7 +78,7 @@ static bool reaches_cell(const struct simulation_case *input, const struct vecto
             rest /= count[axis];
         }
         if (distance_square(place, at) <= square(radius) * (1.0 + 1e-9) &&
-            obstacle_at(input, at) < 0)
+            rigid_body_at(input, vector_at(at)) < 0)
             return true;
     }
     return false;
@@ -114,34 +104,34 @@ static struct error *check_cells(const struct probe *probe, const struct simulat
     }
     double at[3] = {0.0, 0.0, 0.0};
     memcpy(at, gauge->at.at, (size_t)gauge->at.count * sizeof *at);
-    const int obstacle = obstacle_at(input, at);
-    return obstacle >= 0
+    const int body = rigid_body_at(input, vector_at(at));
+    return body >= 0
                ? probe_error(probe, simulation, "gauge",
-                             "it is in the obstacle \"%s\", and no open cell of %.4g m has its "
+                             "it is in the rigid body \"%s\", and no open cell of %.4g m has its "
                              "centre within %.4g m: it would record nothing",
-                             input->obstacles.names[obstacle], edge, radius)
+                             input->boundaries.names[body], edge, radius)
                : probe_error(probe, simulation, "gauge",
                              "no open cell of %.4g m has its centre within %.4g m: it would record "
                              "nothing; enlarge its `radius`",
                              edge, radius);
 }
 
-/* No particle is ever behind a mirror. */
-static struct error *check_mirrors(const struct probe *probe, const struct simulation *simulation)
+/* No particle is ever outside a closed or periodic face. */
+static struct error *check_faces(const struct probe *probe, const struct simulation *simulation)
 {
     const struct probe_gauge *gauge = probe->input->probe.value;
-    const struct mirrors *mirrors = &simulation->problem->mirrors;
     const double radius = radius_of(probe, simulation);
     for (int axis = 0; axis < gauge->at.count; axis++)
-        if (gauge->at.at[axis] + radius < mirrors->low[axis] ||
-            gauge->at.at[axis] - radius > mirrors->high[axis])
-            return probe_error(
-                probe, simulation, "gauge",
-                "it is outside the wall, axis or periodic face at %c = %.6g m: it would record "
-                "nothing",
-                "xyz"[axis],
-                gauge -> at.at[axis] < mirrors->low[axis] ? mirrors->low[axis]
-                                                          : mirrors->high[axis]);
+        for (int side = 0; side < 2; side++) {
+            const struct face *face = &simulation->problem->face[axis][side];
+            const double beyond = (side ? 1.0 : -1.0) * (gauge->at.at[axis] - face->at) - radius;
+            if (beyond > 0.0 && (face_closes(face) || face->kind == BOUNDARY_PERIODIC))
+                return probe_error(
+                    probe, simulation, "gauge",
+                    "it is outside the wall, axis or periodic face at %c = %.6g m: it would "
+                    "record nothing",
+                    "xyz"[axis], face -> at);
+        }
     return NULL;
 }
 
@@ -151,7 +141,7 @@ static struct error *prepare(struct probe *probe, const struct simulation *simul
     const struct probe_gauge *gauge = probe->input->probe.value;
     TRY(probe_check_place(probe, simulation, "gauge", &gauge->at));
     TRY(population->kind == POPULATION_OF_CELLS ? check_cells(probe, simulation, population->edge)
-                                                : check_mirrors(probe, simulation));
+                                                : check_faces(probe, simulation));
     probe_add_column(probe, "particles", "");
     TRY(probe_add_fields(probe, simulation, population));
     return add_exact(probe, simulation->problem->input);

@@ -23,22 +23,19 @@ static const char *place_text(const struct simulation_case *input, struct vec3 p
     return buffer;
 }
 
-/* The wall that PLACE lies behind, -1 for none, and from the number of walls on the outflow that it
- * lies beyond. A particle on a wall would meet its own image. */
-static int wall_before(const struct simulation_case *input, struct vec3 place)
+/* The boundary that PLACE lies outside, -1 for none. A particle on a wall would meet its own
+ * image. */
+static int boundary_before(const struct simulation_case *input, struct vec3 place)
 {
-    const double at[3] = {place.x, place.y, place.z};
-    const int walls = input->walls.count;
-    for (int i = 0; i < walls; i++) {
-        const struct wall_input *wall = case_wall(input, i);
-        if (wall->side == WALL_LOW ? at[wall->axis] <= wall->at : at[wall->axis] >= wall->at)
-            return i;
-    }
-    for (int i = 0; i < input->outflows.count; i++) {
-        const struct outflow_input *face = case_outflow(input, i);
-        const double beyond = at[face->axis] - face->at;
-        if ((face->side == WALL_LOW ? -beyond : beyond) > 1e-9 * input->resolution)
-            return walls + i;
+    const double at[3] = {place.x, place.y, place.z}, margin = 1e-9 * input->resolution;
+    for (int b = 0; b < input->boundaries.count; b++) {
+        const struct boundary_input *boundary = case_boundary(input, b);
+        if (boundary->part.choice ||
+            !(boundary_closes(boundary) || boundary->kind == BOUNDARY_OUTFLOW))
+            continue;
+        const double beyond = boundary_beyond(boundary, at);
+        if (boundary_closes(boundary) ? beyond >= 0.0 : beyond > margin)
+            return b;
     }
     return -1;
 }
@@ -49,7 +46,7 @@ struct finding {
     double volume;               /* of all particles, m^dimension */
     double energy;               /* of them, internal and kinetic */
     double sound;                /* in summary.fastest */
-    int wall;                    /* that a particle lies behind, as wall_before says */
+    int wall;                    /* that a particle lies behind, as boundary_before says */
     struct vec3 wall_place;
     int conflict;
     struct vec3 conflict_place;
@@ -147,19 +144,19 @@ static void explore_walls(const struct simulation_case *input, const struct latt
         int64_t site[3] = {low[0], low[1], low[2]};
         if (axis >= 0)
             site[axis] = high[axis] - 1;
-        if (wall_before(input, place_at(lattice, site)) < 0)
+        if (boundary_before(input, place_at(lattice, site)) < 0)
             continue;
         for (int64_t before = axis < 0 ? site[0] : low[axis];
              axis >= 0 && site[axis] - before > 1;) {
             int64_t middle[3] = {site[0], site[1], site[2]};
             middle[axis] = before + (site[axis] - before) / 2;
-            if (wall_before(input, place_at(lattice, middle)) < 0)
+            if (boundary_before(input, place_at(lattice, middle)) < 0)
                 before = middle[axis];
             else
                 site[axis] = middle[axis];
         }
         finding->wall_place = place_at(lattice, site);
-        finding->wall = wall_before(input, finding->wall_place);
+        finding->wall = boundary_before(input, finding->wall_place);
     }
 }
 
@@ -229,7 +226,7 @@ static struct error *explore_body(const struct overlaps *overlaps, int body,
             continue;
         summary->counted++;
         if (finding->wall < 0) {
-            finding->wall = wall_before(input, place);
+            finding->wall = boundary_before(input, place);
             finding->wall_place = place;
         }
     }
@@ -255,15 +252,15 @@ static struct error *judge_body(const struct simulation_case *input, int body,
 {
     const struct finding *finding = &findings[body];
     const char *name = input->bodies.names[body];
-    const int other = finding->conflict, walls = input->walls.count;
+    const int other = finding->conflict;
     char place[PLACE_TEXT];
     struct error *error = NULL;
     if (finding->wall >= 0)
-        error = input_error(input, "bodies", name, "the particle at %s lies behind %s \"%s\"",
-                            place_text(input, finding->wall_place, place),
-                            finding->wall < walls ? "wall" : "outflow",
-                            finding->wall < walls ? input->walls.names[finding->wall]
-                                                  : input->outflows.names[finding->wall - walls]);
+        error =
+            input_error(input, "bodies", name, "the particle at %s lies behind %s \"%s\"",
+                        place_text(input, finding->wall_place, place),
+                        boundary_closes(case_boundary(input, finding->wall)) ? "wall" : "outflow",
+                        input->boundaries.names[finding->wall]);
     if (other >= 0 && !(other < body && findings[other].conflict == body))
         error = error_join(
             error, input_error(input, "bodies", name,

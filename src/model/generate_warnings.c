@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "material/material.h"
-#include "model/solver.h"
+#include "model/boundaries.h"
 #include "model/walk.h"
 
 /* Particles across a plate below which others get through it, and with which it hardly bends. */
@@ -14,15 +14,11 @@ enum { THIN = 3 };
  * ones. */
 static bool is_between_mirrors(const struct simulation_case *input, int axis)
 {
-    bool at[2] = {false, false};
-    for (int i = 0; i < input->walls.count; i++)
-        if (case_wall(input, i)->axis == axis)
-            at[case_wall(input, i)->side == WALL_HIGH] = true;
-    bool periodic = false;
-    for (int i = 0; i < input->boundaries.count; i++)
-        periodic |= case_boundary(input, i)->axis == axis &&
-                    case_boundary(input, i)->kind == BOUNDARY_PERIODIC;
-    return (at[0] && at[1]) || periodic;
+    struct face face[3][2];
+    boundaries_find(input, face);
+    const bool radius = axis == 0 && geometry_power(input->geometry) > 0;
+    return (!radius && face_closes(&face[axis][0]) && face_closes(&face[axis][1])) ||
+           face[axis][0].kind == BOUNDARY_PERIODIC;
 }
 
 static bool is_thin(const struct simulation_case *input, int body, int axis)

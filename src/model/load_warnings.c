@@ -47,7 +47,7 @@ static struct meeting meet(const struct load_input *load, const struct body_surf
         if (!load_takes(&any_side, element))
             continue;
         meeting.between++;
-        meeting.other += load->side == WALL_HIGH ? to < -0.5 : load->side == WALL_LOW && to > 0.5;
+        meeting.other += load->side == SIDE_HIGH ? to < -0.5 : load->side == SIDE_LOW && to > 0.5;
         if (!load_takes(load, element))
             continue;
         meeting.chosen++;
@@ -110,7 +110,7 @@ static struct error *judge_load(const struct simulation_case *input, int index,
     if (meeting.chosen == 0)
         return input_error(input, "loads", name,
                            "it does nothing: no surface of body \"%s\" there faces `side: %s`",
-                           load->on, load->side == WALL_HIGH ? "high" : "low");
+                           load->on, load->side == SIDE_HIGH ? "high" : "low");
     if (load_is_blast(load))
         return judge_wave(input, index, &meeting);
     if (load->traction.count > 0 && meeting.other > 0)

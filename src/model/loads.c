@@ -26,7 +26,7 @@ static bool is_of_side(const struct load_input *load, struct vec3 normal)
 {
     static const double least = 1e-9;
     const double to = along(normal, load->axis);
-    return load->side < 0 || (load->side == WALL_HIGH ? to : -to) > least;
+    return load->side < 0 || (load->side == SIDE_HIGH ? to : -to) > least;
 }
 
 bool load_takes(const struct load_input *load, const struct surface_element *element)
@@ -194,7 +194,7 @@ static struct push push_of(const struct acting *acting, const struct body_surfac
                              fabs(pressure) * vec3_dot(now->area, now->normal)};
     if (!is_of_side(load, now->normal))
         return none;
-    const double area = (load->side == WALL_HIGH ? 1.0 : -1.0) * along(now->area, load->axis);
+    const double area = (load->side == SIDE_HIGH ? 1.0 : -1.0) * along(now->area, load->axis);
     const struct vec3 traction = vector_at(acting->traction);
     return (struct push){vec3_scale(area, traction), sqrt(vec3_dot(traction, traction)) * area};
 }

@@ -1,5 +1,5 @@
-/* What a run knows before it has members: materials, mirror walls and the contact laws between
- * groups of bodies, checked against the case. */
+/* What a run knows before it has members: materials, faces and the contact laws between groups of
+ * bodies, checked against the case. */
 #include "model/problem.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "material/material.h"
-#include "model/domain.h"
+#include "model/boundaries.h"
 
 struct error *input_error(const struct simulation_case *input, const char *section,
                           const char *name, const char *format, ...)
@@ -26,35 +26,6 @@ struct error *input_error(const struct simulation_case *input, const char *secti
         error = error_new(ERROR_INPUT, "%s: %s", path, text);
     free(text);
     free(path);
-    return error;
-}
-
-static struct error *set_mirrors(const struct simulation_case *input, struct mirrors *mirrors)
-{
-    static const char axis_names[] = "xyz";
-    struct error *error = NULL;
-    for (int axis = 0; axis < 3; axis++)
-        mirrors->low[axis] = mirrors->high[axis] = NAN;
-    if (geometry_power(input->geometry) > 0)
-        mirrors->low[0] = 0.0;
-    for (int i = 0; i < input->walls.count; i++) {
-        const struct wall_input *wall = case_wall(input, i);
-        const char *name = input->walls.names[i], axis = axis_names[wall->axis];
-        const bool low = wall->side == WALL_LOW;
-        double *at = low ? &mirrors->low[wall->axis] : &mirrors->high[wall->axis];
-        struct error *mistake = NULL;
-        if (wall->axis >= input->dimension)
-            mistake = input_error(input, "walls", name, "the case has no %c axis", axis);
-        else if (!isnan(*at) && *at != wall->at)
-            mistake = input_error(input, "walls", name, "there is another %s wall on the %c axis",
-                                  low ? "low" : "high", axis);
-        *at = wall->at;
-        if (!mistake && mirrors->low[wall->axis] >= mirrors->high[wall->axis])
-            mistake =
-                input_error(input, "walls", name,
-                            "the low wall on the %c axis does not lie below the high wall", axis);
-        error = error_join(error, mistake);
-    }
     return error;
 }
 
@@ -202,35 +173,6 @@ static struct error *set_contacts(struct problem *problem)
     return error;
 }
 
-struct error *refuse_obstacles(const struct simulation_case *input)
-{
-    if (!input->obstacles.count)
-        return NULL;
-    return input_error(input, "obstacles", input->obstacles.names[0],
-                       "only the solver gas has obstacles: a body that is `driven` or `frozen` "
-                       "serves particles");
-}
-
-struct error *refuse_boundaries(const struct simulation_case *input)
-{
-    struct error *error = NULL;
-    if (input->domain.low.count || input->domain.high.count)
-        error = input_error(input, "domain", NULL,
-                            "the solver mpm has no domain: it computes wherever particles are");
-    for (int b = 0; b < input->boundaries.count; b++) {
-        const char *text =
-            case_boundary(input, b)->kind == BOUNDARY_PERIODIC
-                ? "the solver mpm has no periodic boundaries: use sph, or gas"
-            : case_boundary(input, b)->kind == BOUNDARY_REFLECTING
-                ? "the solver mpm has no boundaries of a domain: give a wall instead"
-                : "only the solver gas has this kind: in mpm particles leave through `outflows`, "
-                  "and a `frozen` body is a transmitting end with sph";
-        error = error_join(
-            error, input_error(input, "boundaries", input->boundaries.names[b], "%s", text));
-    }
-    return error_join(error, refuse_obstacles(input));
-}
-
 struct error *refuse_broken_contacts(const struct problem *problem)
 {
     struct error *error = NULL;
@@ -270,9 +212,17 @@ struct error *problem_create(const struct simulation_case *input, struct problem
     memcpy(problem->gravity, input->gravity.at, sizeof problem->gravity);
     for (int i = 0; i < input->materials.count; i++)
         problem->material[i] = *case_material(input, i)->material;
-    struct error *error = set_mirrors(input, &problem->mirrors);
-    domain_set_faces(input, &problem->mirrors);
-    return error_join(error, set_contacts(problem));
+    boundaries_find(input, problem->face);
+    problem->mirrors = boundaries_mirrors((const struct face(*)[2])problem->face);
+    return set_contacts(problem);
+}
+
+bool faces_any(const struct problem *problem, bool (*test)(const struct face *face))
+{
+    bool any = false;
+    for (int axis = 0; axis < 3; axis++)
+        any |= test(&problem->face[axis][0]) || test(&problem->face[axis][1]);
+    return any;
 }
 
 void problem_destroy(struct problem *problem)

@@ -18,19 +18,36 @@ struct contact_surface {
 };
 enum { CONTACT_SURFACES = 60 };
 
+/* What is outside a whole face. */
+struct face {
+    int kind; /* enum boundary_kind; -1: nothing is said of it, or of parts of it */
+    double at;
+    double pressure; /* outside an outflow, Pa; NAN: that of what leaves */
+};
+
+BOLIDE_INLINE bool face_closes(const struct face *face)
+{
+    return face->kind == BOUNDARY_REFLECTING || face->kind == BOUNDARY_SYMMETRY;
+}
+BOLIDE_INLINE bool face_lets_out(const struct face *face) { return face->kind == BOUNDARY_OUTFLOW; }
+
 struct problem {
     const struct simulation_case *input;
     int dimension;
     enum case_geometry geometry;
     int materials;
     struct material *material;
-    struct mirrors mirrors;                      /* rigid slip walls, periodic faces */
+    struct face face[3][2];                      /* low and high across each axis */
+    struct mirrors mirrors;                      /* those of particles */
     double gravity[3];                           /* m/s^2, of what nothing holds */
     uint8_t *group_of_body;                      /* contact group of each body */
     uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS]; /* of the first towards the second */
     int surfaces;
     struct contact_surface surface[CONTACT_SURFACES];
 };
+
+/* Whether some face is what TEST says. */
+bool faces_any(const struct problem *problem, bool (*test)(const struct face *face));
 
 /* Creates the problem of INPUT, which must outlive it. ERROR_INPUT: walls or contacts contradict
  * each other; PROBLEM must be destroyed then too. */
@@ -41,11 +58,6 @@ void problem_destroy(struct problem *problem);
  * or with the path alone when a program made the case without a file. */
 struct error *input_error(const struct simulation_case *input, const char *section,
                           const char *name, const char *format, ...) BOLIDE_PRINTF(4, 5);
-
-/* The error of a case that has obstacles, or a domain and its boundaries, and a solver for
- * particles that does not support them. */
-struct error *refuse_obstacles(const struct simulation_case *input);
-struct error *refuse_boundaries(const struct simulation_case *input);
 
 /* That a material breaks at contacts of particles, for solvers and methods that have none that
  * break. */

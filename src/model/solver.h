@@ -38,8 +38,14 @@ struct counted {
     double cells, bytes;
 };
 
+/* Among the bits of solver_class.boundaries: faces may have several parts. */
+#define BOUNDARY_PARTS (1u << BOUNDARY_KINDS)
+/* The boundary that every solver has. */
+#define BOUNDARIES_CLOSED (1u << BOUNDARY_REFLECTING | 1u << BOUNDARY_SYMMETRY)
+
 struct solver_class {
     const char *members; /* what it computes with: "cells"; NULL: particles */
+    unsigned boundaries; /* that it has: bits 1 << enum boundary_kind, BOUNDARY_PARTS */
     size_t size;         /* bytes of the solver's own state, zeroed before create */
     /* Makes the solver's stores, with fields by the case's parameters PARAMETERS, and shows them as
      * populations (simulation_add_population). Members come after, from `fill` or from a

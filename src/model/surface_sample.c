@@ -50,24 +50,16 @@ static enum surface_cover cover_at(const struct sampler *s, struct vec3 at)
     const struct simulation_case *input = s->input;
     if (geometry_power(input->geometry) > 0 && at.x <= 0.0)
         return SURFACE_AT_WALL;
-    for (int i = 0; i < input->walls.count; i++) {
-        const struct wall_input *wall = case_wall(input, i);
-        const double x = axis_of(at, wall->axis);
-        if (wall->side == WALL_LOW ? x < wall->at : x > wall->at)
-            return SURFACE_AT_WALL;
-    }
-    for (int i = 0; i < input->outflows.count; i++) {
-        const struct outflow_input *face = case_outflow(input, i);
-        const double x = axis_of(at, face->axis);
-        if (face->side == WALL_LOW ? x < face->at : x > face->at)
-            return SURFACE_AT_WALL;
-    }
+    const double place[3] = {at.x, at.y, at.z};
     for (int i = 0; i < input->boundaries.count; i++) {
         const struct boundary_input *boundary = case_boundary(input, i);
-        if (boundary->kind != BOUNDARY_PERIODIC || boundary->axis >= input->domain.low.count)
+        const int axis = boundary->axis;
+        if (boundary->kind == BOUNDARY_RIGID_BODY || boundary->part.choice)
             continue;
-        const double x = axis_of(at, boundary->axis);
-        if (x < input->domain.low.at[boundary->axis] || x > input->domain.high.at[boundary->axis])
+        if (boundary->kind != BOUNDARY_PERIODIC && boundary_beyond(boundary, place) > 0.0)
+            return SURFACE_AT_WALL;
+        if (boundary->kind == BOUNDARY_PERIODIC && axis < input->domain.low.count &&
+            (place[axis] < input->domain.low.at[axis] || place[axis] > input->domain.high.at[axis]))
             return SURFACE_AT_WALL;
     }
     for (int k = 0; k < s->others; k++)
@@ -194,7 +186,7 @@ static int32_t nearest_carrier(const struct sampler *s, struct vec3 place)
 }
 
 /* A face along AXIS of a part of a cell with its centre at AT, inside the body. */
-struct face {
+struct cell_side {
     struct vec3 at;
     int axis;
     double sign, end; /* the body ends so far from the centre */
@@ -202,7 +194,7 @@ struct face {
     enum surface_cover cover;
 };
 
-static bool fits(const struct piece *piece, const struct face *face)
+static bool fits(const struct piece *piece, const struct cell_side *face)
 {
     const struct vec3 sum = piece->element.start.normal;
     return piece->element.cover == face->cover &&
@@ -210,7 +202,7 @@ static bool fits(const struct piece *piece, const struct face *face)
 }
 
 /* Whether the body ends at the plane of PIECE, which fills in FACE without a search. */
-static bool is_on_plane(const struct sampler *s, const struct piece *piece, struct face *face)
+static bool is_on_plane(const struct sampler *s, const struct piece *piece, struct cell_side *face)
 {
     static const double steepest = 0.1, margin = 1e-3;
     const double slope = face->sign * axis_of(piece->normal, face->axis),
@@ -226,7 +218,7 @@ static bool is_on_plane(const struct sampler *s, const struct piece *piece, stru
 }
 
 /* The piece of the carrier OF that FACE, which is then known, is a part of; -1: there is none. */
-static int32_t find_piece(const struct sampler *s, int32_t of, struct face *face)
+static int32_t find_piece(const struct sampler *s, int32_t of, struct cell_side *face)
 {
     int32_t found = s->carrier[of].element;
     while (found >= 0 && !is_on_plane(s, &s->piece[found], face))
@@ -246,10 +238,10 @@ static int32_t find_piece(const struct sampler *s, int32_t of, struct face *face
 static void add_face(struct sampler *s, struct vec3 at, int axis, double sign)
 {
     const int32_t of = nearest_carrier(s, at);
-    struct face face = {.at = at,
-                        .axis = axis,
-                        .sign = sign,
-                        .cover = cover_at(s, moved(at, axis, sign * s->step[axis]))};
+    struct cell_side face = {.at = at,
+                             .axis = axis,
+                             .sign = sign,
+                             .cover = cover_at(s, moved(at, axis, sign * s->step[axis]))};
     if (of < 0)
         return;
     int32_t found = find_piece(s, of, &face);

@@ -25,13 +25,13 @@ static struct bounds kept_by_mirrors(const struct simulation_case *input,
     const double to[3] = {shape->high.x, shape->high.y, shape->high.z};
     const double margin = margin_of(input);
     double low[3] = {-INFINITY, -INFINITY, -INFINITY}, high[3] = {INFINITY, INFINITY, INFINITY};
-    for (int i = 0; i < input->walls.count; i++) {
-        const struct wall_input *wall = case_wall(input, i);
+    for (int i = 0; i < input->boundaries.count; i++) {
+        const struct boundary_input *wall = case_boundary(input, i);
         const int axis = wall->axis;
-        if (axis >= input->dimension || !(wall->at > from[axis] + margin) ||
-            !(wall->at < to[axis] - margin))
+        if (!boundary_closes(wall) || wall->part.choice || axis >= input->dimension ||
+            !(wall->at > from[axis] + margin) || !(wall->at < to[axis] - margin))
             continue;
-        if (wall->side == WALL_LOW)
+        if (wall->side == SIDE_LOW)
             low[axis] = maximum(low[axis], wall->at);
         else
             high[axis] = minimum(high[axis], wall->at);

@@ -224,6 +224,7 @@ static const char *mpm_energy_lost(const void *parameters)
 }
 
 const struct solver_class mpm_class = {.size = sizeof(struct mpm),
+                                       .boundaries = BOUNDARIES_CLOSED | 1u << BOUNDARY_OUTFLOW,
                                        .create = mpm_create,
                                        .fill = mpm_fill,
                                        .start = mpm_start,

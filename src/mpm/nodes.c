@@ -17,18 +17,18 @@ static struct error *between_planes(const struct simulation_case *input, int axi
     const double cells = maximum(1.0, nearbyint(fabs(at / edge)));
     const double reach = edge * (double)bins_reach((int)input->dimension);
     char key[128] = "", advice[96] = "";
-    for (int i = 0; i < input->walls.count; i++)
-        if (case_wall(input, i)->axis == axis && (case_wall(input, i)->side == WALL_HIGH) == high)
-            snprintf(key, sizeof key, "%.120s.at", input->walls.names[i]);
+    for (int i = 0; i < input->boundaries.count; i++)
+        if (case_boundary(input, i)->axis == axis && case_boundary(input, i)->side == high)
+            snprintf(key, sizeof key, "%.120s.at", input->boundaries.names[i]);
     if (!(fabs(at) < reach))
-        return input_error(input, "walls", key,
+        return input_error(input, "boundaries", key,
                            "%.6g m is beyond the grid of the solver mpm: with cells of %.6g m it "
                            "reaches %.6g m from zero",
                            at, edge, reach);
     if (fabs(at) / cells > input->resolution * (1.0 - 1e-6))
         snprintf(advice, sizeof advice, "; with `cell: %.9g m/%.15g` there is one at the wall",
                  fabs(at), cells);
-    return input_error(input, "walls", key,
+    return input_error(input, "boundaries", key,
                        "%.9g m lies between planes of the grid of the solver mpm: with cells of "
                        "%.6g m they are at %.9g m and %.9g m%s",
                        at, edge, below + 0.0, above + 0.0 /* no -0 */, advice);
@@ -60,11 +60,10 @@ struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulati
     struct error *error = too_near(simulation->problem->input, mpm->edge);
     for (int axis = 0; axis < simulation->problem->dimension; axis++)
         for (int side = 0; side < 2; side++) {
-            const double at = side ? simulation->problem->mirrors.high[axis]
-                                   : simulation->problem->mirrors.low[axis];
-            const double index = at / mpm->edge, plane = nearbyint(index);
-            mpm->has_plane[axis][side] = !isnan(at);
-            if (isnan(at))
+            const struct face *face = &simulation->problem->face[axis][side];
+            const double at = face->at, index = at / mpm->edge, plane = nearbyint(index);
+            mpm->has_plane[axis][side] = face_closes(face);
+            if (!face_closes(face))
                 continue;
             if (fabs(index - plane) <= 1e-6 &&
                 fabs(plane) < (double)bins_reach(simulation->problem->dimension))

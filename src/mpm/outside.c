@@ -98,7 +98,7 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
     const struct particles *p = mpm->particles;
     const struct load_input *load = surface->load;
     const double volume = p->mass[i] / p->density[i],
-                 sign = load->side == WALL_HIGH ? volume : -volume;
+                 sign = load->side == SIDE_HIGH ? volume : -volume;
     struct given given = {{{0.0}}, {0, 1, 2}, {0.0}, NULL};
     (void)mpm;
     for (int k = 0; k < simulation->problem->dimension; k++)
@@ -144,7 +144,7 @@ static struct given by_outflow(const struct mpm *mpm, const struct simulation *s
 {
     const struct particles *p = mpm->particles;
     const double gauge = mpm->gauge[p->material[i]], volume = p->mass[i] / p->density[i];
-    const double sign = surface->outflow->side == WALL_HIGH ? 1.0 : -1.0;
+    const double sign = surface->outflow_side == SIDE_HIGH ? 1.0 : -1.0;
     const int axis = surface->axis;
     struct given given = {{{0.0}}, {axis, axis, axis}, {0.0}, NULL};
     given.by_slope[FACE_AREA][axis] = sign * volume;
@@ -242,7 +242,7 @@ static void sum_surface(struct mpm *mpm, struct simulation *simulation,
 static double face_force(const struct surface *surface, const double *node, const double *sum,
                          double dt)
 {
-    const double sign = surface->outflow->side == WALL_HIGH ? 1.0 : -1.0, mass = node[NODE_MASS];
+    const double sign = surface->outflow_side == SIDE_HIGH ? 1.0 : -1.0, mass = node[NODE_MASS];
     if (!(sum[FACE_AREA] > 0.0 && mass > 0.0))
         return 0.0;
     if (isnan(surface->outflow->pressure))
@@ -267,7 +267,7 @@ static void push_face(struct layer *layer, const struct surface *surface, double
     for (int32_t w = 0; w < layer->walls; w++)
         layer->wall[w].back[FACE_FORCE] =
             face_force(surface, layer->wall[w].sum, layer->wall[w].back, dt);
-    const double sign = surface->outflow->side == WALL_HIGH ? 1.0 : -1.0;
+    const double sign = surface->outflow_side == SIDE_HIGH ? 1.0 : -1.0;
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int32_t n = 0; n < layer->grid.blocks; n++)
         for (int k = 0; k < BLOCK_CELLS; k++) {
@@ -429,38 +429,48 @@ struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, 
         push_surface(mpm, simulation, &surface, dt);
     }
     const struct mpm_fields fields = mpm_fields_of(mpm);
-    for (int i = 0; i < input->outflows.count; i++) {
-        const struct outflow_input *outflow = case_outflow(input, i);
-        const struct surface surface = {.body = -1,
-                                        .sound = fields.sound_long,
-                                        .viscosity = fields.viscosity,
-                                        .low = outflow->at / mpm->edge - reach,
-                                        .high = outflow->at / mpm->edge + reach,
-                                        .axis = outflow->axis,
-                                        .of = by_outflow,
-                                        .outflow = outflow};
-        push_surface(mpm, simulation, &surface, dt);
-    }
+    for (int axis = 0; axis < simulation->problem->dimension; axis++)
+        for (int side = 0; side < 2; side++) {
+            const struct face *face = &simulation->problem->face[axis][side];
+            const struct surface surface = {.body = -1,
+                                            .sound = fields.sound_long,
+                                            .viscosity = fields.viscosity,
+                                            .low = face->at / mpm->edge - reach,
+                                            .high = face->at / mpm->edge + reach,
+                                            .axis = axis,
+                                            .of = by_outflow,
+                                            .outflow = face,
+                                            .outflow_side = side};
+            if (face_lets_out(face))
+                push_surface(mpm, simulation, &surface, dt);
+        }
     return NULL;
+}
+
+/* Takes out particles beyond FACE. */
+static void lose_through(const struct mpm *mpm, struct simulation *simulation,
+                         const struct face *face, int axis, double sign)
+{
+    struct particles *p = mpm->particles;
+    for (int32_t k = 0; k < p->count; k++) {
+        const double *x = p->position[k], *u = p->velocity[k], m = p->mass[k];
+        if (sign * (x[axis] - face->at) <= 0.0 ||
+            p->body[k] >= simulation->problem->input->bodies.count) /* gone through another face */
+            continue;
+        const struct vec3 velocity = vec3_make(u[0], u[1], u[2]);
+        ledger_book(&simulation->ledger, LEDGER_OUTFLOWS, -m, vec3_scale(-m, velocity),
+                    vec3_make(x[0], x[1], x[2]),
+                    -m * (p->energy[k] + 0.5 * vec3_dot(velocity, velocity)));
+        particles_delete(p, k);
+    }
 }
 
 void mpm_lose_particles(const struct mpm *mpm, struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->problem->input;
-    struct particles *p = mpm->particles;
-    for (int i = 0; i < input->outflows.count; i++) {
-        const struct outflow_input *outflow = case_outflow(input, i);
-        for (int32_t k = 0; k < p->count; k++) {
-            const double *x = p->position[k], *u = p->velocity[k], m = p->mass[k];
-            const double beyond = x[outflow->axis] - outflow->at;
-            if ((outflow->side == WALL_HIGH ? beyond : -beyond) <= 0.0 ||
-                p->body[k] >= input->bodies.count) /* gone through another face */
-                continue;
-            const struct vec3 velocity = vec3_make(u[0], u[1], u[2]);
-            ledger_book(&simulation->ledger, LEDGER_OUTFLOWS, -m, vec3_scale(-m, velocity),
-                        vec3_make(x[0], x[1], x[2]),
-                        -m * (p->energy[k] + 0.5 * vec3_dot(velocity, velocity)));
-            particles_delete(p, k);
+    for (int axis = 0; axis < simulation->problem->dimension; axis++)
+        for (int side = 0; side < 2; side++) {
+            const struct face *face = &simulation->problem->face[axis][side];
+            if (face_lets_out(face))
+                lose_through(mpm, simulation, face, axis, side ? 1.0 : -1.0);
         }
-    }
 }

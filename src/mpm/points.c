@@ -27,12 +27,11 @@ void mpm_evaluate(const struct mpm *mpm, struct simulation *simulation)
 void mpm_keep_before_walls(const struct simulation *simulation, double x[3])
 {
     for (int axis = 0; axis < simulation->problem->dimension; axis++) {
-        const double low = simulation->problem->mirrors.low[axis],
-                     high = simulation->problem->mirrors.high[axis];
-        if (x[axis] < low)
-            x[axis] = 2.0 * low - x[axis];
-        if (x[axis] > high)
-            x[axis] = 2.0 * high - x[axis];
+        const struct face *low = &simulation->problem->face[axis][0], *high = low + 1;
+        if (face_closes(low) && x[axis] < low->at)
+            x[axis] = 2.0 * low->at - x[axis];
+        if (face_closes(high) && x[axis] > high->at)
+            x[axis] = 2.0 * high->at - x[axis];
     }
 }
 
@@ -128,8 +127,7 @@ int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
     const int32_t count = layer->bins.bin[bin].cell[BLOCK_CELLS];
     bool possible = true;
     int32_t impossible = -1;
-    if (simulation->problem->input->walls.count > 0 ||
-        simulation->problem->geometry == GEOMETRY_AXISYMMETRIC)
+    if (faces_any(simulation->problem, face_closes))
         for (int32_t k = 0; k < count; k++)
             mpm_keep_before_walls(simulation, p->position[list[k]]);
     for (int32_t begin = 0, end; begin < count; begin = end) {

@@ -1,5 +1,6 @@
 /* What of a case the material point method cannot do, told where it stands in the case. */
 #include "material/material.h"
+#include "model/boundaries.h"
 #include "model/generate.h"
 #include "mpm/mpm_internal.h"
 #include "shape/shape.h"
@@ -144,7 +145,7 @@ struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
     error = error_join(error, refuse_order(given, simulation));
     error = error_join(error, refuse_contacts(input));
     error = error_join(error, refuse_wide_cell(edge, simulation));
-    error = error_join(error, refuse_boundaries(input));
+    error = error_join(error, boundaries_refuse_of_particles(input, mpm_class.boundaries));
     error = error_join(error, refuse_broken_contacts(simulation->problem));
     return error_join(error, refuse_far_bodies(edge, simulation));
 }

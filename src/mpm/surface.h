@@ -24,10 +24,11 @@ struct surface {
     struct given (*of)(const struct mpm *, const struct simulation *, const struct surface *,
                        int32_t i);
     const struct load_input *load;
-    int index;                    /* of the load */
-    double pressure, traction[3]; /* of the load in the middle of the step */
-    const double (*force)[3];     /* of particles, by a blast */
-    const struct outflow_input *outflow;
+    int index;                       /* of the load */
+    double pressure, traction[3];    /* of the load in the middle of the step */
+    const double (*force)[3];        /* of particles, by a blast */
+    const struct face *outflow;      /* NULL: it is none */
+    int outflow_side;                /* enum face_side */
     const double *sound, *viscosity; /* of particles, at an outflow */
     const struct mpm_outside *outside;
     double reach; /* how far from a face its surface may be, in nodes */

@@ -9,7 +9,6 @@
 #include "gas/gas.h"
 #include "material/material.h"
 #include "measure/probes.h"
-#include "model/domain.h"
 #include "shape/shape.h"
 
 /* A peak lacks a third with twice as many cells, as of a point explosion at five times the pressure
@@ -115,10 +114,13 @@ static struct error *judge_all(const struct simulation_case *input, const struct
         const struct bounds place = {vector_at(at), vector_at(at)};
         error = error_join(error, judge(input, charge, "probes", input->probes.names[p], &place));
     }
-    for (int i = 0; i < input->obstacles.count; i++) {
-        const struct bounds bounds = shape_bounds(&case_obstacle(input, i)->shape);
+    for (int b = 0; b < input->boundaries.count; b++) {
+        const struct boundary_input *boundary = case_boundary(input, b);
+        if (boundary->kind != BOUNDARY_RIGID_BODY)
+            continue;
+        const struct bounds bounds = shape_bounds(&boundary->part);
         error = error_join(error,
-                           judge(input, charge, "obstacles", input->obstacles.names[i], &bounds));
+                           judge(input, charge, "boundaries", input->boundaries.names[b], &bounds));
     }
     return error;
 }

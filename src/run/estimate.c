@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "material/any.h"
 #include "material/material.h"
+#include "model/boundaries.h"
 #include "model/solver.h"
 #include "run/blast_cells.h"
 #include "run/input_warnings.h"
@@ -55,14 +56,16 @@ static void find_mean_density(const struct simulation_case *input, struct estima
     double low[3] = {box.low.x, box.low.y, box.low.z};
     double high[3] = {box.high.x, box.high.y, box.high.z};
     const double power = 1.0 + geometry_power(input->geometry);
-    double wall[3][2] = {{NAN, NAN}, {NAN, NAN}, {NAN, NAN}}, volume = 1.0;
-    for (int i = 0; i < input->walls.count; i++)
-        wall[case_wall(input, i)->axis][case_wall(input, i)->side] = case_wall(input, i)->at;
+    double volume = 1.0;
+    struct face face[3][2];
+    boundaries_find(input, face);
     assert(input->dimension <= 3);
     for (int axis = 0; axis < input->dimension; axis++) {
-        if (wall[axis][WALL_LOW] < wall[axis][WALL_HIGH]) {
-            low[axis] = wall[axis][WALL_LOW];
-            high[axis] = wall[axis][WALL_HIGH];
+        const struct face *ends = face[axis];
+        const bool axial = axis == 0 && power > 1.0;
+        if (!axial && face_closes(&ends[0]) && face_closes(&ends[1])) {
+            low[axis] = ends[0].at;
+            high[axis] = ends[1].at;
         }
         volume *=
             axis == 0 ? (pow(high[0], power) - pow(low[0], power)) / power : high[axis] - low[axis];
@@ -93,10 +96,12 @@ static double speed_into_wall(const struct simulation_case *input, struct vec3 v
 {
     const double component[3] = {velocity.x, velocity.y, velocity.z};
     double speed = 0.0;
-    for (int i = 0; i < input->walls.count; i++) {
-        const struct wall_input *wall = case_wall(input, i);
-        speed = maximum(speed, component[wall->axis] * (wall->side == WALL_LOW ? -1.0 : 1.0));
-    }
+    struct face face[3][2];
+    boundaries_find(input, face);
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = axis == 0 && geometry_power(input->geometry) > 0; side < 2; side++)
+            if (face_closes(&face[axis][side]))
+                speed = maximum(speed, component[axis] * (side ? 1.0 : -1.0));
     return speed;
 }
 

@@ -7,6 +7,7 @@
 
 #include "exact/detonation.h"
 #include "material/material.h"
+#include "model/boundaries.h"
 #include "model/solver.h"
 #include "run/forecast.h"
 
@@ -65,12 +66,13 @@ static double ball_volume(const struct simulation_case *input, int body, int *po
         volume /= 2.0 * pi;
     else if (radial == 2)
         volume /= 4.0 * pi;
-    for (int i = 0; i < input->walls.count; i++) {
-        const struct wall_input *wall = case_wall(input, i);
-        const double face = wall->side == WALL_LOW ? low[wall->axis] : high[wall->axis];
-        if (!(radial && wall->axis == 0) && fabs(wall->at - face) < input->resolution)
-            volume *= 0.5;
-    }
+    struct face face[3][2];
+    boundaries_find(input, face);
+    for (int axis = radial ? 1 : 0; axis < 3; axis++)
+        for (int side = 0; side < 2; side++)
+            if (face_closes(&face[axis][side]) &&
+                fabs(face[axis][side].at - (side ? high : low)[axis]) < input->resolution)
+                volume *= 0.5;
     return volume;
 }
 

@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "material/material.h"
-#include "model/domain.h"
 #include "model/solver.h"
 #include "run/run.h"
 

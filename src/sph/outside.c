@@ -25,13 +25,10 @@ static struct error *refuse_contact(const struct simulation_case *input, int c)
 
 struct error *sph_refuse(const struct simulation *simulation)
 {
-    static const char text[] = "the solver sph has none: use mpm";
     const struct simulation_case *input = simulation->problem->input;
     struct error *error = problem_refuse_gas_keys(simulation->problem);
     for (int c = 0; c < input->contacts.count; c++)
         error = error_join(error, refuse_contact(input, c));
-    if (input->outflows.count)
-        error = error_join(error, input_error(input, "outflows", NULL, "%s", text));
     return error;
 }
 

@@ -321,11 +321,7 @@ void sph_return_strays(struct simulation *simulation, const struct particles *pa
 struct response sph_thin_step(const struct material *material, double divergence,
                               struct point *point, struct motion *motion, double *thickness);
 
-/* faces.c. ERROR_INPUT, located, for boundaries and bodies that no periodic or closed domain can
- * have. */
-struct error *sph_check_faces(const struct simulation *simulation);
-
-/* ERROR_INPUT where a period is too short for the SUPPORT of particles. */
+/* faces.c. ERROR_INPUT where a period is too short for the SUPPORT of particles. */
 struct error *sph_check_periods(const struct simulation *simulation, double support);
 
 /* Takes particles that left through a periodic face in at the other. */

@@ -11,6 +11,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "material/any.h"
+#include "model/boundaries.h"
 #include "model/generate.h"
 #include "model/particles/fill.h"
 #include "riemann/shock_slope.h"
@@ -138,7 +139,7 @@ static struct error *check_walls(const struct simulation *simulation, double rea
         double gap =
             simulation->problem->mirrors.high[axis] - simulation->problem->mirrors.low[axis];
         if (gap < reach && !mirrors_repeat(&simulation->problem->mirrors, axis))
-            return input_error(simulation->problem->input, "walls", NULL,
+            return input_error(simulation->problem->input, "boundaries", NULL,
                                "the two walls across %c are %.4g m apart; with this smoothing and "
                                "resolution they must be %.4g m apart at least",
                                "xyz"[axis], gap, reach);
@@ -166,7 +167,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     struct sph *sph = solver;
     sph->parameters = settled(parameters, simulation->problem->dimension);
     sph->scheme = sph->parameters.method.choice->thing;
-    TRY(sph_check_faces(simulation));
+    TRY(boundaries_refuse_of_particles(simulation->problem->input, sph_class.boundaries));
     sph->traits = traits_of(sph, simulation);
     sph->neighbours.skin = sph->parameters.skin;
     sph->neighbours.near_skin = sph_near_skin(&sph->parameters, sph->traits);
@@ -321,6 +322,7 @@ static const char *sph_instead(const void *parameters)
 }
 
 const struct solver_class sph_class = {.size = sizeof(struct sph),
+                                       .boundaries = BOUNDARIES_CLOSED | 1u << BOUNDARY_PERIODIC,
                                        .create = sph_create,
                                        .fill = sph_fill,
                                        .start = sph_start,

@@ -121,5 +121,5 @@ def walls(**at):
     made = {}
     for name, place in at.items():
         side, x = name.split("_")
-        made[name.replace("_", " ")] = {"mirror": x, "at": unit(place, "m"), "side": side}
+        made[name.replace("_", " ")] = {"kind": "reflecting", "axis": x, "at": unit(place, "m"), "side": side}
     return made

@@ -166,8 +166,8 @@ def patch(solver, material="fluid", lattice="square", pull=1e9, until=100e-6):
         materials={"m": m.case},
         bodies={"b": body},
         probes={"b": {"body": "b"}},
-        walls={
-            name: {"mirror": x, "at": unit(at, "m"), "side": side}
+        boundaries={
+            name: {"kind": "reflecting", "axis": x, "at": unit(at, "m"), "side": side}
             for name, (x, at, side) in walls.items()
         },
     )
@@ -234,7 +234,7 @@ def rest(
     case.update(materials={"m": m.case}, bodies=bodies)
     if boundary == "walls":
         sides = {f"low_{x}": -size for x in "xyz"[:n] if x != "x" or low}
-        case["walls"] = walls(**sides, **{f"high_{x}": size for x in "xyz"[:n]})
+        case["boundaries"] = walls(**sides, **{f"high_{x}": size for x in "xyz"[:n]})
     cut = boundary != "free" and bool(lattice != "square" or angle)
     still = 0.01 * p / (m.density * m.sound) if cut else 1e-9 * m.sound
     kind = "limit" if cut else "exact"
@@ -392,7 +392,7 @@ def squeeze(solver, material="gas", geometry="plane-strain", lattice="square", r
     else:
         for other in "xyz"[1:dimension]:
             sides.update({f"low_{other}": 0, f"high_{other}": side})
-    case.update(materials={"m": m.case}, bodies=bodies, walls=walls(**sides))
+    case.update(materials={"m": m.case}, bodies=bodies, boundaries=walls(**sides))
     now = {"of": "b", "axis": x, "between": metres(0.25 * length / ratio, 0.75 * length / ratio)}
     case["checks"] = {"p": {"mean": "pressure", **now, "at_most": "1e300 Pa"}}
     pressure, energy = m.isentrope(ratio)

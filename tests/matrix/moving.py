@@ -75,7 +75,7 @@ def rod(solver, across=8):
                 "velocity": speeds(0, -227),
             }
         },
-        walls={"anvil": {"mirror": "y", "at": "0 m", "side": "low"}},
+        boundaries={"anvil": {"kind": "reflecting", "axis": "y", "at": "0 m", "side": "low"}},
     )
     foot = {"extent": {"along": "x", "edges": "yes"}}
     source = "codes and papers on this benchmark [recalled]"
@@ -322,7 +322,7 @@ def bounce(solver, material="elastic", geometry="1d", across=40):
     case.update(materials={"m": m.case}, bodies=bodies)
     case["contacts"] = {"c": {"between": ["left", "right"], "shear": "slip", "tension": "none"}}
     if geometry == "plane-strain":
-        case["walls"] = walls(low_y=-4 * d, high_y=4 * d)
+        case["boundaries"] = walls(low_y=-4 * d, high_y=4 * d)
     why = "on a line equal elastic bars exchange their velocities; own limit 15 %"
     return Entry(
         f"bounce/{solver}/{material}/{geometry}",
@@ -464,7 +464,7 @@ def porous(solver, lattice="square", speed=2000.0, across=8):
     if lattice != "square":
         body["lattice"] = lattice
     sides = walls(high_x=length + half, low_y=0, high_y=rows * cell)
-    case.update(materials={"m": {"library": "aluminium"}}, bodies={"b": body}, walls=sides)
+    case.update(materials={"m": {"library": "aluminium"}}, bodies={"b": body}, boundaries=sides)
     where = {"between": metres(length - 4 * cell, length - cell)}
     where["between"] = metres(0.75 * length, 0.95 * length)
     case["checks"] = Frame("plane-strain").stress_checks(**where)

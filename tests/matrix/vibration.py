@@ -392,7 +392,7 @@ def standing(
     case.update(
         materials={"m": m.case},
         bodies={"b": body},
-        walls=walls(**sides),
+        boundaries=walls(**sides),
         probes={"b": {"body": "b", "every": unit(period / 400, "s")}},
     )
     window = (0.35 * period, 0.6 * period)

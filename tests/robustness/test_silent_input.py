@@ -153,7 +153,7 @@ def inputs():
         yield f"p_CJ absurd, {solver}", case(
             solver, burn="{beta: {speed: 6930 m/s, pressure: 1e15 Pa}}"), "Chapman-Jouguet pressure"
         yield f"gauge behind a wall, {solver}", solid(
-            solver, "walls: {w: {mirror: x, at: -20 mm, side: low}}\n"
+            solver, "boundaries: {w: {kind: reflecting, axis: x, at: -20 mm, side: low}}\n"
             f"probes: {{g: {{gauge: {{at: [-{DRAW.uniform(0.1, 9)} m, 0 m]}}}}}}\n"), (
                 "outside the wall, axis or periodic face at x = -0.02 m")
         yield f"gauge behind the axis, {solver}", solid(
@@ -166,7 +166,7 @@ def inputs():
                                   "{file: far.png, pixel: 20 mm, grey: [0, 255]}}}"), (
                                       "its palette lacks")
     gauge = "probes: {g: {gauge: {at: [%s]}}}\n"
-    block = "obstacles: {block: {box: {from: [0.5 m, -0.1 m], to: [0.7 m, 0.3 m]}}}\n"
+    block = "boundaries: {block: {kind: rigid-body, part: {box: {from: [0.5 m, -0.1 m], to: [0.7 m, 0.3 m]}}}}\n"
     yield "gauge off the grid", gas(gauge % "1.5 m, 0.1 m"), "outside the domain, which goes from"
     yield "gauge off the grid, 1-D", gas(gauge % "-0.2 m", 1), "outside the domain, which goes from"
     yield "gauge in an obstacle", gas(block + gauge % "0.6 m, 0.1 m"), "in the obstacle \"block\""
@@ -179,7 +179,7 @@ def inputs():
     plate = f"obstacles: {{plate: {{box: {{from: [0.2 m, %s], to: [{far_side} m, %s]}}}}}}\n"
     for dimension, low, high in ((2, "-0.1 m", "0.3 m"), (3, "-0.1 m, -1 m", "0.3 m, 1 m")):
         yield f"thin obstacle, {dimension}-D", gas(plate % (low, high), dimension), (
-            r"obstacles\.plate: [\d.]+ m thick along x, thinner than a cell of 0\.01 m")
+            r"boundaries\.plate: [\d.]+ m thick along x, thinner than a cell of 0\.01 m")
     yield "thin obstacle, 1-D", gas(plate.replace(", %s", "") , 1), "thinner than a cell"
     tilted = ("obstacles: {plate: {polygon: {points: [[0.3 m, -1 m], [0.305 m, -1 m], "
               "[0.905 m, 1 m], [0.9 m, 1 m]]}}}\n")
@@ -192,7 +192,7 @@ def inputs():
     yield "obstacle between centres", gas(
         "obstacles: {o: {ball: {center: [0.5 m, 0.1 m], radius: 3 mm}}}\n"), (
             "it blocks nothing|thinner than a cell")
-    for solver, words in (("cfdmp", "thinner than a cell"), ("afdmp", "know no obstacles")):
+    for solver, words in (("cfdmp", "thinner than a cell"), ("afdmp", "no boundary of kind rigid-body")):
         yield f"thin obstacle, {solver}", case(
             solver, more="obstacles: {plate: {box: {from: [-0.184 m, 0 m], "
             "to: [-0.181 m, 0.3 m]}}}\n"), words

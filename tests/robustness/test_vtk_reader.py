@@ -176,7 +176,7 @@ def check_blocked(program, folder):
     case = os.path.join(folder, "blocked.yaml")
     with open(case, "w", encoding="utf-8") as file:
         file.write(GRID_CASE % (2, "0 m, 0 m", "0.07 m, 0.2 m"))
-        file.write("obstacles: {block: {box: {from: [0.02 m, 0.02 m], to: [0.05 m, 0.1 m]}}}\n")
+        file.write("boundaries: {block: {kind: rigid-body, part: {box: {from: [0.02 m, 0.02 m], to: [0.05 m, 0.1 m]}}}}\n")
     results = os.path.join(folder, "blocked")
     subprocess.run([program, "run", case, "--output", results], check=True,
                    stdout=subprocess.DEVNULL)

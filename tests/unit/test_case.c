@@ -114,7 +114,8 @@ static void a_good_case_is_read_in_si_units(void **state)
     assert_true(((const struct ball *)unite->shapes.items[1].value)->radius == 2e-3);
     assert_int_equal(many->replaces.count, 1);
     assert_int_equal(case_body(input, 1)->velocity.count, 1);
-    assert_true(case_wall(input, 0)->at == -3e-3);
+    assert_true(case_boundary(input, 0)->at == -3e-3 && case_boundary(input, 0)->place == -3e-3);
+    assert_int_equal(case_boundary(input, 0)->kind, BOUNDARY_REFLECTING);
     assert_true(case_contact(input, 0)->shear == SHEAR_SLIP &&
                 case_contact(input, 0)->body[1] == 1);
     const struct check_input *plateau = case_check(input, 0);

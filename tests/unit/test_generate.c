@@ -139,8 +139,8 @@ static void all_mistakes_of_a_case_come_in_one_go(void **state)
     add_body(&w, "box", &low);
     add_body(&w, "box", &high);
     add_body(&w, "repeat", &sparse);
-    add_wall(&w, 0, WALL_LOW, 0.0);
-    add_wall(&w, 1, WALL_HIGH, 2.0);
+    add_wall(&w, 0, SIDE_LOW, 0.0);
+    add_wall(&w, 1, SIDE_HIGH, 2.0);
     assert_refused(&w, 3,
                    "bodies.matrix: the particle at [-0.95 m, 0.05 m] lies behind wall \"floor\"");
     assert_refused(&w, 3, "lies behind wall \"lid\"");
@@ -152,15 +152,16 @@ static void a_body_beyond_an_outflow_is_refused(void **state)
     (void)state;
     struct workshop w;
     struct shape_box box = {VECTOR(0.0, 0.0), VECTOR(1.0, 1.0)};
-    struct outflow_input face = {.axis = 1, .side = WALL_HIGH, .at = 0.95};
+    struct boundary_input face = {
+        .kind = BOUNDARY_OUTFLOW, .axis = 1, .side = SIDE_HIGH, .at = 0.95, .place = 0.95};
     open_workshop(&w, 2, 0.1);
     add_body(&w, "box", &box);
-    w.input.outflows = (struct named_map){1, (char *[]){"top"}, &face, {0}};
+    w.input.boundaries = (struct named_map){1, (char *[]){"top"}, &face, {0}};
     const struct ranks alone = ranks_alone();
     struct simulation simulation;
     assert_made(&w, &alone, &simulation); /* the last row stands on the face */
     end_simulation(&simulation);
-    face.at = 0.85;
+    face.at = face.place = 0.85;
     assert_refused(&w, 1,
                    "bodies.matrix: the particle at [0.05 m, 0.95 m] lies behind outflow \"top\"");
 }
@@ -240,7 +241,7 @@ static void a_box_is_counted_as_its_sites_are(void **state)
                                                              : GEOMETRY_PLANE_STRAIN;
             add_body(&w, k ? "intersection" : "box", k ? (void *)&same : (void *)&box);
             if (trial % 4 == 0)
-                add_wall(&w, 0, trial % 8 ? WALL_LOW : WALL_HIGH, wall);
+                add_wall(&w, 0, trial % 8 ? SIDE_LOW : SIDE_HIGH, wall);
             error[k] = generate_summary(&w.input, trial % 5 ? &window : NULL, &summary[k]);
         }
         assert_int_equal(error[0] != NULL, error[1] != NULL);
@@ -392,9 +393,9 @@ static void a_ball_about_the_axis_is_cut_by_mirrors_too(void **state)
             body->lattice =
                 lattice_of((enum lattice_kind)kind, kind == LATTICE_RINGS ? &rings : NULL);
             if (isfinite(mirrors[k][0]))
-                add_wall(&w, 1, WALL_LOW, low);
+                add_wall(&w, 1, SIDE_LOW, low);
             if (isfinite(mirrors[k][1]))
-                add_wall(&w, 1, WALL_HIGH, high);
+                add_wall(&w, 1, SIDE_HIGH, high);
             assert_made(&w, &alone, &simulation);
             const struct particles *p = particles_of(&simulation);
             for (int i = 0; i < p->count; i++)
@@ -460,9 +461,9 @@ static void mirrors_cut_bodies_in_any_dimension(void **state)
             const int sides = dice_below(&dice, 4);
             const double at = dice_below(&dice, 2) ? 0.0 : dice_between(&dice, -0.4, 0.0);
             if (sides & 1)
-                add_wall(&w, axis, WALL_LOW, low[axis] = at);
+                add_wall(&w, axis, SIDE_LOW, low[axis] = at);
             if (sides & 2)
-                add_wall(&w, axis, WALL_HIGH, high[axis] = dice_between(&dice, 0.2, 0.5));
+                add_wall(&w, axis, SIDE_HIGH, high[axis] = dice_between(&dice, 0.2, 0.5));
         }
         assert_made(&w, &alone, &simulation);
         const struct particles *p = particles_of(&simulation);
@@ -486,7 +487,7 @@ static void a_body_wholly_behind_a_mirror_stays_a_mistake(void **state)
     open_workshop(&w, 2, 0.1);
     w.input.geometry = GEOMETRY_AXISYMMETRIC;
     add_body(&w, "box", &box);
-    add_wall(&w, 1, WALL_LOW, 0.0);
+    add_wall(&w, 1, SIDE_LOW, 0.0);
     assert_refused(&w, 1, "lies behind wall \"floor\"");
 }
 

@@ -19,7 +19,7 @@ struct workshop {
     char *names[BODIES];
     struct body_input bodies[BODIES];
     struct contact_input contacts[CONTACTS];
-    struct wall_input walls[3];
+    struct boundary_input walls[3];
 };
 
 static void open_workshop(struct workshop *w, int bodies)
@@ -29,7 +29,7 @@ static void open_workshop(struct workshop *w, int bodies)
         w->names[i] = "a";
     w->input.bodies = (struct named_map){bodies, w->names, w->bodies, {0}};
     w->input.contacts = (struct named_map){0, w->names, w->contacts, {0}};
-    w->input.walls = (struct named_map){0, w->names, w->walls, {0}};
+    w->input.boundaries = (struct named_map){0, w->names, w->walls, {0}};
 }
 
 static void add_contact(struct workshop *w, int first, int second, int shear, int tension)
@@ -38,9 +38,10 @@ static void add_contact(struct workshop *w, int first, int second, int shear, in
         (struct contact_input){.shear = shear, .tension = tension, .body = {first, second}};
 }
 
-static void add_wall(struct workshop *w, int axis, enum wall_side side, double at)
+static void add_wall(struct workshop *w, int axis, enum face_side side, double at)
 {
-    w->walls[w->input.walls.count++] = (struct wall_input){axis, side, at};
+    w->walls[w->input.boundaries.count++] =
+        (struct boundary_input){.axis = axis, .side = side, .at = at, .place = at};
 }
 
 /* The law between two bodies, as a solver finds it. */
@@ -154,9 +155,9 @@ static void walls_become_mirrors(void **state)
     const struct ranks alone = ranks_alone();
     struct workshop w;
     open_workshop(&w, 1);
-    add_wall(&w, 0, WALL_LOW, -1.0);
-    add_wall(&w, 0, WALL_HIGH, 2.0);
-    add_wall(&w, 1, WALL_HIGH, 3.0);
+    add_wall(&w, 0, SIDE_LOW, -1.0);
+    add_wall(&w, 0, SIDE_HIGH, 2.0);
+    add_wall(&w, 1, SIDE_HIGH, 3.0);
     struct simulation s;
     assert_null(simulation_create(&w.input, &alone, 1, &s));
     assert_true(s.problem->mirrors.low[0] == -1.0 && s.problem->mirrors.high[0] == 2.0 &&
@@ -164,21 +165,6 @@ static void walls_become_mirrors(void **state)
     assert_true(isnan(s.problem->mirrors.low[1]) && isnan(s.problem->mirrors.low[2]) &&
                 isnan(s.problem->mirrors.high[2]));
     simulation_destroy(&s);
-}
-
-static void walls_that_contradict_each_other_are_refused(void **state)
-{
-    (void)state;
-    struct workshop w;
-    open_workshop(&w, 1);
-    add_wall(&w, 0, WALL_LOW, 1.0);
-    add_wall(&w, 0, WALL_LOW, 2.0);
-    assert_refused(&w, "another low wall on the x axis");
-    w.walls[1].side = WALL_HIGH;
-    w.walls[1].at = 1.0;
-    assert_refused(&w, "does not lie below");
-    w.walls[1].axis = 2;
-    assert_refused(&w, "no z axis");
 }
 
 static void seconds_of_a_phase_add_up_and_those_of_blocks_are_work(void **state)
@@ -207,7 +193,6 @@ int main(void)
         cmocka_unit_test(grains_that_slip_on_each_other_never_share_a_group),
         cmocka_unit_test(a_contact_named_twice_or_with_itself_is_refused),
         cmocka_unit_test(walls_become_mirrors),
-        cmocka_unit_test(walls_that_contradict_each_other_are_refused),
         cmocka_unit_test(seconds_of_a_phase_add_up_and_those_of_blocks_are_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -17,7 +17,7 @@ struct workshop {
     struct simulation_case input;
     char *material_names[1], *body_names[BODIES], *wall_names[WALLS];
     struct body_input bodies[BODIES];
-    struct wall_input walls[WALLS];
+    struct boundary_input walls[WALLS];
     struct material_input material;
     struct material iron;
 };
@@ -32,7 +32,7 @@ static inline void open_workshop(struct workshop *w, int dimension, double resol
     w->input.resolution = resolution;
     w->input.materials = (struct named_map){1, w->material_names, &w->material, {0}};
     w->input.bodies = (struct named_map){0, w->body_names, w->bodies, {0}};
-    w->input.walls = (struct named_map){0, w->wall_names, w->walls, {0}};
+    w->input.boundaries = (struct named_map){0, w->wall_names, w->walls, {0}};
 }
 
 static inline struct body_input *add_body(struct workshop *w, const char *shape, void *value)
@@ -45,9 +45,10 @@ static inline struct body_input *add_body(struct workshop *w, const char *shape,
     return body;
 }
 
-static inline void add_wall(struct workshop *w, int axis, enum wall_side side, double at)
+static inline void add_wall(struct workshop *w, int axis, enum face_side side, double at)
 {
-    w->walls[w->input.walls.count++] = (struct wall_input){axis, side, at};
+    w->walls[w->input.boundaries.count++] =
+        (struct boundary_input){.axis = axis, .side = side, .at = at, .place = at};
 }
 
 /* The generated particles of RANK of SIZE; the simulation is destroyed by the caller. */

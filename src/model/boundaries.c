@@ -1,0 +1,185 @@
+/* The faces of the domain, and boundaries that a solver does not have; see boundaries.h. */
+#include "model/boundaries.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "model/generate.h"
+#include "parallel/periodic.h"
+#include "shape/shape.h"
+
+void boundaries_find(const struct simulation_case *input, struct face face[3][2])
+{
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = 0; side < 2; side++)
+            face[axis][side] = (struct face){.kind = -1, .at = NAN, .pressure = NAN};
+    if (geometry_power(input->geometry) > 0)
+        face[0][0] = (struct face){BOUNDARY_SYMMETRY, 0.0, NAN};
+    for (int b = 0; b < input->boundaries.count; b++) {
+        const struct boundary_input *boundary = case_boundary(input, b);
+        const int axis = boundary->axis, kind = boundary->kind;
+        if (kind == BOUNDARY_RIGID_BODY || boundary->part.choice)
+            continue;
+        for (int side = 0; side < 2; side++)
+            if (kind == BOUNDARY_PERIODIC)
+                face[axis][side] = (struct face){kind, domain_face(input, axis, side).at, NAN};
+            else if (boundary->side == side)
+                face[axis][side] =
+                    (struct face){kind, boundary->place,
+                                  field_is_given(&boundary->pressure) ? boundary->pressure.constant
+                                                                      : (double)NAN};
+    }
+}
+
+struct mirrors boundaries_mirrors(const struct face face[3][2])
+{
+    struct mirrors mirrors = {0};
+    for (int axis = 0; axis < 3; axis++) {
+        const struct face *low = &face[axis][0], *high = &face[axis][1];
+        mirrors.low[axis] = face_closes(low) ? low->at : (double)NAN;
+        mirrors.high[axis] = face_closes(high) ? high->at : (double)NAN;
+        if (low->kind == BOUNDARY_PERIODIC && low->at < high->at && isfinite(high->at - low->at))
+            mirrors_make_periodic(&mirrors, axis, low->at, high->at);
+    }
+    return mirrors;
+}
+
+/* The names of the kinds of SUPPORTED as `a, b and c`. */
+static void kinds_text(unsigned supported, char *text, size_t size)
+{
+    size_t used = 0;
+    *text = 0;
+    for (int kind = 0; kind < BOUNDARY_KINDS && used < size; kind++) {
+        const unsigned rest = (supported & ((1u << BOUNDARY_KINDS) - 1)) >> kind;
+        if (rest & 1u)
+            used += (size_t)snprintf(text + used, size - used, "%s%s",
+                                     !used        ? ""
+                                     : rest == 1u ? " and "
+                                                  : ", ",
+                                     boundary_kind_name(kind));
+    }
+}
+
+/* The solvers of the catalogue that have a KIND, as `; use gas or cfdmp`. */
+static void others_text(const struct simulation_case *input, int kind, char *text, size_t size)
+{
+    const struct choice_list *list =
+        input->catalogue ? catalogue_list(input->catalogue, "solver") : NULL;
+    size_t used = 0;
+    *text = 0;
+    for (int k = 0; list && k < list->count && used < size; k++) {
+        const struct solver_class *class = list->choices[k].thing;
+        if (class->boundaries & 1u << kind)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " or " : "; use ",
+                                     list->choices[k].name);
+    }
+}
+
+/* What else serves particles. */
+static const char *const instead[BOUNDARY_KINDS] = {
+    [BOUNDARY_TRANSMITTING] =
+        ", or end the material with a few particles of a `frozen` body, which waves leave through",
+    [BOUNDARY_RIGID_BODY] = ", or a body that is `driven` or `frozen`"};
+
+static struct error *refuse_kind(const struct simulation_case *input, int b, unsigned supported)
+{
+    const struct boundary_input *boundary = case_boundary(input, b);
+    char path[160], has[160], others[160];
+    if (boundary->part.choice && boundary->kind != BOUNDARY_RIGID_BODY &&
+        !(supported & BOUNDARY_PARTS)) {
+        snprintf(path, sizeof path, "%.100s.part", input->boundaries.names[b]);
+        return input_error(input, "boundaries", path,
+                           "only the solver gas has faces of several parts: remove this key, or "
+                           "close the part with a `frozen` body");
+    }
+    if (supported & 1u << boundary->kind)
+        return NULL;
+    kinds_text(supported, has, sizeof has);
+    others_text(input, boundary->kind, others, sizeof others);
+    const char *other = instead[boundary->kind];
+    return input_error(input, "boundaries", input->boundaries.names[b],
+                       "the solver %s has no %s boundaries, only %s%s%s",
+                       input->solver.choice->name, boundary_kind_name(boundary->kind), has, others,
+                       other && !(supported & BOUNDARY_PARTS) ? other : "");
+}
+
+struct error *boundaries_refuse(const struct simulation_case *input, unsigned supported)
+{
+    struct error *error = NULL;
+    for (int b = 0; b < input->boundaries.count; b++)
+        error = error_join(error, refuse_kind(input, b, supported));
+    return error;
+}
+
+static double end_of(struct vec3 place, int axis)
+{
+    return axis == 0 ? place.x : axis == 1 ? place.y : place.z;
+}
+
+/* Rows of a hexagonal lattice are shifted in turn: an odd number of them does not repeat. */
+static struct error *check_rows(const struct simulation_case *input, int body, int axis)
+{
+    const struct lattice lattice = body_lattice(input, body);
+    if (lattice.kind != LATTICE_HEXAGONAL || axis != 1 || lattice.count[1] % 2 == 0)
+        return NULL;
+    return input_error(
+        input, "bodies", input->bodies.names[body],
+        "its hexagonal lattice has %lld rows between periodic faces, and only an even "
+        "number repeats: change the resolution a little",
+        (long long)lattice.count[1]);
+}
+
+/* Bodies lie in the domain, and those that fill it fit together across the faces. */
+static struct error *check_bodies(const struct simulation_case *input, int axis,
+                                  const struct face_place face[2])
+{
+    const double margin = 1e-6 * input->resolution;
+    struct error *error = NULL;
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct bounds bounds = body_bounds(input, b);
+        const double low = end_of(bounds.low, axis), high = end_of(bounds.high, axis);
+        if (low < face[0].at - margin || high > face[1].at + margin)
+            error = error_join(
+                error,
+                input_error(input, "bodies", input->bodies.names[b],
+                            "it lies between %.6g m and %.6g m along %c, outside the domain, "
+                            "which is from %.6g m to %.6g m",
+                            low, high, "xyz"[axis], face[0].at, face[1].at));
+        else if (low < face[0].at + margin && high > face[1].at - margin)
+            error = error_join(error, check_rows(input, b, axis));
+    }
+    return error;
+}
+
+static struct error *check_face(const struct simulation_case *input, int b)
+{
+    const struct boundary_input *boundary = case_boundary(input, b);
+    const int axis = boundary->axis;
+    const struct face_place face[2] = {domain_face(input, axis, 0), domain_face(input, axis, 1)};
+    if (!isnan(boundary->at) && boundary->kind != BOUNDARY_PERIODIC)
+        return NULL; /* bodies are cut there */
+    if (!(face[0].at < face[1].at))
+        return input_error(input, face[1].section, face[1].name, "the domain has no room along %c",
+                           "xyz"[axis]);
+    return check_bodies(input, axis, face);
+}
+
+struct error *boundaries_refuse_of_particles(const struct simulation_case *input,
+                                             unsigned supported)
+{
+    struct error *error = boundaries_refuse(input, supported);
+    bool bounded = false;
+    for (int b = 0; b < input->boundaries.count; b++)
+        bounded |= case_boundary(input, b)->kind != BOUNDARY_RIGID_BODY;
+    if (!bounded && (input->domain.low.count || input->domain.high.count))
+        error =
+            error_join(error, input_error(input, "domain", NULL,
+                                          "the solver %s computes wherever particles are: name in "
+                                          "`boundaries` which faces of the domain are closed",
+                                          input->solver.choice->name));
+    for (int b = 0; b < input->boundaries.count; b++)
+        if (supported & 1u << case_boundary(input, b)->kind &&
+            !case_boundary(input, b)->part.choice)
+            error = error_join(error, check_face(input, b));
+    return error;
+}

@@ -1,0 +1,20 @@
+/* The faces of the domain as a solver gets them, and what of a case's boundaries it cannot do. */
+#ifndef BOLIDE_BOUNDARIES_H
+#define BOLIDE_BOUNDARIES_H
+
+#include "model/solver.h"
+
+/* What the boundaries of INPUT say of whole faces. */
+void boundaries_find(const struct simulation_case *input, struct face face[3][2]);
+
+/* FACE as mirrors and periods of particles. */
+struct mirrors boundaries_mirrors(const struct face face[3][2]);
+
+/* ERROR_INPUT, located, for boundaries of INPUT that a solver without those of SUPPORTED, bits of
+ * solver_class.boundaries, does not have; of particles also for faces that do not bound the
+ * bodies. */
+struct error *boundaries_refuse(const struct simulation_case *input, unsigned supported);
+struct error *boundaries_refuse_of_particles(const struct simulation_case *input,
+                                             unsigned supported);
+
+#endif
