@@ -11,6 +11,9 @@
 /* material/material.h, which few of those who read a case need: it has every model */
 struct material;
 
+/* In m/s. */
+#define SPEED_OF_LIGHT 299792458.0
+
 /* materials: NAME: {library: aluminium-wilkins} or {eos: ..., strength: ...}; keys beside `library`
  * replace those of the library's file. */
 struct material_input {
@@ -42,8 +45,6 @@ struct body_input {
     int material_index;        /* filled by case_read */
     bool varies;        /* filled by case_read: its state at the start is one of the position */
     struct point start; /* filled by case_read, unless it varies: the state at the start */
-    bool elsewhere;     /* of a case that a coupling makes: another solver has all of its members */
-    bool cut;           /* of such a case: cut to a region, in which it may have no member */
 };
 
 /* contacts: NAME: {between: [cube, plate], shear: slip, tension: none}: the law where two bodies
@@ -96,7 +97,8 @@ struct boundary_input {
     int axis, side; /* side: enum face_side; -1: not given, both of a periodic axis */
     int kind;       /* enum boundary_kind */
     double at;      /* m, of the face; NAN: that of the domain */
-    double place;   /* filled by case_read: where the face is */
+    double place,
+        opposite; /* filled by case_read: where the face is, and both of a periodic axis */
     /* "shape", which holds the part of the face, or is the rigid body; not given: all of it */
     struct one_of part;
     struct field_value density, energy; /* of what flows in, at a place and time */
@@ -348,13 +350,6 @@ static inline bool boundary_closes(const struct boundary_input *boundary)
     return boundary->kind == BOUNDARY_REFLECTING || boundary->kind == BOUNDARY_SYMMETRY;
 }
 
-/* How far AT is outside the face of BOUNDARY, m; negative inside. */
-static inline double boundary_beyond(const struct boundary_input *boundary, const double at[3])
-{
-    const double beyond = at[boundary->axis] - boundary->place;
-    return boundary->side == SIDE_LOW ? -beyond : beyond;
-}
-
 /* A face and where it stands in the case, for messages. */
 struct face_place {
     double at; /* m */
@@ -373,6 +368,12 @@ bool has_rigid_body(const struct simulation_case *input);
 const char *boundary_state_at(const struct boundary_input *boundary,
                               const struct material *material, struct vec3 place, double time,
                               struct point *point, double velocity[3], const char **key);
+
+/* State and velocity, as many components as the case has, at PLACE of a BODY that has been
+ * checked: NULL, or what is wrong, and *key the key of the body that it is about. */
+const char *body_start_at(const struct body_input *body, const struct material *material,
+                          struct vec3 place, struct point *point, double velocity[3],
+                          const char **key);
 
 /* The index of the body called NAME; -1 when there is none, or NAME is NULL. */
 int case_find_body(const struct simulation_case *input, const char *name);

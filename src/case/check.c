@@ -445,8 +445,10 @@ struct error *case_check_meaning(struct simulation_case *input)
     for (int b = 0; b < input->boundaries.count && !checking.error; b++) {
         struct boundary_input *boundary = case_boundary(input, b);
         boundary->place = boundary->at;
-        if (isnan(boundary->at) && boundary->side >= 0)
-            boundary->place = domain_face(input, boundary->axis, boundary->side).at;
+        if (boundary->axis >= 0 && isnan(boundary->at))
+            boundary->place = domain_face(input, boundary->axis, boundary->side == SIDE_HIGH).at;
+        if (boundary->kind == BOUNDARY_PERIODIC)
+            boundary->opposite = domain_face(input, boundary->axis, SIDE_HIGH).at;
     }
     return checking.error;
 }

@@ -48,9 +48,6 @@ void case_measure_sweep(struct simulation_case *input);
  * joined. Of a case that was read with mistakes it checks the rest. */
 struct error *case_check_meaning(struct simulation_case *input);
 
-/* In m/s. */
-#define SPEED_OF_LIGHT 299792458.0
-
 /* What is given of a state at the start; NAN: not given. */
 struct start_given {
     double density, pressure, energy, temperature;
@@ -75,12 +72,6 @@ bool body_varies(const struct body_input *body);
 /* The state that the keys of BODY give at PLACE. */
 const char *body_state_at(const struct body_input *body, const struct material *material,
                           struct vec3 place, struct point *point, const char **key);
-
-/* State and velocity, as many components as the case has, at PLACE of a BODY that has been
- * checked. */
-const char *body_start_at(const struct body_input *body, const struct material *material,
-                          struct vec3 place, struct point *point, double velocity[3],
-                          const char **key);
 
 /* Fills `recorded` of the checks and fits that have a regression bound from the record of the case
  * at PATH; ERROR_INPUT where it has no such value. */

@@ -43,7 +43,7 @@ static double depth_at(const struct cfdmp *cfdmp, const double x[3])
 static struct error *solid_error(const struct cfdmp *cfdmp, int32_t i)
 {
     const struct particles *p = mpm_particles(cfdmp->mpm);
-    const struct simulation_case *input = &cfdmp->mpm_part.input;
+    const struct simulation_case *input = cfdmp->mpm_part.place.input;
     const double *x = p->position[i];
     for (int axis = 0; axis < cfdmp->dimension; axis++)
         for (int side = 0; side < 2; side++) {

@@ -107,14 +107,15 @@ static struct error *cfdmp_fill(void *solver, struct simulation *simulation)
 /* Collective: whether something other than the gas outside moves the particles. */
 static bool moves_itself(const struct cfdmp *cfdmp)
 {
-    const struct simulation_case *input = &cfdmp->mpm_part.input;
+    const struct simulation_case *input = cfdmp->mpm_part.place.input;
     const struct problem *problem = cfdmp->mpm_part.simulation.problem;
     const struct particles *p = mpm_particles(cfdmp->mpm);
     bool moves = input->loads.count > 0 || problem_has_gravity(problem);
     for (int b = 0; b < input->bodies.count; b++) {
         const struct body_input *body = case_body(input, b);
-        moves |= !body->elsewhere && ((body->driven && body->velocity.count > 0) || body->varies ||
-                                      material_burns(&problem->material[body->material_index]));
+        moves |= place_has(&problem->place, b) &&
+                 ((body->driven && body->velocity.count > 0) || body->varies ||
+                  material_burns(&problem->material[body->material_index]));
     }
     double high = -(double)INFINITY, low = (double)INFINITY;
     for (int32_t i = 0; i < p->count; i++) {

@@ -94,7 +94,7 @@ static struct error *emit(struct cfdmp *cfdmp, const struct arrival *arrival)
     struct particles *p = mpm_particles(cfdmp->mpm);
     const int axis = arrival->axis, side = arrival->side;
     struct gate *gate = &cfdmp->side[axis][side].gate[arrival->number];
-    const int body = part_body_of(&cfdmp->gas_part.input, arrival->material);
+    const int body = part_body_of(&cfdmp->gas_part.place, arrival->material);
     const int64_t each = part_particles_across(cfdmp->mpm, body);
     int64_t count = 1, at[3];
     int across[2];
@@ -272,7 +272,7 @@ static struct error *settle(struct cfdmp *cfdmp, int axis, int s, int64_t number
     const struct side *side = &cfdmp->side[axis][s];
     struct gate *gate = &side->gate[number];
     const struct beside beside = gate_beside(cfdmp, axis, s, number);
-    const int body = part_body_of(&cfdmp->gas_part.input, view.material[0]);
+    const int body = part_body_of(&cfdmp->gas_part.place, view.material[0]);
     const double layer = cfdmp->edge / (double)part_particles_across(cfdmp->mpm, body);
     double *rest = side->rest[number];
     if (gate->flow > 0.0 && gate->pending[PASS_MASS] > 0.0)

@@ -237,7 +237,7 @@ static struct error *make_particles(struct afdmp *afdmp, const struct gas_view *
                                     const struct share *share, int32_t i, const int64_t at[3])
 {
     struct particles *p = mpm_particles(afdmp->last_mpm);
-    const int body = part_body_of(&afdmp->gas_part.input, view->material[which]);
+    const int body = part_body_of(&afdmp->gas_part.place, view->material[which]);
     const int64_t each = part_particles_across(afdmp->last_mpm, body);
     int64_t count = 1;
     int32_t first;

@@ -1,4 +1,4 @@
-/* Cases of the parts of a coupling, see part.h. */
+/* Parts of a coupling, see part.h. */
 #include "couple/part.h"
 
 #include <assert.h>
@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "shape/kinds.h"
 
 struct error *owned_error(void)
 {
@@ -33,134 +32,77 @@ void owned_free(struct owned *owned)
     free(owned->memory);
 }
 
-static struct one_of shape_of(const char *name, void *value)
+struct error *part_begin(const struct part_maker *maker, struct part *part,
+                         const struct simulation_case *input)
 {
-    struct one_of shape = {.index = -1};
-    for (int k = 0; k < shape_choice_count; k++)
-        if (strcmp(shape_choices[k].name, name) == 0)
-            shape = (struct one_of){k, &shape_choices[k], value};
-    return shape;
+    part->place = place_whole(input);
+    part->place.is_part = true;
+    part->elsewhere = owned_new(maker->owned, (size_t)input->bodies.count);
+    part->place.elsewhere = part->elsewhere;
+    return part->elsewhere ? NULL : owned_error();
 }
 
-/* A box of cells as a shape; of no kind when there is no memory. */
-static struct one_of box_of(const struct part_maker *maker, const int64_t low[3],
+/* Cells from LOW to HIGH; infinite in dimensions that the case has not. */
+static struct bounds box_of(const struct part_maker *maker, const int64_t low[3],
                             const int64_t high[3])
 {
-    struct shape_box *box = owned_new(maker->owned, sizeof *box);
-    if (!box)
-        return (struct one_of){.index = -1};
-    box->from.count = box->to.count = maker->dimension;
+    double end[2][3] = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
     for (int axis = 0; axis < maker->dimension; axis++) {
-        box->from.at[axis] = (double)low[axis] * maker->edge;
-        box->to.at[axis] = (double)high[axis] * maker->edge;
+        end[0][axis] = (double)low[axis] * maker->edge;
+        end[1][axis] = (double)high[axis] * maker->edge;
     }
-    return shape_of("box", box);
+    return (struct bounds){vector_at(end[0]), vector_at(end[1])};
 }
 
-struct error *part_copy_bodies(const struct part_maker *maker, struct part *part)
+void part_cut_bodies(const struct part_maker *maker, struct part *part, const int64_t low[3],
+                     const int64_t high[3])
 {
-    const struct body_input *items = part->input.bodies.items;
-    const size_t size = (size_t)part->input.bodies.count * sizeof *items;
-    part->input.bodies.items = owned_new(maker->owned, size);
-    if (!part->input.bodies.items)
-        return owned_error();
-    memcpy(part->input.bodies.items, items, size);
-    return NULL;
-}
-
-struct error *part_cut_bodies(const struct part_maker *maker, struct part *part,
-                              const int64_t low[3], const int64_t high[3])
-{
-    for (int b = 0; b < part->input.bodies.count; b++) {
-        struct body_input *body = case_body(&part->input, b);
-        const struct bounds bounds = shape_bounds(&body->shape);
-        bool within = true;
-        for (int axis = 0; axis < maker->dimension; axis++) {
-            const double from = (double)low[axis] * maker->edge,
-                         to = (double)high[axis] * maker->edge;
-            body->elsewhere |=
-                !(part_in(&bounds.low, axis) < to && part_in(&bounds.high, axis) > from);
-            within &= part_in(&bounds.low, axis) >= from && part_in(&bounds.high, axis) <= to;
-        }
-        if (within || body->elsewhere)
-            continue;
-        struct shape_intersection *both = owned_new(maker->owned, sizeof *both);
-        struct one_of *items = owned_new(maker->owned, 2 * sizeof *items);
-        const struct one_of box = box_of(maker, low, high);
-        if (!both || !items || box.index < 0)
-            return owned_error();
-        items[0] = body->shape;
-        items[1] = box;
-        *both = (struct shape_intersection){{2, items}};
-        body->shape = shape_of("intersection", both);
-        body->cut = true;
+    const struct simulation_case *input = part->place.input;
+    const struct bounds box = part->place.box = box_of(maker, low, high);
+    for (int b = 0; b < input->bodies.count; b++) {
+        const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
+        for (int axis = 0; axis < maker->dimension; axis++)
+            part->elsewhere[b] |= !(part_in(&bounds.low, axis) < part_in(&box.high, axis) &&
+                                    part_in(&bounds.high, axis) > part_in(&box.low, axis));
     }
-    return NULL;
 }
 
-struct error *part_block(const struct part_maker *maker, struct part *part, const int64_t low[3],
-                         const int64_t high[3])
+void part_block(const struct part_maker *maker, struct part *part, const int64_t low[3],
+                const int64_t high[3])
 {
-    const int old = part->input.boundaries.count;
-    struct boundary_input *items = owned_new(maker->owned, ((size_t)old + 1) * sizeof *items);
-    char **names = owned_new(maker->owned, ((size_t)old + 1) * sizeof *names);
-    const struct one_of box = box_of(maker, low, high);
-    if (!items || !names || box.index < 0)
-        return owned_error();
     bool any = true;
     for (int axis = 0; axis < maker->dimension; axis++)
         any &= low[axis] < high[axis];
-    for (int k = 0; k < old; k++) {
-        items[k] = *case_boundary(&part->input, k);
-        names[k] = part->input.boundaries.names[k];
-    }
-    items[old] = (struct boundary_input){
-        .axis = -1, .side = -1, .kind = BOUNDARY_RIGID_BODY, .at = NAN, .place = NAN, .part = box};
-    names[old] = "region";
-    part->input.boundaries = (struct named_map){.count = old + any, .names = names, .items = items};
-    return NULL;
+    if (any)
+        part->place.blocked = box_of(maker, low, high);
 }
 
-struct error *part_close_faces(const struct part_maker *maker, struct part *part,
-                               const struct gas_cut *cut, const struct face face[3][2])
+void part_close_faces(const struct part_maker *maker, struct part *part, const struct gas_cut *cut,
+                      const struct place *outer)
 {
-    enum { FACES = 6 };
-    static const char *const faces[FACES] = {"the face low in x", "the face high in x",
-                                             "the face low in y", "the face high in y",
-                                             "the face low in z", "the face high in z"};
-    char **names = owned_new(maker->owned, FACES * sizeof *names);
-    struct boundary_input *item = owned_new(maker->owned, FACES * sizeof *item);
-    part->input.boundaries = (struct named_map){.names = names, .items = item};
-    if (!names || !item)
-        return owned_error();
-    for (int k = 0; k < FACES; k++) {
-        names[k] = owned_new(maker->owned, strlen(faces[k]) + 1);
-        if (!names[k])
-            return owned_error();
-        memcpy(names[k], faces[k], strlen(faces[k]));
-    }
-    for (int axis = 0; axis < maker->dimension; axis++)
+    for (int axis = 0; axis < 3; axis++)
         for (int side = 0; side < 2; side++) {
-            const double at = (double)(side ? cut->high : cut->low)[axis] * maker->edge;
-            const struct face *outer = &face[axis][side];
-            if (cut->open[axis][side])
-                continue;
-            item[part->input.boundaries.count++] =
-                (struct boundary_input){.axis = axis,
-                                        .side = side,
-                                        .kind = face_closes(outer) ? outer->kind : BOUNDARY_OUTFLOW,
-                                        .at = face_closes(outer) ? outer->at : at,
-                                        .place = face_closes(outer) ? outer->at : at,
-                                        .pressure = {.constant = NAN}};
+            struct face *face = &part->place.face[axis][side];
+            *face = outer->face[axis][side];
+            if (cut->open[axis][side] || axis >= maker->dimension)
+                *face = (struct face){.kind = -1, .at = NAN, .pressure = NAN, .boundary = -1};
+            else if (face->kind == BOUNDARY_PERIODIC)
+                face->kind = BOUNDARY_REFLECTING;
+            else if (!face_closes(face))
+                *face =
+                    (struct face){.kind = BOUNDARY_OUTFLOW,
+                                  .at = (double)(side ? cut->high : cut->low)[axis] * maker->edge,
+                                  .pressure = NAN,
+                                  .boundary = -1};
         }
-    return NULL;
 }
 
 struct error *part_create(const struct part_maker *maker, struct part *part,
                           const struct simulation *simulation, const struct solver_class *type,
                           const void *parameters)
 {
-    TRY(simulation_create(&part->input, simulation->ranks, simulation->threads, &part->simulation));
+    TRY(simulation_create_at(&part->place, simulation->ranks, simulation->threads,
+                             &part->simulation));
     part->solver = owned_new(maker->owned, type->size);
     if (!part->solver)
         return owned_error();
@@ -225,13 +167,14 @@ double part_cell_volume(const struct part_maker *maker, bool round, const int64_
     return volume;
 }
 
-int part_body_of(const struct simulation_case *input, int material)
+int part_body_of(const struct place *place, int material)
 {
+    const struct simulation_case *input = place->input;
     int first = -1;
     for (int body = 0; body < input->bodies.count; body++) {
         if (case_body(input, body)->material_index == material)
             return body;
-        if (first < 0 && !case_body(input, body)->elsewhere)
+        if (first < 0 && place_has(place, body))
             first = body;
     }
     return first;

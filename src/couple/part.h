@@ -1,4 +1,4 @@
-/* The parts of a coupling: each has a case, made from that of the run, a simulation and a solver.
+/* The parts of a coupling: each has a place in the case of the run, a simulation and a solver.
  * Private to couple/. */
 #ifndef BOLIDE_PART_H
 #define BOLIDE_PART_H
@@ -8,7 +8,8 @@
 #include "mpm/mpm_phases.h"
 
 struct part {
-    struct simulation_case input; /* of this part: maps of its own, or those of the run */
+    struct place place;
+    bool *elsewhere; /* of the place: bodies of which this part has nothing */
     struct simulation simulation;
     void *solver;
 };
@@ -24,30 +25,32 @@ void *owned_new(struct owned *owned, size_t size);
 void owned_free(struct owned *owned);
 struct error *owned_error(void);
 
-/* What the functions below make cases in: whole cells of EDGE in DIMENSION dimensions. */
+/* What the functions below make places in: whole cells of EDGE in DIMENSION dimensions. */
 struct part_maker {
     struct owned *owned;
     double edge;
     int dimension;
 };
 
-/* The bodies of the case become the part's own. */
-struct error *part_copy_bodies(const struct part_maker *maker, struct part *part);
+/* The place of the part is that of all of INPUT, for the functions below to change. */
+struct error *part_begin(const struct part_maker *maker, struct part *part,
+                         const struct simulation_case *input);
 
 /* Bodies of the part reach to the faces of the box of cells from LOW to HIGH; those beyond are
  * elsewhere. */
-struct error *part_cut_bodies(const struct part_maker *maker, struct part *part,
-                              const int64_t low[3], const int64_t high[3]);
+void part_cut_bodies(const struct part_maker *maker, struct part *part, const int64_t low[3],
+                     const int64_t high[3]);
 
-/* An obstacle blocks the cells from LOW to HIGH, where there are any. */
-struct error *part_block(const struct part_maker *maker, struct part *part, const int64_t low[3],
-                         const int64_t high[3]);
+/* The cells from LOW to HIGH are another part's, where there are any. */
+void part_block(const struct part_maker *maker, struct part *part, const int64_t low[3],
+                const int64_t high[3]);
 
-/* The faces of the box of CUT that are not open are closed where FACE is, else outflows. */
-struct error *part_close_faces(const struct part_maker *maker, struct part *part,
-                               const struct gas_cut *cut, const struct face face[3][2]);
+/* The faces of the box of CUT that are not open are closed where those of OUTER are, else
+ * outflows. */
+void part_close_faces(const struct part_maker *maker, struct part *part, const struct gas_cut *cut,
+                      const struct place *outer);
 
-/* Makes the simulation of the part's case and its solver, of TYPE with PARAMETERS. */
+/* Makes the simulation of the part's place and its solver, of TYPE with PARAMETERS. */
 struct error *part_create(const struct part_maker *maker, struct part *part,
                           const struct simulation *simulation, const struct solver_class *type,
                           const void *parameters);
@@ -68,9 +71,9 @@ struct cell_blocks part_domain(const struct simulation_case *input, double edge)
 /* The volume of the cell AT, ROUND: of a radian. */
 double part_cell_volume(const struct part_maker *maker, bool round, const int64_t at[3]);
 
-/* The body of INPUT to which particles of MATERIAL belong that are made in a run: the first of it,
+/* The body of PLACE to which particles of MATERIAL belong that are made in a run: the first of it,
  * or where the products of another case have none, the first of the case. */
-int part_body_of(const struct simulation_case *input, int material);
+int part_body_of(const struct place *place, int material);
 
 /* Particles of a BODY along an axis, in a cell. */
 int64_t part_particles_across(const struct mpm *mpm, int body);

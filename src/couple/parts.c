@@ -1,14 +1,13 @@
-/* The cases of both parts of a coupled run, and the faces and the band of its region. */
+/* The places of both parts of a coupled run, and the faces and the band of its region. */
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "couple/cfdmp.h"
 #include "material/material.h"
 #include "model/boundaries.h"
-#include "shape/kinds.h"
 
 /* Blocks the cells behind the band. */
-static struct error *block_inside(struct cfdmp *cfdmp)
+static void block_inside(struct cfdmp *cfdmp)
 {
     int64_t low[3], high[3];
     for (int axis = 0; axis < 3; axis++) {
@@ -17,7 +16,7 @@ static struct error *block_inside(struct cfdmp *cfdmp)
         low[axis] = at[0];
         high[axis] = at[1];
     }
-    return part_block(&cfdmp->maker, &cfdmp->gas_part, low, high);
+    part_block(&cfdmp->maker, &cfdmp->gas_part, low, high);
 }
 
 static struct error *make_gas_part(struct cfdmp *cfdmp, const struct simulation *simulation)
@@ -25,18 +24,15 @@ static struct error *make_gas_part(struct cfdmp *cfdmp, const struct simulation 
     const struct simulation_case *input = simulation->problem->input;
     struct part *part = &cfdmp->gas_part;
     TRY(boundaries_refuse(input, cfdmp_class.boundaries));
-    part->input = *input;
-    part->input.resolution = cfdmp->edge;
-    part->input.contacts = part->input.loads = (struct named_map){0};
-    TRY(part_copy_bodies(&cfdmp->maker, part));
-    for (int b = 0; b < input->bodies.count; b++) {
-        struct body_input *body = case_body(&part->input, b);
-        body->elsewhere = !gas_computes(&simulation->problem->material[body->material_index]);
-    }
+    TRY(part_begin(&cfdmp->maker, part, input));
+    part->place.resolution = cfdmp->edge;
+    for (int b = 0; b < input->bodies.count; b++)
+        part->elsewhere[b] =
+            !gas_computes(&simulation->problem->material[case_body(input, b)->material_index]);
     const struct cell_blocks domain = part_domain(input, cfdmp->edge);
     TRY(cfdmp_find_region(cfdmp, input, &domain));
     TRY(cfdmp_check_region(cfdmp, input));
-    TRY(block_inside(cfdmp));
+    block_inside(cfdmp);
     TRY(part_create(&cfdmp->maker, part, simulation, &gas_class, &cfdmp->parameters.gas));
     cfdmp->gas = part->solver;
     return NULL;
@@ -44,15 +40,10 @@ static struct error *make_gas_part(struct cfdmp *cfdmp, const struct simulation 
 
 static struct error *make_mpm_part(struct cfdmp *cfdmp, const struct simulation *simulation)
 {
-    const struct simulation_case *input = simulation->problem->input;
     struct part *part = &cfdmp->mpm_part;
-    part->input = *input;
-    part->input.domain = (struct domain_input){0};
-    part->input.start = (struct start_input){0};
-    TRY(part_copy_bodies(&cfdmp->maker, part));
-    TRY(part_cut_bodies(&cfdmp->maker, part, cfdmp->cut.low, cfdmp->cut.high));
-    TRY(part_close_faces(&cfdmp->maker, part, &cfdmp->cut,
-                         (const struct face(*)[2])cfdmp->gas_part.simulation.problem->face));
+    TRY(part_begin(&cfdmp->maker, part, simulation->problem->input));
+    part_cut_bodies(&cfdmp->maker, part, cfdmp->cut.low, cfdmp->cut.high);
+    part_close_faces(&cfdmp->maker, part, &cfdmp->cut, &simulation->problem->place);
     TRY(part_create(&cfdmp->maker, part, simulation, &mpm_class, &cfdmp->parameters.mpm));
     cfdmp->mpm = part->solver;
     return NULL;

@@ -1,8 +1,7 @@
-/* The cases of the parts of afdmp: the nest of the charges, the region of the solids, and the gas
+/* The places of the parts of afdmp: the nest of the charges, the region of the solids, and the gas
  * between them. */
 #include <string.h>
 
-#include "case/internal.h"
 #include "couple/afdmp.h"
 #include "material/material.h"
 #include "model/boundaries.h"
@@ -197,17 +196,12 @@ static struct error *make_gas_part(struct afdmp *afdmp, const struct simulation 
 {
     const struct simulation_case *input = simulation->problem->input;
     struct part *part = &afdmp->gas_part;
-    part->input = *input;
-    part->input.resolution = afdmp->edge;
-    part->input.contacts = part->input.loads = (struct named_map){0};
-    TRY(part_copy_bodies(&afdmp->maker, part));
-    for (int b = 0; b < input->bodies.count; b++) {
-        struct body_input *body = case_body(&part->input, b);
-        body->elsewhere = is_solid(input, b);
-        body->resolution = NAN;
-    }
+    TRY(part_begin(&afdmp->maker, part, input));
+    part->place.resolution = afdmp->edge;
+    for (int b = 0; b < input->bodies.count; b++)
+        part->elsewhere[b] = is_solid(input, b);
     if (count_bodies(input, is_solid) > 0)
-        TRY(part_block(&afdmp->maker, part, afdmp->region.low, afdmp->region.high));
+        part_block(&afdmp->maker, part, afdmp->region.low, afdmp->region.high);
     afdmp->parameters.gas.burnt = true;
     TRY(part_create(&afdmp->maker, part, simulation, &gas_class, &afdmp->parameters.gas));
     afdmp->gas = part->solver;
@@ -221,15 +215,11 @@ static struct error *make_mpm_part(struct afdmp *afdmp, const struct simulation 
                                    const struct gas_cut *ends, bool solids)
 {
     const struct simulation_case *input = simulation->problem->input;
-    part->input = *input;
-    part->input.domain = (struct domain_input){0};
-    part->input.start = (struct start_input){0};
-    TRY(part_copy_bodies(&afdmp->maker, part));
+    TRY(part_begin(&afdmp->maker, part, input));
     for (int b = 0; b < input->bodies.count; b++)
-        case_body(&part->input, b)->elsewhere = is_solid(input, b) && !solids;
-    TRY(part_cut_bodies(&afdmp->maker, part, box->low, box->high));
-    TRY(part_close_faces(&afdmp->maker, part, ends,
-                         (const struct face(*)[2])afdmp->gas_part.simulation.problem->face));
+        part->elsewhere[b] = is_solid(input, b) && !solids;
+    part_cut_bodies(&afdmp->maker, part, box->low, box->high);
+    part_close_faces(&afdmp->maker, part, ends, &simulation->problem->place);
     return part_create(&afdmp->maker, part, simulation, &mpm_class, &afdmp->parameters.mpm);
 }
 

@@ -2,7 +2,6 @@
  * no rule of the halo fills, and what leaves through faces. */
 #include <stdio.h>
 
-#include "case/internal.h"
 #include "gas/gas_internal.h"
 #include "material/material.h"
 #include "model/boundaries.h"

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "case/internal.h"
 #include "gas/gas_internal.h"
 #include "gas/markers.h"
 #include "material/material.h"
@@ -66,7 +65,7 @@ static int body_at(struct filling *f, struct vec3 place)
     int found = -1;
     for (int k = 0; k < f->heres; k++) {
         const int body = f->here[k];
-        if (case_body(input, body)->elsewhere ||
+        if (!place_has(&f->simulation->problem->place, body) ||
             !shape_inside(&case_body(input, body)->shape, place))
             continue;
         const bool wins = found >= 0 && replaces(&f->replacements, body, found);
@@ -151,7 +150,6 @@ static bool has_all(struct filling *f, int body, const double centre[3])
 {
     static const double corner[2] = {-0.5 + 1e-6, 0.5 - 1e-6};
     const struct cell_blocks *cells = f->gas->cells;
-    const struct simulation_case *input = f->simulation->problem->input;
     for (int k = 0; k < f->heres; k++) {
         const struct bounds *b = &f->bounds[f->here[k]];
         const double size[3] = {b->high.x - b->low.x, b->high.y - b->low.y, b->high.z - b->low.z};
@@ -161,7 +159,7 @@ static bool has_all(struct filling *f, int body, const double centre[3])
     }
     for (int64_t k = 0; k < points_in(2, cells->dimension); k++) {
         const struct vec3 place = point_of(cells, centre, corner, 2, k);
-        if (body_at(f, place) != body && !gas_in_obstacle(input, place))
+        if (body_at(f, place) != body && !place_blocks(&f->simulation->problem->place, place))
             return false;
     }
     return true;
@@ -198,7 +196,7 @@ static void fill_parts(struct filling *f, const double centre[3], double *sum)
         if (body >= 0) {
             add_state(f, body, place, weight, sum);
             all += weight;
-        } else if (!gas_in_obstacle(f->simulation->problem->input, place))
+        } else if (!place_blocks(&f->simulation->problem->place, place))
             f->error = tell(f, -1, "", place,
                             "no body fills the domain here: bodies and rigid ones must fill all of "
                             "it");
@@ -227,7 +225,7 @@ static void fill_cell(struct filling *f, int32_t i)
     cells->material[i] = (uint16_t)gas->material[0];
     gas->u[GAS_SHOCK][i] = 0.0;
     if (gas->layout.blocked) {
-        gas->open[i] = gas_in_obstacle(f->simulation->problem->input, place) ? 0.0 : 1.0;
+        gas->open[i] = place_blocks(&f->simulation->problem->place, place) ? 0.0 : 1.0;
         if (gas->layout.lit && gas->open[i] == 0.0) /* nothing in it will ever burn */
             gas->u[gas->layout.burnt][i] = 1.0;
         if (gas->open[i] == 0.0)

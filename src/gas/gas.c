@@ -104,7 +104,6 @@ static void choose_scheme(struct gas *gas)
 static struct error *gas_create(void *solver, struct simulation *simulation, const void *parameters)
 {
     struct gas *gas = solver;
-    const struct simulation_case *input = simulation->problem->input;
     gas->parameters = *(const struct gas_parameters *)parameters;
     gas->parameters.courant = courant_of(&gas->parameters);
     choose_scheme(gas);
@@ -123,7 +122,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     gas->layout.two = gas->material[1] != gas->material[0];
     gas->layout.marked = gas->layout.two && !gas->second_order;
     gas->thaws = gas->layout.two && gas_starts_warm(simulation, gas);
-    gas->layout.blocked = has_rigid_body(input);
+    gas->layout.blocked = place_blocks_any(&simulation->problem->place);
     gas->afterburn = simulation->problem->material[gas->material[1]].afterburn;
     gas->layout.afterburns = gas->layout.two && gas->afterburn.energy > 0.0;
     gas->layout.explosive = gas->layout.two ? gas->layout.explosive : 0;
@@ -137,7 +136,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     if (!cells)
         return error_new(ERROR_SYSTEM, "out of memory");
     cells->dimension = simulation->problem->dimension;
-    cells->edge = input->resolution;
+    cells->edge = simulation->problem->place.resolution;
     cells->ranks = simulation->ranks;
     cells->partition = &simulation->partition;
     cells->threads = simulation->threads;

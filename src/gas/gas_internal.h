@@ -99,8 +99,6 @@ struct error *gas_refuse(const struct simulation *simulation,
  * of its bodies. ERROR_INPUT: a face does not lie on a plane of the grid. */
 struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells);
 
-bool gas_in_obstacle(const struct simulation_case *input, struct vec3 place);
-
 /* Obstacles that leave no cell of the domain of CELLS open, and boundaries whose part holds no
  * place of their face. */
 struct error *gas_check_shapes(const struct simulation *simulation,

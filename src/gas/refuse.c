@@ -13,18 +13,19 @@ static struct error *refuse_map(const struct simulation_case *input, const char 
     return map->count == 0 ? NULL : input_error(input, section, map->names[0], "%s", text);
 }
 
-static struct error *refuse_body(const struct simulation_case *input, int index)
+static struct error *refuse_body(const struct place *place, int index)
 {
+    const struct simulation_case *input = place->input;
     const struct body_input *body = case_body(input, index);
     const char *name = input->bodies.names[index];
     struct error *error = NULL;
-    if (body->elsewhere)
+    if (!place_has(place, index))
         return NULL;
     if (body->driven || body->frozen || !isnan(body->stop))
         error = input_error(input, "bodies", name,
                             "the solver gas cannot hold a body: gas flows through its cells; an "
                             "obstacle is rigid, and a boundary of kind inflow has a velocity");
-    if (!isnan(body->resolution))
+    if (!isnan(body->resolution) && !place->is_part)
         error = error_join(error, input_error(input, "bodies", name,
                                               "the solver gas has cells of one size: leave the "
                                               "body's resolution out"));
@@ -34,14 +35,15 @@ static struct error *refuse_body(const struct simulation_case *input, int index)
 void gas_find_materials(const struct simulation *simulation, int material[2])
 {
     const struct simulation_case *input = simulation->problem->input;
+    const struct place *place = &simulation->problem->place;
     int first = 0;
-    while (first + 1 < input->bodies.count && case_body(input, first)->elsewhere)
+    while (first + 1 < input->bodies.count && !place_has(place, first))
         first++;
     material[0] = material[1] = case_body(input, first)->material_index;
     if (input->start.input && input->start.material_index >= 0)
         material[1] = input->start.material_index;
     for (int b = 1; b < input->bodies.count && material[1] == material[0]; b++)
-        if (!case_body(input, b)->elsewhere && case_body(input, b)->material_index != material[0])
+        if (place_has(place, b) && case_body(input, b)->material_index != material[0])
             material[1] = case_body(input, b)->material_index;
     const struct material *of = simulation->problem->material;
     const double density[2] = {eos_reference_density(&of[material[0]].eos),
@@ -103,7 +105,7 @@ static struct error *refuse_materials(const struct simulation *simulation,
     const bool two = material[0] != material[1];
     for (int b = 0; b < input->bodies.count; b++) {
         const int m = case_body(input, b)->material_index;
-        if (m != material[0] && m != material[1] && !case_body(input, b)->elsewhere)
+        if (m != material[0] && m != material[1] && place_has(&simulation->problem->place, b))
             return input_error(input, "bodies", input->bodies.names[b],
                                "the solver gas computes two materials at most, and this is another "
                                "one: \"%s\", beside \"%s\" and \"%s\"",
@@ -171,25 +173,23 @@ static struct error *refuse_materials(const struct simulation *simulation,
 struct error *gas_refuse(const struct simulation *simulation,
                          const struct gas_parameters *parameters)
 {
-    const struct simulation_case *input = simulation->problem->input;
+    const struct place *place = &simulation->problem->place;
+    const struct simulation_case *input = place->input;
     struct error *error = NULL;
     if (simulation->problem->geometry == GEOMETRY_PLANE_STRESS)
         error = input_error(input, "geometry", NULL, "the solver gas has no plane stress");
-    error = error_join(error, refuse_map(input, "contacts", &input->contacts,
-                                         "bodies of gas have no surfaces in the solver gas"));
-    error = error_join(error, refuse_map(input, "loads", &input->loads,
-                                         "bodies of gas have no surfaces in the solver gas; a "
-                                         "boundary of kind inflow pushes"));
+    if (!place->is_part) {
+        error = error_join(error, refuse_map(input, "contacts", &input->contacts,
+                                             "bodies of gas have no surfaces in the solver gas"));
+        error = error_join(error, refuse_map(input, "loads", &input->loads,
+                                             "bodies of gas have no surfaces in the solver gas; a "
+                                             "boundary of kind inflow pushes"));
+    }
     error = error_join(error, boundaries_refuse(input, gas_class.boundaries));
     error = error_join(error, gas_check_start(simulation));
     for (int b = 0; b < input->bodies.count; b++)
-        error = error_join(error, refuse_body(input, b));
+        error = error_join(error, refuse_body(place, b));
     return error_join(error, refuse_materials(simulation, parameters));
-}
-
-bool gas_in_obstacle(const struct simulation_case *input, struct vec3 place)
-{
-    return rigid_body_at(input, place) >= 0;
 }
 
 /* The centre of cell K of the COUNT of a box that begins at LOW; along an axis across which the box
@@ -227,15 +227,15 @@ static int64_t spread_step(int64_t all)
 }
 
 /* Whether some cell of the domain is open. */
-static bool any_open(const struct simulation_case *input, const struct cell_blocks *cells)
+static bool any_open(const struct place *place, const struct cell_blocks *cells)
 {
     int64_t count[3], all = 1, k = 0;
     for (int axis = 0; axis < 3; axis++)
         all *= count[axis] = cells->high[axis] - cells->low[axis];
     const int64_t step = spread_step(all);
     for (int64_t tried = 0; tried < all; tried++, k = (k + step) % all)
-        if (!gas_in_obstacle(input,
-                             centre_of(cells->low, count, k, -1, 0, cells->edge, cells->dimension)))
+        if (!place_blocks(place,
+                          centre_of(cells->low, count, k, -1, 0, cells->edge, cells->dimension)))
             return true;
     return false;
 }
@@ -258,7 +258,7 @@ struct error *gas_check_shapes(const struct simulation *simulation, const struct
 {
     const struct simulation_case *input = simulation->problem->input;
     struct error *error = NULL;
-    if (has_rigid_body(input) && !any_open(input, cells))
+    if (has_rigid_body(input) && !any_open(&simulation->problem->place, cells))
         error = input_error(input, "boundaries", NULL,
                             "rigid bodies block all cells of the domain: leave room for the gas");
     for (int b = 0; b < input->boundaries.count; b++) {

@@ -49,7 +49,7 @@ const struct parameter measure_asymmetry_table[] = {
 
 /* A particle where it stood at the start, or the image of one, for which another is wanted. Both go
  * to the rank that sees to that part of space. */
-struct place {
+struct start_place {
     double at[3], field;
     uint64_t id;
     bool is_image;
@@ -58,13 +58,13 @@ struct place {
 /* Places on their way. */
 struct places {
     int64_t count, room, sends, send_room;
-    struct place *place;
+    struct start_place *place;
     struct send_item *send;
 };
 
 /* The places that a rank has got: so many that particles stood at, then images. */
 struct received {
-    struct place *place;
+    struct start_place *place;
     double (*stood)[3];
     int32_t stands, count;
 };
@@ -72,14 +72,14 @@ struct received {
 /* A search for the particle that stood nearest to an image; of those equally near the one of the
  * lowest id. */
 struct search {
-    const struct place *place, *image, *nearest;
+    const struct start_place *place, *image, *nearest;
     double distance2;
 };
 
 static void look_at(void *context, int64_t index)
 {
     struct search *search = context;
-    const struct place *place = &search->place[index];
+    const struct start_place *place = &search->place[index];
     const double *x = place->at, *image = search->image->at;
     const double distance2 =
         square(x[0] - image[0]) + square(x[1] - image[1]) + square(x[2] - image[2]);
@@ -115,8 +115,8 @@ static bool send_to(struct places *places, int32_t rank)
 }
 
 /* Sends PLACE to every rank that sees to a part of space nearer than REACH, once. */
-static bool add_place(struct places *places, const struct ranks *ranks, const struct place *place,
-                      double cell, double reach)
+static bool add_place(struct places *places, const struct ranks *ranks,
+                      const struct start_place *place, double cell, double reach)
 {
     int32_t sent[8];
     int count = 0;
@@ -138,9 +138,10 @@ static bool add_place(struct places *places, const struct ranks *ranks, const st
     return true;
 }
 
-static struct place image_of(const struct measure_asymmetry *parameters, const struct place *place)
+static struct start_place image_of(const struct measure_asymmetry *parameters,
+                                   const struct start_place *place)
 {
-    struct place image = *place;
+    struct start_place image = *place;
     for (int k = 0; k < 3; k++)
         if (flips[parameters->across][k])
             image.at[k] = 2.0 * parameters->center.at[k] - place->at[k];
@@ -157,9 +158,9 @@ static struct error *find_places(const struct measurement *measurement, const do
     const int body = measure_body(measurement);
     bool done = true;
     for (int32_t i = 0; i < p->count && done; i++) {
-        const struct place place = {
+        const struct start_place place = {
             {start[i][0], start[i][1], start[i][2]}, field[i], p->id[i], false};
-        const struct place image = image_of(measurement->check->measure.value, &place);
+        const struct start_place image = image_of(measurement->check->measure.value, &place);
         done = add_place(places, ranks, &place, cell, 2.0 * reach) &&
                (!(body < 0 || p->body[i] == body) || add_place(places, ranks, &image, cell, 0.0));
     }
@@ -173,7 +174,7 @@ static struct error *sort_places(struct received *received)
     if (!received->stood)
         return error_new(ERROR_SYSTEM, "out of memory for a check");
     for (int32_t i = 0; i < received->count; i++) {
-        const struct place place = received->place[i];
+        const struct start_place place = received->place[i];
         if (place.is_image)
             continue;
         received->place[i] = received->place[received->stands];
@@ -192,7 +193,7 @@ static struct error *compare(const struct received *received, double sign, doubl
     struct near_points near;
     TRY(near_points_make((const double(*)[3])received->stood, received->stands, reach, &near));
     for (int32_t i = received->stands; i < received->count; i++) {
-        const struct place *image = &received->place[i];
+        const struct start_place *image = &received->place[i];
         struct search search = {received->place, image, NULL, square(reach)};
         near_points_about(&near, image->at, look_at, &search);
         const double difference =

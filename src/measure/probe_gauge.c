@@ -123,7 +123,7 @@ static struct error *check_faces(const struct probe *probe, const struct simulat
     const double radius = radius_of(probe, simulation);
     for (int axis = 0; axis < gauge->at.count; axis++)
         for (int side = 0; side < 2; side++) {
-            const struct face *face = &simulation->problem->face[axis][side];
+            const struct face *face = &simulation->problem->place.face[axis][side];
             const double beyond = (side ? 1.0 : -1.0) * (gauge->at.at[axis] - face->at) - radius;
             if (beyond > 0.0 && (face_closes(face) || face->kind == BOUNDARY_PERIODIC))
                 return probe_error(

@@ -1,4 +1,4 @@
-/* The faces of the domain, and boundaries that a solver does not have; see boundaries.h. */
+/* Faces as particles see them, and boundaries that a solver does not have; see boundaries.h. */
 #include "model/boundaries.h"
 
 #include <stdio.h>
@@ -7,29 +7,6 @@
 #include "model/generate.h"
 #include "parallel/periodic.h"
 #include "shape/shape.h"
-
-void boundaries_find(const struct simulation_case *input, struct face face[3][2])
-{
-    for (int axis = 0; axis < 3; axis++)
-        for (int side = 0; side < 2; side++)
-            face[axis][side] = (struct face){.kind = -1, .at = NAN, .pressure = NAN};
-    if (geometry_power(input->geometry) > 0)
-        face[0][0] = (struct face){BOUNDARY_SYMMETRY, 0.0, NAN};
-    for (int b = 0; b < input->boundaries.count; b++) {
-        const struct boundary_input *boundary = case_boundary(input, b);
-        const int axis = boundary->axis, kind = boundary->kind;
-        if (kind == BOUNDARY_RIGID_BODY || boundary->part.choice)
-            continue;
-        for (int side = 0; side < 2; side++)
-            if (kind == BOUNDARY_PERIODIC)
-                face[axis][side] = (struct face){kind, domain_face(input, axis, side).at, NAN};
-            else if (boundary->side == side)
-                face[axis][side] =
-                    (struct face){kind, boundary->place,
-                                  field_is_given(&boundary->pressure) ? boundary->pressure.constant
-                                                                      : (double)NAN};
-    }
-}
 
 struct mirrors boundaries_mirrors(const struct face face[3][2])
 {

@@ -1,11 +1,8 @@
-/* The faces of the domain as a solver gets them, and what of a case's boundaries it cannot do. */
+/* The faces of a place as particles see them, and what of a case's boundaries a solver cannot do. */
 #ifndef BOLIDE_BOUNDARIES_H
 #define BOLIDE_BOUNDARIES_H
 
 #include "model/solver.h"
-
-/* What the boundaries of INPUT say of whole faces. */
-void boundaries_find(const struct simulation_case *input, struct face face[3][2]);
 
 /* FACE as mirrors and periods of particles. */
 struct mirrors boundaries_mirrors(const struct face face[3][2]);

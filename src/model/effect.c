@@ -4,7 +4,6 @@
 
 #include <stdio.h>
 
-#include "case/internal.h"
 #include "material/material.h"
 #include "model/problem.h"
 #include "shape/shape.h"

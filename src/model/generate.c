@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "case/internal.h"
 #include "material/any.h"
 #include "material/material.h"
 #include "model/walk.h"
@@ -23,21 +22,20 @@ static const char *place_text(const struct simulation_case *input, struct vec3 p
     return buffer;
 }
 
-/* The boundary that PLACE lies outside, -1 for none. A particle on a wall would meet its own
- * image. */
-static int boundary_before(const struct simulation_case *input, struct vec3 place)
+/* The face that AT lies outside; NULL: none. A particle on a wall would meet its own image. */
+static const struct face *face_before(const struct place *place, struct vec3 at)
 {
-    const double at[3] = {place.x, place.y, place.z}, margin = 1e-9 * input->resolution;
-    for (int b = 0; b < input->boundaries.count; b++) {
-        const struct boundary_input *boundary = case_boundary(input, b);
-        if (boundary->part.choice ||
-            !(boundary_closes(boundary) || boundary->kind == BOUNDARY_OUTFLOW))
-            continue;
-        const double beyond = boundary_beyond(boundary, at);
-        if (boundary_closes(boundary) ? beyond >= 0.0 : beyond > margin)
-            return b;
-    }
-    return -1;
+    const double x[3] = {at.x, at.y, at.z}, margin = 1e-9 * place->input->resolution;
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = 0; side < 2; side++) {
+            const struct face *face = &place->face[axis][side];
+            const double beyond = side ? x[axis] - face->at : face->at - x[axis];
+            if (face->boundary >= 0 && (face_closes(face)     ? beyond >= 0.0
+                                        : face_lets_out(face) ? beyond > margin
+                                                              : false))
+                return face;
+        }
+    return NULL;
 }
 
 /* What one walk over a body found. */
@@ -46,7 +44,7 @@ struct finding {
     double volume;               /* of all particles, m^dimension */
     double energy;               /* of them, internal and kinetic */
     double sound;                /* in summary.fastest */
-    int wall;                    /* that a particle lies behind, as boundary_before says */
+    const struct face *wall;     /* that a particle lies behind, as face_before says */
     struct vec3 wall_place;
     int conflict;
     struct vec3 conflict_place;
@@ -137,32 +135,32 @@ static struct vec3 place_at(const struct lattice *lattice, const int64_t site[3]
 
 /* Looks for a wall among the sites from LOW up to HIGH, a box of them: walls are planes across an
  * axis. */
-static void explore_walls(const struct simulation_case *input, const struct lattice *lattice,
+static void explore_walls(const struct place *place, const struct lattice *lattice,
                           const int64_t low[3], const int64_t high[3], struct finding *finding)
 {
-    for (int axis = -1; axis < (int)input->dimension && finding->wall < 0; axis++) {
+    for (int axis = -1; axis < (int)place->input->dimension && !finding->wall; axis++) {
         int64_t site[3] = {low[0], low[1], low[2]};
         if (axis >= 0)
             site[axis] = high[axis] - 1;
-        if (boundary_before(input, place_at(lattice, site)) < 0)
+        if (!face_before(place, place_at(lattice, site)))
             continue;
         for (int64_t before = axis < 0 ? site[0] : low[axis];
              axis >= 0 && site[axis] - before > 1;) {
             int64_t middle[3] = {site[0], site[1], site[2]};
             middle[axis] = before + (site[axis] - before) / 2;
-            if (boundary_before(input, place_at(lattice, middle)) < 0)
+            if (!face_before(place, place_at(lattice, middle)))
                 before = middle[axis];
             else
                 site[axis] = middle[axis];
         }
         finding->wall_place = place_at(lattice, site);
-        finding->wall = boundary_before(input, finding->wall_place);
+        finding->wall = face_before(place, finding->wall_place);
     }
 }
 
 /* As explore_body for a body all of whose sites become particles in one state. */
-static void explore_plain(const struct walk *walk, const struct bounds *box,
-                          struct finding *finding)
+static void explore_plain(const struct walk *walk, const struct place *place,
+                          const struct bounds *box, struct finding *finding)
 {
     const struct simulation_case *input = walk->input;
     const struct lattice *lattice = &walk->lattice;
@@ -196,7 +194,7 @@ static void explore_plain(const struct walk *walk, const struct bounds *box,
     summary->particles = count;
     summary->counted = box ? counted : count;
     if (counted > 0)
-        explore_walls(input, lattice, low, high, finding);
+        explore_walls(place, lattice, low, high, finding);
 }
 
 /* Of particles out of BOX, NULL: none are, less is asked. */
@@ -204,9 +202,9 @@ static struct error *explore_body(const struct overlaps *overlaps, int body,
                                   const struct bounds *box, const struct ranks *ranks,
                                   struct finding *finding)
 {
-    const struct simulation_case *input = overlaps->input;
+    const struct simulation_case *input = overlaps->place->input;
     const struct range none = {NAN, NAN};
-    *finding = (struct finding){.wall = -1, .conflict = -1};
+    *finding = (struct finding){.conflict = -1};
     struct body_summary *summary = &finding->summary;
     summary->density = summary->pressure = summary->temperature = summary->speed = none;
     struct walk walk;
@@ -214,7 +212,7 @@ static struct error *explore_body(const struct overlaps *overlaps, int body,
     int64_t site;
     struct vec3 place;
     if (!error && walk.plain) {
-        explore_plain(&walk, box, finding);
+        explore_plain(&walk, overlaps->place, box, finding);
         walk_end(&walk);
         return NULL;
     }
@@ -225,8 +223,8 @@ static struct error *explore_body(const struct overlaps *overlaps, int body,
         if (box && !is_in(box, place, input->dimension))
             continue;
         summary->counted++;
-        if (finding->wall < 0) {
-            finding->wall = boundary_before(input, place);
+        if (!finding->wall) {
+            finding->wall = face_before(overlaps->place, place);
             finding->wall_place = place;
         }
     }
@@ -247,20 +245,20 @@ static const char *no_particle(const struct simulation_case *input, int body)
 }
 
 /* The mistakes that a walk over BODY has shown. Each pair of bodies is told once, by its first. */
-static struct error *judge_body(const struct simulation_case *input, int body,
-                                const struct ranks *ranks, const struct finding *findings)
+static struct error *judge_body(const struct place *whole, int body, const struct ranks *ranks,
+                                const struct finding *findings)
 {
+    const struct simulation_case *input = whole->input;
     const struct finding *finding = &findings[body];
     const char *name = input->bodies.names[body];
     const int other = finding->conflict;
     char place[PLACE_TEXT];
     struct error *error = NULL;
-    if (finding->wall >= 0)
-        error =
-            input_error(input, "bodies", name, "the particle at %s lies behind %s \"%s\"",
-                        place_text(input, finding->wall_place, place),
-                        boundary_closes(case_boundary(input, finding->wall)) ? "wall" : "outflow",
-                        input->boundaries.names[finding->wall]);
+    if (finding->wall)
+        error = input_error(input, "bodies", name, "the particle at %s lies behind %s \"%s\"",
+                            place_text(input, finding->wall_place, place),
+                            face_closes(finding->wall) ? "wall" : "outflow",
+                            input->boundaries.names[finding->wall->boundary]);
     if (other >= 0 && !(other < body && findings[other].conflict == body))
         error = error_join(
             error, input_error(input, "bodies", name,
@@ -280,30 +278,31 @@ static struct error *judge_body(const struct simulation_case *input, int body,
         error = error_join(error, input_error(input, "bodies", name,
                                               "its mass and energy are not finite: %g and %g",
                                               finding->summary.mass, finding->energy));
-    if (ranks_sum(ranks, finding->summary.particles) == 0 && !case_body(input, body)->cut)
+    if (ranks_sum(ranks, finding->summary.particles) == 0 && !whole->is_part)
         error =
             error_join(error, input_error(input, "bodies", name, "%s", no_particle(input, body)));
     return error;
 }
 
 /* Collective: walks over all bodies; FINDINGS has an entry for each. */
-static struct error *explore(const struct simulation_case *input, const struct bounds *box,
+static struct error *explore(const struct place *place, const struct bounds *box,
                              const struct ranks *ranks, struct finding *findings)
 {
+    const struct simulation_case *input = place->input;
     struct overlaps overlaps;
-    TRY(walk_check_work(input, ranks)); /* the same on all ranks */
-    struct error *error = overlaps_make(input, &overlaps);
+    TRY(walk_check_work(place, ranks)); /* the same on all ranks */
+    struct error *error = overlaps_make(place, &overlaps);
     const bool ready = !error;
     int64_t total = 0;
     for (int body = 0; ready && body < input->bodies.count; body++)
-        if (!case_body(input, body)->elsewhere)
+        if (place_has(place, body))
             error = error_join(error, explore_body(&overlaps, body, box, ranks, &findings[body]));
     overlaps_free(&overlaps);
     TRY(ranks_agree(ranks, error));
     for (int body = 0; body < input->bodies.count; body++) {
-        if (case_body(input, body)->elsewhere)
+        if (!place_has(place, body))
             continue;
-        error = error_join(error, judge_body(input, body, ranks, findings));
+        error = error_join(error, judge_body(place, body, ranks, findings));
         total += findings[body].summary.particles;
     }
     if (total > INT32_MAX)
@@ -315,13 +314,14 @@ static struct error *explore(const struct simulation_case *input, const struct b
     return ranks_agree(ranks, error);
 }
 
-struct error *generate_count(const struct simulation_case *input, const struct ranks *ranks,
+struct error *generate_count(const struct place *place, const struct ranks *ranks,
                              int64_t *particles)
 {
+    const struct simulation_case *input = place->input;
     struct finding *findings = memory_allocate((size_t)input->bodies.count * sizeof *findings);
     TRY(ranks_agree(ranks, findings ? NULL : error_new(ERROR_SYSTEM, "out of memory")));
     assert(findings);
-    struct error *error = explore(input, NULL, ranks, findings);
+    struct error *error = explore(place, NULL, ranks, findings);
     *particles = 0;
     for (int body = 0; !error && body < input->bodies.count; body++)
         *particles += findings[body].summary.particles;
@@ -333,10 +333,11 @@ struct error *generate_summary(const struct simulation_case *input, const struct
                                struct body_summary *summary)
 {
     const struct ranks alone = ranks_alone();
+    const struct place whole = place_whole(input);
     struct finding *findings = memory_allocate((size_t)input->bodies.count * sizeof *findings);
     if (!findings)
         return error_new(ERROR_SYSTEM, "out of memory");
-    struct error *error = explore(input, box, &alone, findings);
+    struct error *error = explore(&whole, box, &alone, findings);
     for (int body = 0; body < input->bodies.count; body++) {
         const struct finding *finding = &findings[body];
         summary[body] = finding->summary;

@@ -25,8 +25,10 @@ struct body_summary {
 /* The bounds of BODY's shape between the mirrors that cut it; about an axis those of its part at
  * x > 0, if it has one. */
 struct bounds body_bounds(const struct simulation_case *input, int body);
+struct bounds place_bounds(const struct place *place, int body);
 
 struct lattice body_lattice(const struct simulation_case *input, int body);
+struct lattice place_lattice(const struct place *place, int body);
 
 /* Largest initial particle diameter of a case, m: the store's cell follows from it. */
 double largest_diameter(const struct simulation_case *input);
@@ -34,7 +36,7 @@ double largest_diameter(const struct simulation_case *input);
 /* Collective: counts the PARTICLES that this rank will make. ERROR_INPUT (located) when two bodies
  * overlap and neither replaces the other, when a body has no particle, or when a particle lies
  * behind a wall. */
-struct error *generate_count(const struct simulation_case *input, const struct ranks *ranks,
+struct error *generate_count(const struct place *place, const struct ranks *ranks,
                              int64_t *particles);
 
 /* What is no mistake but may be none of the user's wishes: a body so thin that others get through

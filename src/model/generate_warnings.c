@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "material/material.h"
-#include "model/boundaries.h"
+#include "model/solver.h"
 #include "model/walk.h"
 
 /* Particles across a plate below which others get through it, and with which it hardly bends. */
@@ -14,11 +14,11 @@ enum { THIN = 3 };
  * ones. */
 static bool is_between_mirrors(const struct simulation_case *input, int axis)
 {
-    struct face face[3][2];
-    boundaries_find(input, face);
+    const struct place whole = place_whole(input);
+    const struct face *face = whole.face[axis];
     const bool radius = axis == 0 && geometry_power(input->geometry) > 0;
-    return (!radius && face_closes(&face[axis][0]) && face_closes(&face[axis][1])) ||
-           face[axis][0].kind == BOUNDARY_PERIODIC;
+    return (!radius && face_closes(&face[0]) && face_closes(&face[1])) ||
+           face[0].kind == BOUNDARY_PERIODIC;
 }
 
 static bool is_thin(const struct simulation_case *input, int body, int axis)
@@ -113,7 +113,7 @@ static double volume_of_body(const struct overlaps *overlaps, int body)
     struct vec3 place;
     double volume = error ? (double)NAN : 0.0;
     while (!error && walk_next(&walk, &site, &place))
-        volume += walk.row.volume * walk_depth(overlaps->input, place);
+        volume += walk.row.volume * walk_depth(overlaps->place->input, place);
     walk_end(&walk);
     error_free(error);
     return volume;
@@ -128,7 +128,7 @@ static bool refine(const struct simulation_case *input, struct simulation_case *
     const double sites = body_lattice(input, body).sites;
     const double work = sites * (4.0 + shape_work(&of->shape)) * input->bodies.count;
     const double times = minimum(floor(pow(WORK / work, 1.0 / (double)input->dimension)), MOST);
-    if (of->elsewhere || !(times >= LEAST))
+    if (!(times >= LEAST))
         return false;
     of->resolution = (isnan(of->resolution) ? input->resolution : of->resolution) / times;
     of->lattice = (struct one_of){LATTICE_SQUARE, NULL, NULL};
@@ -140,7 +140,7 @@ static struct error *compare_volumes(const struct overlaps *own, const struct ov
                                      int body)
 {
     static const double WRONG = 0.02;
-    const struct simulation_case *input = own->input;
+    const struct simulation_case *input = own->place->input;
     const double excess = volume_of_body(own, body) / volume_of_body(fine, body) - 1.0;
     if (!(isfinite(excess) && fabs(excess) > WRONG))
         return NULL;
@@ -164,7 +164,9 @@ static struct error *warn_of_volumes(const struct simulation_case *input)
     if (!fine.bodies.items)
         return error_new(ERROR_SYSTEM, "out of memory");
     memcpy(fine.bodies.items, input->bodies.items, bytes);
-    struct error *error = error_join(overlaps_make(input, &of_own), overlaps_make(&fine, &of_fine));
+    const struct place whole = place_whole(input), finer = place_whole(&fine);
+    struct error *error =
+        error_join(overlaps_make(&whole, &of_own), overlaps_make(&finer, &of_fine));
     const bool made = !error;
     for (int body = 0; made && body < input->bodies.count; body++)
         if (refine(input, &fine, body))

@@ -123,10 +123,11 @@ static struct error *judge_load(const struct simulation_case *input, int index,
 
 struct error *load_warnings(const struct simulation_case *input)
 {
+    const struct place whole = place_whole(input);
     struct error *warnings = NULL;
     for (int i = 0; i < input->loads.count; i++) {
         struct body_surface surface;
-        struct error *error = surface_create(input, case_load(input, i)->body, &surface);
+        struct error *error = surface_create(&whole, case_load(input, i)->body, &surface);
         if (!error)
             warnings = error_join(warnings, judge_load(input, i, &surface));
         error_free(error); /* of the body, and reported where it is filled */

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "case/internal.h"
 #include "model/generate.h"
 
 static struct error *check_indices(const struct simulation *simulation, int64_t first,

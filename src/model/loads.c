@@ -63,17 +63,16 @@ void loads_free(struct loads *loads)
 }
 
 /* The surface of load INDEX: that of an earlier load on the same body, or a new one. */
-static struct error *find_surface(struct loads *loads, const struct simulation_case *input,
-                                  int index)
+static struct error *find_surface(struct loads *loads, const struct place *place, int index)
 {
-    const int body = case_load(input, index)->body;
+    const int body = case_load(place->input, index)->body;
     for (int k = 0; k < loads->surfaces; k++)
         if (loads->surface[k].body == body) {
             loads->of[index] = k;
             return NULL;
         }
     loads->of[index] = loads->surfaces++;
-    return surface_create(input, body, &loads->surface[loads->of[index]]);
+    return surface_create(place, body, &loads->surface[loads->of[index]]);
 }
 
 static struct error *choose_elements(struct loads *loads, const struct simulation_case *input,
@@ -105,7 +104,7 @@ struct error *loads_create(const struct simulation *simulation, struct loads *lo
         return error_new(ERROR_SYSTEM, "out of memory for loads");
     int32_t most = 0;
     for (int i = 0; i < loads->count; i++) {
-        TRY(find_surface(loads, input, i));
+        TRY(find_surface(loads, &simulation->problem->place, i));
         TRY(choose_elements(loads, input, i));
         const int32_t elements = loads->surface[loads->of[i]].elements;
         most = elements > most ? elements : most;

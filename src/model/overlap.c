@@ -23,9 +23,9 @@ static int best_axis(const struct overlaps *overlaps)
 {
     double most = -INFINITY;
     int best = 0;
-    for (int axis = 0; axis < overlaps->input->dimension; axis++) {
+    for (int axis = 0; axis < overlaps->place->input->dimension; axis++) {
         double low = INFINITY, high = -INFINITY, sum = 0.0;
-        for (int i = 0; i < overlaps->input->bodies.count; i++) {
+        for (int i = 0; i < overlaps->place->input->bodies.count; i++) {
             const struct bounds *bounds = &overlaps->bounds[i];
             low = minimum(low, along(bounds->low, axis));
             high = maximum(high, along(bounds->high, axis));
@@ -63,10 +63,11 @@ static double grow(struct overlaps *overlaps, int begin, int end)
     return overlaps->highest[middle];
 }
 
-struct error *overlaps_make(const struct simulation_case *input, struct overlaps *overlaps)
+struct error *overlaps_make(const struct place *place, struct overlaps *overlaps)
 {
+    const struct simulation_case *input = place->input;
     const size_t count = (size_t)input->bodies.count;
-    *overlaps = (struct overlaps){.input = input};
+    *overlaps = (struct overlaps){.place = place};
     TRY(case_replacements(input, &overlaps->replacements));
     overlaps->bounds = memory_allocate(count * sizeof *overlaps->bounds);
     overlaps->order = memory_allocate(count * sizeof *overlaps->order);
@@ -156,7 +157,7 @@ struct error *overlaps_rivals(const struct overlaps *overlaps, int body, struct 
                               int *count)
 {
     struct search search = {.overlaps = overlaps, .body = body};
-    seek(&search, 0, overlaps->input->bodies.count);
+    seek(&search, 0, overlaps->place->input->bodies.count);
     *rivals = search.found;
     *count = search.count;
     if (search.out_of_memory)

@@ -3,8 +3,7 @@
 #ifndef BOLIDE_OVERLAP_H
 #define BOLIDE_OVERLAP_H
 
-#include "case/case.h"
-#include "shape/shape.h"
+#include "model/place.h"
 
 /* What becomes of a site that lies in another body too. */
 enum overlap { OVERLAP_KEEP, OVERLAP_DROP, OVERLAP_MISTAKE };
@@ -18,7 +17,7 @@ struct rival {
 /* The bodies of a case, sorted by where they begin along an axis: a search tree, whose root is the
  * middle of the list, so that a body among thousands meets only its neighbours. */
 struct overlaps {
-    const struct simulation_case *input;
+    const struct place *place;
     struct bounds *bounds; /* of each body */
     int axis;
     int *order;      /* bodies by their lower end */
@@ -29,7 +28,7 @@ struct overlaps {
 bool bounds_meet(const struct bounds *a, const struct bounds *b);
 
 /* Looks at the bodies of INPUT; overlaps_free in any case. */
-struct error *overlaps_make(const struct simulation_case *input, struct overlaps *overlaps);
+struct error *overlaps_make(const struct place *place, struct overlaps *overlaps);
 void overlaps_free(struct overlaps *overlaps);
 
 /* The bodies that BODY does not simply replace and whose bounds meet its own, by their numbers.

@@ -199,9 +199,11 @@ static struct error *check_counts(const struct simulation_case *input)
     return error;
 }
 
-struct error *problem_create(const struct simulation_case *input, struct problem *problem)
+struct error *problem_create(const struct place *place, struct problem *problem)
 {
+    const struct simulation_case *input = place->input;
     *problem = (struct problem){.input = input,
+                                .place = *place,
                                 .dimension = (int)input->dimension,
                                 .geometry = (enum case_geometry)input->geometry,
                                 .materials = input->materials.count};
@@ -212,17 +214,8 @@ struct error *problem_create(const struct simulation_case *input, struct problem
     memcpy(problem->gravity, input->gravity.at, sizeof problem->gravity);
     for (int i = 0; i < input->materials.count; i++)
         problem->material[i] = *case_material(input, i)->material;
-    boundaries_find(input, problem->face);
-    problem->mirrors = boundaries_mirrors((const struct face(*)[2])problem->face);
+    problem->mirrors = boundaries_mirrors(place->face);
     return set_contacts(problem);
-}
-
-bool faces_any(const struct problem *problem, bool (*test)(const struct face *face))
-{
-    bool any = false;
-    for (int axis = 0; axis < 3; axis++)
-        any |= test(&problem->face[axis][0]) || test(&problem->face[axis][1]);
-    return any;
 }
 
 void problem_destroy(struct problem *problem)
@@ -264,7 +257,7 @@ struct error *problem_refuse_gas_keys(const struct problem *problem)
     if (geometry_power(input->geometry) > 0 && input->dimension == 1)
         error = input_error(input, "geometry", NULL,
                             "the solver gas alone computes cylinders and spheres in 1-D");
-    if (input->start.input)
+    if (input->start.input && !problem->place.is_part)
         error = error_join(error, input_error(input, "start", NULL,
                                               "the solver gas alone begins from another case"));
     for (int m = 0; m < problem->materials; m++)

@@ -4,7 +4,7 @@
 #define BOLIDE_PROBLEM_H
 
 #include "base/field.h"
-#include "case/case.h"
+#include "model/place.h"
 #include "parallel/ghosts.h"
 #include "particle/contact_law.h"
 
@@ -18,26 +18,13 @@ struct contact_surface {
 };
 enum { CONTACT_SURFACES = 60 };
 
-/* What is outside a whole face. */
-struct face {
-    int kind; /* enum boundary_kind; -1: nothing is said of it, or of parts of it */
-    double at;
-    double pressure; /* outside an outflow, Pa; NAN: that of what leaves */
-};
-
-BOLIDE_INLINE bool face_closes(const struct face *face)
-{
-    return face->kind == BOUNDARY_REFLECTING || face->kind == BOUNDARY_SYMMETRY;
-}
-BOLIDE_INLINE bool face_lets_out(const struct face *face) { return face->kind == BOUNDARY_OUTFLOW; }
-
 struct problem {
     const struct simulation_case *input;
     int dimension;
     enum case_geometry geometry;
     int materials;
     struct material *material;
-    struct face face[3][2];                      /* low and high across each axis */
+    struct place place;                          /* what of the case the solver computes */
     struct mirrors mirrors;                      /* those of particles */
     double gravity[3];                           /* m/s^2, of what nothing holds */
     uint8_t *group_of_body;                      /* contact group of each body */
@@ -46,12 +33,9 @@ struct problem {
     struct contact_surface surface[CONTACT_SURFACES];
 };
 
-/* Whether some face is what TEST says. */
-bool faces_any(const struct problem *problem, bool (*test)(const struct face *face));
-
-/* Creates the problem of INPUT, which must outlive it. ERROR_INPUT: walls or contacts contradict
+/* Creates the problem of PLACE, whose case must outlive it. ERROR_INPUT: walls or contacts contradict
  * each other; PROBLEM must be destroyed then too. */
-struct error *problem_create(const struct simulation_case *input, struct problem *problem);
+struct error *problem_create(const struct place *place, struct problem *problem);
 void problem_destroy(struct problem *problem);
 
 /* A mistake in the case at SECTION.NAME ("bodies", "flyer"; NAME may be NULL): located in its file,

@@ -12,12 +12,20 @@
 struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
                                 int threads, struct simulation *simulation)
 {
+    const struct place whole = place_whole(input);
+    return simulation_create_at(&whole, ranks, threads, simulation);
+}
+
+struct error *simulation_create_at(const struct place *place, const struct ranks *ranks,
+                                   int threads, struct simulation *simulation)
+{
+    const size_t loads = (size_t)place->input->loads.count;
     struct problem *problem = memory_allocate(sizeof *problem);
     *simulation = (struct simulation){
         .problem = problem, .ranks = ranks, .partition = {.ranks = ranks}, .threads = threads};
-    simulation->loads = input->loads.count;
-    simulation->load = memory_allocate((size_t)input->loads.count * sizeof *simulation->load);
-    struct error *error = problem && simulation->load ? problem_create(input, problem)
+    simulation->loads = place->input->loads.count;
+    simulation->load = memory_allocate(loads * sizeof *simulation->load);
+    struct error *error = problem && simulation->load ? problem_create(place, problem)
                                                       : error_new(ERROR_SYSTEM, "out of memory");
     if (error)
         simulation_destroy(simulation);

@@ -59,10 +59,12 @@ struct simulation {
     double phase_end; /* clock_seconds() when the last phase ended; 0: none has begun */
 };
 
-/* Prepares a run of INPUT, its problem, without members. The solver's create adds their store,
+/* Prepares a run of INPUT, or of PLACE in it, its problem, without members. The solver's create adds their store,
  * since it knows the fields; its fill puts the bodies into it. */
 struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
                                 int threads, struct simulation *simulation);
+struct error *simulation_create_at(const struct place *place, const struct ranks *ranks,
+                                   int threads, struct simulation *simulation);
 void simulation_destroy(struct simulation *simulation);
 
 /* Shows STORE, of TYPE, to all that watches the run, until the population is removed. NAME must

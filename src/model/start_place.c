@@ -18,7 +18,7 @@ void start_places(const struct population *particles, int64_t begin, int64_t end
             continue;
         }
         if (body != lattice_body) {
-            lattice = body_lattice(particles->problem->input, body);
+            lattice = place_lattice(&particles->problem->place, body);
             lattice_body = body;
             row.sites = 0;
         }

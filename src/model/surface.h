@@ -44,8 +44,7 @@ struct body_surface {
 
 /* Samples the surface of BODY; free it in any case. ERROR_SYSTEM: out of memory. ERROR_INPUT: its
  * lattice has too many sites. */
-struct error *surface_create(const struct simulation_case *input, int body,
-                             struct body_surface *surface);
+struct error *surface_create(const struct place *place, int body, struct body_surface *surface);
 void surface_free(struct body_surface *surface);
 
 /* Collective: finds the members of POPULATION and brings `now` up to date. An element whose

@@ -47,21 +47,15 @@ static bool is_inside(const struct sampler *s, struct vec3 at)
 /* What is at a place outside the body. */
 static enum surface_cover cover_at(const struct sampler *s, struct vec3 at)
 {
-    const struct simulation_case *input = s->input;
-    if (geometry_power(input->geometry) > 0 && at.x <= 0.0)
+    const double x[3] = {at.x, at.y, at.z};
+    if (geometry_power(s->input->geometry) > 0 && at.x <= 0.0)
         return SURFACE_AT_WALL;
-    const double place[3] = {at.x, at.y, at.z};
-    for (int i = 0; i < input->boundaries.count; i++) {
-        const struct boundary_input *boundary = case_boundary(input, i);
-        const int axis = boundary->axis;
-        if (boundary->kind == BOUNDARY_RIGID_BODY || boundary->part.choice)
-            continue;
-        if (boundary->kind != BOUNDARY_PERIODIC && boundary_beyond(boundary, place) > 0.0)
-            return SURFACE_AT_WALL;
-        if (boundary->kind == BOUNDARY_PERIODIC && axis < input->domain.low.count &&
-            (place[axis] < input->domain.low.at[axis] || place[axis] > input->domain.high.at[axis]))
-            return SURFACE_AT_WALL;
-    }
+    for (int axis = 0; axis < s->dimension; axis++)
+        for (int side = 0; side < 2; side++) {
+            const struct face *face = &s->place->face[axis][side];
+            if (face->boundary >= 0 && (side ? x[axis] > face->at : x[axis] < face->at))
+                return SURFACE_AT_WALL;
+        }
     for (int k = 0; k < s->others; k++)
         if (body_has(s, s->other[k], at))
             return SURFACE_COVERED;
@@ -400,17 +394,18 @@ static struct error *find_carriers(struct sampler *s, const struct overlaps *ove
     return error;
 }
 
-struct error *surface_create(const struct simulation_case *input, int body,
-                             struct body_surface *surface)
+struct error *surface_create(const struct place *place, int body, struct body_surface *surface)
 {
+    const struct simulation_case *input = place->input;
     struct overlaps overlaps;
-    struct sampler s = {.input = input,
+    struct sampler s = {.place = place,
+                        .input = input,
                         .body = body,
                         .dimension = (int)input->dimension,
-                        .bounds = body_bounds(input, body)};
+                        .bounds = place_bounds(place, body)};
     *surface = (struct body_surface){
         .body = body, .dimension = s.dimension, .round = input->geometry == GEOMETRY_AXISYMMETRIC};
-    struct error *error = overlaps_make(input, &overlaps);
+    struct error *error = overlaps_make(place, &overlaps);
     s.replacements = &overlaps.replacements;
     if (!error)
         error = find_carriers(&s, &overlaps);

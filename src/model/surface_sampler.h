@@ -21,6 +21,7 @@ struct piece {
 };
 
 struct sampler {
+    const struct place *place;
     const struct simulation_case *input;
     int body, dimension;
     struct bounds bounds; /* of the body, and what mirrors leave of it */

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "case/internal.h"
 #include "model/generate.h"
 
 /* An id keeps the index of a site in 48 bits. */
@@ -16,48 +15,52 @@ static const int64_t sites_a_rank = INT64_C(1) << 32;
 /* Lengths of less than this are rounding. */
 static double margin_of(const struct simulation_case *input) { return 1e-9 * input->resolution; }
 
-/* What mirrors leave of a body; infinite where none cuts it. A body entirely outside a mirror is
- * not cut but reported as an error. */
-static struct bounds kept_by_mirrors(const struct simulation_case *input,
-                                     const struct bounds *shape)
+/* What the box of PLACE and its walls leave of a body. A body entirely outside a wall is not cut but
+ * reported as an error. */
+static struct bounds kept_in(const struct place *place, const struct bounds *shape)
 {
     const double from[3] = {shape->low.x, shape->low.y, shape->low.z};
     const double to[3] = {shape->high.x, shape->high.y, shape->high.z};
-    const double margin = margin_of(input);
-    double low[3] = {-INFINITY, -INFINITY, -INFINITY}, high[3] = {INFINITY, INFINITY, INFINITY};
-    for (int i = 0; i < input->boundaries.count; i++) {
-        const struct boundary_input *wall = case_boundary(input, i);
-        const int axis = wall->axis;
-        if (!boundary_closes(wall) || wall->part.choice || axis >= input->dimension ||
-            !(wall->at > from[axis] + margin) || !(wall->at < to[axis] - margin))
-            continue;
-        if (wall->side == SIDE_LOW)
-            low[axis] = maximum(low[axis], wall->at);
-        else
-            high[axis] = minimum(high[axis], wall->at);
-    }
-    return (struct bounds){vec3_make(low[0], low[1], low[2]), vec3_make(high[0], high[1], high[2])};
+    const double margin = margin_of(place->input);
+    double end[2][3] = {{place->box.low.x, place->box.low.y, place->box.low.z},
+                        {place->box.high.x, place->box.high.y, place->box.high.z}};
+    for (int axis = 0; axis < place->input->dimension; axis++)
+        for (int side = 0; side < 2; side++) {
+            const struct face *face = &place->face[axis][side];
+            if (face->cuts && face_closes(face) && face->at > from[axis] + margin &&
+                face->at < to[axis] - margin)
+                end[side][axis] =
+                    side ? minimum(end[1][axis], face->at) : maximum(end[0][axis], face->at);
+        }
+    return (struct bounds){vector_at(end[0]), vector_at(end[1])};
+}
+
+struct bounds place_bounds(const struct place *place, int body)
+{
+    struct bounds bounds = shape_bounds(&case_body(place->input, body)->shape);
+    if (geometry_power(place->input->geometry) > 0 && bounds.high.x > 0.0)
+        bounds.low.x = maximum(bounds.low.x, 0.0);
+    return bounds_common(bounds, kept_in(place, &bounds));
+}
+
+struct lattice place_lattice(const struct place *place, int body)
+{
+    const struct body_input *of = case_body(place->input, body);
+    const double resolution = isnan(of->resolution) ? place->input->resolution : of->resolution;
+    return lattice_make(&of->lattice, &of->shape, place_bounds(place, body), resolution,
+                        (int)place->input->dimension);
 }
 
 struct bounds body_bounds(const struct simulation_case *input, int body)
 {
-    struct bounds bounds = shape_bounds(&case_body(input, body)->shape);
-    if (geometry_power(input->geometry) > 0 && bounds.high.x > 0.0)
-        bounds.low.x = maximum(bounds.low.x, 0.0);
-    const struct bounds kept = kept_by_mirrors(input, &bounds);
-    return (struct bounds){
-        vec3_make(maximum(bounds.low.x, kept.low.x), maximum(bounds.low.y, kept.low.y),
-                  maximum(bounds.low.z, kept.low.z)),
-        vec3_make(minimum(bounds.high.x, kept.high.x), minimum(bounds.high.y, kept.high.y),
-                  minimum(bounds.high.z, kept.high.z))};
+    const struct place whole = place_whole(input);
+    return place_bounds(&whole, body);
 }
 
 struct lattice body_lattice(const struct simulation_case *input, int body)
 {
-    const struct body_input *of = case_body(input, body);
-    const double resolution = isnan(of->resolution) ? input->resolution : of->resolution;
-    return lattice_make(&of->lattice, &of->shape, body_bounds(input, body), resolution,
-                        (int)input->dimension);
+    const struct place whole = place_whole(input);
+    return place_lattice(&whole, body);
 }
 
 double largest_diameter(const struct simulation_case *input)
@@ -72,11 +75,11 @@ double largest_diameter(const struct simulation_case *input)
 
 /* Far from the origin, positions are rounded too coarsely for the distances of neighbours, whose
  * error is up to half a unit in the last place. At most FINEST of the spacing is allowed. */
-static struct error *check_place(const struct simulation_case *input, int body,
-                                 const struct lattice *lattice)
+static struct error *check_place(const struct place *place, int body, const struct lattice *lattice)
 {
     static const double FINEST = 1e-3;
-    const struct bounds bounds = body_bounds(input, body);
+    const struct simulation_case *input = place->input;
+    const struct bounds bounds = place_bounds(place, body);
     const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z};
     const double high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
     const double spacing[3] = {lattice->spacing.x, lattice->spacing.y, lattice->spacing.z};
@@ -119,12 +122,13 @@ static struct bounds bounds_of_sites(const struct lattice *lattice)
 
 /* Whether every site of BODY becomes a particle, all in one state: of a box that meets no other
  * body. Then sites need not be looked at one by one. */
-static bool is_plain(const struct simulation_case *input, int body, const struct lattice *lattice)
+static bool is_plain(const struct place *place, int body, const struct lattice *lattice)
 {
     enum { FEW = 2000 }; /* bodies that are compared with each other */
+    const struct simulation_case *input = place->input;
     const struct body_input *of = case_body(input, body);
     bool plain = shape_is_box(&of->shape) && lattice->kind == LATTICE_SQUARE && !of->varies &&
-                 input->bodies.count <= FEW;
+                 input->bodies.count <= FEW && !place->is_part;
     for (int k = 0; k < of->velocity.count; k++)
         plain &= !of->velocity.at[k].varying;
     const struct bounds sites = bounds_of_sites(lattice);
@@ -147,9 +151,10 @@ void walk_end(struct walk *walk)
 struct error *walk_begin(struct walk *walk, const struct overlaps *overlaps, int body,
                          const struct ranks *ranks)
 {
-    const struct simulation_case *input = overlaps->input;
+    const struct place *place = overlaps->place;
+    const struct simulation_case *input = place->input;
     *walk = (struct walk){
-        .input = input, .body = body, .lattice = body_lattice(input, body), .conflict = -1};
+        .input = input, .body = body, .lattice = place_lattice(place, body), .conflict = -1};
     if (isinf(walk->lattice.sites))
         return input_error(input, "bodies", input->bodies.names[body],
                            "the lattice has more sites than ids can tell apart: choose a coarser "
@@ -159,11 +164,11 @@ struct error *walk_begin(struct walk *walk, const struct overlaps *overlaps, int
                            "the lattice has %.3g sites, more than the %.3g that ids can tell "
                            "apart: choose a coarser resolution",
                            walk->lattice.sites, sites_limit);
-    TRY(check_place(input, body, &walk->lattice));
+    TRY(check_place(place, body, &walk->lattice));
     const struct bounds bounds = shape_bounds(&case_body(input, body)->shape);
-    walk->kept = kept_by_mirrors(input, &bounds);
+    walk->kept = kept_in(place, &bounds);
     const struct slice slice = ranks_slice(ranks, (int64_t)walk->lattice.sites);
-    walk->plain = is_plain(input, body, &walk->lattice);
+    walk->plain = is_plain(place, body, &walk->lattice);
     if (!walk->plain && slice.end - slice.begin > sites_a_rank)
         return input_error(input, "bodies", input->bodies.names[body],
                            "the lattice has %.3g sites, too many to look at: choose a coarser "
@@ -233,33 +238,41 @@ bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place)
 }
 
 /* A site costs as much as a few simple shapes. Bodies that walk_begin refuses cost nothing. */
-static double work_of_body(const struct simulation_case *input, int body, const struct ranks *ranks)
+static double work_of_body(const struct place *place, int body, const struct ranks *ranks)
 {
     static const double work_a_site = 4.0;
-    const struct lattice lattice = body_lattice(input, body);
+    const struct lattice lattice = place_lattice(place, body);
     const double sites = lattice.sites;
-    if (!(sites < sites_limit) || is_plain(input, body, &lattice))
+    if (!(sites < sites_limit) || is_plain(place, body, &lattice))
         return 0.0;
-    return ceil(sites / ranks->size) * (work_a_site + shape_work(&case_body(input, body)->shape));
+    return ceil(sites / ranks->size) *
+           (work_a_site + shape_work(&case_body(place->input, body)->shape));
+}
+
+static double work_of_all(const struct place *place, const struct ranks *ranks)
+{
+    double work = 0.0;
+    for (int body = 0; body < place->input->bodies.count; body++)
+        work += work_of_body(place, body, ranks);
+    return work;
 }
 
 double generate_work(const struct simulation_case *input, const struct ranks *ranks)
 {
-    double work = 0.0;
-    for (int body = 0; body < input->bodies.count; body++)
-        work += work_of_body(input, body, ranks);
-    return work;
+    const struct place whole = place_whole(input);
+    return work_of_all(&whole, ranks);
 }
 
-struct error *walk_check_work(const struct simulation_case *input, const struct ranks *ranks)
+struct error *walk_check_work(const struct place *place, const struct ranks *ranks)
 {
-    const double all = generate_work(input, ranks);
+    const struct simulation_case *input = place->input;
+    const double all = work_of_all(place, ranks);
     double most = 0.0;
     int worst = 0;
     if (all <= GENERATE_MOST)
         return NULL;
     for (int body = 0; body < input->bodies.count; body++) {
-        const double work = work_of_body(input, body, ranks);
+        const double work = work_of_body(place, body, ranks);
         worst = work > most ? body : worst;
         most = maximum(work, most);
     }
@@ -268,7 +281,7 @@ struct error *walk_check_work(const struct simulation_case *input, const struct 
         "its %.2g sites, at each of which up to %.2g shapes are tested, take "
         "too long to count: choose a coarser resolution, fewer copies that overlap, or "
         "bodies in place of the shapes of a union",
-        body_lattice(input, worst).sites, shape_work(&case_body(input, worst)->shape));
+        place_lattice(place, worst).sites, shape_work(&case_body(input, worst)->shape));
 }
 
 double walk_depth(const struct simulation_case *input, struct vec3 place)

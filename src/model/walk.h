@@ -43,6 +43,6 @@ const char *walk_start(const struct simulation_case *input, int body, struct vec
 
 /* ERROR_INPUT for the body with the most work when all walks of a case take too long
  * (generate_work). */
-struct error *walk_check_work(const struct simulation_case *input, const struct ranks *ranks);
+struct error *walk_check_work(const struct place *place, const struct ranks *ranks);
 
 #endif

@@ -118,8 +118,8 @@ struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulati
             mpm->gauge[m] = mpm->parameters.gauge_pressure;
     }
     for (int b = 0; b < input->bodies.count; b++) {
-        const double size =
-            diameter_of_volume(body_lattice(input, b).volume, simulation->problem->dimension);
+        const double size = diameter_of_volume(place_lattice(&simulation->problem->place, b).volume,
+                                               simulation->problem->dimension);
         mpm->half_size[b] = 0.5 * size / mpm->edge;
         if (mpm->half_size[b] > 0.5 * (1.0 + 1e-6))
             error = error_join(error,

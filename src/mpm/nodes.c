@@ -60,7 +60,7 @@ struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulati
     struct error *error = too_near(simulation->problem->input, mpm->edge);
     for (int axis = 0; axis < simulation->problem->dimension; axis++)
         for (int side = 0; side < 2; side++) {
-            const struct face *face = &simulation->problem->face[axis][side];
+            const struct face *face = &simulation->problem->place.face[axis][side];
             const double at = face->at, index = at / mpm->edge, plane = nearbyint(index);
             mpm->has_plane[axis][side] = face_closes(face);
             if (!face_closes(face))

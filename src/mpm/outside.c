@@ -431,7 +431,7 @@ struct error *mpm_push_surfaces(struct mpm *mpm, struct simulation *simulation, 
     const struct mpm_fields fields = mpm_fields_of(mpm);
     for (int axis = 0; axis < simulation->problem->dimension; axis++)
         for (int side = 0; side < 2; side++) {
-            const struct face *face = &simulation->problem->face[axis][side];
+            const struct face *face = &simulation->problem->place.face[axis][side];
             const struct surface surface = {.body = -1,
                                             .sound = fields.sound_long,
                                             .viscosity = fields.viscosity,
@@ -469,7 +469,7 @@ void mpm_lose_particles(const struct mpm *mpm, struct simulation *simulation)
 {
     for (int axis = 0; axis < simulation->problem->dimension; axis++)
         for (int side = 0; side < 2; side++) {
-            const struct face *face = &simulation->problem->face[axis][side];
+            const struct face *face = &simulation->problem->place.face[axis][side];
             if (face_lets_out(face))
                 lose_through(mpm, simulation, face, axis, side ? 1.0 : -1.0);
         }

@@ -27,7 +27,7 @@ void mpm_evaluate(const struct mpm *mpm, struct simulation *simulation)
 void mpm_keep_before_walls(const struct simulation *simulation, double x[3])
 {
     for (int axis = 0; axis < simulation->problem->dimension; axis++) {
-        const struct face *low = &simulation->problem->face[axis][0], *high = low + 1;
+        const struct face *low = &simulation->problem->place.face[axis][0], *high = low + 1;
         if (face_closes(low) && x[axis] < low->at)
             x[axis] = 2.0 * low->at - x[axis];
         if (face_closes(high) && x[axis] > high->at)
@@ -127,7 +127,7 @@ int32_t mpm_update_points(const struct mpm *mpm, struct simulation *simulation,
     const int32_t count = layer->bins.bin[bin].cell[BLOCK_CELLS];
     bool possible = true;
     int32_t impossible = -1;
-    if (faces_any(simulation->problem, face_closes))
+    if (place_has_face(&simulation->problem->place, face_closes))
         for (int32_t k = 0; k < count; k++)
             mpm_keep_before_walls(simulation, p->position[list[k]]);
     for (int32_t begin = 0, end; begin < count; begin = end) {

@@ -145,7 +145,8 @@ struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
     error = error_join(error, refuse_order(given, simulation));
     error = error_join(error, refuse_contacts(input));
     error = error_join(error, refuse_wide_cell(edge, simulation));
-    error = error_join(error, boundaries_refuse_of_particles(input, mpm_class.boundaries));
+    if (!simulation->problem->place.is_part)
+        error = error_join(error, boundaries_refuse_of_particles(input, mpm_class.boundaries));
     error = error_join(error, refuse_broken_contacts(simulation->problem));
     return error_join(error, refuse_far_bodies(edge, simulation));
 }

@@ -10,7 +10,8 @@ struct error *mpm_reserve_surfaces(struct mpm *mpm, const struct simulation *sim
 {
     const struct simulation_case *input = simulation->problem->input;
     const bool pushes[] = {[SURFACE_LOADS] = input->loads.count > 0,
-                           [SURFACE_OUTFLOWS] = faces_any(simulation->problem, face_lets_out),
+                           [SURFACE_OUTFLOWS] =
+                               place_has_face(&simulation->problem->place, face_lets_out),
                            [SURFACE_OUTSIDE] = mpm->outside != NULL};
     for (int g = 0; g < mpm->layers; g++)
         for (int cause = 0; cause < SURFACE_CAUSES; cause++) {

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "material/any.h"
 #include "material/material.h"
-#include "model/boundaries.h"
+#include "model/place.h"
 #include "model/solver.h"
 #include "run/blast_cells.h"
 #include "run/input_warnings.h"
@@ -57,11 +57,10 @@ static void find_mean_density(const struct simulation_case *input, struct estima
     double high[3] = {box.high.x, box.high.y, box.high.z};
     const double power = 1.0 + geometry_power(input->geometry);
     double volume = 1.0;
-    struct face face[3][2];
-    boundaries_find(input, face);
+    const struct place whole = place_whole(input);
     assert(input->dimension <= 3);
     for (int axis = 0; axis < input->dimension; axis++) {
-        const struct face *ends = face[axis];
+        const struct face *ends = whole.face[axis];
         const bool axial = axis == 0 && power > 1.0;
         if (!axial && face_closes(&ends[0]) && face_closes(&ends[1])) {
             low[axis] = ends[0].at;
@@ -96,11 +95,10 @@ static double speed_into_wall(const struct simulation_case *input, struct vec3 v
 {
     const double component[3] = {velocity.x, velocity.y, velocity.z};
     double speed = 0.0;
-    struct face face[3][2];
-    boundaries_find(input, face);
+    const struct place whole = place_whole(input);
     for (int axis = 0; axis < 3; axis++)
         for (int side = axis == 0 && geometry_power(input->geometry) > 0; side < 2; side++)
-            if (face_closes(&face[axis][side]))
+            if (face_closes(&whole.face[axis][side]))
                 speed = maximum(speed, component[axis] * (side ? 1.0 : -1.0));
     return speed;
 }

@@ -7,7 +7,7 @@
 
 #include "exact/detonation.h"
 #include "material/material.h"
-#include "model/boundaries.h"
+#include "model/place.h"
 #include "model/solver.h"
 #include "run/forecast.h"
 
@@ -66,13 +66,13 @@ static double ball_volume(const struct simulation_case *input, int body, int *po
         volume /= 2.0 * pi;
     else if (radial == 2)
         volume /= 4.0 * pi;
-    struct face face[3][2];
-    boundaries_find(input, face);
+    const struct place whole = place_whole(input);
     for (int axis = radial ? 1 : 0; axis < 3; axis++)
-        for (int side = 0; side < 2; side++)
-            if (face_closes(&face[axis][side]) &&
-                fabs(face[axis][side].at - (side ? high : low)[axis]) < input->resolution)
+        for (int side = 0; side < 2; side++) {
+            const struct face *face = &whole.face[axis][side];
+            if (face_closes(face) && fabs(face->at - (side ? high : low)[axis]) < input->resolution)
                 volume *= 0.5;
+        }
     return volume;
 }
 

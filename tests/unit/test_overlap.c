@@ -70,7 +70,8 @@ static void rivals_are_those_that_a_loop_over_all_finds(void **state)
     for (int dimension = 1; dimension <= 3; dimension++) {
         struct overlaps overlaps;
         fill_heap(&heap, dimension, (uint32_t)dimension);
-        assert_null(overlaps_make(&heap.input, &overlaps));
+        const struct place whole = place_whole(&heap.input);
+        assert_null(overlaps_make(&whole, &overlaps));
         for (int body = 0; body < BODIES; body++)
             check_body(&heap, &overlaps, body);
         overlaps_free(&overlaps);

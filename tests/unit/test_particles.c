@@ -156,14 +156,14 @@ static void a_store_grows_to_many_particles_by_small_appends(void **state)
 }
 
 /* The cell of a particle along an axis, and what it sorts by. */
-struct place {
+struct sort_place {
     uint64_t block;
     uint16_t material;
     int64_t cell;
     uint64_t id;
 };
 
-static struct place place_of(const struct particles *p, int32_t i)
+static struct sort_place place_of(const struct particles *p, int32_t i)
 {
     static const int cells[] = {0, 64, 8, 4};
     int64_t at[3] = {0, 0, 0}, cell = 0;
@@ -172,10 +172,10 @@ static struct place place_of(const struct particles *p, int32_t i)
         at[axis] = (int64_t)floor((double)index / cells[p->dimension]);
         cell = cell * cells[p->dimension] + index - at[axis] * cells[p->dimension];
     }
-    return (struct place){block_key(at), p->material[i], cell, p->id[i]};
+    return (struct sort_place){block_key(at), p->material[i], cell, p->id[i]};
 }
 
-static int compare(struct place a, struct place b)
+static int compare(struct sort_place a, struct sort_place b)
 {
     if (a.block != b.block)
         return a.block < b.block ? -1 : 1;

@@ -47,7 +47,7 @@ static struct body_surface surface_of(struct running *run)
 {
     struct body_surface surface;
     const struct population population = population_of_particles(particles_of(&run->simulation));
-    assert_success(surface_create(run->input, 0, &surface));
+    assert_success(surface_create(&run->simulation.problem->place, 0, &surface));
     surface_follow(&surface, &population, &run->ranks);
     return surface;
 }

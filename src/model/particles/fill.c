@@ -3,7 +3,6 @@
 
 #include <string.h>
 
-#include "case/internal.h"
 #include "material/material.h"
 #include "model/walk.h"
 #include "particle/particles.h"
@@ -59,16 +58,16 @@ static struct error *fill_body(const struct simulation *simulation, struct parti
 
 struct error *generate_particles(const struct simulation *simulation, struct particles *particles)
 {
-    const struct simulation_case *input = simulation->problem->input;
+    const struct place *place = &simulation->problem->place;
     int64_t total;
-    TRY(generate_count(input, simulation->ranks, &total));
+    TRY(generate_count(place, simulation->ranks, &total));
     int32_t next = 0;
     struct error *error = particles_append(particles, (int32_t)total, &next);
     struct overlaps overlaps = {0};
     if (!error)
-        error = overlaps_make(input, &overlaps);
-    for (int body = 0; !error && body < input->bodies.count; body++)
-        if (!case_body(input, body)->elsewhere)
+        error = overlaps_make(place, &overlaps);
+    for (int body = 0; !error && body < place->input->bodies.count; body++)
+        if (place_has(place, body))
             error = fill_body(simulation, particles, &overlaps, body, &next);
     overlaps_free(&overlaps);
     if (!error)
