@@ -2,6 +2,7 @@
 #include "model/walk.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "model/generate.h"
@@ -15,15 +16,18 @@ static const int64_t sites_a_rank = INT64_C(1) << 32;
 /* Lengths of less than this are rounding. */
 static double margin_of(const struct simulation_case *input) { return 1e-9 * input->resolution; }
 
-/* What the box of PLACE and its walls leave of a body. A body entirely outside a wall is not cut but
- * reported as an error. */
-static struct bounds kept_in(const struct place *place, const struct bounds *shape)
+/* What the box of PLACE and its walls leave of BODY, whose shape is in the bounds SHAPE. One entirely
+ * outside a wall is not cut but reported as an error. */
+static struct bounds kept_in(const struct place *place, int body, const struct bounds *shape)
 {
     const double from[3] = {shape->low.x, shape->low.y, shape->low.z};
     const double to[3] = {shape->high.x, shape->high.y, shape->high.z};
     const double margin = margin_of(place->input);
-    double end[2][3] = {{place->box.low.x, place->box.low.y, place->box.low.z},
-                        {place->box.high.x, place->box.high.y, place->box.high.z}};
+    double end[2][3] = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+    if (place_has(place, body)) {
+        memcpy(end[0], &place->box.low, sizeof end[0]);
+        memcpy(end[1], &place->box.high, sizeof end[1]);
+    }
     for (int axis = 0; axis < place->input->dimension; axis++)
         for (int side = 0; side < 2; side++) {
             const struct face *face = &place->face[axis][side];
@@ -40,7 +44,7 @@ struct bounds place_bounds(const struct place *place, int body)
     struct bounds bounds = shape_bounds(&case_body(place->input, body)->shape);
     if (geometry_power(place->input->geometry) > 0 && bounds.high.x > 0.0)
         bounds.low.x = maximum(bounds.low.x, 0.0);
-    return bounds_common(bounds, kept_in(place, &bounds));
+    return bounds_common(bounds, kept_in(place, body, &bounds));
 }
 
 struct lattice place_lattice(const struct place *place, int body)
@@ -166,7 +170,7 @@ struct error *walk_begin(struct walk *walk, const struct overlaps *overlaps, int
                            walk->lattice.sites, sites_limit);
     TRY(check_place(place, body, &walk->lattice));
     const struct bounds bounds = shape_bounds(&case_body(input, body)->shape);
-    walk->kept = kept_in(place, &bounds);
+    walk->kept = kept_in(place, body, &bounds);
     const struct slice slice = ranks_slice(ranks, (int64_t)walk->lattice.sites);
     walk->plain = is_plain(place, body, &walk->lattice);
     if (!walk->plain && slice.end - slice.begin > sites_a_rank)
