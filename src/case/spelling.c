@@ -1,5 +1,6 @@
 /* Other spellings of boundaries: walls, outflows and obstacles have maps of their own. What they
- * say is put under `boundaries` before the case is read, so that nothing else needs to know them. */
+ * say is put under `boundaries` before the case is read, so that nothing else needs to know
+ * them. */
 #include <stdlib.h>
 #include <string.h>
 

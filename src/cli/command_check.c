@@ -5,6 +5,7 @@
 #include "cli/cli.h"
 #include "model/solver.h"
 #include "run/forecast.h"
+#include "run/judge.h"
 #include "run/run.h"
 #include "study/sweep.h"
 
@@ -126,6 +127,12 @@ static void print_forecast(const struct forecast *forecast)
     free(text);
 }
 
+static void print_finding(void *context, const char *text)
+{
+    (void)context;
+    printf("  %s\n", text);
+}
+
 static void print_warnings(const struct simulation_case *input, const struct estimate *estimate,
                            const struct forecast *forecast)
 {
@@ -138,12 +145,17 @@ static void print_warnings(const struct simulation_case *input, const struct est
         printf(
             "  not filled, for it would take too long: `run` looks for gaps between the bodies%s\n",
             input->start.input ? ", and whether the blast of `start` fits" : "");
-    for (int i = 0; input->notes && i < error_count(input->notes); i++)
-        printf("  note: %s\n", error_message(input->notes, i));
-    struct error *warnings = estimate_warnings(input);
-    for (int i = 0; warnings && i < error_count(warnings); i++)
-        printf("  warning: %s\n", error_message(warnings, i));
-    error_free(warnings);
+    const struct ranks alone = ranks_alone();
+    struct simulation simulation;
+    struct error *error = simulation_create(input, &alone, 1, &simulation);
+    if (!error) {
+        struct judgement judgement = judge_solver(&simulation);
+        judge_bodies(&judgement);
+        judge_tell(&judgement.findings, print_finding, NULL);
+        findings_free(&judgement.findings);
+        simulation_destroy(&simulation);
+    }
+    error_free(error); /* estimate_run has reported it */
 }
 
 /* Before a silence. */

@@ -9,7 +9,7 @@
 #include "case/library.h"
 #include "cli/cli.h"
 #include "material/material.h"
-#include "run/input_warnings.h"
+#include "run/judge.h"
 
 static const char row_format[] = "%-26s %-21s %-15s %-16s %9s %8s %8s  %s\n";
 

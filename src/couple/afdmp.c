@@ -2,7 +2,6 @@
  * the next stage may begin. */
 #include "couple/afdmp.h"
 
-#include "couple/coarse.h"
 #include "material/material.h"
 
 const char afdmp_nest_name[] = "detonation";
@@ -232,22 +231,10 @@ static double afdmp_step(const void *parameters, int dimension, const struct mat
     return mpm_class.step(&of->mpm, dimension, material, point, diameter);
 }
 
-static struct error *afdmp_coarse(const void *parameters, const struct simulation_case *input)
-{
-    const struct afdmp_parameters *of = parameters;
-    return coarse_cells(input, part_edge(&of->mpm, input));
-}
-
 static void afdmp_coarsen(void *parameters, double factor)
 {
     struct afdmp_parameters *of = parameters;
     mpm_class.coarsen(&of->mpm, factor);
-}
-
-static const char *afdmp_energy_lost(const void *parameters)
-{
-    const struct afdmp_parameters *of = parameters;
-    return mpm_class.energy_lost(&of->mpm);
 }
 
 const struct solver_class afdmp_class = {.size = sizeof(struct afdmp),
@@ -264,5 +251,4 @@ const struct solver_class afdmp_class = {.size = sizeof(struct afdmp),
                                          .count = afdmp_count,
                                          .step = afdmp_step,
                                          .coarsen = afdmp_coarsen,
-                                         .energy_lost = afdmp_energy_lost,
-                                         .coarse = afdmp_coarse};
+                                         .judge = afdmp_judge};

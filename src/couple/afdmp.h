@@ -70,4 +70,8 @@ void afdmp_count(const void *parameters, const struct simulation_case *input,
 /* Cells that do not count have no mass: all in the last stage, in the first those of the nest. */
 void afdmp_hide_cells(struct afdmp *afdmp);
 
+/* The judge of the solver. */
+void afdmp_judge(const void *parameters, const struct simulation *simulation,
+                 struct judgement *judgement);
+
 #endif

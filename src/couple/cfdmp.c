@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "material/material.h"
+#include "model/boundaries.h"
 
 static const char *const transport_names[] = {"conservative", "printed", NULL};
 
@@ -237,23 +238,25 @@ static double cfdmp_step(const void *parameters, int dimension, const struct mat
     return mpm_class.step(&of->mpm, dimension, material, point, diameter);
 }
 
-static struct error *cfdmp_coarse(const void *parameters, const struct simulation_case *input)
-{
-    const struct cfdmp_parameters *of = parameters;
-    const double edge = part_edge(&of->mpm, input);
-    return error_join(coarse_cells(input, edge), coarse_gases(input, edge));
-}
-
 static void cfdmp_coarsen(void *parameters, double factor)
 {
     struct cfdmp_parameters *of = parameters;
     mpm_class.coarsen(&of->mpm, factor);
 }
 
-static const char *cfdmp_energy_lost(const void *parameters)
+static bool is_solid(const struct material *material) { return !gas_computes(material); }
+
+static void cfdmp_judge(const void *parameters, const struct simulation *simulation,
+                        struct judgement *judgement)
 {
     const struct cfdmp_parameters *of = parameters;
-    return mpm_class.energy_lost(&of->mpm);
+    const double edge = part_edge(&of->mpm, simulation->problem->input);
+    boundaries_refuse(&judgement->findings, cfdmp_class.boundaries);
+    coarse_cells(&judgement->findings, edge);
+    coarse_gases(&judgement->findings, edge);
+    judgement->energy_lost = mpm_energy_lost;
+    judgement->room = cfdmp_room(of, simulation->problem->input);
+    judgement->narrow = is_solid;
 }
 
 const struct solver_class cfdmp_class = {
@@ -269,8 +272,6 @@ const struct solver_class cfdmp_class = {
     .destroy = cfdmp_destroy,
     .bytes = cfdmp_bytes,
     .count = cfdmp_count,
-    .room = cfdmp_room,
-    .coarse = cfdmp_coarse,
+    .judge = cfdmp_judge,
     .step = cfdmp_step,
-    .coarsen = cfdmp_coarsen,
-    .energy_lost = cfdmp_energy_lost};
+    .coarsen = cfdmp_coarsen};

@@ -89,8 +89,9 @@ struct error *cfdmp_find_region(struct cfdmp *cfdmp, const struct simulation_cas
 /* As solver_class says. */
 void cfdmp_count(const void *parameters, const struct simulation_case *input,
                  struct counted *counted);
-bool cfdmp_room(const void *parameters, const struct simulation_case *input, int material,
-                struct bounds *room);
+/* Where solids must stay, infinite where nothing bounds them. */
+struct bounds cfdmp_room(const struct cfdmp_parameters *parameters,
+                         const struct simulation_case *input);
 struct error *cfdmp_check_region(const struct cfdmp *cfdmp, const struct simulation_case *input);
 
 /* Collective: cells beside gates as they are now; COUNT numbers of which each is zero on all ranks

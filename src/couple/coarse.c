@@ -92,18 +92,21 @@ static double thickness(const struct simulation_case *input, int body, int axis,
     return number ? sum / (double)number : 0.0;
 }
 
-static struct error *judge_solid(const struct simulation_case *input, int body, double edge)
+static void judge_solid(struct findings *findings, int body, double edge)
 {
+    const struct simulation_case *input = findings->input;
     for (int axis = 0; axis < input->dimension; axis++) {
         const double cells = thickness(input, body, axis, edge) / edge;
         if (cells > PLATE - 0.1 || cells == 0.0)
             continue;
-        return input_error(input, "bodies", input->bodies.names[body],
-                           "%.2g cells thick along %c: with fewer than %.0f it hardly bends, and "
-                           "shares its cells with the gas on both sides; refine it",
-                           cells, "xyz"[axis], PLATE);
+        {
+            finding_add(findings, FINDING_COARSE, "bodies", input->bodies.names[body],
+                        "%.2g cells thick along %c: with fewer than %.0f it hardly bends, and "
+                        "shares its cells with the gas on both sides; refine it",
+                        cells, "xyz"[axis], PLATE);
+            return;
+        }
     }
-    return NULL;
 }
 
 /* Half the smallest extent. */
@@ -124,15 +127,16 @@ static double radius_of(const struct simulation_case *input, int body, double ed
     return least;
 }
 
-static struct error *judge_charge(const struct simulation_case *input, int body, double edge)
+static void judge_charge(struct findings *findings, int body, double edge)
 {
+    const struct simulation_case *input = findings->input;
     const double cells = radius_of(input, body, edge) / edge;
     if (cells > RADIUS - 1e-6 || !isfinite(cells))
-        return NULL;
-    return input_error(input, "bodies", input->bodies.names[body],
-                       "this charge has %.2g cells in its radius: with fewer than %.0f its blast "
-                       "is too weak; refine it, or compute it in 1-D and `start` from that",
-                       cells, RADIUS);
+        return;
+    finding_add(findings, FINDING_COARSE, "bodies", input->bodies.names[body],
+                "this charge has %.2g cells in its radius: with fewer than %.0f its blast "
+                "is too weak; refine it, or compute it in 1-D and `start` from that",
+                cells, RADIUS);
 }
 
 /* The length of the part of BETWEEN that is positive. */
@@ -159,51 +163,49 @@ static double gap_between(const struct simulation_case *input, int charge, int s
     return distance(between) - (round ? radii.outer : 0.0);
 }
 
-static struct error *judge_stand_off(const struct simulation_case *input, int charge, int solid,
-                                     double edge)
+static void judge_stand_off(struct findings *findings, int charge, int solid, double edge)
 {
+    const struct simulation_case *input = findings->input;
     static const double touches = 0.5; /* cells */
     const double cells = gap_between(input, charge, solid) / edge;
     if (cells <= touches || cells > STAND_OFF - 1e-6)
-        return NULL;
-    return input_error(input, "bodies", input->bodies.names[charge],
-                       "there are %.2g cells between this charge and \"%s\": with fewer than %.0f "
-                       "the shock before the products is not resolved; refine it",
-                       cells, input->bodies.names[solid], STAND_OFF);
+        return;
+    finding_add(findings, FINDING_COARSE, "bodies", input->bodies.names[charge],
+                "there are %.2g cells between this charge and \"%s\": with fewer than %.0f "
+                "the shock before the products is not resolved; refine it",
+                cells, input->bodies.names[solid], STAND_OFF);
 }
 
-struct error *coarse_cells(const struct simulation_case *input, double edge)
+void coarse_cells(struct findings *findings, double edge)
 {
-    struct error *error = gas_thin_obstacles(input, edge);
+    const struct simulation_case *input = findings->input;
+    gas_judge_bodies(findings, edge);
     for (int b = 0; b < input->bodies.count; b++) {
         const struct material *material =
             case_material(input, case_body(input, b)->material_index)->material;
         if (!gas_computes(material))
-            error = error_join(error, judge_solid(input, b, edge));
+            judge_solid(findings, b, edge);
         if (!material_burns(material))
             continue;
-        error = error_join(error, judge_charge(input, b, edge));
+        judge_charge(findings, b, edge);
         for (int solid = 0; solid < input->bodies.count; solid++)
             if (!gas_computes(
                     case_material(input, case_body(input, solid)->material_index)->material))
-                error = error_join(error, judge_stand_off(input, b, solid, edge));
+                judge_stand_off(findings, b, solid, edge);
     }
-    return error;
 }
 
-struct error *coarse_gases(const struct simulation_case *input, double edge)
+void coarse_gases(struct findings *findings, double edge)
 {
-    struct error *error = NULL;
+    const struct simulation_case *input = findings->input;
     for (int b = 0; b < input->bodies.count; b++) {
         const struct body_input *body = case_body(input, b);
         const double resolution = isnan(body->resolution) ? input->resolution : body->resolution;
         if (gas_computes(case_material(input, body->material_index)->material) &&
             edge < 1.5 * resolution)
-            error = error_join(
-                error, input_error(input, "bodies", input->bodies.names[b],
-                                   "one particle a cell along each axis: where gas flows into the "
-                                   "region, gaps between them tear it; choose a `resolution` of "
-                                   "half a cell"));
+            finding_add(findings, FINDING_COARSE, "bodies", input->bodies.names[b],
+                        "one particle a cell along each axis: where gas flows into the "
+                        "region, gaps between them tear it; choose a `resolution` of "
+                        "half a cell");
     }
-    return error;
 }

@@ -3,11 +3,11 @@
 #ifndef BOLIDE_COARSE_H
 #define BOLIDE_COARSE_H
 
-#include "case/case.h"
+#include "model/findings.h"
 
-/* Messages, each located as an error would be; NULL: cells of EDGE are fine enough. */
-struct error *coarse_cells(const struct simulation_case *input, double edge);
+/* Finds what cells of EDGE are too coarse for. */
+void coarse_cells(struct findings *findings, double edge);
 /* The same of gases that pass between cells and particles: one particle a cell is too few. */
-struct error *coarse_gases(const struct simulation_case *input, double edge);
+void coarse_gases(struct findings *findings, double edge);
 
 #endif

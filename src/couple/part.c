@@ -103,6 +103,10 @@ struct error *part_create(const struct part_maker *maker, struct part *part,
 {
     TRY(simulation_create_at(&part->place, simulation->ranks, simulation->threads,
                              &part->simulation));
+    struct judgement judgement = judge_with(type, parameters, &part->simulation);
+    struct error *error = findings_refusal(&judgement.findings);
+    findings_free(&judgement.findings);
+    TRY(error);
     part->solver = owned_new(maker->owned, type->size);
     if (!part->solver)
         return owned_error();

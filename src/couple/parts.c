@@ -4,7 +4,6 @@
 #include "base/memory.h"
 #include "couple/cfdmp.h"
 #include "material/material.h"
-#include "model/boundaries.h"
 
 /* Blocks the cells behind the band. */
 static void block_inside(struct cfdmp *cfdmp)
@@ -23,7 +22,6 @@ static struct error *make_gas_part(struct cfdmp *cfdmp, const struct simulation 
 {
     const struct simulation_case *input = simulation->problem->input;
     struct part *part = &cfdmp->gas_part;
-    TRY(boundaries_refuse(input, cfdmp_class.boundaries));
     TRY(part_begin(&cfdmp->maker, part, input));
     part->place.resolution = cfdmp->edge;
     for (int b = 0; b < input->bodies.count; b++)

@@ -247,8 +247,8 @@ static struct cfdmp region_of(const void *parameters, const struct simulation_ca
     return cfdmp;
 }
 
-bool cfdmp_room(const void *parameters, const struct simulation_case *input, int material,
-                struct bounds *room)
+struct bounds cfdmp_room(const struct cfdmp_parameters *parameters,
+                         const struct simulation_case *input)
 {
     struct cell_blocks domain;
     const struct cfdmp cfdmp = region_of(parameters, input, &domain);
@@ -260,8 +260,7 @@ bool cfdmp_room(const void *parameters, const struct simulation_case *input, int
         if (cfdmp.cut.open[axis][1])
             end[1][axis] = (double)(cfdmp.cut.high[axis] - depth) * cfdmp.edge;
     }
-    *room = (struct bounds){vector_at(end[0]), vector_at(end[1])};
-    return !gas_computes(case_material(input, material)->material);
+    return (struct bounds){vector_at(end[0]), vector_at(end[1])};
 }
 
 void cfdmp_count(const void *parameters, const struct simulation_case *input,

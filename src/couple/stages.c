@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "couple/afdmp.h"
+#include "couple/coarse.h"
 #include "material/material.h"
 #include "model/boundaries.h"
 #include "model/problem.h"
@@ -223,24 +224,25 @@ static struct error *make_mpm_part(struct afdmp *afdmp, const struct simulation 
     return part_create(&afdmp->maker, part, simulation, &mpm_class, &afdmp->parameters.mpm);
 }
 
-/* What the solver cannot do of the case. */
-static struct error *refuse(const struct simulation *simulation)
+void afdmp_judge(const void *parameters, const struct simulation *simulation,
+                 struct judgement *judgement)
 {
+    const struct afdmp_parameters *of = parameters;
     const struct simulation_case *input = simulation->problem->input;
-    struct error *error = NULL;
+    struct findings *findings = &judgement->findings;
+    boundaries_refuse(findings, afdmp_class.boundaries);
     for (int b = 0; b < input->bodies.count && count_bodies(input, is_charge) > 0; b++)
         if (!is_solid(input, b) && moves(simulation, b))
-            error = error_join(
-                error, input_error(input, "bodies", input->bodies.names[b],
-                                   "the solver afdmp keeps the gas around a charge at rest while "
-                                   "the charge burns: this body must not move at the start; the "
-                                   "solvers cfdmp and mpm move it"));
+            finding_add(findings, FINDING_WRONG, "bodies", input->bodies.names[b],
+                        "the solver afdmp keeps the gas around a charge at rest while the charge "
+                        "burns: this body must not move at the start; the solvers cfdmp and mpm "
+                        "move it");
     if (input->loads.count > 0)
-        error = error_join(error, input_error(input, "loads", input->loads.names[0],
-                                              "the solver afdmp computes solids from when on a "
-                                              "wave of the gas comes to them: use the solver mpm "
-                                              "or cfdmp"));
-    return error_join(boundaries_refuse(input, afdmp_class.boundaries), error);
+        finding_add(findings, FINDING_WRONG, "loads", input->loads.names[0],
+                    "the solver afdmp computes solids from when on a wave of the gas comes to "
+                    "them: use the solver mpm or cfdmp");
+    coarse_cells(findings, part_edge(&of->mpm, input));
+    judgement->energy_lost = mpm_energy_lost;
 }
 
 static bool count_beside(void *context, int64_t number, const int64_t at[3])
@@ -391,7 +393,6 @@ struct error *afdmp_make_parts(struct afdmp *afdmp, struct simulation *simulatio
     afdmp->round = geometry_power(simulation->problem->geometry) > 0;
     afdmp->edge = part_edge(&afdmp->parameters.mpm, input);
     afdmp->maker = (struct part_maker){&afdmp->owned, afdmp->edge, afdmp->dimension};
-    TRY(refuse(simulation));
     const struct cell_blocks domain = part_domain(input, afdmp->edge);
     struct gas_cut all = {.open = {{false}}};
     memcpy(all.low, domain.low, sizeof all.low);

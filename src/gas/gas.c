@@ -107,7 +107,6 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     gas->parameters = *(const struct gas_parameters *)parameters;
     gas->parameters.courant = courant_of(&gas->parameters);
     choose_scheme(gas);
-    TRY(gas_refuse(simulation, &gas->parameters));
     gas_find_materials(simulation, gas->material);
     for (int k = 0; k < 2; k++) {
         const struct material *material = &simulation->problem->material[gas->material[k]];
@@ -428,19 +427,18 @@ static double gas_step(const void *parameters, int dimension, const struct mater
     return courant_of(of) * diameter / any_material_evaluate(material, &at).sound_long;
 }
 
-static const char *gas_instead(const void *parameters)
+static void gas_judge(const void *parameters, const struct simulation *simulation,
+                      struct judgement *judgement)
 {
     const struct gas_parameters *of = parameters;
-    return of->method.index == GAS_LAX_WENDROFF
-               ? "this method is here for comparison: leave `method` out for the default, "
-                 "muscl-hancock, which holds where it stops"
-               : "a smaller step may hold: halve `courant`";
-}
-
-static struct error *gas_coarse(const void *parameters, const struct simulation_case *input)
-{
-    (void)parameters;
-    return gas_thin_obstacles(input, input->resolution);
+    gas_refuse(simulation, of, &judgement->findings);
+    if (!simulation->problem->place.is_part)
+        gas_judge_bodies(&judgement->findings, simulation->problem->place.resolution);
+    judgement->instead =
+        of->method.index == GAS_LAX_WENDROFF
+            ? "this method is here for comparison: leave `method` out for the default, "
+              "muscl-hancock, which holds where it stops"
+            : "a smaller step may hold: halve `courant`";
 }
 
 static const struct field_row *const field_tables[] = {field_rows, NULL};
@@ -460,6 +458,5 @@ const struct solver_class gas_class = {
     .bytes = gas_bytes,
     .count = gas_count,
     .step = gas_step,
-    .coarse = gas_coarse,
-    .instead = gas_instead,
+    .judge = gas_judge,
     .fields = field_tables};

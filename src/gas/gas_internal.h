@@ -92,8 +92,8 @@ void gas_map(const struct gas *gas, const struct simulation *simulation, double 
 void gas_find_materials(const struct simulation *simulation, int material[2]);
 
 /* What the gas solver cannot do of a case, located. */
-struct error *gas_refuse(const struct simulation *simulation,
-                         const struct gas_parameters *parameters);
+void gas_refuse(const struct simulation *simulation, const struct gas_parameters *parameters,
+                struct findings *findings);
 
 /* The domain of a case in CELLS of an edge: as it says, else where its walls are, else the bounds
  * of its bodies. ERROR_INPUT: a face does not lie on a plane of the grid. */

@@ -5,6 +5,7 @@
 
 #include "gas/gas.h"
 #include "gas/sweep.h"
+#include "model/findings.h"
 
 struct gas;
 
@@ -38,8 +39,8 @@ struct error *gas_settle_markers(struct gas *gas);
 double gas_relax(const struct eos eos[2], const double mass[2], const double energy[2],
                  double fraction, double burnt);
 
-/* Obstacles of INPUT that cells of EDGE do not see, as messages; NULL: there are none. */
-struct error *gas_thin_obstacles(const struct simulation_case *input, double edge);
+/* Finds rigid bodies that cells of EDGE do not see. */
+void gas_judge_bodies(struct findings *findings, double edge);
 
 /* Whether the solver computes MATERIAL. */
 bool gas_computes(const struct material *material);

@@ -7,29 +7,28 @@
 #include "model/boundaries.h"
 #include "shape/shape.h"
 
-static struct error *refuse_map(const struct simulation_case *input, const char *section,
-                                const struct named_map *map, const char *text)
+static void refuse_map(struct findings *findings, const char *section, const struct named_map *map,
+                       const char *text)
 {
-    return map->count == 0 ? NULL : input_error(input, section, map->names[0], "%s", text);
+    if (map->count > 0)
+        finding_add(findings, FINDING_WRONG, section, map->names[0], "%s", text);
 }
 
-static struct error *refuse_body(const struct place *place, int index)
+static void refuse_body(const struct place *place, int index, struct findings *findings)
 {
     const struct simulation_case *input = place->input;
     const struct body_input *body = case_body(input, index);
     const char *name = input->bodies.names[index];
-    struct error *error = NULL;
     if (!place_has(place, index))
-        return NULL;
+        return;
     if (body->driven || body->frozen || !isnan(body->stop))
-        error = input_error(input, "bodies", name,
-                            "the solver gas cannot hold a body: gas flows through its cells; an "
-                            "obstacle is rigid, and a boundary of kind inflow has a velocity");
+        finding_add(findings, FINDING_WRONG, "bodies", name,
+                    "the solver gas cannot hold a body: gas flows through its cells; an "
+                    "obstacle is rigid, and a boundary of kind inflow has a velocity");
     if (!isnan(body->resolution) && !place->is_part)
-        error = error_join(error, input_error(input, "bodies", name,
-                                              "the solver gas has cells of one size: leave the "
-                                              "body's resolution out"));
-    return error;
+        finding_add(findings, FINDING_WRONG, "bodies", name,
+                    "the solver gas has cells of one size: leave the "
+                    "body's resolution out");
 }
 
 void gas_find_materials(const struct simulation *simulation, int material[2])
@@ -94,23 +93,24 @@ static const char *refuse_material(const struct material *material)
 bool gas_computes(const struct material *material) { return !refuse_material(material); }
 
 /* Two materials at most. */
-static struct error *refuse_materials(const struct simulation *simulation,
-                                      const struct gas_parameters *parameters)
+static void refuse_materials(const struct simulation *simulation,
+                             const struct gas_parameters *parameters, struct findings *findings)
 {
     const struct simulation_case *input = simulation->problem->input;
     const struct material *of = simulation->problem->material;
     int material[2];
-    struct error *error = NULL;
     gas_find_materials(simulation, material);
     const bool two = material[0] != material[1];
     for (int b = 0; b < input->bodies.count; b++) {
         const int m = case_body(input, b)->material_index;
-        if (m != material[0] && m != material[1] && place_has(&simulation->problem->place, b))
-            return input_error(input, "bodies", input->bodies.names[b],
-                               "the solver gas computes two materials at most, and this is another "
-                               "one: \"%s\", beside \"%s\" and \"%s\"",
-                               case_body(input, b)->material, input->materials.names[material[0]],
-                               input->materials.names[material[1]]);
+        if (m != material[0] && m != material[1] && place_has(&simulation->problem->place, b)) {
+            finding_add(findings, FINDING_WRONG, "bodies", input->bodies.names[b],
+                        "the solver gas computes two materials at most, and this is another "
+                        "one: \"%s\", beside \"%s\" and \"%s\"",
+                        case_body(input, b)->material, input->materials.names[material[0]],
+                        input->materials.names[material[1]]);
+            return;
+        }
     }
     for (int k = 0; k <= two; k++) {
         const char *text = refuse_material(&of[material[k]]);
@@ -121,75 +121,69 @@ static struct error *refuse_materials(const struct simulation *simulation,
                 "pressure grows in proportion to the energy: ideal-gas, noble-abel and jwl of "
                 "products";
         if (text)
-            error = error_join(error, input_error(input, "materials",
-                                                  input->materials.names[material[k]], "%s", text));
+            finding_add(findings, FINDING_WRONG, "materials", input->materials.names[material[k]],
+                        "%s", text);
     }
     const bool lit[2] = {material_is_lit(&of[material[0]]), material_is_lit(&of[material[1]])};
     if (two && lit[0])
-        error =
-            error_join(error, input_error(input, "materials", input->materials.names[material[0]],
-                                          "the solver gas burns one explosive, the denser of "
-                                          "two materials: leave `burn` out"));
+        finding_add(findings, FINDING_WRONG, "materials", input->materials.names[material[0]],
+                    "the solver gas burns one explosive, the denser of "
+                    "two materials: leave `burn` out");
     if (two && of[material[0]].afterburn.energy > 0.0)
-        error =
-            error_join(error, input_error(input, "materials", input->materials.names[material[0]],
-                                          "the denser of two materials burns in the other: "
-                                          "leave `afterburn` out"));
+        finding_add(findings, FINDING_WRONG, "materials", input->materials.names[material[0]],
+                    "the denser of two materials burns in the other: "
+                    "leave `afterburn` out");
     if (!two && of[material[0]].afterburn.energy > 0.0)
-        error =
-            error_join(error, input_error(input, "materials", input->materials.names[material[0]],
-                                          "products burn in a second material, the air: leave "
-                                          "`afterburn` out, or fill the space around them"));
+        finding_add(findings, FINDING_WRONG, "materials", input->materials.names[material[0]],
+                    "products burn in a second material, the air: leave "
+                    "`afterburn` out, or fill the space around them");
     const bool marked = parameters->method.index == GAS_LAX_WENDROFF;
     if ((lit[0] || lit[1]) && marked && !parameters->burnt)
-        error = error_join(error, input_error(input, "solver", NULL,
-                                              "lax-wendroff does not burn explosives: leave the "
-                                              "method out"));
+        finding_add(findings, FINDING_WRONG, "solver", NULL,
+                    "lax-wendroff does not burn explosives: leave the "
+                    "method out");
     if (two && marked && of[material[1]].afterburn.energy > 0.0)
-        error = error_join(error, input_error(input, "solver", NULL,
-                                              "lax-wendroff does not burn products in the air: "
-                                              "leave the method or `afterburn` out"));
+        finding_add(findings, FINDING_WRONG, "solver", NULL,
+                    "lax-wendroff does not burn products in the air: "
+                    "leave the method or `afterburn` out");
     if (two && marked && input->start.input)
-        error = error_join(error, input_error(input, "start", NULL,
-                                              "lax-wendroff with two materials begins with bodies: "
-                                              "leave the method or `start` out"));
+        finding_add(findings, FINDING_WRONG, "start", NULL,
+                    "lax-wendroff with two materials begins with bodies: "
+                    "leave the method or `start` out");
     if (two && marked && simulation->ranks->size > 1)
-        error = error_join(error, input_error(input, "solver", NULL,
-                                              "lax-wendroff with two materials runs on one rank"));
+        finding_add(findings, FINDING_WRONG, "solver", NULL,
+                    "lax-wendroff with two materials runs on one rank");
     for (int b = 0; two && b < input->boundaries.count; b++)
         if (case_boundary(input, b)->kind == BOUNDARY_PERIODIC && marked)
-            error = error_join(error,
-                               input_error(input, "boundaries", input->boundaries.names[b],
-                                           "no periodic faces with lax-wendroff and two materials: "
-                                           "leave the method out"));
+            finding_add(findings, FINDING_WRONG, "boundaries", input->boundaries.names[b],
+                        "no periodic faces with lax-wendroff and two materials: "
+                        "leave the method out");
         else if (case_boundary(input, b)->kind == BOUNDARY_INFLOW)
-            error = error_join(
-                error, input_error(input, "boundaries", input->boundaries.names[b],
-                                   "no inflow beside a second material: leave one of the two "
-                                   "materials out, or let gas flow in from a body"));
-    return error;
+            finding_add(findings, FINDING_WRONG, "boundaries", input->boundaries.names[b],
+                        "no inflow beside a second material: leave one of the two "
+                        "materials out, or let gas flow in from a body");
 }
 
-struct error *gas_refuse(const struct simulation *simulation,
-                         const struct gas_parameters *parameters)
+void gas_refuse(const struct simulation *simulation, const struct gas_parameters *parameters,
+                struct findings *findings)
 {
     const struct place *place = &simulation->problem->place;
     const struct simulation_case *input = place->input;
-    struct error *error = NULL;
     if (simulation->problem->geometry == GEOMETRY_PLANE_STRESS)
-        error = input_error(input, "geometry", NULL, "the solver gas has no plane stress");
+        finding_add(findings, FINDING_WRONG, "geometry", NULL,
+                    "the solver gas has no plane stress");
     if (!place->is_part) {
-        error = error_join(error, refuse_map(input, "contacts", &input->contacts,
-                                             "bodies of gas have no surfaces in the solver gas"));
-        error = error_join(error, refuse_map(input, "loads", &input->loads,
-                                             "bodies of gas have no surfaces in the solver gas; a "
-                                             "boundary of kind inflow pushes"));
+        refuse_map(findings, "contacts", &input->contacts,
+                   "bodies of gas have no surfaces in the solver gas");
+        refuse_map(findings, "loads", &input->loads,
+                   "bodies of gas have no surfaces in the solver gas; a "
+                   "boundary of kind inflow pushes");
     }
-    error = error_join(error, boundaries_refuse(input, gas_class.boundaries));
-    error = error_join(error, gas_check_start(simulation));
+    boundaries_refuse(findings, gas_class.boundaries);
+    findings_take(findings, FINDING_WRONG, gas_check_start(simulation));
     for (int b = 0; b < input->bodies.count; b++)
-        error = error_join(error, refuse_body(place, b));
-    return error_join(error, refuse_materials(simulation, parameters));
+        refuse_body(place, b, findings);
+    refuse_materials(simulation, parameters, findings);
 }
 
 /* The centre of cell K of the COUNT of a box that begins at LOW; along an axis across which the box

@@ -109,36 +109,40 @@ static bool find_cells(const struct simulation_case *input, struct look *look)
     return true;
 }
 
-static struct error *judge(const struct simulation_case *input, int body, double edge)
+static void judge(struct findings *findings, int body, double edge)
 {
+    const struct simulation_case *input = findings->input;
     const char *name = input->boundaries.names[body];
     struct look look = {.shape = &case_boundary(input, body)->part,
                         .edge = edge,
                         .dimension = (int)input->dimension};
-    if (!find_cells(input, &look))
-        return input_error(input, "boundaries", name,
-                           "it lies outside the domain: it blocks nothing");
+    if (!find_cells(input, &look)) {
+        finding_add(findings, FINDING_COARSE, "boundaries", name,
+                    "it lies outside the domain: it blocks nothing");
+        return;
+    }
     int64_t blocked = 0;
     for (int axis = 0; axis < look.dimension; axis++) {
         const struct crossings crossings = cross(&look, axis);
         blocked += crossings.blocked;
-        if ((double)crossings.thin > THIN_PART * (double)crossings.lines)
-            return input_error(input, "boundaries", name,
-                               "%.3g m thick along %c, thinner than a cell of %.3g m: gas passes "
-                               "where no centre of a cell is in it; make it a cell thick, or the "
-                               "cells finer",
-                               crossings.thickness, "xyz"[axis], edge);
+        if ((double)crossings.thin > THIN_PART * (double)crossings.lines) {
+            finding_add(findings, FINDING_COARSE, "boundaries", name,
+                        "%.3g m thick along %c, thinner than a cell of %.3g m: gas passes "
+                        "where no centre of a cell is in it; make it a cell thick, or the "
+                        "cells finer",
+                        crossings.thickness, "xyz"[axis], edge);
+            return;
+        }
     }
-    return blocked ? NULL
-                   : input_error(input, "boundaries", name,
-                                 "no centre of a cell of %.3g m is in it: it blocks nothing", edge);
+    if (!blocked)
+        finding_add(findings, FINDING_COARSE, "boundaries", name,
+                    "no centre of a cell of %.3g m is in it: it blocks nothing", edge);
 }
 
-struct error *gas_thin_obstacles(const struct simulation_case *input, double edge)
+void gas_judge_bodies(struct findings *findings, double edge)
 {
-    struct error *error = NULL;
+    const struct simulation_case *input = findings->input;
     for (int b = 0; b < input->boundaries.count; b++)
         if (case_boundary(input, b)->kind == BOUNDARY_RIGID_BODY)
-            error = error_join(error, judge(input, b, edge));
-    return error;
+            judge(findings, b, edge);
 }

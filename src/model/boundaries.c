@@ -58,34 +58,38 @@ static const char *const instead[BOUNDARY_KINDS] = {
         ", or end the material with a few particles of a `frozen` body, which waves leave through",
     [BOUNDARY_RIGID_BODY] = ", or a body that is `driven` or `frozen`"};
 
-static struct error *refuse_kind(const struct simulation_case *input, int b, unsigned supported)
+static void refuse_kind(struct findings *findings, int b, unsigned supported)
 {
+    const struct simulation_case *input = findings->input;
     const struct boundary_input *boundary = case_boundary(input, b);
     char path[160], has[160], others[160];
     if (boundary->part.choice && boundary->kind != BOUNDARY_RIGID_BODY &&
         !(supported & BOUNDARY_PARTS)) {
         snprintf(path, sizeof path, "%.100s.part", input->boundaries.names[b]);
-        return input_error(input, "boundaries", path,
-                           "only the solver gas has faces of several parts: remove this key, or "
-                           "close the part with a `frozen` body");
+        {
+            finding_add(findings, FINDING_WRONG, "boundaries", path,
+                        "only the solver gas has faces of several parts: remove this key, or "
+                        "close the part with a `frozen` body");
+            return;
+        }
     }
     if (supported & 1u << boundary->kind)
-        return NULL;
+        return;
     kinds_text(supported, has, sizeof has);
     others_text(input, boundary->kind, others, sizeof others);
     const char *other = instead[boundary->kind];
-    return input_error(input, "boundaries", input->boundaries.names[b],
-                       "the solver %s has no %s boundaries, only %s%s%s",
-                       input->solver.choice->name, boundary_kind_name(boundary->kind), has, others,
-                       other && !(supported & BOUNDARY_PARTS) ? other : "");
+
+    finding_add(findings, FINDING_WRONG, "boundaries", input->boundaries.names[b],
+                "the solver %s has no %s boundaries, only %s%s%s", input->solver.choice->name,
+                boundary_kind_name(boundary->kind), has, others,
+                other && !(supported & BOUNDARY_PARTS) ? other : "");
 }
 
-struct error *boundaries_refuse(const struct simulation_case *input, unsigned supported)
+void boundaries_refuse(struct findings *findings, unsigned supported)
 {
-    struct error *error = NULL;
+    const struct simulation_case *input = findings->input;
     for (int b = 0; b < input->boundaries.count; b++)
-        error = error_join(error, refuse_kind(input, b, supported));
-    return error;
+        refuse_kind(findings, b, supported);
 }
 
 static double end_of(struct vec3 place, int axis)
@@ -94,69 +98,67 @@ static double end_of(struct vec3 place, int axis)
 }
 
 /* Rows of a hexagonal lattice are shifted in turn: an odd number of them does not repeat. */
-static struct error *check_rows(const struct simulation_case *input, int body, int axis)
+static void check_rows(struct findings *findings, int body, int axis)
 {
+    const struct simulation_case *input = findings->input;
     const struct lattice lattice = body_lattice(input, body);
     if (lattice.kind != LATTICE_HEXAGONAL || axis != 1 || lattice.count[1] % 2 == 0)
-        return NULL;
-    return input_error(
-        input, "bodies", input->bodies.names[body],
-        "its hexagonal lattice has %lld rows between periodic faces, and only an even "
-        "number repeats: change the resolution a little",
-        (long long)lattice.count[1]);
+        return;
+
+    finding_add(findings, FINDING_WRONG, "bodies", input->bodies.names[body],
+                "its hexagonal lattice has %lld rows between periodic faces, and only an even "
+                "number repeats: change the resolution a little",
+                (long long)lattice.count[1]);
 }
 
 /* Bodies lie in the domain, and those that fill it fit together across the faces. */
-static struct error *check_bodies(const struct simulation_case *input, int axis,
-                                  const struct face_place face[2])
+static void check_bodies(struct findings *findings, int axis, const struct face_place face[2])
 {
+    const struct simulation_case *input = findings->input;
     const double margin = 1e-6 * input->resolution;
-    struct error *error = NULL;
     for (int b = 0; b < input->bodies.count; b++) {
         const struct bounds bounds = body_bounds(input, b);
         const double low = end_of(bounds.low, axis), high = end_of(bounds.high, axis);
         if (low < face[0].at - margin || high > face[1].at + margin)
-            error = error_join(
-                error,
-                input_error(input, "bodies", input->bodies.names[b],
-                            "it lies between %.6g m and %.6g m along %c, outside the domain, "
-                            "which is from %.6g m to %.6g m",
-                            low, high, "xyz"[axis], face[0].at, face[1].at));
+            finding_add(findings, FINDING_WRONG, "bodies", input->bodies.names[b],
+                        "it lies between %.6g m and %.6g m along %c, outside the domain, "
+                        "which is from %.6g m to %.6g m",
+                        low, high, "xyz"[axis], face[0].at, face[1].at);
         else if (low < face[0].at + margin && high > face[1].at - margin)
-            error = error_join(error, check_rows(input, b, axis));
+            check_rows(findings, b, axis);
     }
-    return error;
 }
 
-static struct error *check_face(const struct simulation_case *input, int b)
+static void check_face(struct findings *findings, int b)
 {
+    const struct simulation_case *input = findings->input;
     const struct boundary_input *boundary = case_boundary(input, b);
     const int axis = boundary->axis;
     const struct face_place face[2] = {domain_face(input, axis, 0), domain_face(input, axis, 1)};
     if (!isnan(boundary->at) && boundary->kind != BOUNDARY_PERIODIC)
-        return NULL; /* bodies are cut there */
-    if (!(face[0].at < face[1].at))
-        return input_error(input, face[1].section, face[1].name, "the domain has no room along %c",
-                           "xyz"[axis]);
-    return check_bodies(input, axis, face);
+        return; /* bodies are cut there */
+    if (!(face[0].at < face[1].at)) {
+        finding_add(findings, FINDING_WRONG, face[1].section, face[1].name,
+                    "the domain has no room along %c", "xyz"[axis]);
+        return;
+    }
+    check_bodies(findings, axis, face);
 }
 
-struct error *boundaries_refuse_of_particles(const struct simulation_case *input,
-                                             unsigned supported)
+void boundaries_refuse_of_particles(struct findings *findings, unsigned supported)
 {
-    struct error *error = boundaries_refuse(input, supported);
+    const struct simulation_case *input = findings->input;
+    boundaries_refuse(findings, supported);
     bool bounded = false;
     for (int b = 0; b < input->boundaries.count; b++)
         bounded |= case_boundary(input, b)->kind != BOUNDARY_RIGID_BODY;
     if (!bounded && (input->domain.low.count || input->domain.high.count))
-        error =
-            error_join(error, input_error(input, "domain", NULL,
-                                          "the solver %s computes wherever particles are: name in "
-                                          "`boundaries` which faces of the domain are closed",
-                                          input->solver.choice->name));
+        finding_add(findings, FINDING_WRONG, "domain", NULL,
+                    "the solver %s computes wherever particles are: name in "
+                    "`boundaries` which faces of the domain are closed",
+                    input->solver.choice->name);
     for (int b = 0; b < input->boundaries.count; b++)
         if (supported & 1u << case_boundary(input, b)->kind &&
             !case_boundary(input, b)->part.choice)
-            error = error_join(error, check_face(input, b));
-    return error;
+            check_face(findings, b);
 }

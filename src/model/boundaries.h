@@ -7,11 +7,9 @@
 /* FACE as mirrors and periods of particles. */
 struct mirrors boundaries_mirrors(const struct face face[3][2]);
 
-/* ERROR_INPUT, located, for boundaries of INPUT that a solver without those of SUPPORTED, bits of
- * solver_class.boundaries, does not have; of particles also for faces that do not bound the
- * bodies. */
-struct error *boundaries_refuse(const struct simulation_case *input, unsigned supported);
-struct error *boundaries_refuse_of_particles(const struct simulation_case *input,
-                                             unsigned supported);
+/* Finds boundaries that a solver without those of SUPPORTED, bits of solver_class.boundaries, does
+ * not have; of particles also faces that do not bound the bodies. */
+void boundaries_refuse(struct findings *findings, unsigned supported);
+void boundaries_refuse_of_particles(struct findings *findings, unsigned supported);
 
 #endif

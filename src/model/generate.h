@@ -3,6 +3,7 @@
 #ifndef BOLIDE_GENERATE_H
 #define BOLIDE_GENERATE_H
 
+#include "model/findings.h"
 #include "model/simulation.h"
 #include "shape/lattice.h"
 
@@ -39,11 +40,10 @@ double largest_diameter(const struct simulation_case *input);
 struct error *generate_count(const struct place *place, const struct ranks *ranks,
                              int64_t *particles);
 
-/* What is no mistake but may be none of the user's wishes: a body so thin that others get through
- * it, or that it becomes one particles thickness; a start below 0 K; a body that an axis or mirror
- * cuts, unless in half; one whose particles have another volume than its shape. NULL, or messages
- * to show, each located as an error would be. */
-struct error *generate_warnings(const struct simulation_case *input);
+/* Finds what is no mistake but may be none of the user's wishes: a body so thin that others get
+ * through it, or that it becomes one particles thickness; a start below 0 K; a body that an axis or
+ * mirror cuts, unless in half; one whose particles have another volume than its shape. */
+void generate_judge(struct findings *findings);
 
 /* About how many simple shapes a rank has to ask to count the particles of INPUT, where a site
  * counts as a few. More than GENERATE_LONG take a minute, which should be announced; more than

@@ -1,4 +1,4 @@
-/* What is odd about the bodies of a case before anything moves; see generate_warnings. */
+/* What is odd about the bodies of a case before anything moves; see generate_judge. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,45 +36,49 @@ static bool all_are_thin(const struct simulation_case *input, int axis)
     return true;
 }
 
-static struct error *warn_of_thin(const struct simulation_case *input, int body)
+static void warn_of_thin(struct findings *findings, int body)
 {
+    const struct simulation_case *input = findings->input;
     assert(input->dimension <= 3);
     for (int axis = 0; axis < input->dimension && input->dimension > 1; axis++)
         if (is_thin(input, body, axis) && !is_between_mirrors(input, axis) &&
             !all_are_thin(input, axis)) {
             const int64_t count = body_lattice(input, body).count[axis];
-            return input_error(input, "bodies", input->bodies.names[body],
-                               "%lld particle%s thick along %c: other bodies can get through "
-                               "fewer than %d, and it hardly bends; refine it",
-                               (long long)count, count == 1 ? "" : "s", "xyz"[axis], THIN);
+            {
+                finding_add(findings, FINDING_DOUBTFUL, "bodies", input->bodies.names[body],
+                            "%lld particle%s thick along %c: other bodies can get through "
+                            "fewer than %d, and it hardly bends; refine it",
+                            (long long)count, count == 1 ? "" : "s", "xyz"[axis], THIN);
+                return;
+            }
         }
-    return NULL;
 }
 
 /* A state that no material has, such as a porous one that is given by its density alone. One that
  * varies is seen at the first row of the history. */
-static struct error *warn_of_cold(const struct simulation_case *input, int body)
+static void warn_of_cold(struct findings *findings, int body)
 {
+    const struct simulation_case *input = findings->input;
     const struct body_input *of = case_body(input, body);
     const struct material *material = case_material(input, of->material_index)->material;
     if (of->varies || heat_wrong(&material->heat, &material->eos))
-        return NULL;
+        return;
     const double temperature =
         heat_temperature(&material->heat, &material->eos, of->start.density, of->start.energy);
     if (!(temperature < 0.0))
-        return NULL;
-    return input_error(input, "bodies", input->bodies.names[body],
-                       "it starts at %.4g K: density %g kg/m^3 and energy %g J/kg are no state of "
-                       "its material, whose density at rest is %g kg/m^3. Make pores as holes of "
-                       "the shape, or give the temperature",
-                       temperature, of->start.density, of->start.energy,
-                       material_density(material));
+        return;
+    finding_add(findings, FINDING_DOUBTFUL, "bodies", input->bodies.names[body],
+                "it starts at %.4g K: density %g kg/m^3 and energy %g J/kg are no state of "
+                "its material, whose density at rest is %g kg/m^3. Make pores as holes of "
+                "the shape, or give the temperature",
+                temperature, of->start.density, of->start.energy, material_density(material));
 }
 
 /* A body across the axis of symmetry, or a mirror across it, loses what is outside. That is meant
  * where it is the half of a symmetric body; a mesostructure may end at two mirrors. */
-static struct error *warn_of_cut(const struct simulation_case *input, int body)
+static void warn_of_cut(struct findings *findings, int body)
 {
+    const struct simulation_case *input = findings->input;
     const struct bounds shape = shape_bounds(&case_body(input, body)->shape);
     const struct bounds kept = body_bounds(input, body);
     const struct vec3 spacing = body_lattice(input, body).spacing;
@@ -92,14 +96,16 @@ static struct error *warn_of_cut(const struct simulation_case *input, int body)
         if (!isfinite(cut) || cut <= margin || (below > 0.0 && above > 0.0) ||
             fabs(cut - left) <= margin)
             continue;
-        return input_error(input, "bodies", input->bodies.names[body],
-                           "%.0f %% of its extent along %c is left out: it is from %.6g m to %.6g "
-                           "m and ends at %s, %c = %.6g m",
-                           100.0 * cut / (cut + left), "xyz"[axis], from[axis], to[axis],
-                           round && axis == 0 && below > 0.0 ? "the axis" : "the wall", "xyz"[axis],
-                           below > 0.0 ? low[axis] : high[axis]);
+        {
+            finding_add(findings, FINDING_DOUBTFUL, "bodies", input->bodies.names[body],
+                        "%.0f %% of its extent along %c is left out: it is from %.6g m to %.6g "
+                        "m and ends at %s, %c = %.6g m",
+                        100.0 * cut / (cut + left), "xyz"[axis], from[axis], to[axis],
+                        round && axis == 0 && below > 0.0 ? "the axis" : "the wall", "xyz"[axis],
+                        below > 0.0 ? low[axis] : high[axis]);
+            return;
+        }
     }
-    return NULL;
 }
 
 /* The volume of the sites of BODY that become particles, about an axis times their radius; NAN
@@ -136,33 +142,34 @@ static bool refine(const struct simulation_case *input, struct simulation_case *
 }
 
 /* The particles of a shape that is few of them wide have more or less volume than it has. */
-static struct error *compare_volumes(const struct overlaps *own, const struct overlaps *fine,
-                                     int body)
+static void compare_volumes(const struct overlaps *own, const struct overlaps *fine, int body,
+                            struct findings *findings)
 {
     static const double WRONG = 0.02;
     const struct simulation_case *input = own->place->input;
     const double excess = volume_of_body(own, body) / volume_of_body(fine, body) - 1.0;
     if (!(isfinite(excess) && fabs(excess) > WRONG))
-        return NULL;
-    return input_error(input, "bodies", input->bodies.names[body],
-                       "its particles have %.3g %% %s volume, and mass, than its shape: refine it, "
-                       "or scale its density",
-                       100.0 * fabs(excess), excess > 0.0 ? "more" : "less");
+        return;
+    finding_add(findings, FINDING_DOUBTFUL, "bodies", input->bodies.names[body],
+                "its particles have %.3g %% %s volume, and mass, than its shape: refine it, "
+                "or scale its density",
+                100.0 * fabs(excess), excess > 0.0 ? "more" : "less");
 }
 
 /* Compares the particles of each body with a lattice as fine as a short time allows. With too many
  * for that, they are accurate. */
-static struct error *warn_of_volumes(const struct simulation_case *input)
+static void warn_of_volumes(struct findings *findings)
 {
+    const struct simulation_case *input = findings->input;
     const struct solver_class *class = input->solver.choice->thing;
     const size_t bytes = (size_t)input->bodies.count * sizeof(struct body_input);
     if (class->count || input->dimension == 1)
-        return NULL;
+        return;
     struct simulation_case fine = *input;
     struct overlaps of_own, of_fine;
     fine.bodies.items = memory_allocate(bytes);
     if (!fine.bodies.items)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return;
     memcpy(fine.bodies.items, input->bodies.items, bytes);
     const struct place whole = place_whole(input), finer = place_whole(&fine);
     struct error *error =
@@ -170,20 +177,20 @@ static struct error *warn_of_volumes(const struct simulation_case *input)
     const bool made = !error;
     for (int body = 0; made && body < input->bodies.count; body++)
         if (refine(input, &fine, body))
-            error = error_join(error, compare_volumes(&of_own, &of_fine, body));
+            compare_volumes(&of_own, &of_fine, body, findings);
     overlaps_free(&of_own);
     overlaps_free(&of_fine);
     free(fine.bodies.items);
-    return error;
+    error_free(error); /* told where bodies are filled */
 }
 
-struct error *generate_warnings(const struct simulation_case *input)
+void generate_judge(struct findings *findings)
 {
-    struct error *warnings = NULL;
+    const struct simulation_case *input = findings->input;
     for (int body = 0; body < input->bodies.count; body++) {
-        warnings = error_join(warnings, warn_of_thin(input, body));
-        warnings = error_join(warnings, warn_of_cold(input, body));
-        warnings = error_join(warnings, warn_of_cut(input, body));
+        warn_of_thin(findings, body);
+        warn_of_cold(findings, body);
+        warn_of_cut(findings, body);
     }
     for (int body = 0; body < input->bodies.count; body++) {
         const struct body_input *of = case_body(input, body);
@@ -193,14 +200,12 @@ struct error *generate_warnings(const struct simulation_case *input)
         assert(input->dimension <= 3);
         for (int axis = 0; axis < input->dimension; axis++)
             if (lattice.count[axis] == 1 && spacing[axis] < (1.0 - 1e-9) * wanted) {
-                warnings = error_join(
-                    warnings,
-                    input_error(input, "bodies", input->bodies.names[body],
-                                "smaller than the resolution along %c (%.3g m of %.3g m): "
-                                "it becomes one particle",
-                                "xyz"[axis], spacing[axis], wanted));
+                finding_add(findings, FINDING_DOUBTFUL, "bodies", input->bodies.names[body],
+                            "smaller than the resolution along %c (%.3g m of %.3g m): "
+                            "it becomes one particle",
+                            "xyz"[axis], spacing[axis], wanted);
                 break;
             }
     }
-    return error_join(warnings, warn_of_volumes(input));
+    warn_of_volumes(findings);
 }

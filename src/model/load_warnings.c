@@ -58,80 +58,76 @@ static struct meeting meet(const struct load_input *load, const struct body_surf
 }
 
 /* Of when the wave of a blast comes. */
-static struct error *judge_wave(const struct simulation_case *input, int index,
-                                const struct meeting *meeting)
+static void judge_wave(struct findings *findings, int index, const struct meeting *meeting)
 {
+    const struct simulation_case *input = findings->input;
     const struct load_input *load = case_load(input, index);
     const char *name = input->loads.names[index];
     const double end = load->before < input->run.until ? load->before : input->run.until;
     if (meeting->facing == 0)
-        return input_error(input, "loads", name,
-                           "it does nothing: the surface that it names faces away from the charge");
-    if (meeting->first >= end)
-        return input_error(
-            input, "loads", name,
-            "it does nothing: the blast wave arrives at t = %.4g s, after the end at "
-            "%.4g s",
-            meeting->first, end);
-    if (meeting->last <= load->after)
-        return input_error(
-            input, "loads", name,
-            "it does nothing: the positive phase of the blast is over at t = %.4g s, "
-            "before the load starts at %.4g s",
-            meeting->last, load->after);
-    if (meeting->first < load->after - 0.01 * meeting->duration)
-        return input_error(input, "loads", name,
-                           "the blast wave arrives at t = %.4g s, before the load starts at %.4g "
-                           "s: the impulse until then is missing; move `blast.time`",
-                           meeting->first, load->after);
-    return NULL;
+        finding_add(findings, FINDING_NO_EFFECT, "loads", name,
+                    "it does nothing: the surface that it names faces away from the charge");
+    else if (meeting->first >= end)
+        finding_add(findings, FINDING_NO_EFFECT, "loads", name,
+                    "it does nothing: the blast wave arrives at t = %.4g s, after the end at "
+                    "%.4g s",
+                    meeting->first, end);
+    else if (meeting->last <= load->after)
+        finding_add(findings, FINDING_NO_EFFECT, "loads", name,
+                    "it does nothing: the positive phase of the blast is over at t = %.4g s, "
+                    "before the load starts at %.4g s",
+                    meeting->last, load->after);
+    else if (meeting->first < load->after - 0.01 * meeting->duration)
+        finding_add(findings, FINDING_NO_EFFECT, "loads", name,
+                    "the blast wave arrives at t = %.4g s, before the load starts at %.4g "
+                    "s: the impulse until then is missing; move `blast.time`",
+                    meeting->first, load->after);
 }
 
-static struct error *judge_load(const struct simulation_case *input, int index,
-                                const struct body_surface *surface)
+static void judge_load(struct findings *findings, int index, const struct body_surface *surface)
 {
+    const struct simulation_case *input = findings->input;
     const struct load_input *load = case_load(input, index);
     const char *name = input->loads.names[index];
     const struct meeting meeting = meet(load, surface);
     if (load->after >= input->run.until)
-        return input_error(input, "loads", name,
-                           "it does nothing: it starts at %.4g s, and the run ends at %.4g s",
-                           load->after, input->run.until);
-    if (!(meeting.low <= meeting.high))
-        return input_error(input, "loads", name, "it does nothing: body \"%s\" has no free surface",
-                           load->on);
-    if (meeting.between == 0)
-        return input_error(
-            input, "loads", name,
-            "it does nothing: `between` is from %.6g m to %.6g m, and the surface of "
-            "body \"%s\" is from %.6g m to %.6g m along %c",
-            load->between.at[0], load->between.at[1], load->on, meeting.low, meeting.high,
-            "xyz"[load->axis]);
-    if (meeting.chosen == 0)
-        return input_error(input, "loads", name,
-                           "it does nothing: no surface of body \"%s\" there faces `side: %s`",
-                           load->on, load->side == SIDE_HIGH ? "high" : "low");
-    if (load_is_blast(load))
-        return judge_wave(input, index, &meeting);
+        finding_add(findings, FINDING_NO_EFFECT, "loads", name,
+                    "it does nothing: it starts at %.4g s, and the run ends at %.4g s", load->after,
+                    input->run.until);
+    else if (!(meeting.low <= meeting.high))
+        finding_add(findings, FINDING_NO_EFFECT, "loads", name,
+                    "it does nothing: body \"%s\" has no free surface", load->on);
+    else if (meeting.between == 0)
+        finding_add(findings, FINDING_NO_EFFECT, "loads", name,
+                    "it does nothing: `between` is from %.6g m to %.6g m, and the surface of "
+                    "body \"%s\" is from %.6g m to %.6g m along %c",
+                    load->between.at[0], load->between.at[1], load->on, meeting.low, meeting.high,
+                    "xyz"[load->axis]);
+    else if (meeting.chosen == 0)
+        finding_add(findings, FINDING_NO_EFFECT, "loads", name,
+                    "it does nothing: no surface of body \"%s\" there faces `side: %s`", load->on,
+                    load->side == SIDE_HIGH ? "high" : "low");
+    else if (load_is_blast(load)) {
+        judge_wave(findings, index, &meeting);
+        return;
+    }
     if (load->traction.count > 0 && meeting.other > 0)
-        return input_error(input, "loads", name,
-                           "`between` holds both faces of body \"%s\", and the force on one takes "
-                           "away that on the other: end it inside the body",
-                           load->on);
-    return NULL;
+        finding_add(findings, FINDING_NO_EFFECT, "loads", name,
+                    "`between` holds both faces of body \"%s\", and the force on one takes "
+                    "away that on the other: end it inside the body",
+                    load->on);
 }
 
-struct error *load_warnings(const struct simulation_case *input)
+void loads_judge(struct findings *findings)
 {
+    const struct simulation_case *input = findings->input;
     const struct place whole = place_whole(input);
-    struct error *warnings = NULL;
     for (int i = 0; i < input->loads.count; i++) {
         struct body_surface surface;
         struct error *error = surface_create(&whole, case_load(input, i)->body, &surface);
         if (!error)
-            warnings = error_join(warnings, judge_load(input, i, &surface));
+            judge_load(findings, i, &surface);
         error_free(error); /* of the body, and reported where it is filled */
         surface_free(&surface);
     }
-    return warnings;
 }

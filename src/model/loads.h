@@ -3,6 +3,7 @@
 #ifndef BOLIDE_LOADS_H
 #define BOLIDE_LOADS_H
 
+#include "model/findings.h"
 #include "model/simulation.h"
 #include "model/surface.h"
 
@@ -56,8 +57,7 @@ struct error *loads_push(struct loads *loads, struct simulation *simulation, int
 void loads_deliver(const struct loads *loads, struct simulation *simulation, int index, double dt);
 void loads_clear(struct loads *loads, const struct population *population);
 
-/* What of the loads of INPUT has no effect or not the one that is meant, known from the start:
- * NULL, or messages, located as errors would be. */
-struct error *load_warnings(const struct simulation_case *input);
+/* Finds loads that have no effect or not the one that is meant, known from the start. */
+void loads_judge(struct findings *findings);
 
 #endif

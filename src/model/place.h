@@ -1,5 +1,5 @@
-/* A place: what a solver is started on. The whole domain of a case, or the part of it that a coupling
- * gives it. */
+/* A place: what a solver is started on. The whole domain of a case, or the part of it that a
+ * coupling gives it. */
 #ifndef BOLIDE_PLACE_H
 #define BOLIDE_PLACE_H
 

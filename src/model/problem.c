@@ -173,17 +173,14 @@ static struct error *set_contacts(struct problem *problem)
     return error;
 }
 
-struct error *refuse_broken_contacts(const struct problem *problem)
+void refuse_broken_contacts(const struct problem *problem, struct findings *findings)
 {
-    struct error *error = NULL;
     for (int m = 0; m < problem->materials; m++)
         if (failure_traits(&problem->material[m].failure).at_contacts)
-            error = error_join(
-                error, input_error(problem->input, "materials", problem->input->materials.names[m],
-                                   "`failure: threshold` is for contacts of particles that break, "
-                                   "which `method: contact` and `method: standard` of the solver "
-                                   "sph have: choose one, or `failure: spall`"));
-    return error;
+            finding_add(findings, FINDING_WRONG, "materials", problem->input->materials.names[m],
+                        "`failure: threshold` is for contacts of particles that break, "
+                        "which `method: contact` and `method: standard` of the solver "
+                        "sph have: choose one, or `failure: spall`");
 }
 
 /* The store keeps the number of a body in 16 bits. */
@@ -250,21 +247,18 @@ bool problem_afterburns(const struct problem *problem)
     return any;
 }
 
-struct error *problem_refuse_gas_keys(const struct problem *problem)
+void problem_refuse_gas_keys(const struct problem *problem, struct findings *findings)
 {
     const struct simulation_case *input = problem->input;
-    struct error *error = NULL;
     if (geometry_power(input->geometry) > 0 && input->dimension == 1)
-        error = input_error(input, "geometry", NULL,
-                            "the solver gas alone computes cylinders and spheres in 1-D");
+        finding_add(findings, FINDING_WRONG, "geometry", NULL,
+                    "the solver gas alone computes cylinders and spheres in 1-D");
     if (input->start.input && !problem->place.is_part)
-        error = error_join(error, input_error(input, "start", NULL,
-                                              "the solver gas alone begins from another case"));
+        finding_add(findings, FINDING_WRONG, "start", NULL,
+                    "the solver gas alone begins from another case");
     for (int m = 0; m < problem->materials; m++)
         if (problem->material[m].afterburn.energy > 0.0)
-            error = error_join(error, input_error(problem->input, "materials",
-                                                  problem->input->materials.names[m],
-                                                  "the solver gas alone burns products in air: "
-                                                  "leave `afterburn` out"));
-    return error;
+            finding_add(findings, FINDING_WRONG, "materials", problem->input->materials.names[m],
+                        "the solver gas alone burns products in air: "
+                        "leave `afterburn` out");
 }

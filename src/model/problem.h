@@ -18,6 +18,8 @@ struct contact_surface {
 };
 enum { CONTACT_SURFACES = 60 };
 
+struct findings;
+
 struct problem {
     const struct simulation_case *input;
     int dimension;
@@ -33,8 +35,8 @@ struct problem {
     struct contact_surface surface[CONTACT_SURFACES];
 };
 
-/* Creates the problem of PLACE, whose case must outlive it. ERROR_INPUT: walls or contacts contradict
- * each other; PROBLEM must be destroyed then too. */
+/* Creates the problem of PLACE, whose case must outlive it. ERROR_INPUT: walls or contacts
+ * contradict each other; PROBLEM must be destroyed then too. */
 struct error *problem_create(const struct place *place, struct problem *problem);
 void problem_destroy(struct problem *problem);
 
@@ -45,7 +47,7 @@ struct error *input_error(const struct simulation_case *input, const char *secti
 
 /* That a material breaks at contacts of particles, for solvers and methods that have none that
  * break. */
-struct error *refuse_broken_contacts(const struct problem *problem);
+void refuse_broken_contacts(const struct problem *problem, struct findings *findings);
 
 /* The fields for the history variables of the case's materials beyond the core's, POINT_HISTORY at
  * most, which the solver adds to its store. Returns their number. */
@@ -55,7 +57,7 @@ int problem_history(const struct problem *problem, struct field_declaration *fie
 bool problem_afterburns(const struct problem *problem);
 
 /* What of a case the solver gas alone computes, for the solvers of particles. */
-struct error *problem_refuse_gas_keys(const struct problem *problem);
+void problem_refuse_gas_keys(const struct problem *problem, struct findings *findings);
 
 /* True when the case has gravity. */
 BOLIDE_INLINE bool problem_has_gravity(const struct problem *problem)

@@ -59,8 +59,8 @@ struct simulation {
     double phase_end; /* clock_seconds() when the last phase ended; 0: none has begun */
 };
 
-/* Prepares a run of INPUT, or of PLACE in it, its problem, without members. The solver's create adds their store,
- * since it knows the fields; its fill puts the bodies into it. */
+/* Prepares a run of INPUT, or of PLACE in it, its problem, without members. The solver's create
+ * adds their store, since it knows the fields; its fill puts the bodies into it. */
 struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
                                 int threads, struct simulation *simulation);
 struct error *simulation_create_at(const struct place *place, const struct ranks *ranks,

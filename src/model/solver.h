@@ -3,6 +3,7 @@
 #ifndef BOLIDE_SOLVER_H
 #define BOLIDE_SOLVER_H
 
+#include "model/findings.h"
 #include "model/simulation.h"
 #include "particle/field_rows.h"
 #include "shape/shape.h"
@@ -36,6 +37,23 @@ BOLIDE_INLINE struct limit limit_of_ranks(const struct ranks *ranks, struct rank
 struct counted {
     struct bounds box;
     double cells, bytes;
+};
+
+/* What a solver says of a case, and of itself with the parameters of the case. */
+struct judgement {
+    struct findings findings;
+    /* The jump of velocity over the speed of sound up to which its Riemann problem holds. */
+    double largest_jump;
+    /* Why the total energy may drift, and what helps, as sentences; NULL: it is conserved. */
+    const char *energy_lost;
+    /* What may hold where it stops in an impossible state, as a sentence; NULL: nothing. */
+    const char *instead;
+    /* In 2-D and 3-D bodies in lasting tension creep and come apart, whatever their strength; see
+     * run/warnings_tension.c. */
+    bool loses_tension;
+    /* Where materials that are NARROW, by their index, must stay to be computed. */
+    struct bounds room;
+    bool (*narrow)(const struct material *material);
 };
 
 /* Among the bits of solver_class.boundaries: faces may have several parts. */
@@ -75,30 +93,16 @@ struct solver_class {
     /* Multiplies what of PARAMETERS is a length of cells or particles by FACTOR, for a run with a
      * coarser resolution; NULL where nothing is. */
     void (*coarsen)(void *parameters, double factor);
-    /* The jump of velocity over the speed of sound up to which its Riemann problem holds; NULL
-     * where that has no bound. */
-    double (*largest_jump)(const void *parameters);
-    /* Why the total energy may drift, and what helps, as sentences; NULL, or NULL from it, where it
-     * is conserved. */
-    const char *(*energy_lost)(const void *parameters);
-    /* What may hold where it stops in an impossible state, as a sentence; NULL, or NULL from it,
-     * where there is nothing better. */
-    const char *(*instead)(const void *parameters);
     /* Every field that it may add to the store: tables of rows, NULL after the last table. */
     const struct field_row *const *fields;
-    /* What is no mistake of INPUT but may be none of the user's wishes with this solver, as
-     * generate_warnings; NULL where there is nothing. */
-    struct error *(*warnings)(const void *parameters, const struct simulation_case *input);
-    /* Fills *room with where MATERIAL must stay so that the solver can compute it, infinite where
-     * nothing bounds it, and returns true; false, or NULL, where it may be anywhere. */
-    bool (*room)(const void *parameters, const struct simulation_case *input, int material,
-                 struct bounds *room);
-    /* What of INPUT the resolution is too coarse for, as `warnings`; a run repeats it in its
-     * verdict. */
-    struct error *(*coarse)(const void *parameters, const struct simulation_case *input);
-    /* In 2-D and 3-D bodies in lasting tension creep and come apart, whatever their strength; see
-     * run/warnings_tension.c. */
-    bool loses_tension;
+    /* Finds what of the case it cannot do, or not well; says what the run must know of it. NULL:
+     * nothing. */
+    void (*judge)(const void *parameters, const struct simulation *simulation,
+                  struct judgement *judgement);
 };
+
+/* What a solver of CLASS with PARAMETERS says; the caller frees the findings. */
+struct judgement judge_with(const struct solver_class *class, const void *parameters,
+                            const struct simulation *simulation);
 
 #endif

@@ -7,6 +7,7 @@
 #define BOLIDE_SURFACE_H
 
 #include "case/case.h"
+#include "model/place.h"
 #include "model/population.h"
 #include "parallel/ranks.h"
 

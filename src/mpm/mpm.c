@@ -90,8 +90,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     struct mpm *mpm = solver;
     mpm->parameters = mpm_settled(parameters, simulation);
     mpm->edge = mpm->parameters.cell;
-    TRY(error_join(mpm_refuse(parameters, mpm->edge, simulation),
-                   error_join(mpm_note_bodies(mpm, simulation), mpm_find_planes(mpm, simulation))));
+    TRY(error_join(mpm_note_bodies(mpm, simulation), mpm_find_planes(mpm, simulation)));
     TRY(mpm_share_layers(mpm, simulation));
     start_layers(mpm, simulation);
     mpm_note_surfaces(mpm);
@@ -216,13 +215,6 @@ static void mpm_coarsen(void *parameters, double factor)
 
 static const struct field_row *const field_tables[] = {field_rows, NULL};
 
-static const char *mpm_energy_lost(const void *parameters)
-{
-    (void)parameters;
-    return "where bodies strike or shocks pass, nodes of the grid equalise the velocities of "
-           "particles and that energy is lost: finer particles lose less";
-}
-
 const struct solver_class mpm_class = {.size = sizeof(struct mpm),
                                        .boundaries = BOUNDARIES_CLOSED | 1u << BOUNDARY_OUTFLOW,
                                        .create = mpm_create,
@@ -235,6 +227,5 @@ const struct solver_class mpm_class = {.size = sizeof(struct mpm),
                                        .bytes = mpm_bytes,
                                        .step = mpm_step,
                                        .coarsen = mpm_coarsen,
-                                       .energy_lost = mpm_energy_lost,
-                                       .fields = field_tables,
-                                       .warnings = mpm_warnings};
+                                       .judge = mpm_judge,
+                                       .fields = field_tables};

@@ -33,4 +33,7 @@ struct mpm_parameters {
 extern const struct parameter mpm_table[];
 extern const struct solver_class mpm_class;
 
+/* Why its total energy drifts, for couplings, too. */
+extern const char mpm_energy_lost[];
+
 #endif

@@ -158,13 +158,10 @@ void mpm_free_halo(struct mpm *mpm);
 struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
                                   const struct simulation *simulation);
 
-/* What the method cannot do, with parameters as they are given and cells of EDGE; located in the
- * case. */
-struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
-                         const struct simulation *simulation);
+/* The judge of the solver. */
+void mpm_judge(const void *parameters, const struct simulation *simulation,
+               struct judgement *judgement);
 
-/* Bodies whose particles lie on nodes of a grid of `shape: linear`. */
-struct error *mpm_warnings(const void *parameters, const struct simulation_case *input);
 /* Which bodies share a layer; those that stop change it then. */
 struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulation);
 void mpm_stop_bodies(struct mpm *mpm, struct simulation *simulation);

@@ -12,82 +12,70 @@
  * R. M. Kirby, M. Berzins, IJNME 76 (2008) 922, on functions whose slopes jump, and the choice of
  * C. Jiang et al., The material point method for simulating continuum materials, SIGGRAPH 2016
  * Courses. */
-static struct error *refuse_transfer(const struct mpm_parameters *given,
-                                     const struct simulation_case *input)
+static void refuse_transfer(const struct mpm_parameters *given, struct findings *findings)
 {
-    struct error *error = NULL;
     if (given->transfer == MPM_FLIP)
-        return NULL;
+        return;
     if (given->shape == SHAPE_LINEAR)
-        error = input_error(
-            input, "solver", "mpm.transfer",
+        finding_add(
+            findings, FINDING_WRONG, "solver", "mpm.transfer",
             "an affine transfer is unstable with `shape: linear`: a particle that keeps a gradient "
             "hands on the velocity of nodes that it hardly reaches; quadratic, cubic and gimp go "
             "with it");
     if (given->flip != 1.0)
-        error = error_join(error, input_error(input, "solver", "mpm.flip",
-                                              "this belongs to `transfer: flip`: leave it out"));
+        finding_add(findings, FINDING_WRONG, "solver", "mpm.flip",
+                    "this belongs to `transfer: flip`: leave it out");
     if (given->shock_mixing > 0.0)
-        error = error_join(
-            error,
-            input_error(input, "solver", "mpm.shock_mixing",
-                        "this belongs to `transfer: flip`: particles with a gradient take all "
-                        "of their velocity from nodes; leave it out"));
-    return error;
+        finding_add(findings, FINDING_WRONG, "solver", "mpm.shock_mixing",
+                    "this belongs to `transfer: flip`: particles with a gradient take all "
+                    "of their velocity from nodes; leave it out");
 }
 
-static struct error *refuse_filter(const struct mpm_parameters *given,
-                                   const struct simulation_case *input)
+static void refuse_filter(const struct mpm_parameters *given, struct findings *findings)
 {
     if (!(given->viscosity_unresolved > 0.0) || given->scheme == MPM_MUSL)
-        return NULL;
-    return input_error(input, "solver", "mpm.viscosity_unresolved",
-                       "this belongs to `scheme: musl`, which gives velocities back to nodes; "
-                       "leave it out");
+        return;
+
+    finding_add(findings, FINDING_WRONG, "solver", "mpm.viscosity_unresolved",
+                "this belongs to `scheme: musl`, which gives velocities back to nodes; "
+                "leave it out");
 }
 
-static struct error *refuse_order(const struct mpm_parameters *given,
-                                  const struct simulation *simulation)
+static void refuse_order(const struct mpm_parameters *given, const struct simulation *simulation,
+                         struct findings *findings)
 {
-    const struct simulation_case *input = simulation->problem->input;
-    struct error *error = NULL;
     bool burns = false;
     for (int m = 0; m < simulation->problem->materials; m++)
         burns |= material_burns(&simulation->problem->material[m]);
     if (given->order == 1)
-        return NULL;
+        return;
     if (given->transfer != MPM_FLIP || given->shape == SHAPE_LINEAR)
-        error = input_error(
-            input, "solver", "mpm.order",
+        finding_add(
+            findings, FINDING_WRONG, "solver", "mpm.order",
             "more than 1 goes with `transfer: flip`, as what affine particles give to nodes is not "
             "smoothed, and not with `shape: linear`, whose nodes of next to no mass get unstable");
     /* what has yet to burn has neither stiffness nor viscosity against what overshoots */
     if (burns)
-        error = error_join(
-            error, input_error(input, "solver", "mpm.order",
-                               "more than 1 is unstable at the front of an explosive that burns"));
-    return error;
+        finding_add(findings, FINDING_WRONG, "solver", "mpm.order",
+                    "more than 1 is unstable at the front of an explosive that burns");
 }
 
-static struct error *refuse_contacts(const struct simulation_case *input)
+static void refuse_contacts(struct findings *findings)
 {
-    struct error *error = NULL;
+    const struct simulation_case *input = findings->input;
     for (int c = 0; c < input->contacts.count; c++)
         for (int side = 0; side < 2; side++)
             if (case_body(input, case_contact(input, c)->body[side])->frozen)
-                error = error_join(
-                    error,
-                    input_error(input, "contacts", input->contacts.names[c],
-                                "by the solver mpm a frozen body sticks to what it touches"));
-    return error;
+                finding_add(findings, FINDING_WRONG, "contacts", input->contacts.names[c],
+                            "by the solver mpm a frozen body sticks to what it touches");
 }
 
 /* The indices of cells are finite. */
-static struct error *refuse_far_bodies(double edge, const struct simulation *simulation)
+static void refuse_far_bodies(double edge, const struct simulation *simulation,
+                              struct findings *findings)
 {
     const struct simulation_case *input = simulation->problem->input;
     const double reach = edge * (double)bins_reach(simulation->problem->dimension);
-    struct error *error = NULL;
     for (int b = 0; b < input->bodies.count; b++) {
         const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
         const double ends[] = {bounds.low.x,  bounds.low.y,  bounds.low.z,
@@ -96,18 +84,17 @@ static struct error *refuse_far_bodies(double edge, const struct simulation *sim
         for (int k = 0; k < 6; k++)
             far = k % 3 < simulation->problem->dimension ? maximum(far, fabs(ends[k])) : far;
         if (far >= reach)
-            error = error_join(error,
-                               input_error(input, "bodies", input->bodies.names[b],
-                                           "a place at %.6g m is beyond the grid of the solver "
-                                           "mpm: with cells of %.6g m it reaches %.6g m from zero",
-                                           far, edge, reach));
+            finding_add(findings, FINDING_WRONG, "bodies", input->bodies.names[b],
+                        "a place at %.6g m is beyond the grid of the solver "
+                        "mpm: with cells of %.6g m it reaches %.6g m from zero",
+                        far, edge, reach);
     }
-    return error;
 }
 
 /* A cell that is wider than all bodies resolves nothing. The default, two particles wide, may be
  * twice as wide as a body of one particle. */
-static struct error *refuse_wide_cell(double edge, const struct simulation *simulation)
+static void refuse_wide_cell(double edge, const struct simulation *simulation,
+                             struct findings *findings)
 {
     const struct simulation_case *input = simulation->problem->input;
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -124,31 +111,30 @@ static struct error *refuse_wide_cell(double edge, const struct simulation *simu
         }
     }
     if (edge <= 2.0 * (1.0 + 1e-9) * extent)
-        return NULL;
-    return input_error(input, "solver", "mpm.cell",
-                       "a cell of %.6g m is wider than all bodies together, %.6g m: choose a "
-                       "smaller one, or a finer resolution",
-                       edge, extent);
+        return;
+
+    finding_add(findings, FINDING_WRONG, "solver", "mpm.cell",
+                "a cell of %.6g m is wider than all bodies together, %.6g m: choose a "
+                "smaller one, or a finer resolution",
+                edge, extent);
 }
 
-struct error *mpm_refuse(const struct mpm_parameters *given, double edge,
-                         const struct simulation *simulation)
+static void refuse(const struct mpm_parameters *given, double edge,
+                   const struct simulation *simulation, struct findings *findings)
 {
-    const struct simulation_case *input = simulation->problem->input;
-    struct error *error = NULL;
     if (simulation->problem->geometry == GEOMETRY_PLANE_STRESS)
-        error =
-            input_error(input, "geometry", NULL, "the solver mpm does not support plane stress");
-    error = error_join(error, problem_refuse_gas_keys(simulation->problem));
-    error = error_join(error, refuse_transfer(given, input));
-    error = error_join(error, refuse_filter(given, input));
-    error = error_join(error, refuse_order(given, simulation));
-    error = error_join(error, refuse_contacts(input));
-    error = error_join(error, refuse_wide_cell(edge, simulation));
+        finding_add(findings, FINDING_WRONG, "geometry", NULL,
+                    "the solver mpm does not support plane stress");
+    problem_refuse_gas_keys(simulation->problem, findings);
+    refuse_transfer(given, findings);
+    refuse_filter(given, findings);
+    refuse_order(given, simulation, findings);
+    refuse_contacts(findings);
+    refuse_wide_cell(edge, simulation, findings);
     if (!simulation->problem->place.is_part)
-        error = error_join(error, boundaries_refuse_of_particles(input, mpm_class.boundaries));
-    error = error_join(error, refuse_broken_contacts(simulation->problem));
-    return error_join(error, refuse_far_bodies(edge, simulation));
+        boundaries_refuse_of_particles(findings, mpm_class.boundaries);
+    refuse_broken_contacts(simulation->problem, findings);
+    refuse_far_bodies(edge, simulation, findings);
 }
 
 /* Whether the places from FIRST on, SPACING apart, lie on nodes of cells of EDGE. */
@@ -160,28 +146,39 @@ static bool lies_on_nodes(double first, double spacing, double edge)
 
 /* The slope of a linear function jumps at a node: a particle there, which moves by rounding, feels
  * a strain of no body. The first particles of a body stand at its low end plus half a spacing. */
-struct error *mpm_warnings(const void *parameters, const struct simulation_case *input)
+static void judge_lattices(const struct mpm_parameters *given, double edge,
+                           struct findings *findings)
 {
-    const struct mpm_parameters *given = parameters;
-    const double edge = isnan(given->cell) ? 2.0 * input->resolution : given->cell;
-    struct error *warnings = NULL;
-    if (given->shape != SHAPE_LINEAR)
-        return NULL;
-    for (int b = 0; b < input->bodies.count; b++) {
+    const struct simulation_case *input = findings->input;
+    for (int b = 0; b < input->bodies.count && given->shape == SHAPE_LINEAR; b++) {
         const struct lattice lattice = body_lattice(input, b);
         const double first[] = {lattice.origin.x, lattice.origin.y, lattice.origin.z};
         const double spacing[] = {lattice.spacing.x, lattice.spacing.y, lattice.spacing.z};
         for (int axis = 0; axis < input->dimension && lattice.kind == LATTICE_SQUARE; axis++)
             if (lies_on_nodes(first[axis] + 0.5 * spacing[axis], spacing[axis], edge)) {
-                warnings = error_join(
-                    warnings,
-                    input_error(input, "bodies", input->bodies.names[b],
-                                "its particles lie on nodes of the grid along %c, where `shape: "
-                                "linear` has no slope: they feel strains even in rigid motion. "
-                                "Move the body by half a spacing, or take another shape",
-                                "xyz"[axis]));
+                finding_add(findings, FINDING_DOUBTFUL, "bodies", input->bodies.names[b],
+                            "its particles lie on nodes of the grid along %c, where `shape: "
+                            "linear` has no slope: they feel strains even in rigid motion. "
+                            "Move the body by half a spacing, or take another shape",
+                            "xyz"[axis]);
                 break;
             }
     }
-    return warnings;
+}
+
+const char mpm_energy_lost[] =
+    "where bodies strike or shocks pass, nodes of the grid equalise the velocities of particles "
+    "and that energy is lost: finer particles lose less";
+
+void mpm_judge(const void *parameters, const struct simulation *simulation,
+               struct judgement *judgement)
+{
+    struct mpm mpm = {.parameters = mpm_settled(parameters, simulation)};
+    mpm.edge = mpm.parameters.cell;
+    refuse(parameters, mpm.edge, simulation, &judgement->findings);
+    findings_take(&judgement->findings, FINDING_WRONG,
+                  error_join(mpm_note_bodies(&mpm, simulation), mpm_find_planes(&mpm, simulation)));
+    mpm_class.destroy(&mpm);
+    judge_lattices(parameters, mpm.edge, &judgement->findings);
+    judgement->energy_lost = mpm_energy_lost;
 }

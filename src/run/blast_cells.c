@@ -85,24 +85,24 @@ static double distance_to(const struct simulation_case *input, const struct char
     return sqrt(sum);
 }
 
-static struct error *judge(const struct simulation_case *input, const struct charge *charge,
-                           const char *section, const char *name, const struct bounds *bounds)
+static void judge(struct findings *findings, const struct charge *charge, const char *section,
+                  const char *name, const struct bounds *bounds)
 {
+    const struct simulation_case *input = findings->input;
     const double distance = distance_to(input, charge, bounds),
                  cells = distance / input->resolution;
     if (cells > CELLS - 1e-6 || !(distance > RADII * charge->radius))
-        return NULL;
-    return input_error(
-        input, section, name,
-        "%.3g cells between the middle of the charge and this: with 40 the peak of a "
-        "blast lacks a third, with 150 a tenth, and a reflected one more; choose a "
-        "smaller `resolution`",
-        cells);
+        return;
+    finding_add(findings, FINDING_COARSE, section, name,
+                "%.3g cells between the middle of the charge and this: with 40 the peak of a "
+                "blast lacks a third, with 150 a tenth, and a reflected one more; choose a "
+                "smaller `resolution`",
+                cells);
 }
 
-static struct error *judge_all(const struct simulation_case *input, const struct charge *charge)
+static void judge_all(struct findings *findings, const struct charge *charge)
 {
-    struct error *error = NULL;
+    const struct simulation_case *input = findings->input;
     for (int p = 0; p < input->probes.count; p++) {
         const struct probe_input *probe = (struct probe_input *)input->probes.items + p;
         double at[3] = {0.0, 0.0, 0.0};
@@ -112,33 +112,30 @@ static struct error *judge_all(const struct simulation_case *input, const struct
         for (int axis = 0; axis < gauge->at.count; axis++)
             at[axis] = gauge->at.at[axis];
         const struct bounds place = {vector_at(at), vector_at(at)};
-        error = error_join(error, judge(input, charge, "probes", input->probes.names[p], &place));
+        judge(findings, charge, "probes", input->probes.names[p], &place);
     }
     for (int b = 0; b < input->boundaries.count; b++) {
         const struct boundary_input *boundary = case_boundary(input, b);
         if (boundary->kind != BOUNDARY_RIGID_BODY)
             continue;
         const struct bounds bounds = shape_bounds(&boundary->part);
-        error = error_join(error,
-                           judge(input, charge, "boundaries", input->boundaries.names[b], &bounds));
+        judge(findings, charge, "boundaries", input->boundaries.names[b], &bounds);
     }
-    return error;
 }
 
-struct error *blast_cells(const struct simulation_case *input)
+void blast_cells(struct findings *findings)
 {
-    struct error *error = NULL;
+    const struct simulation_case *input = findings->input;
     struct charge charge;
     const bool plane = input->dimension == 1 && geometry_power(input->geometry) == 0;
     if (input->solver.choice->thing != &gas_class || plane)
-        return NULL;
+        return;
     if (charge_of_start(input, &charge))
-        error = judge_all(input, &charge);
+        judge_all(findings, &charge);
     for (int b = 0; b < input->bodies.count; b++) {
         const int material = case_body(input, b)->material_index;
         if (material_burns(case_material(input, material)->material) &&
             charge_of(input, b, &charge))
-            error = error_join(error, judge_all(input, &charge));
+            judge_all(findings, &charge);
     }
-    return error;
 }

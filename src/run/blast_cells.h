@@ -2,10 +2,10 @@
 #ifndef BOLIDE_RUN_BLAST_CELLS_H
 #define BOLIDE_RUN_BLAST_CELLS_H
 
-#include "case/case.h"
+#include "model/findings.h"
 
-/* Gauges and obstacles with so few cells between them and a charge that the peaks there are known
- * to be too low, as warnings; NULL: none, or a solver without cells of gas. */
-struct error *blast_cells(const struct simulation_case *input);
+/* Finds gauges and rigid bodies with so few cells between them and a charge that the peaks there are
+ * known to be too low; nothing with a solver without cells of gas. */
+void blast_cells(struct findings *findings);
 
 #endif

@@ -9,8 +9,6 @@
 #include "material/material.h"
 #include "model/place.h"
 #include "model/solver.h"
-#include "run/blast_cells.h"
-#include "run/input_warnings.h"
 #include "run/run.h"
 
 static void add_body(const struct simulation_case *input, int index, struct estimate *estimate)
@@ -170,75 +168,6 @@ struct error *estimate_run(const struct simulation_case *input, struct estimate 
 struct error *estimate_size(const struct simulation_case *input, struct estimate *estimate)
 {
     return estimate_with(input, NULL, estimate);
-}
-
-struct contact_side {
-    double pressure, sound, impedance;
-    struct range speed;
-};
-
-static struct contact_side contact_side_of(const struct simulation_case *input, int body,
-                                           const struct body_summary *summary)
-{
-    const struct material *material =
-        case_material(input, case_body(input, body)->material_index)->material;
-    struct point point = summary->fastest;
-    const double sound = any_material_evaluate(material, &point).sound_long;
-    return (struct contact_side){point.pressure, sound, point.density * sound, summary->speed};
-}
-
-/* The jump of velocity over the speed of sound, the larger of both sides, of the acoustic contact
- * problem. Of velocities only the speeds count: bodies may move apart, side by side or in step. */
-static double contact_jump(const struct contact_side *a, const struct contact_side *b)
-{
-    const double impedance = a->impedance + b->impedance;
-    const double pressure = fabs(a->pressure - b->pressure) / impedance;
-    const double closing =
-        maximum(0.0, maximum(a->speed.low - b->speed.high, b->speed.low - a->speed.high)) /
-        impedance;
-    return maximum((pressure + b->impedance * closing) / a->sound,
-                   (pressure + a->impedance * closing) / b->sound);
-}
-
-static struct error *strong_contacts(const struct simulation_case *input, double largest)
-{
-    const int bodies = input->bodies.count;
-    struct body_summary *summary = memory_allocate(((size_t)bodies + 1) * sizeof *summary);
-    if (!summary)
-        return error_new(ERROR_SYSTEM, "out of memory");
-    struct error *error = generate_summary(input, NULL, summary);
-    struct error *warnings = NULL;
-    for (int i = 0; i < bodies && !error; i++)
-        for (int j = 0; j < i; j++) {
-            const struct contact_side a = contact_side_of(input, i, &summary[i]),
-                                      b = contact_side_of(input, j, &summary[j]);
-            const double jump = contact_jump(&a, &b);
-            if (jump > largest)
-                warnings = error_join(
-                    warnings,
-                    document_error(input->document, "solver",
-                                   "the contact between bodies \"%s\" and \"%s\" has a jump of "
-                                   "%.2g times the speed of sound, and the Riemann solver of this "
-                                   "method is made for weaker waves: shocks will be too slow",
-                                   input->bodies.names[j], input->bodies.names[i], jump));
-        }
-    error_free(error); /* run_case and estimate_run report it */
-    free(summary);
-    return warnings;
-}
-
-struct error *estimate_warnings(const struct simulation_case *input)
-{
-    const struct solver_class *class = input->solver.choice->thing;
-    const double largest =
-        class->largest_jump ? class->largest_jump(input->solver.value) : INFINITY;
-    struct error *warnings = error_join(generate_warnings(input), input_warnings(input));
-    if (class->warnings)
-        warnings = error_join(warnings, class->warnings(input->solver.value, input));
-    if (class->coarse)
-        warnings = error_join(warnings, class->coarse(input->solver.value, input));
-    warnings = error_join(warnings, blast_cells(input));
-    return isfinite(largest) ? error_join(warnings, strong_contacts(input, largest)) : warnings;
 }
 
 void estimate_free(struct estimate *estimate)

@@ -30,11 +30,6 @@ struct estimate {
 struct error *estimate_run(const struct simulation_case *input, struct estimate *estimate);
 /* The same of a case that is known to be right, or is about to be run. */
 struct error *estimate_size(const struct simulation_case *input, struct estimate *estimate);
-/* What is no mistake but may not be what the user wants: that of generate_warnings and of the
- * solver, input without effect or that contradicts itself, and contacts of bodies that are stronger
- * than the Riemann problem of the solver is made for. NULL, or messages, each located as an error
- * would be. */
-struct error *estimate_warnings(const struct simulation_case *input);
 void estimate_free(struct estimate *estimate);
 
 #endif

@@ -176,10 +176,12 @@ static struct error *make_solver(struct run *run)
     run->solver = memory_allocate(run->method->size);
     if (!run->solver)
         return error_new(ERROR_SYSTEM, "out of memory for the solver");
-    run->warnings = warnings_create(&run->simulation);
+    run->judgement = judge_solver(&run->simulation);
+    run->warnings = warnings_create(&run->simulation, &run->judgement);
     if (!run->warnings)
         return error_new(ERROR_SYSTEM, "out of memory for warnings");
     TRY(probes_create(run->input, &run->probes));
+    TRY(findings_refusal(&run->judgement.findings));
     return run->method->create(run->solver, &run->simulation, run->input->solver.value);
 }
 
@@ -343,6 +345,7 @@ static void destroy(struct run *run)
 {
     checks_free(run->checks);
     warnings_free(run->warnings);
+    findings_free(&run->judgement.findings);
     probes_free(&run->probes);
     profiles_free(&run->profiles);
     if (run->solver && run->method)

@@ -178,8 +178,7 @@ static char *warned_of(const struct run *run)
 /* ERROR with what the run had warned of, and what may hold in place of the solver of the case. */
 static struct error *with_remedy(const struct run *run, struct error *error)
 {
-    const struct solver_class *class = run->method;
-    const char *remedy = class->instead ? class->instead(run->input->solver.value) : NULL;
+    const char *remedy = run->judgement.instead;
     char *warned = warned_of(run);
     struct error *longer = NULL;
     for (int i = 0; i < error_count(error); i++)

@@ -7,6 +7,7 @@
 #include "measure/profiles.h"
 #include "output/checkpoint.h"
 #include "output/history.h"
+#include "run/judge.h"
 #include "run/run.h"
 #include "run/threads.h"
 #include "run/warnings.h"
@@ -30,6 +31,7 @@ struct run {
     struct probes probes;
     struct profiles profiles;
     struct checks *checks;
+    struct judgement judgement; /* of the case, by its solver */
     struct warnings *warnings;
     struct limit limit;
     double step;                            /* the last one taken, s */

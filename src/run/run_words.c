@@ -9,6 +9,8 @@
 #include "run/rates.h"
 #include "run/run_internal.h"
 
+static void say_finding(void *run, const char *text) { run_say(run, "%s", text); }
+
 void run_report_beginning(struct run *run)
 {
     const struct simulation *s = &run->simulation;
@@ -24,10 +26,8 @@ void run_report_beginning(struct run *run)
             population_members(&population), s->problem->dimension, run->input->solver.choice->name,
             until, workers, threads, threads == 1 ? "" : "s",
             run->options->resume ? ", resumed" : "");
-    struct error *warnings = estimate_warnings(run->input);
-    for (int i = 0; warnings && i < error_count(warnings); i++)
-        run_say(run, "warning: %s", error_message(warnings, i));
-    error_free(warnings);
+    judge_bodies(&run->judgement);
+    judge_tell(&run->judgement.findings, say_finding, run);
     if (run->options->resume)
         run_say(run, "resumed at step %lld, t = %.9g s", (long long)s->step, s->time);
 }

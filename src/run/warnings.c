@@ -10,8 +10,6 @@
 #include "material/any.h"
 #include "material/material.h"
 #include "model/bodies.h"
-#include "run/blast_cells.h"
-#include "run/input_warnings.h"
 #include "run/warnings_internal.h"
 
 /* Of the largest speed that needs no warning. Gas of gamma = 1.3 that expands into vacuum in one
@@ -75,25 +73,14 @@ static void find_limits(struct material_watch *watch, const struct material *mat
         watch->coldest[k] = coldest(material, k * COLDEST_STEP * material_density(material));
 }
 
-/* What the solver of the case says of it. */
-static void ask_solver(struct warnings *w, const struct simulation_case *input)
-{
-    const struct solver_class *class = input->solver.choice->thing;
-    for (int m = 0; m < w->materials; m++)
-        if (class->room && class->room(input->solver.value, input, m, &w->watch[m].room))
-            w->watch[m].limit[WARNING_REGION] = 0.0;
-    if (class->coarse)
-        w->coarse = class->coarse(input->solver.value, input);
-    w->coarse = error_join(w->coarse, blast_cells(input));
-    w->input = input_warnings(input);
-}
-
-struct warnings *warnings_create(const struct simulation *simulation)
+struct warnings *warnings_create(const struct simulation *simulation,
+                                 const struct judgement *judgement)
 {
     const int materials = simulation->problem->materials;
     struct warnings *w = memory_allocate(sizeof *w);
     if (!w)
         return NULL;
+    w->judgement = judgement;
     w->materials = materials;
     w->of_energy = materials * WARNING_ENERGY;
     w->of_loads = w->of_energy + 1 + simulation->problem->input->probes.count;
@@ -105,10 +92,13 @@ struct warnings *warnings_create(const struct simulation *simulation)
         warnings_free(w);
         return NULL;
     }
-    for (int m = 0; m < materials; m++)
-        find_limits(&w->watch[m], &simulation->problem->material[m],
+    for (int m = 0; m < materials; m++) {
+        const struct material *material = &simulation->problem->material[m];
+        find_limits(&w->watch[m], material,
                     case_material(simulation->problem->input, m)->tensile_strength);
-    ask_solver(w, simulation->problem->input);
+        if (judgement->narrow && judgement->narrow(material))
+            w->watch[m].limit[WARNING_REGION] = 0.0;
+    }
     for (int b = 0; b < simulation->problem->input->bodies.count; b++)
         w->prescribed[b] = body_is_prescribed(simulation, b);
     return w;
@@ -118,8 +108,6 @@ void warnings_free(struct warnings *warnings)
 {
     if (!warnings)
         return;
-    error_free(warnings->coarse);
-    error_free(warnings->input);
     free(warnings->watch);
     free(warnings->memory);
     free(warnings->prescribed);
@@ -270,7 +258,7 @@ static void look_at(const struct warnings *w, const struct simulation *simulatio
         [WARNING_UNLIT] = burnt && burnt[i] == 0.0 ? p->density[i] : 0.0,
     };
     if (watch->limit[WARNING_REGION] < INFINITY)
-        value[WARNING_REGION] = beyond(&watch->room, p, i);
+        value[WARNING_REGION] = beyond(&w->judgement->room, p, i);
     if (watch->warm && !population_is_mixed(p, i))
         value[WARNING_TEMPERATURE] =
             coldness(watch, &simulation->problem->material[m], p->density[i], p->energy[i]);
@@ -448,8 +436,8 @@ struct error *warnings_watch_loads(struct warnings *w, const struct simulation *
     for (int i = 0; i < input->loads.count; i++) {
         const struct load_totals totals =
             load_record_totals(&simulation->load[i], simulation->ranks);
-        const bool nothing =
-            !w->input && totals.gross == 0.0 && simulation->time >= input->run.until;
+        const bool nothing = !findings_count(&w->judgement->findings, FINDING_NO_EFFECT) &&
+                             totals.gross == 0.0 && simulation->time >= input->run.until;
         const double apart = nothing ? 1.0 : load_deviation(&totals);
         const int index = w->of_loads + i;
         if (!(apart > LOAD_TO_WARN_OF) ||

@@ -55,10 +55,13 @@ struct warning_results {
 /* "tension": what a case calls it in `expected_warnings`; NULL for WARNING_KINDS. */
 const char *warning_kind_name(enum warning_kind kind);
 
+struct judgement;
 struct warnings;
 
-/* Readies the watch of SIMULATION, whose members are there. NULL where memory is out. */
-struct warnings *warnings_create(const struct simulation *simulation);
+/* Readies the watch of SIMULATION, whose solver has given JUDGEMENT, which must outlive it. NULL
+ * where memory is out. */
+struct warnings *warnings_create(const struct simulation *simulation,
+                                 const struct judgement *judgement);
 void warnings_free(struct warnings *warnings);
 
 /* Collective: what may move as fast as what moves now needs no warning. Once, at time zero. */

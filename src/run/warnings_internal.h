@@ -14,7 +14,6 @@ struct material_watch {
     double limit[WARNING_ENERGY]; /* INFINITY: none */
     bool estimated;               /* the tension: no strength is known */
     bool warm;                    /* it has a temperature */
-    struct bounds room;           /* where it may be */
     double coldest[COLDEST];      /* J/kg */
 };
 
@@ -36,14 +35,13 @@ struct tension_watch {
 /* Memory M * WARNING_ENERGY + KIND is that of KIND in material M; that of the energy follows, then
  * one a probe, and one a load. */
 struct warnings {
+    const struct judgement *judgement;
     int materials, of_energy, of_loads, memories; /* first indices; how many */
     struct material_watch *watch;
     struct warning_memory *memory;
-    struct error *coarse; /* what the resolution is too coarse for; NULL: nothing */
-    struct error *input;  /* what of the case has no effect or contradicts itself; NULL: nothing */
-    bool *prescribed;     /* by body: it has a prescribed motion */
-    double speed;         /* the largest that needs no warning, so far, m/s */
-    bool loses_tension;   /* of the solver, in the dimension of the case */
+    bool *prescribed;   /* by body: it has a prescribed motion */
+    double speed;       /* the largest that needs no warning, so far, m/s */
+    bool loses_tension; /* of the solver, in the dimension of the case */
     int bodies;
     struct body_tension *tension;
     struct tension_watch *tension_watch;

@@ -60,14 +60,13 @@ static void watch_body(struct tension_watch *watch, const struct simulation *sim
 
 bool tension_create(struct warnings *w, const struct simulation *simulation)
 {
-    const struct solver_class *solver = simulation->problem->input->solver.choice->thing;
     w->bodies = simulation->problem->input->bodies.count;
     w->tension = memory_allocate((size_t)w->bodies * sizeof *w->tension);
     w->tension_watch = memory_allocate((size_t)w->bodies * sizeof *w->tension_watch);
     if (!w->tension || !w->tension_watch)
         return false;
     /* In 1-D waves are aligned with the particles, and the default holds thirty times as much. */
-    w->loses_tension = solver->loses_tension && simulation->problem->dimension > 1;
+    w->loses_tension = w->judgement->loses_tension && simulation->problem->dimension > 1;
     for (int b = 0; b < w->bodies && w->loses_tension; b++)
         watch_body(&w->tension_watch[b], simulation, b);
     return true;

@@ -142,10 +142,8 @@ static const char *advice_of(const struct simulation *simulation, int index, enu
 }
 
 /* Why energy is lost is the solver's to say. */
-static char *energy_text(const struct warning_memory *memory, const struct simulation_case *input)
+static char *energy_text(const struct warning_memory *memory, const char *why)
 {
-    const struct solver_class *solver = input->solver.choice->thing;
-    const char *why = solver->energy_lost ? solver->energy_lost(input->solver.value) : NULL;
     char later[64] = "";
     if (memory->worst > memory->value)
         snprintf(later, sizeof later, ", later by %.2g", memory->worst);
@@ -211,7 +209,7 @@ char *warning_text(const struct warnings *warnings, const struct simulation *sim
     const enum warning_kind kind = kind_of(warnings, index);
     char value[48], worst[48], time[48], later[128] = "", limit[160], advice[256];
     if (kind == WARNING_ENERGY)
-        return energy_text(memory, simulation->problem->input);
+        return energy_text(memory, warnings->judgement->energy_lost);
     if (kind == WARNING_TRACER)
         return tracer_text(warnings, simulation, index);
     if (kind == WARNING_LOAD)
@@ -273,18 +271,18 @@ char *warning_line(const struct warnings *warnings, const struct simulation *sim
     return line;
 }
 
-/* What is known from the start: SAID, messages of KIND. */
-static bool add_said(const struct error *said, enum warning_kind kind,
-                     const struct simulation_case *input, struct warning_results *results)
+/* What was found before the run, of SEVERITY, as warnings of KIND. */
+static bool add_found(const struct findings *findings, enum severity severity,
+                      enum warning_kind kind, struct warning_results *results)
 {
-    const char *reason = expected(input, kind, -1);
+    const char *reason = expected(findings->input, kind, -1);
     bool done = true;
-    for (int k = 0; said && k < error_count(said) && done; k++) {
+    for (int k = 0; k < findings_count(findings, severity) && done; k++) {
         struct warning *warning = &results->item[results->count++];
         *warning = (struct warning){
             .kind = kind,
             .name = text_copy(kinds[kind].name),
-            .text = text_format("%s: %s", kinds[kind].name, error_message(said, k)),
+            .text = text_format("%s: %s", kinds[kind].name, findings_text(findings, severity, k)),
             .expected = reason ? text_copy(reason) : NULL};
         results->unexpected += !reason;
         done = warning->name && warning->text && (warning->expected || !reason);
@@ -316,9 +314,9 @@ struct error *warnings_conclude(const struct warnings *warnings,
     *results = (struct warning_results){0};
     for (int k = 0; k < warnings->memories; k++)
         happened += warnings->memory[k].count > 0.0;
-    const struct simulation_case *input = simulation->problem->input;
-    const int said = (warnings->coarse ? error_count(warnings->coarse) : 0) +
-                     (warnings->input ? error_count(warnings->input) : 0);
+    const struct findings *findings = &warnings->judgement->findings;
+    const int said =
+        findings_count(findings, FINDING_COARSE) + findings_count(findings, FINDING_NO_EFFECT);
     if (!happened && !said)
         return NULL;
     results->item = memory_allocate((size_t)(happened + said) * sizeof *results->item);
@@ -326,8 +324,8 @@ struct error *warnings_conclude(const struct warnings *warnings,
     for (int k = 0; k < warnings->memories && done; k++)
         if (warnings->memory[k].count > 0.0)
             done = add(warnings, simulation, k, results);
-    done = done && add_said(warnings->coarse, WARNING_COARSE, input, results) &&
-           add_said(warnings->input, WARNING_INPUT, input, results);
+    done = done && add_found(findings, FINDING_COARSE, WARNING_COARSE, results) &&
+           add_found(findings, FINDING_NO_EFFECT, WARNING_INPUT, results);
     return done ? NULL : error_new(ERROR_SYSTEM, "out of memory for warnings");
 }
 

@@ -8,8 +8,9 @@
 #include "sph/scheme.h"
 
 /* Refuses options of a contact that only the solver mpm has. */
-static struct error *refuse_contact(const struct simulation_case *input, int c)
+static void refuse_contact(struct findings *findings, int c)
 {
+    const struct simulation_case *input = findings->input;
     const struct contact_input *contact = case_contact(input, c);
     const char *key = contact->friction > 0.0          ? "friction"
                       : contact->touch != TOUCH_NODES  ? "touch"
@@ -17,19 +18,18 @@ static struct error *refuse_contact(const struct simulation_case *input, int c)
                                                        : NULL;
     char path[128];
     if (!key)
-        return NULL;
+        return;
     snprintf(path, sizeof path, "%.100s.%s", input->contacts.names[c], key);
-    return input_error(input, "contacts", path,
-                       "not available with the solver sph, where bodies slip or stick; use mpm");
+
+    finding_add(findings, FINDING_WRONG, "contacts", path,
+                "not available with the solver sph, where bodies slip or stick; use mpm");
 }
 
-struct error *sph_refuse(const struct simulation *simulation)
+void sph_refuse(const struct simulation *simulation, struct findings *findings)
 {
-    const struct simulation_case *input = simulation->problem->input;
-    struct error *error = problem_refuse_gas_keys(simulation->problem);
-    for (int c = 0; c < input->contacts.count; c++)
-        error = error_join(error, refuse_contact(input, c));
-    return error;
+    problem_refuse_gas_keys(simulation->problem, findings);
+    for (int c = 0; c < findings->input->contacts.count; c++)
+        refuse_contact(findings, c);
 }
 
 /* The fields of a step of DT, or of a part of it; gravity acts where particles are AHEAD of time n.

@@ -327,11 +327,11 @@ struct error *sph_check_periods(const struct simulation *simulation, double supp
 /* Takes particles that left through a periodic face in at the other. */
 void sph_wrap(const struct simulation *simulation, const struct particles *particles);
 
-/* unequal.c. Warnings of gases that touch and whose particles differ too much in mass. */
-struct error *sph_coarse(const void *parameters, const struct simulation_case *input);
+/* unequal.c. Finds gases that touch and whose particles differ too much in mass. */
+void sph_judge_masses(const struct sph_parameters *all, struct findings *findings);
 
-/* outside.c. ERROR_INPUT, located, for what no scheme can do of what acts from outside. */
-struct error *sph_refuse(const struct simulation *simulation);
+/* outside.c. Finds what no scheme can do of what acts from outside. */
+void sph_refuse(const struct simulation *simulation, struct findings *findings);
 
 /* Books what images and hoop stress push in a step of DT. */
 void sph_book_walls(struct simulation *simulation, const struct sph_fields *f, double dt);

@@ -102,35 +102,6 @@ static unsigned traits_of(const struct sph *sph, const struct simulation *simula
     return traits | (conduction_on(&sph->parameters) ? SPH_CONDUCTION : 0u);
 }
 
-/* What no scheme can do, or the one of the case cannot. */
-static struct error *refuse(const struct sph *sph, const struct simulation *simulation)
-{
-    const struct simulation_case *input = simulation->problem->input;
-    const struct sph_scheme *scheme = sph->scheme;
-    struct error *error = sph_refuse(simulation);
-    if (sph->parameters.courant > scheme->courant_limit)
-        error = error_join(error, input_error(input, "solver", "sph.courant",
-                                              "%s is stable up to %g: give less, or another method",
-                                              scheme->name, scheme->courant_limit));
-    if (conduction_on(&sph->parameters) && !scheme->conducts)
-        error = error_join(error, input_error(input, "solver", "sph.conduction",
-                                              "%s does not conduct heat: use another method",
-                                              scheme->name));
-    if (sph_has(sph, SPH_STILL) && !sph_has(sph, SPH_CONDUCTION))
-        error = error_join(error, sph_option_error(sph, input, "motion",
-                                                   "nothing happens without motion unless heat is "
-                                                   "conducted: give `conduction` as well"));
-    if (!scheme->breaks)
-        error = error_join(error, refuse_broken_contacts(simulation->problem));
-    for (int m = 0; sph_has(sph, SPH_THIN) && m < simulation->problem->materials; m++)
-        if (!material_has_strength(&simulation->problem->material[m]))
-            error = error_join(
-                error, input_error(input, "materials", input->materials.names[m],
-                                   "plane stress is for plates that have strength, and this is a "
-                                   "fluid"));
-    return error;
-}
-
 /* An image of an image along one axis does not exist, so it must lie beyond reach: it is as far
  * from a particle as the gap of the two walls and, on a lattice, a diameter. */
 static struct error *check_walls(const struct simulation *simulation, double reach)
@@ -167,7 +138,6 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     struct sph *sph = solver;
     sph->parameters = settled(parameters, simulation->problem->dimension);
     sph->scheme = sph->parameters.method.choice->thing;
-    TRY(boundaries_refuse_of_particles(simulation->problem->input, sph_class.boundaries));
     sph->traits = traits_of(sph, simulation);
     sph->neighbours.skin = sph->parameters.skin;
     sph->neighbours.near_skin = sph_near_skin(&sph->parameters, sph->traits);
@@ -178,7 +148,6 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     if (!sph->state)
         return error_new(ERROR_SYSTEM, "out of memory");
     TRY(sph->scheme->create(sph, simulation));
-    TRY(refuse(sph, simulation));
     TRY(conduction_create(sph, simulation));
     TRY(sph_create_loads(sph, simulation));
     return create_store(sph, simulation);
@@ -297,28 +266,51 @@ static double sph_step(const void *parameters, int dimension, const struct mater
     return minimum(heat, all.courant * diameter / any_material_evaluate(material, &at).sound_long);
 }
 
-static double sph_largest_jump(const void *parameters)
+/* What no scheme can do, or the one of the case cannot. */
+static void refuse(const struct sph *sph, const struct simulation *simulation,
+                   struct findings *findings)
 {
-    const struct sph_parameters *all = parameters;
-    const struct sph_scheme *scheme = all->method.choice->thing;
-    return scheme->largest_jump ? scheme->largest_jump(all->method.value) : INFINITY;
+    const struct simulation_case *input = findings->input;
+    const struct sph_scheme *scheme = sph->scheme;
+    sph_refuse(simulation, findings);
+    if (sph->parameters.courant > scheme->courant_limit)
+        finding_add(findings, FINDING_WRONG, "solver", "sph.courant",
+                    "%s is stable up to %g: give less, or another method", scheme->name,
+                    scheme->courant_limit);
+    if (conduction_on(&sph->parameters) && !scheme->conducts)
+        finding_add(findings, FINDING_WRONG, "solver", "sph.conduction",
+                    "%s does not conduct heat: use another method", scheme->name);
+    if (sph_has(sph, SPH_STILL) && !sph_has(sph, SPH_CONDUCTION))
+        findings_take(findings, FINDING_WRONG,
+                      sph_option_error(sph, input, "motion",
+                                       "nothing happens without motion unless heat is conducted: "
+                                       "give `conduction` as well"));
+    if (!scheme->breaks)
+        refuse_broken_contacts(simulation->problem, findings);
+    for (int m = 0; sph_has(sph, SPH_THIN) && m < simulation->problem->materials; m++)
+        if (!material_has_strength(&simulation->problem->material[m]))
+            finding_add(findings, FINDING_WRONG, "materials", input->materials.names[m],
+                        "plane stress is for plates that have strength, and this is a fluid");
 }
 
-static const char *sph_energy_lost(const void *parameters)
+static void sph_judge(const void *parameters, const struct simulation *simulation,
+                      struct judgement *judgement)
 {
-    const struct sph_parameters *all = parameters;
-    const struct sph_scheme *scheme = all->method.choice->thing;
-    return scheme->energy_lost ? scheme->energy_lost(all->method.value) : NULL;
-}
-
-static const char *sph_instead(const void *parameters)
-{
-    const struct sph_parameters *all = parameters;
-    const struct sph_scheme *scheme = all->method.choice->thing;
-    return !strcmp(scheme->name, "muscl")
-               ? NULL
-               : "this method is here for comparison and stops in strong shocks and in large "
-                 "expansions: leave `method` out for the default, muscl, which holds there";
+    struct sph sph = {.parameters = settled(parameters, simulation->problem->dimension)};
+    const void *options = sph.parameters.method.value;
+    const struct sph_scheme *scheme = sph.scheme = sph.parameters.method.choice->thing;
+    boundaries_refuse_of_particles(&judgement->findings, sph_class.boundaries);
+    sph.traits = traits_of(&sph, simulation);
+    refuse(&sph, simulation, &judgement->findings);
+    sph_judge_masses(parameters, &judgement->findings);
+    if (scheme->largest_jump)
+        judgement->largest_jump = scheme->largest_jump(options);
+    judgement->energy_lost = scheme->energy_lost ? scheme->energy_lost(options) : NULL;
+    if (strcmp(scheme->name, "muscl") != 0)
+        judgement->instead =
+            "this method is here for comparison and stops in strong shocks and in large "
+            "expansions: leave `method` out for the default, muscl, which holds there";
+    judgement->loses_tension = true;
 }
 
 const struct solver_class sph_class = {.size = sizeof(struct sph),
@@ -332,9 +324,5 @@ const struct solver_class sph_class = {.size = sizeof(struct sph),
                                        .destroy = sph_destroy,
                                        .bytes = sph_bytes,
                                        .step = sph_step,
-                                       .coarse = sph_coarse,
-                                       .largest_jump = sph_largest_jump,
-                                       .energy_lost = sph_energy_lost,
-                                       .instead = sph_instead,
-                                       .fields = sph_field_tables,
-                                       .loses_tension = true};
+                                       .judge = sph_judge,
+                                       .fields = sph_field_tables};

@@ -51,31 +51,32 @@ static bool may_touch(const struct simulation_case *input, int a, int b)
 }
 
 /* HEAVY and LIGHT name bodies by the mass of their particles. */
-static struct error *judge(const struct simulation_case *input, int heavy, int light)
+static void judge(struct findings *findings, int heavy, int light)
 {
+    const struct simulation_case *input = findings->input;
     const double ratio = particle_mass(input, heavy) / particle_mass(input, light);
     if (!(ratio > LARGEST_RATIO) || !may_touch(input, heavy, light) ||
         !(pressure_of(input, heavy) > PRESSURE_RATIO * pressure_of(input, light)))
-        return NULL;
-    return input_error(
-        input, "bodies", input->bodies.names[heavy],
-        "its particles are %.3g times as heavy as those of \"%s\": above %g light particles pass "
-        "between heavy ones that expand, and energy and density near the contact are wrong; choose "
+        return;
+    finding_add(
+        findings, FINDING_COARSE, "bodies", input->bodies.names[heavy],
+        "its particles are %.3g times as heavy as those of \"%s\": above %g light particles "
+        "pass "
+        "between heavy ones that expand, and energy and density near the contact are wrong; "
+        "choose "
         "`motion: particle` of the method, or a `resolution` of at most %.2g m for this body",
         ratio, input->bodies.names[light], LARGEST_RATIO,
         particle_size(input, heavy) * pow(LARGEST_RATIO / ratio, 1.0 / input->dimension));
 }
 
-struct error *sph_coarse(const void *parameters, const struct simulation_case *input)
+void sph_judge_masses(const struct sph_parameters *all, struct findings *findings)
 {
-    const struct sph_parameters *all = parameters;
+    const struct simulation_case *input = findings->input;
     const struct sph_scheme *scheme = all->method.choice->thing;
-    struct error *error = NULL;
     if (!(scheme->traits(all->method.value, input->dimension) & SPH_DRIFT))
-        return NULL;
+        return;
     for (int a = 0; a < input->bodies.count; a++)
         for (int b = 0; b < input->bodies.count; b++)
             if (a != b && is_uniform_gas(input, a) && is_uniform_gas(input, b))
-                error = error_join(error, judge(input, a, b));
-    return error;
+                judge(findings, a, b);
 }

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "dice.h"
+#include "judged.h"
 #include "model/generate.h"
 #include "model/particles/fill.h"
 #include "populations.h"
@@ -197,14 +198,15 @@ static void expect_warning(const char *more, const char *words)
     struct error *error = read_text(plate, more, &input);
     if (error)
         fail_msg("%s", error_message(error, 0));
-    struct error *warnings = estimate_warnings(input);
-    if (words && (!warnings || error_count(warnings) != 1))
-        fail_msg("%d warnings, not that of \"%s\"", warnings ? error_count(warnings) : 0, words);
-    if (!words && warnings)
-        fail_msg("\"%s\"", error_message(warnings, 0));
-    if (words && !strstr(error_message(warnings, 0), words))
-        fail_msg("\"%s\" does not say \"%s\"", error_message(warnings, 0), words);
-    error_free(warnings);
+    struct findings findings;
+    judged(input, &findings);
+    const int count = findings_count(&findings, FINDING_DOUBTFUL);
+    const char *first = count ? findings_text(&findings, FINDING_DOUBTFUL, 0) : "";
+    if (count != (words != NULL))
+        fail_msg("%d warnings, \"%s\", not that of \"%s\"", count, first, words ? words : "");
+    if (words && !strstr(first, words))
+        fail_msg("\"%s\" does not say \"%s\"", first, words);
+    findings_free(&findings);
     case_free(input);
 }
 
@@ -268,15 +270,18 @@ static void a_shape_of_another_volume_than_its_particles_is_a_warning(void **sta
         const double volume = (whole - hole * pow(edge, dimension)) / (1.0 + half);
         const double density = case_body(input, 0)->start.density;
         const double off = summary[0].mass / (density * volume * pow(1e-3, dimension)) - 1.0;
-        struct error *warnings = generate_warnings(input);
+        struct findings findings = {.input = input};
+        generate_judge(&findings);
         bool found = false;
-        for (int i = 0; warnings && i < error_count(warnings); i++)
-            found |= strstr(error_message(warnings, i), "bodies.round: its particles have") &&
-                     strstr(error_message(warnings, i), off > 0.0 ? "more volume" : "less volume");
+        for (int i = 0; i < findings_count(&findings, FINDING_DOUBTFUL); i++) {
+            const char *said = findings_text(&findings, FINDING_DOUBTFUL, i);
+            found |= strstr(said, "bodies.round: its particles have") &&
+                     strstr(said, off > 0.0 ? "more volume" : "less volume");
+        }
         if (fabs(fabs(off) - 0.02) > 0.004 && found != (fabs(off) > 0.02))
             fail_msg("round %d: off by %g, %s", round, off, found ? "a warning" : "no warning");
         warned += found;
-        error_free(warnings);
+        findings_free(&findings);
         case_free(input);
     }
     assert_in_range(warned, 10, 50);
@@ -307,15 +312,17 @@ static void gases_of_too_unequal_particles_are_a_warning(void **state)
                  dimension > 1 ? ", 1 m" : "");
         struct simulation_case *input;
         assert_success(read_text(text, "", &input));
-        struct error *warnings = estimate_warnings(input);
+        struct findings findings;
+        judged(input, &findings);
         const double ratio = denser / pow(finer, dimension);
         const bool found =
-            warnings && strstr(error_message(warnings, 0), "bodies.dense: its particles are");
+            findings_count(&findings, FINDING_COARSE) &&
+            strstr(findings_text(&findings, FINDING_COARSE, 0), "bodies.dense: its particles are");
         if (found != (dimension == 1 && ratio > 15.0 && higher > 5.0 && gap == 0.0))
             fail_msg("round %d: masses %g, pressures %g, %s", round, ratio, higher,
                      found ? "a warning" : "no warning");
         warned += found;
-        error_free(warnings);
+        findings_free(&findings);
         case_free(input);
     }
     assert_in_range(warned, 5, 25);

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "base/results.h"
+#include "judged.h"
 #include "model/generate.h"
 #include "model/particles/fill.h"
 #include "model/particles/held.h"
@@ -604,8 +605,9 @@ static const char *energy_lost_with(const char *setting)
 {
     const char *const settings[] = {setting, NULL};
     struct simulation_case *input = read_text(shock_text, settings);
-    const struct solver_class *solver = input->solver.choice->thing;
-    const char *why = solver->energy_lost ? solver->energy_lost(input->solver.value) : NULL;
+    struct findings findings;
+    const char *why = judged(input, &findings).energy_lost;
+    findings_free(&findings);
     case_free(input);
     return why;
 }
@@ -701,14 +703,17 @@ static void a_body_thinner_than_the_resolution_is_a_warning(void **state)
     const char *const settings[] = {
         "bodies.film={material: gas, pressure: 1 Pa, box: {from: [1 m], to: [1.06 m]}}", NULL};
     struct simulation_case *input = read_text(flight_text, settings);
-    struct error *warnings = generate_warnings(input);
-    assert_non_null(warnings);
-    assert_int_equal(error_count(warnings), 1);
-    assert_non_null(strstr(error_message(warnings, 0), "bodies.film: smaller than the resolution"));
-    error_free(warnings);
+    struct findings findings = {.input = input};
+    generate_judge(&findings);
+    assert_int_equal(findings_count(&findings, FINDING_DOUBTFUL), 1);
+    assert_non_null(strstr(findings_text(&findings, FINDING_DOUBTFUL, 0),
+                           "bodies.film: smaller than the resolution"));
+    findings_free(&findings);
     case_free(input);
     input = read_text(flight_text, NULL);
-    assert_null(generate_warnings(input));
+    findings.input = input;
+    generate_judge(&findings);
+    assert_int_equal(findings_count(&findings, FINDING_DOUBTFUL), 0);
     case_free(input);
 }
 
@@ -721,11 +726,13 @@ static void acoustic_contacts_of_a_strong_shock_are_a_warning(void **state)
     for (int k = 0; k < 3; k++) {
         const char *const settings[] = {solver[k], "bodies.left.pressure=1 GPa", NULL};
         struct simulation_case *input = read_text(shock_text, settings);
-        struct error *warnings = estimate_warnings(input);
-        assert_int_equal(warnings ? error_count(warnings) : 0, k == 0);
+        struct findings findings;
+        judged(input, &findings);
+        assert_int_equal(findings_count(&findings, FINDING_DOUBTFUL), k == 0);
         if (k == 0)
-            assert_non_null(strstr(error_message(warnings, 0), "times the speed of sound"));
-        error_free(warnings);
+            assert_non_null(
+                strstr(findings_text(&findings, FINDING_DOUBTFUL, 0), "times the speed of sound"));
+        findings_free(&findings);
         case_free(input);
     }
 }

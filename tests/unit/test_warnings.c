@@ -154,6 +154,14 @@ static double nonsense_step(const void *parameters, int dimension, const struct 
     return 0.1;
 }
 
+static void nonsense_judge(const void *parameters, const struct simulation *simulation,
+                           struct judgement *judgement)
+{
+    (void)parameters;
+    (void)simulation;
+    judgement->loses_tension = true;
+}
+
 static const struct solver_class nonsense_class = {.size = sizeof(struct nonsense),
                                                    .create = nonsense_create,
                                                    .fill = nonsense_fill,
@@ -164,7 +172,7 @@ static const struct solver_class nonsense_class = {.size = sizeof(struct nonsens
                                                    .destroy = nonsense_destroy,
                                                    .bytes = nonsense_bytes,
                                                    .step = nonsense_step,
-                                                   .loses_tension = true};
+                                                   .judge = nonsense_judge};
 
 static const struct choice nonsense_choice = {"nonsense", "nonsense", nonsense_table,
                                               sizeof(struct nonsense_parameters), &nonsense_class};

@@ -1,11 +1,10 @@
-/* Ignitions that light nothing; see effect.h. An ignition outside an explosive counts as a
+/* Ignitions that light nothing; see findings.h. An ignition outside an explosive counts as a
  * detonation that runs from there, through whatever is between, at the speed of the explosive. */
-#include "model/effect.h"
+#include "model/findings.h"
 
 #include <stdio.h>
 
 #include "material/material.h"
-#include "model/problem.h"
 #include "shape/shape.h"
 
 /* How far PLACE is from BOUNDS, in the dimensions of the case. */
@@ -59,8 +58,9 @@ static double arrival_at(const struct simulation_case *input,
     return detonation->time + gap / material_detonation_speed(material);
 }
 
-static struct error *judge_ignition(const struct simulation_case *input, int index)
+static void judge_ignition(struct findings *findings, int index)
 {
+    const struct simulation_case *input = findings->input;
     const struct detonation_input *detonation = case_detonation(input, index);
     const char *name = input->detonations.names[index];
     const double near = 2.0 * input->resolution;
@@ -82,19 +82,21 @@ static struct error *judge_ignition(const struct simulation_case *input, int ind
         snprintf(late, sizeof late, "after the end of the run at t = %.6g s: it ignites nothing",
                  input->run.until);
     if (nearest < 0 || (gap == 0.0 && !late[0]))
-        return NULL;
-    if (gap == 0.0)
-        return input_error(input, "detonations", name, "t = %.6g s is %s", detonation->time, late);
-    return input_error(input, "detonations", name,
-                       "it is %.4g m outside the nearest explosive, \"%s\": a detonation that runs "
-                       "from there arrives at t = %.4g s%s%s; put it into the explosive",
-                       gap, input->bodies.names[nearest], arrival, late[0] ? ", " : "", late);
+        return;
+    if (gap == 0.0) {
+        finding_add(findings, FINDING_NO_EFFECT, "detonations", name, "t = %.6g s is %s",
+                    detonation->time, late);
+        return;
+    }
+
+    finding_add(findings, FINDING_NO_EFFECT, "detonations", name,
+                "it is %.4g m outside the nearest explosive, \"%s\": a detonation that runs "
+                "from there arrives at t = %.4g s%s%s; put it into the explosive",
+                gap, input->bodies.names[nearest], arrival, late[0] ? ", " : "", late);
 }
 
-struct error *effect_warnings(const struct simulation_case *input)
+void ignitions_judge(struct findings *findings)
 {
-    struct error *warnings = NULL;
-    for (int i = 0; i < input->detonations.count; i++)
-        warnings = error_join(warnings, judge_ignition(input, i));
-    return warnings;
+    for (int i = 0; i < findings->input->detonations.count; i++)
+        judge_ignition(findings, i);
 }
