@@ -20,6 +20,12 @@ BOLIDE_INLINE struct vec3 vec3_make(double x, double y, double z)
 }
 BOLIDE_INLINE struct vec3 vector_at(const double v[3]) { return vec3_make(v[0], v[1], v[2]); }
 
+/* A component of a vector. */
+BOLIDE_INLINE double vec3_at(struct vec3 v, int axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
 BOLIDE_INLINE struct vec3 vec3_add(struct vec3 a, struct vec3 b)
 {
     return vec3_make(a.x + b.x, a.y + b.y, a.z + b.z);

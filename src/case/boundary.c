@@ -103,11 +103,6 @@ const struct parameter case_boundary_table[] = {
     PARAMETER_END,
 };
 
-static double end_of(struct vec3 place, int axis)
-{
-    return axis == 0 ? place.x : axis == 1 ? place.y : place.z;
-}
-
 struct face_place domain_face(const struct simulation_case *input, int axis, int side)
 {
     const struct vector_value *given = side ? &input->domain.high : &input->domain.low;
@@ -121,13 +116,22 @@ struct face_place domain_face(const struct simulation_case *input, int axis, int
     struct face_place place = {side ? -INFINITY : INFINITY, "bodies", NULL};
     for (int b = 0; b < input->bodies.count; b++) {
         const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
-        double at = end_of(side ? bounds.high : bounds.low, axis);
+        double at = vec3_at(side ? bounds.high : bounds.low, axis);
         if (geometry_power(input->geometry) > 0 && axis == 0 && !side)
             at = maximum(at, 0.0);
         if (side ? at > place.at : at < place.at)
             place = (struct face_place){at, "bodies", input->bodies.names[b]};
     }
     return place;
+}
+
+struct bounds domain_bounds(const struct simulation_case *input)
+{
+    double end[2][3] = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+    for (int axis = 0; axis < input->dimension; axis++)
+        for (int side = 0; side < 2; side++)
+            end[side][axis] = domain_face(input, axis, side).at;
+    return (struct bounds){vector_at(end[0]), vector_at(end[1])};
 }
 
 int rigid_body_at(const struct simulation_case *input, struct vec3 place)
@@ -154,11 +158,9 @@ void case_check_domain(struct checking *checking)
     static const char *const keys[] = {"low", "high"};
     checking->map = "domain";
     checking->name = NULL;
-    for (int end = 0; end < 2 && case_dimension_known(checking); end++)
-        if (ends[end]->count && ends[end]->count != input->dimension)
-            case_wrong(checking, keys[end],
-                       "expected %d component%s, one for each dimension; found %d",
-                       (int)input->dimension, input->dimension == 1 ? "" : "s", ends[end]->count);
+    for (int end = 0; end < 2; end++)
+        if (ends[end]->count)
+            case_check_components(checking, keys[end], ends[end]->count);
     for (int axis = 0; axis < ends[0]->count && axis < ends[1]->count; axis++)
         if (!(ends[0]->at[axis] < ends[1]->at[axis]))
             case_wrong(checking, "high", "the high corner does not lie above the low one along %c",
@@ -170,7 +172,6 @@ static void check_state(struct checking *checking, const struct boundary_input *
 {
     const bool inflow = boundary->kind == BOUNDARY_INFLOW,
                outflow = boundary->kind == BOUNDARY_OUTFLOW;
-    const int64_t dimension = checking->input->dimension;
     const bool given = field_is_given(&boundary->density) || field_is_given(&boundary->energy) ||
                        boundary->velocity.count > 0;
     if (!inflow && (given || (!outflow && field_is_given(&boundary->pressure))))
@@ -187,10 +188,7 @@ static void check_state(struct checking *checking, const struct boundary_input *
     if (field_is_given(&boundary->density) && field_is_given(&boundary->pressure) &&
         field_is_given(&boundary->energy))
         case_wrong(checking, "energy", "give two of density, pressure and energy, not all three");
-    if (case_dimension_known(checking) && boundary->velocity.count != dimension)
-        case_wrong(checking, "velocity",
-                   "expected %d component%s, one for each dimension; found %d", (int)dimension,
-                   dimension == 1 ? "" : "s", boundary->velocity.count);
+    case_check_components(checking, "velocity", boundary->velocity.count);
 }
 
 /* The shape of the part of a face, or of a rigid body. */

@@ -8,6 +8,7 @@
 #include "material/burn/afterburn.h"
 #include "material/eos/common.h"
 
+struct bounds;
 /* material/material.h, which few of those who read a case need: it has every model */
 struct material;
 
@@ -359,6 +360,9 @@ struct face_place {
 /* The low or high face across AXIS: of `domain`, else of a boundary, else of the bodies. */
 struct face_place domain_face(const struct simulation_case *input, int axis, int side);
 
+/* All faces; infinite in dimensions that the case has not. */
+struct bounds domain_bounds(const struct simulation_case *input);
+
 /* The rigid body at PLACE, an index of boundaries; -1: none is there. */
 int rigid_body_at(const struct simulation_case *input, struct vec3 place);
 bool has_rigid_body(const struct simulation_case *input);
@@ -403,6 +407,11 @@ static inline struct material_input *case_material(const struct simulation_case 
 static inline struct body_input *case_body(const struct simulation_case *c, int index)
 {
     return (struct body_input *)c->bodies.items + index;
+}
+/* The material of a body. */
+static inline const struct material *body_material(const struct simulation_case *c, int body)
+{
+    return case_material(c, case_body(c, body)->material_index)->material;
 }
 static inline struct boundary_input *case_boundary(const struct simulation_case *c, int index)
 {

@@ -231,9 +231,8 @@ static void check_body(struct checking *checking, int index)
     check_shape(checking, body);
     if (body->velocity.count == 0)
         body->velocity.count = case_dimension_known(checking) ? (int)input->dimension : 0;
-    else if (case_dimension_known(checking) && body->velocity.count != input->dimension)
-        case_wrong(checking, "velocity", "expected %d component%s, one per dimension; found %d",
-                   (int)input->dimension, input->dimension == 1 ? "" : "s", body->velocity.count);
+    else
+        case_check_components(checking, "velocity", body->velocity.count);
     if (body->frozen && (body->driven || !isnan(body->stop)))
         case_wrong(checking, "frozen", "a frozen body keeps its velocity: leave `%s` out",
                    body->driven ? "driven" : "stop");
@@ -252,10 +251,9 @@ static void check_detonation(struct checking *checking, int index)
         for (int k = 0; k < ends[end]->count; k++)
             if (!(fabs(ends[end]->at[k]) <= farthest))
                 case_wrong(checking, keys[end], "expected a place within %g m", farthest);
-    for (int end = 0; end < 2 && case_dimension_known(checking); end++)
-        if (ends[end]->count && ends[end]->count != input->dimension)
-            case_wrong(checking, keys[end], "expected %d component%s, one per dimension; found %d",
-                       (int)input->dimension, input->dimension == 1 ? "" : "s", ends[end]->count);
+    for (int end = 0; end < 2; end++)
+        if (ends[end]->count)
+            case_check_components(checking, keys[end], ends[end]->count);
     for (int k = 0; k < detonation->at.count; k++)
         same = same && detonation->to.at[k] == detonation->at.at[k];
     if (same && !case_is_wrong(checking, ""))

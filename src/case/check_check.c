@@ -81,11 +81,8 @@ void case_check_check(struct checking *checking, int index)
     case_find_members(checking, check->of);
     case_check_between(checking, &check->between);
     case_check_axis(checking, "axis", check->axis);
-    if (check->about.count != 0 && case_dimension_known(checking) &&
-        check->about.count != checking->input->dimension)
-        case_wrong(checking, "about", "expected %d component%s, one per dimension; found %d",
-                   (int)checking->input->dimension, checking->input->dimension == 1 ? "" : "s",
-                   check->about.count);
+    if (check->about.count)
+        case_check_components(checking, "about", check->about.count);
     find_others(checking, check, index);
     if (check->at > checking->input->run.until &&
         !document_is_wrong(checking->input->document, "run"))

@@ -4,20 +4,14 @@
 #include "exact/kingery_curves.h"
 #include "shape/shape.h"
 
-/* The nearest and the farthest distance of BOUNDS from PLACE, in the dimensions of the case. */
-static void distances(const struct bounds *bounds, const struct vector_value *place,
-                      double *nearest, double *farthest)
+/* The farthest distance of BOUNDS from PLACE. */
+static double farthest_from(const struct bounds *bounds, const struct vector_value *place)
 {
-    const double low[3] = {bounds->low.x, bounds->low.y, bounds->low.z},
-                 high[3] = {bounds->high.x, bounds->high.y, bounds->high.z};
-    double near = 0.0, far = 0.0;
-    for (int k = 0; k < place->count; k++) {
-        const double before = low[k] - place->at[k], behind = place->at[k] - high[k];
-        near += square(maximum(0.0, maximum(before, behind)));
-        far += square(maximum(fabs(before), fabs(behind)));
-    }
-    *nearest = sqrt(near);
-    *farthest = sqrt(far);
+    double far = 0.0;
+    for (int k = 0; k < place->count; k++)
+        far += square(maximum(fabs(vec3_at(bounds->low, k) - place->at[k]),
+                              fabs(vec3_at(bounds->high, k) - place->at[k])));
+    return sqrt(far);
 }
 
 static void check_blast(struct checking *checking, const struct load_input *load)
@@ -29,20 +23,15 @@ static void check_blast(struct checking *checking, const struct load_input *load
         case_wrong(checking, "blast", "this needs the `mass` of the charge and where it is, `at`");
         return;
     }
-    if (!case_dimension_known(checking))
-        return;
-    if (blast->at.count != input->dimension) {
-        case_wrong(checking, "blast.at", "expected %d component%s, one per dimension; found %d",
-                   (int)input->dimension, input->dimension == 1 ? "" : "s", blast->at.count);
-        return;
-    }
-    if (load->body < 0 || !case_body(input, load->body)->shape.choice)
+    if (!case_dimension_known(checking) ||
+        !case_check_components(checking, "blast.at", blast->at.count) || load->body < 0 ||
+        !case_body(input, load->body)->shape.choice)
         return;
     const struct bounds bounds = shape_bounds(&case_body(input, load->body)->shape);
     const double size = cbrt(blast->mass), low = kingery_nearest(charge) * size,
                  high = kingery_farthest(charge) * size;
-    double nearest, farthest;
-    distances(&bounds, &blast->at, &nearest, &farthest);
+    const double nearest = bounds_distance(&bounds, vector_at(blast->at.at), blast->at.count),
+                 farthest = farthest_from(&bounds, &blast->at);
     if (nearest < low || (isfinite(farthest) && farthest > high))
         case_wrong(checking, "blast",
                    "the curves for this mass go from %.3g to %.3g m; the body is %.3g to %.3g m "
@@ -80,10 +69,8 @@ void case_check_load(struct checking *checking, int index)
         case_wrong(
             checking, "traction",
             "this needs `between`: the body has another end, which the traction must not pull");
-    else if (load->traction.count && case_dimension_known(checking) &&
-             load->traction.count != input->dimension)
-        case_wrong(checking, "traction", "expected %d component%s, one per dimension; found %d",
-                   (int)input->dimension, input->dimension == 1 ? "" : "s", load->traction.count);
+    else if (load->traction.count)
+        case_check_components(checking, "traction", load->traction.count);
     if (load->before <= load->after)
         case_wrong(checking, "before", "this must be later than `after`");
 }
@@ -174,9 +161,7 @@ void case_check_gravity(struct checking *checking)
     checking->map = "gravity";
     if (!case_dimension_known(checking) || gravity->count == 0)
         return;
-    if (gravity->count != input->dimension)
-        case_wrong(checking, "", "expected %d component%s, one per dimension; found %d",
-                   (int)input->dimension, input->dimension == 1 ? "" : "s", gravity->count);
-    else if (geometry_power(input->geometry) > 0 && gravity->at[0] != 0.0)
+    if (case_check_components(checking, "", gravity->count) &&
+        geometry_power(input->geometry) > 0 && gravity->at[0] != 0.0)
         case_wrong(checking, "1", "gravity that is symmetric about the axis points along it");
 }

@@ -70,3 +70,13 @@ bool case_dimension_known(const struct checking *checking)
     return checking->input->dimension > 0 &&
            !document_is_wrong(checking->input->document, "dimension");
 }
+
+bool case_check_components(struct checking *checking, const char *key, int count)
+{
+    const int dimension = (int)checking->input->dimension;
+    if (!case_dimension_known(checking) || count == dimension)
+        return true;
+    case_wrong(checking, key, "expected %d component%s, one per dimension; found %d", dimension,
+               dimension == 1 ? "" : "s", count);
+    return false;
+}

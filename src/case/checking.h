@@ -29,6 +29,9 @@ int case_find_name(struct checking *checking, const struct named_map *map, const
 
 bool case_dimension_known(const struct checking *checking);
 
+/* The COUNT components of KEY must be one for each dimension; false after a complaint. */
+bool case_check_components(struct checking *checking, const char *key, int count);
+
 /* The case must have AXIS. */
 void case_check_axis(struct checking *checking, const char *key, int axis);
 

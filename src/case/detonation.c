@@ -63,8 +63,7 @@ static double distance(const struct detonation_input *detonation, struct vec3 pl
 
 double detonation_arrival(const struct simulation_case *input, int body, struct vec3 place)
 {
-    const struct burn *burn =
-        &case_material(input, case_body(input, body)->material_index)->material->burn;
+    const struct burn *burn = &body_material(input, body)->burn;
     double arrival = INFINITY;
     for (int i = 0; i < input->detonations.count; i++) {
         const struct detonation_input *detonation = case_detonation(input, i);

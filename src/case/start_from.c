@@ -146,8 +146,6 @@ void case_check_start(struct checking *checking)
             case_find_name(checking, &input->materials, "material", start->material, "material");
     if (!start->from && (start->material || start->center.count || !isnan(start->at)))
         case_wrong(checking, "", "give `from`, the case that is computed first");
-    if (case_dimension_known(checking) && start->center.count &&
-        start->center.count != input->dimension)
-        case_wrong(checking, "center", "expected %d component%s, one for each dimension; found %d",
-                   (int)input->dimension, input->dimension == 1 ? "" : "s", start->center.count);
+    if (start->center.count)
+        case_check_components(checking, "center", start->center.count);
 }

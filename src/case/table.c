@@ -4,7 +4,6 @@
 static const char *const axis_names[] = {"x", "y", "z", NULL};
 static const char *const geometry_names[] = {"plane-strain", "plane-stress", "axisymmetric",
                                              "cylindrical",  "spherical",    NULL};
-static const char *const side_names[] = {"low", "high", NULL};
 
 static const struct parameter body_table[] = {
     {.key = "material",

@@ -244,7 +244,7 @@ static void cfdmp_coarsen(void *parameters, double factor)
     mpm_class.coarsen(&of->mpm, factor);
 }
 
-static bool is_solid(const struct material *material) { return !gas_computes(material); }
+static bool is_no_gas(const struct material *material) { return !gas_computes(material); }
 
 static void cfdmp_judge(const void *parameters, const struct simulation *simulation,
                         struct judgement *judgement)
@@ -256,7 +256,7 @@ static void cfdmp_judge(const void *parameters, const struct simulation *simulat
     coarse_gases(&judgement->findings, edge);
     judgement->energy_lost = mpm_energy_lost;
     judgement->room = cfdmp_room(of, simulation->problem->input);
-    judgement->narrow = is_solid;
+    judgement->narrow = is_no_gas;
 }
 
 const struct solver_class cfdmp_class = {

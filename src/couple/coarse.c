@@ -19,19 +19,14 @@ static const double RADIUS = 10.0, STAND_OFF = 10.0;
  * behind a mirror there the body goes on. */
 static struct bounds bounds_of(const struct simulation_case *input, int body)
 {
-    double face[2][3] = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
-    for (int axis = 0; axis < input->dimension; axis++)
-        for (int side = 0; side < 2; side++)
-            face[side][axis] = domain_face(input, axis, side).at;
-    return bounds_common(shape_bounds(&case_body(input, body)->shape),
-                         (struct bounds){vector_at(face[0]), vector_at(face[1])});
+    return bounds_common(shape_bounds(&case_body(input, body)->shape), domain_bounds(input));
 }
 
 static void find_ends(const struct simulation_case *input, const struct bounds *bounds, int axis,
                       double edge, bool ends[2])
 {
-    ends[0] = part_in(&bounds->low, axis) <= domain_face(input, axis, 0).at + 0.5 * edge;
-    ends[1] = part_in(&bounds->high, axis) >= domain_face(input, axis, 1).at - 0.5 * edge;
+    ends[0] = vec3_at(bounds->low, axis) <= domain_face(input, axis, 0).at + 0.5 * edge;
+    ends[1] = vec3_at(bounds->high, axis) >= domain_face(input, axis, 1).at - 0.5 * edge;
 }
 
 /* Lines through a shape along one axis: STEP apart along each, COUNT of them and of places. */
@@ -77,9 +72,9 @@ static double thickness(const struct simulation_case *input, int body, int axis,
         lines.count[k] = 1;
         if (k >= input->dimension)
             continue;
-        const double extent = part_in(&bounds.high, k) - part_in(&bounds.low, k),
+        const double extent = vec3_at(bounds.high, k) - vec3_at(bounds.low, k),
                      wanted = ceil(PLACES * extent / edge);
-        lines.low[k] = part_in(&bounds.low, k);
+        lines.low[k] = vec3_at(bounds.low, k);
         lines.count[k] = (int64_t)minimum(maximum(wanted, 1.0), k == axis ? 1e6 : (double)MOST);
         lines.step[k] = extent / (double)lines.count[k];
         all *= k == axis ? 1 : lines.count[k];
@@ -120,7 +115,7 @@ static double radius_of(const struct simulation_case *input, int body, double ed
     for (int axis = 0; axis < input->dimension; axis++) {
         bool ends[2];
         find_ends(input, &bounds, axis, edge, ends);
-        const double extent = part_in(&bounds.high, axis) - part_in(&bounds.low, axis);
+        const double extent = vec3_at(bounds.high, axis) - vec3_at(bounds.low, axis);
         if (!(ends[0] && ends[1]))
             least = minimum(least, ends[0] || ends[1] ? extent : 0.5 * extent);
     }
@@ -139,28 +134,20 @@ static void judge_charge(struct findings *findings, int body, double edge)
                 cells, RADIUS);
 }
 
-/* The length of the part of BETWEEN that is positive. */
-static double distance(const double between[3])
-{
-    double sum = 0.0;
-    for (int axis = 0; axis < 3; axis++)
-        sum += square(maximum(between[axis], 0.0));
-    return sqrt(sum);
-}
-
 /* The gap between a charge and a solid, by their bounds, or from the surface of a round charge. */
 static double gap_between(const struct simulation_case *input, int charge, int solid)
 {
     const struct bounds of = bounds_of(input, solid), own = bounds_of(input, charge);
     struct radii radii;
     const bool round = shape_radii(&case_body(input, charge)->shape, &radii);
-    double between[3] = {0.0, 0.0, 0.0};
+    double sum = 0.0;
     for (int axis = 0; axis < input->dimension; axis++) {
-        const double low = round ? part_in(&radii.center, axis) : part_in(&own.low, axis),
-                     high = round ? part_in(&radii.center, axis) : part_in(&own.high, axis);
-        between[axis] = maximum(part_in(&of.low, axis) - high, low - part_in(&of.high, axis));
+        const double low = round ? vec3_at(radii.center, axis) : vec3_at(own.low, axis),
+                     high = round ? vec3_at(radii.center, axis) : vec3_at(own.high, axis);
+        sum += square(
+            maximum(0.0, maximum(vec3_at(of.low, axis) - high, low - vec3_at(of.high, axis))));
     }
-    return distance(between) - (round ? radii.outer : 0.0);
+    return sqrt(sum) - (round ? radii.outer : 0.0);
 }
 
 static void judge_stand_off(struct findings *findings, int charge, int solid, double edge)
@@ -181,16 +168,14 @@ void coarse_cells(struct findings *findings, double edge)
     const struct simulation_case *input = findings->input;
     gas_judge_bodies(findings, edge);
     for (int b = 0; b < input->bodies.count; b++) {
-        const struct material *material =
-            case_material(input, case_body(input, b)->material_index)->material;
-        if (!gas_computes(material))
+        const struct material *material = body_material(input, b);
+        if (is_solid(input, b))
             judge_solid(findings, b, edge);
         if (!material_burns(material))
             continue;
         judge_charge(findings, b, edge);
         for (int solid = 0; solid < input->bodies.count; solid++)
-            if (!gas_computes(
-                    case_material(input, case_body(input, solid)->material_index)->material))
+            if (is_solid(input, solid))
                 judge_stand_off(findings, b, solid, edge);
     }
 }

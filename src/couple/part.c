@@ -62,8 +62,8 @@ void part_cut_bodies(const struct part_maker *maker, struct part *part, const in
     for (int b = 0; b < input->bodies.count; b++) {
         const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
         for (int axis = 0; axis < maker->dimension; axis++)
-            part->elsewhere[b] |= !(part_in(&bounds.low, axis) < part_in(&box.high, axis) &&
-                                    part_in(&bounds.high, axis) > part_in(&box.low, axis));
+            part->elsewhere[b] |= !(vec3_at(bounds.low, axis) < vec3_at(box.high, axis) &&
+                                    vec3_at(bounds.high, axis) > vec3_at(box.low, axis));
     }
 }
 

@@ -75,6 +75,12 @@ double part_cell_volume(const struct part_maker *maker, bool round, const int64_
  * or where the products of another case have none, the first of the case. */
 int part_body_of(const struct place *place, int material);
 
+/* Whether a BODY is none of gas. */
+BOLIDE_INLINE bool is_solid(const struct simulation_case *input, int body)
+{
+    return !gas_computes(body_material(input, body));
+}
+
 /* Particles of a BODY along an axis, in a cell. */
 int64_t part_particles_across(const struct mpm *mpm, int body);
 
@@ -106,11 +112,5 @@ void part_hide_cells(struct cell_blocks *cells, const int64_t low[3], const int6
 extern const struct parameter region_table[];
 struct error *region_check(const struct couple_region *region, const char *key,
                            const struct simulation_case *input, const struct cell_blocks *cells);
-
-/* A component of a vector. */
-BOLIDE_INLINE double part_in(const struct vec3 *v, int axis)
-{
-    return axis == 0 ? v->x : axis == 1 ? v->y : v->z;
-}
 
 #endif

@@ -25,8 +25,7 @@ static struct error *make_gas_part(struct cfdmp *cfdmp, const struct simulation 
     TRY(part_begin(&cfdmp->maker, part, input));
     part->place.resolution = cfdmp->edge;
     for (int b = 0; b < input->bodies.count; b++)
-        part->elsewhere[b] =
-            !gas_computes(&simulation->problem->material[case_body(input, b)->material_index]);
+        part->elsewhere[b] = is_solid(input, b);
     const struct cell_blocks domain = part_domain(input, cfdmp->edge);
     TRY(cfdmp_find_region(cfdmp, input, &domain));
     TRY(cfdmp_check_region(cfdmp, input));

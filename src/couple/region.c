@@ -15,11 +15,6 @@ static int64_t solid_depth(const struct cfdmp *cfdmp)
     return cfdmp->parameters.overlap + (band > least ? band : least);
 }
 
-static bool is_solid(const struct simulation_case *input, int body)
-{
-    return !gas_computes(case_material(input, case_body(input, body)->material_index)->material);
-}
-
 void cfdmp_blocked(const struct cfdmp *cfdmp, int axis, int64_t at[2])
 {
     const int64_t depth = cfdmp->parameters.overlap + cfdmp_band_depth(cfdmp->dimension);
@@ -101,8 +96,8 @@ struct error *cfdmp_find_region(struct cfdmp *cfdmp, const struct simulation_cas
             if (!is_solid(input, b))
                 continue;
             const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
-            low = minimum(low, part_in(&bounds.low, axis) / cfdmp->edge - margin);
-            high = maximum(high, part_in(&bounds.high, axis) / cfdmp->edge + margin);
+            low = minimum(low, vec3_at(bounds.low, axis) / cfdmp->edge - margin);
+            high = maximum(high, vec3_at(bounds.high, axis) / cfdmp->edge + margin);
         }
         if (region->low.count > axis) {
             low = region->low.at[axis] / cfdmp->edge;
@@ -130,13 +125,13 @@ static struct bounds sampled_bounds(const struct one_of *shape, int dimension, d
                            vec3_make(-INFINITY, -INFINITY, -INFINITY)};
     int64_t count[3] = {1, 1, 1}, k[3];
     for (int axis = 0; axis < dimension; axis++)
-        count[axis] = 1 + (int64_t)((part_in(&wide.high, axis) - part_in(&wide.low, axis)) / apart);
+        count[axis] = 1 + (int64_t)((vec3_at(wide.high, axis) - vec3_at(wide.low, axis)) / apart);
     for (k[2] = 0; k[2] < count[2]; k[2]++)
         for (k[1] = 0; k[1] < count[1]; k[1]++)
             for (k[0] = 0; k[0] < count[0]; k[0]++) {
                 double at[3] = {0.0, 0.0, 0.0};
                 for (int axis = 0; axis < dimension; axis++)
-                    at[axis] = part_in(&wide.low, axis) + ((double)k[axis] + 0.5) * apart;
+                    at[axis] = vec3_at(wide.low, axis) + ((double)k[axis] + 0.5) * apart;
                 const struct vec3 place = vector_at(at);
                 if (shape_inside(shape, place))
                     found = bounds_around(found, (struct bounds){place, place});
@@ -150,8 +145,8 @@ static struct bounds sampled_bounds(const struct one_of *shape, int dimension, d
 static double room_to_spare(const struct cfdmp *cfdmp, const struct bounds *bounds, int axis,
                             int side, double *room)
 {
-    const double low = part_in(&bounds->low, axis) / cfdmp->edge,
-                 high = part_in(&bounds->high, axis) / cfdmp->edge,
+    const double low = vec3_at(bounds->low, axis) / cfdmp->edge,
+                 high = vec3_at(bounds->high, axis) / cfdmp->edge,
                  face = (double)(side ? cfdmp->cut.high : cfdmp->cut.low)[axis];
     const bool open = cfdmp->cut.open[axis][side];
     *room = side ? face - (open ? high : low) : (open ? low : high) - face;

@@ -9,19 +9,9 @@
 #include "model/problem.h"
 #include "shape/shape.h"
 
-static const struct material *material_of(const struct simulation_case *input, int body)
-{
-    return case_material(input, case_body(input, body)->material_index)->material;
-}
-
-static bool is_solid(const struct simulation_case *input, int body)
-{
-    return !gas_computes(material_of(input, body));
-}
-
 static bool is_charge(const struct simulation_case *input, int body)
 {
-    return material_is_lit(material_of(input, body));
+    return material_is_lit(body_material(input, body));
 }
 
 static int count_bodies(const struct simulation_case *input,
@@ -61,8 +51,8 @@ static void find_bounds(const struct afdmp *afdmp, const struct simulation_case 
             if (!are(input, b))
                 continue;
             const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
-            low[axis] = minimum(low[axis], part_in(&bounds.low, axis) / afdmp->edge - margin);
-            high[axis] = maximum(high[axis], part_in(&bounds.high, axis) / afdmp->edge + margin);
+            low[axis] = minimum(low[axis], vec3_at(bounds.low, axis) / afdmp->edge - margin);
+            high[axis] = maximum(high[axis], vec3_at(bounds.high, axis) / afdmp->edge + margin);
         }
     }
 }
@@ -103,8 +93,8 @@ static struct error *find_region(struct afdmp *afdmp, const struct simulation *s
         bool outside = false;
         for (int axis = 0; axis < afdmp->dimension; axis++)
             outside |=
-                part_in(&bounds.low, axis) / afdmp->edge < (double)afdmp->region.low[axis] - 1e-6 ||
-                part_in(&bounds.high, axis) / afdmp->edge > (double)afdmp->region.high[axis] + 1e-6;
+                vec3_at(bounds.low, axis) / afdmp->edge < (double)afdmp->region.low[axis] - 1e-6 ||
+                vec3_at(bounds.high, axis) / afdmp->edge > (double)afdmp->region.high[axis] + 1e-6;
         if (is_solid(input, b) && outside)
             error = error_join(error, input_error(input, "bodies", input->bodies.names[b],
                                                   "this solid reaches beyond the region of the "
@@ -134,9 +124,9 @@ static void look_at_charge(const struct afdmp *afdmp, const struct simulation_ca
     int count[3] = {1, 1, 1};
     double from[3] = {0.0}, step[3] = {0.0};
     for (int axis = 0; axis < afdmp->dimension; axis++) {
-        const double low = maximum(part_in(&bounds.low, axis),
+        const double low = maximum(vec3_at(bounds.low, axis),
                                    (double)domain->low[axis] * afdmp->edge),
-                     high = minimum(part_in(&bounds.high, axis),
+                     high = minimum(vec3_at(bounds.high, axis),
                                     (double)domain->high[axis] * afdmp->edge);
         count[axis] = ACROSS;
         step[axis] = (high - low) / ACROSS;
@@ -174,7 +164,7 @@ static struct error *find_nest(struct afdmp *afdmp, const struct simulation_case
     for (int b = 0; b < input->bodies.count; b++)
         if (is_charge(input, b)) {
             look_at_charge(afdmp, input, b, domain, &time);
-            speed = maximum(speed, material_detonation_speed(material_of(input, b)));
+            speed = maximum(speed, material_detonation_speed(body_material(input, b)));
         }
     const double margin =
         cells + faster * speed * maximum(time.last - time.first, 0.0) / afdmp->edge;

@@ -29,16 +29,12 @@ struct filling {
     struct error *error;
 };
 
-static struct vec3 place_of(const double at[3]) { return vec3_make(at[0], at[1], at[2]); }
-
 static bool meets(const struct bounds *bounds, const double low[3], const double high[3],
                   int dimension)
 {
-    const double from[3] = {bounds->low.x, bounds->low.y, bounds->low.z},
-                 to[3] = {bounds->high.x, bounds->high.y, bounds->high.z};
     bool meets = true;
     for (int axis = 0; axis < dimension; axis++)
-        meets &= from[axis] < high[axis] && low[axis] < to[axis];
+        meets &= vec3_at(bounds->low, axis) < high[axis] && low[axis] < vec3_at(bounds->high, axis);
     return meets;
 }
 
@@ -126,7 +122,7 @@ static struct vec3 point_of(const struct cell_blocks *cells, const double centre
         at[axis] = centre[axis] + part[k % points] * cells->edge;
         k /= points;
     }
-    return place_of(at);
+    return vector_at(at);
 }
 
 static int64_t points_in(int64_t base, int exponent)
@@ -210,7 +206,7 @@ static void fill_cell(struct filling *f, int32_t i)
     struct cell_blocks *cells = f->gas->cells;
     struct gas *gas = f->gas;
     const double *centre = cells->position[i];
-    const struct vec3 place = place_of(centre);
+    const struct vec3 place = vector_at(centre);
     double low[3], high[3], sum[FILLS] = {0.0};
     for (int axis = 0; axis < 3; axis++) {
         low[axis] = centre[axis] - 0.5 * cells->edge;

@@ -411,11 +411,7 @@ static void gas_count(const void *parameters, const struct simulation_case *inpu
                       struct counted *counted)
 {
     (void)parameters;
-    double face[2][3] = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-    for (int axis = 0; axis < input->dimension; axis++)
-        for (int side = 0; side < 2; side++)
-            face[side][axis] = domain_face(input, axis, side).at;
-    counted->box = (struct bounds){vector_at(face[0]), vector_at(face[1])};
+    counted->box = domain_bounds(input);
 }
 
 static double gas_step(const void *parameters, int dimension, const struct material *material,

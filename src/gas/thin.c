@@ -91,16 +91,13 @@ static struct crossings cross(const struct look *look, int axis)
 /* The cells about the shape of LOOK that the domain has; false where there are none. */
 static bool find_cells(const struct simulation_case *input, struct look *look)
 {
-    const struct bounds bounds = shape_bounds(look->shape);
-    const double from[3] = {bounds.low.x, bounds.low.y, bounds.low.z},
-                 to[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
+    const struct bounds box = bounds_common(shape_bounds(look->shape), domain_bounds(input));
     for (int axis = 0; axis < 3; axis++) {
         look->low[axis] = 0;
         look->count[axis] = 1;
         if (axis >= look->dimension)
             continue;
-        const double low = maximum(from[axis], domain_face(input, axis, 0).at),
-                     high = minimum(to[axis], domain_face(input, axis, 1).at);
+        const double low = vec3_at(box.low, axis), high = vec3_at(box.high, axis);
         if (!(high > low))
             return false;
         look->low[axis] = (int64_t)floor(low / look->edge + 1e-6);

@@ -6,8 +6,6 @@
 #include "base/memory.h"
 #include "shape/shape.h"
 
-static double component(struct vec3 v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
-
 static struct bounds bounds_of(const struct measurement *measurement)
 {
     const struct simulation_case *input = measurement->simulation->problem->input;
@@ -40,7 +38,9 @@ static struct error *check_round(const struct measurement *measurement, int alon
 static bool is_mirrored(const struct problem *problem, int k, double at)
 {
     const double near = 1e-6 * problem->input->resolution;
-    return fabs(problem->mirrors.low[k] - at) < near || fabs(problem->mirrors.high[k] - at) < near;
+    const struct face *face = problem->place.face[k];
+    return (face_closes(&face[0]) && fabs(face[0].at - at) < near) ||
+           (face_closes(&face[1]) && fabs(face[1].at - at) < near);
 }
 
 struct error *broken_find_axis(const struct measurement *measurement, int along,
@@ -64,7 +64,7 @@ struct error *broken_find_axis(const struct measurement *measurement, int along,
         if (k == along)
             continue;
         const double at = center->count ? center->at[k] : 0.0;
-        if (at < component(bounds.low, k) || at > component(bounds.high, k))
+        if (at < vec3_at(bounds.low, k) || at > vec3_at(bounds.high, k))
             return measure_error(measurement, "the axis misses \"%s\": give its `center`",
                                  measurement->check->of);
         axis->across[axis->count] = k;
@@ -90,7 +90,7 @@ bool broken_image(const struct broken_axis *axis, const double at[3], int image,
 double broken_face(const struct measurement *measurement, int along, bool high)
 {
     const struct bounds bounds = bounds_of(measurement);
-    return component(high ? bounds.high : bounds.low, along);
+    return vec3_at(high ? bounds.high : bounds.low, along);
 }
 
 /* A fragment with this fraction of the mass of the heaviest is part of the plate. */

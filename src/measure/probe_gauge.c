@@ -59,10 +59,11 @@ static bool reaches_cell(const struct simulation_case *input, const struct vecto
                          double radius, double edge)
 {
     enum { MOST = 40 }; /* cells along an axis: as many hold an open one, or all is blocked */
+    const struct bounds domain = domain_bounds(input);
     int64_t low[3] = {0, 0, 0}, count[3] = {1, 1, 1}, all = 1;
     for (int axis = 0; axis < place->count; axis++) {
-        const double from = maximum(place->at[axis] - radius, domain_face(input, axis, 0).at),
-                     to = minimum(place->at[axis] + radius, domain_face(input, axis, 1).at);
+        const double from = maximum(place->at[axis] - radius, vec3_at(domain.low, axis)),
+                     to = minimum(place->at[axis] + radius, vec3_at(domain.high, axis));
         low[axis] = (int64_t)ceil(from / edge - 0.5 - 1e-9);
         count[axis] = (int64_t)floor(to / edge - 0.5 + 1e-9) - low[axis] + 1;
         if (count[axis] <= 0)

@@ -23,11 +23,10 @@ static double outside_body(const struct simulation_case *input, int body,
 {
     const struct body_input *of = case_body(input, body);
     const struct bounds bounds = body_bounds(input, body);
-    const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z};
-    const double high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
     double farthest = 0.0;
     for (int i = 0; i < at->count; i++)
-        farthest = maximum(farthest, maximum(low[i] - at->at[i], at->at[i] - high[i]));
+        farthest = maximum(farthest, maximum(vec3_at(bounds.low, i) - at->at[i],
+                                             at->at[i] - vec3_at(bounds.high, i)));
     return farthest - (isnan(of->resolution) ? input->resolution : of->resolution);
 }
 

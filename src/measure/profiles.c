@@ -37,10 +37,8 @@ static void find_ends(const struct profile_input *input, const struct simulation
     *high = given ? input->between.at[1] : -(double)INFINITY;
     for (int b = 0; b < of->bodies.count && !given; b++) {
         const struct bounds bounds = shape_bounds(&case_body(of, b)->shape);
-        const double from[] = {bounds.low.x, bounds.low.y, bounds.low.z};
-        const double to[] = {bounds.high.x, bounds.high.y, bounds.high.z};
-        *low = minimum(*low, from[input->along]);
-        *high = maximum(*high, to[input->along]);
+        *low = minimum(*low, vec3_at(bounds.low, input->along));
+        *high = maximum(*high, vec3_at(bounds.high, input->along));
     }
 }
 

@@ -8,81 +8,66 @@
 #include "parallel/periodic.h"
 #include "shape/shape.h"
 
-struct mirrors boundaries_mirrors(const struct face face[3][2])
+struct mirrors boundaries_images(const struct face face[3][2])
 {
-    struct mirrors mirrors = {0};
+    struct mirrors images = {0};
     for (int axis = 0; axis < 3; axis++) {
         const struct face *low = &face[axis][0], *high = &face[axis][1];
-        mirrors.low[axis] = face_closes(low) ? low->at : (double)NAN;
-        mirrors.high[axis] = face_closes(high) ? high->at : (double)NAN;
+        images.low[axis] = face_closes(low) ? low->at : (double)NAN;
+        images.high[axis] = face_closes(high) ? high->at : (double)NAN;
         if (low->kind == BOUNDARY_PERIODIC && low->at < high->at && isfinite(high->at - low->at))
-            mirrors_make_periodic(&mirrors, axis, low->at, high->at);
+            images_make_periodic(&images, axis, low->at, high->at);
     }
-    return mirrors;
+    return images;
 }
 
-/* The names of the kinds of SUPPORTED as `a, b and c`. */
+/* The names of the kinds of SUPPORTED as `a, b, c`; of the solvers of the catalogue that have KIND. */
 static void kinds_text(unsigned supported, char *text, size_t size)
 {
-    size_t used = 0;
-    *text = 0;
-    for (int kind = 0; kind < BOUNDARY_KINDS && used < size; kind++) {
-        const unsigned rest = (supported & ((1u << BOUNDARY_KINDS) - 1)) >> kind;
-        if (rest & 1u)
-            used += (size_t)snprintf(text + used, size - used, "%s%s",
-                                     !used        ? ""
-                                     : rest == 1u ? " and "
-                                                  : ", ",
-                                     boundary_kind_name(kind));
-    }
+    const char *names[BOUNDARY_KINDS];
+    int count = 0;
+    for (int kind = 0; kind < BOUNDARY_KINDS; kind++)
+        if (supported & 1u << kind)
+            names[count++] = boundary_kind_name(kind);
+    list_text(names, count, text, size);
 }
-
-/* The solvers of the catalogue that have a KIND, as `; use gas or cfdmp`. */
-static void others_text(const struct simulation_case *input, int kind, char *text, size_t size)
+static void solvers_text(const struct simulation_case *input, int kind, char *text, size_t size)
 {
-    const struct choice_list *list =
-        input->catalogue ? catalogue_list(input->catalogue, "solver") : NULL;
-    size_t used = 0;
-    *text = 0;
-    for (int k = 0; list && k < list->count && used < size; k++) {
-        const struct solver_class *class = list->choices[k].thing;
-        if (class->boundaries & 1u << kind)
-            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " or " : "; use ",
-                                     list->choices[k].name);
-    }
+    enum { MOST = 16 };
+    const struct choice_list *list = catalogue_list(input->catalogue, "solver");
+    const char *names[MOST];
+    int count = 0;
+    for (int k = 0; k < list->count && count < MOST; k++)
+        if (((const struct solver_class *)list->choices[k].thing)->boundaries & 1u << kind)
+            names[count++] = list->choices[k].name;
+    list_text(names, count, text, size);
 }
 
 /* What else serves particles. */
 static const char *const instead[BOUNDARY_KINDS] = {
     [BOUNDARY_TRANSMITTING] =
-        ", or end the material with a few particles of a `frozen` body, which waves leave through",
-    [BOUNDARY_RIGID_BODY] = ", or a body that is `driven` or `frozen`"};
+        "; or end the material with a few particles of a `frozen` body, which waves leave through",
+    [BOUNDARY_RIGID_BODY] = "; or make it a body that is `driven` or `frozen`"};
 
 static void refuse_kind(struct findings *findings, int b, unsigned supported)
 {
     const struct simulation_case *input = findings->input;
     const struct boundary_input *boundary = case_boundary(input, b);
     char path[160], has[160], others[160];
-    if (boundary->part.choice && boundary->kind != BOUNDARY_RIGID_BODY &&
-        !(supported & BOUNDARY_PARTS)) {
-        snprintf(path, sizeof path, "%.100s.part", input->boundaries.names[b]);
-        {
-            finding_add(findings, FINDING_WRONG, "boundaries", path,
-                        "only the solver gas has faces of several parts: remove this key, or "
-                        "close the part with a `frozen` body");
-            return;
-        }
-    }
-    if (supported & 1u << boundary->kind)
-        return;
+    snprintf(path, sizeof path, "%.100s.part", input->boundaries.names[b]);
     kinds_text(supported, has, sizeof has);
-    others_text(input, boundary->kind, others, sizeof others);
-    const char *other = instead[boundary->kind];
-
-    finding_add(findings, FINDING_WRONG, "boundaries", input->boundaries.names[b],
-                "the solver %s has no %s boundaries, only %s%s%s", input->solver.choice->name,
-                boundary_kind_name(boundary->kind), has, others,
-                other && !(supported & BOUNDARY_PARTS) ? other : "");
+    solvers_text(input, boundary->kind, others, sizeof others);
+    const char *other = supported & BOUNDARY_PARTS ? NULL : instead[boundary->kind];
+    if (boundary->part.choice && boundary->kind != BOUNDARY_RIGID_BODY &&
+        !(supported & BOUNDARY_PARTS))
+        finding_add(findings, FINDING_WRONG, "boundaries", path,
+                    "only the solver gas has faces of several parts: remove this key, or close "
+                    "the part with a `frozen` body");
+    else if (!(supported & 1u << boundary->kind))
+        finding_add(findings, FINDING_WRONG, "boundaries", input->boundaries.names[b],
+                    "the solver %s has no %s boundaries (it has: %s); these have: %s%s",
+                    input->solver.choice->name, boundary_kind_name(boundary->kind), has, others,
+                    other ? other : "");
 }
 
 void boundaries_refuse(struct findings *findings, unsigned supported)
@@ -90,11 +75,6 @@ void boundaries_refuse(struct findings *findings, unsigned supported)
     const struct simulation_case *input = findings->input;
     for (int b = 0; b < input->boundaries.count; b++)
         refuse_kind(findings, b, supported);
-}
-
-static double end_of(struct vec3 place, int axis)
-{
-    return axis == 0 ? place.x : axis == 1 ? place.y : place.z;
 }
 
 /* Rows of a hexagonal lattice are shifted in turn: an odd number of them does not repeat. */
@@ -118,7 +98,7 @@ static void check_bodies(struct findings *findings, int axis, const struct face_
     const double margin = 1e-6 * input->resolution;
     for (int b = 0; b < input->bodies.count; b++) {
         const struct bounds bounds = body_bounds(input, b);
-        const double low = end_of(bounds.low, axis), high = end_of(bounds.high, axis);
+        const double low = vec3_at(bounds.low, axis), high = vec3_at(bounds.high, axis);
         if (low < face[0].at - margin || high > face[1].at + margin)
             finding_add(findings, FINDING_WRONG, "bodies", input->bodies.names[b],
                         "it lies between %.6g m and %.6g m along %c, outside the domain, "

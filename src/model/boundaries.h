@@ -5,7 +5,7 @@
 #include "model/solver.h"
 
 /* FACE as mirrors and periods of particles. */
-struct mirrors boundaries_mirrors(const struct face face[3][2]);
+struct mirrors boundaries_images(const struct face face[3][2]);
 
 /* Finds boundaries that a solver without those of SUPPORTED, bits of solver_class.boundaries, does
  * not have; of particles also faces that do not bound the bodies. */

@@ -170,10 +170,8 @@ static void explore_plain(const struct walk *walk, const struct place *place,
     for (int axis = 0; axis < 3; axis++)
         high[axis] = lattice->count[axis];
     for (int axis = 0; axis < (int)input->dimension && box; axis++) {
-        const double from[3] = {box->low.x, box->low.y, box->low.z},
-                     to[3] = {box->high.x, box->high.y, box->high.z};
-        low[axis] = first_site(lattice, axis, from[axis], false);
-        high[axis] = first_site(lattice, axis, to[axis], true);
+        low[axis] = first_site(lattice, axis, vec3_at(box->low, axis), false);
+        high[axis] = first_site(lattice, axis, vec3_at(box->high, axis), true);
     }
     for (int axis = 0; axis < 3; axis++)
         counted *= high[axis] > low[axis] ? high[axis] - low[axis] : 0;

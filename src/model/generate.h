@@ -23,7 +23,7 @@ struct body_summary {
                              fastest sound */
 };
 
-/* The bounds of BODY's shape between the mirrors that cut it; about an axis those of its part at
+/* The bounds of BODY's shape between the walls that cut it; about an axis those of its part at
  * x > 0, if it has one. */
 struct bounds body_bounds(const struct simulation_case *input, int body);
 struct bounds place_bounds(const struct place *place, int body);

@@ -10,9 +10,9 @@
 /* Particles across a plate below which others get through it, and with which it hardly bends. */
 enum { THIN = 3 };
 
-/* Whether mirrors or periodic faces keep bodies from both sides of AXIS: they stand for infinite
+/* Whether walls or periodic faces keep bodies from both sides of AXIS: they stand for infinite
  * ones. */
-static bool is_between_mirrors(const struct simulation_case *input, int axis)
+static bool is_between_walls(const struct simulation_case *input, int axis)
 {
     const struct place whole = place_whole(input);
     const struct face *face = whole.face[axis];
@@ -41,7 +41,7 @@ static void warn_of_thin(struct findings *findings, int body)
     const struct simulation_case *input = findings->input;
     assert(input->dimension <= 3);
     for (int axis = 0; axis < input->dimension && input->dimension > 1; axis++)
-        if (is_thin(input, body, axis) && !is_between_mirrors(input, axis) &&
+        if (is_thin(input, body, axis) && !is_between_walls(input, axis) &&
             !all_are_thin(input, axis)) {
             const int64_t count = body_lattice(input, body).count[axis];
             {
@@ -75,24 +75,20 @@ static void warn_of_cold(struct findings *findings, int body)
 }
 
 /* A body across the axis of symmetry, or a mirror across it, loses what is outside. That is meant
- * where it is the half of a symmetric body; a mesostructure may end at two mirrors. */
+ * where it is the half of a symmetric body; a mesostructure may end at two walls. */
 static void warn_of_cut(struct findings *findings, int body)
 {
     const struct simulation_case *input = findings->input;
     const struct bounds shape = shape_bounds(&case_body(input, body)->shape);
     const struct bounds kept = body_bounds(input, body);
     const struct vec3 spacing = body_lattice(input, body).spacing;
-    const double from[3] = {shape.low.x, shape.low.y, shape.low.z};
-    const double to[3] = {shape.high.x, shape.high.y, shape.high.z};
-    const double low[3] = {kept.low.x, kept.low.y, kept.low.z};
-    const double high[3] = {kept.high.x, kept.high.y, kept.high.z};
-    const double step[3] = {spacing.x, spacing.y, spacing.z};
     const bool round = geometry_power(input->geometry) > 0;
     assert(input->dimension <= 3);
     for (int axis = 0; axis < input->dimension; axis++) {
-        const double below = low[axis] - from[axis], above = to[axis] - high[axis];
-        const double cut = below + above, left = high[axis] - low[axis];
-        const double margin = step[axis];
+        const double from = vec3_at(shape.low, axis), to = vec3_at(shape.high, axis);
+        const double low = vec3_at(kept.low, axis), high = vec3_at(kept.high, axis);
+        const double below = low - from, above = to - high, cut = below + above, left = high - low;
+        const double margin = vec3_at(spacing, axis);
         if (!isfinite(cut) || cut <= margin || (below > 0.0 && above > 0.0) ||
             fabs(cut - left) <= margin)
             continue;
@@ -100,9 +96,9 @@ static void warn_of_cut(struct findings *findings, int body)
             finding_add(findings, FINDING_DOUBTFUL, "bodies", input->bodies.names[body],
                         "%.0f %% of its extent along %c is left out: it is from %.6g m to %.6g "
                         "m and ends at %s, %c = %.6g m",
-                        100.0 * cut / (cut + left), "xyz"[axis], from[axis], to[axis],
+                        100.0 * cut / (cut + left), "xyz"[axis], from, to,
                         round && axis == 0 && below > 0.0 ? "the axis" : "the wall", "xyz"[axis],
-                        below > 0.0 ? low[axis] : high[axis]);
+                        below > 0.0 ? low : high);
             return;
         }
     }

@@ -7,19 +7,6 @@
 #include "material/material.h"
 #include "shape/shape.h"
 
-/* How far PLACE is from BOUNDS, in the dimensions of the case. */
-static double distance_to(const struct simulation_case *input, const struct bounds *bounds,
-                          struct vec3 place)
-{
-    const double low[3] = {bounds->low.x, bounds->low.y, bounds->low.z},
-                 high[3] = {bounds->high.x, bounds->high.y, bounds->high.z},
-                 at[3] = {place.x, place.y, place.z};
-    double far = 0.0;
-    for (int axis = 0; axis < (int)input->dimension; axis++)
-        far = hypot(far, maximum(0.0, maximum(low[axis] - at[axis], at[axis] - high[axis])));
-    return far;
-}
-
 /* The place at FRACTION of the line of DETONATION, or its point. */
 static struct vec3 place_on(const struct detonation_input *detonation, double fraction)
 {
@@ -43,7 +30,7 @@ static double gap_to(const struct simulation_case *input, const struct detonatio
     double least = INFINITY;
     for (int k = 0; k < (detonation->to.count ? POINTS : 1); k++) {
         const struct vec3 place = place_on(detonation, (double)k / (POINTS - 1));
-        const double gap = distance_to(input, &bounds, place);
+        const double gap = bounds_distance(&bounds, place, (int)input->dimension);
         least = minimum(least, gap > near ? gap : 0.0);
     }
     return least;
@@ -53,8 +40,7 @@ static double gap_to(const struct simulation_case *input, const struct detonatio
 static double arrival_at(const struct simulation_case *input,
                          const struct detonation_input *detonation, int body, double gap)
 {
-    const struct material *material =
-        case_material(input, case_body(input, body)->material_index)->material;
+    const struct material *material = body_material(input, body);
     return detonation->time + gap / material_detonation_speed(material);
 }
 

@@ -12,8 +12,6 @@ struct meeting {
     double duration;         /* of the positive phase where it arrives first */
 };
 
-static double along(struct vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 static void meet_wave(const struct blast_input *blast, const struct surface_state *state,
                       struct meeting *meeting)
 {
@@ -38,8 +36,8 @@ static struct meeting meet(const struct load_input *load, const struct body_surf
     everywhere.side = any_side.side = -1;
     for (int32_t e = 0; e < surface->elements; e++) {
         const struct surface_element *element = &surface->element[e];
-        const double x = along(element->start.place, load->axis),
-                     to = along(element->start.normal, load->axis);
+        const double x = vec3_at(element->start.place, load->axis),
+                     to = vec3_at(element->start.normal, load->axis);
         if (!load_takes(&everywhere, element))
             continue;
         meeting.low = minimum(meeting.low, x);

@@ -45,10 +45,9 @@ static double farthest(const struct simulation *simulation)
     double reach = 0.0;
     for (int body = 0; body < input->bodies.count; body++) {
         const struct bounds bounds = body_bounds(input, body);
-        const double ends[] = {bounds.low.x,  bounds.low.y,  bounds.low.z,
-                               bounds.high.x, bounds.high.y, bounds.high.z};
-        for (size_t k = 0; k < COUNT_OF(ends); k++)
-            reach = maximum(reach, fabs(ends[k]));
+        for (int axis = 0; axis < 3; axis++)
+            reach = maximum(
+                reach, maximum(fabs(vec3_at(bounds.low, axis)), fabs(vec3_at(bounds.high, axis))));
     }
     return reach + SPEED_OF_LIGHT * simulation->time;
 }

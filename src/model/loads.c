@@ -8,8 +8,6 @@
 #include "base/memory.h"
 #include "exact/kingery_curves.h"
 
-static double along(struct vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 bool load_acts_at(const struct load_input *load, double time)
 {
     return !(time < load->after || time >= load->before);
@@ -17,7 +15,7 @@ bool load_acts_at(const struct load_input *load, double time)
 
 static bool is_between(const struct load_input *load, struct vec3 place)
 {
-    const double x = along(place, load->axis);
+    const double x = vec3_at(place, load->axis);
     return load->between.count == 0 || (x >= load->between.at[0] && x <= load->between.at[1]);
 }
 
@@ -25,7 +23,7 @@ static bool is_between(const struct load_input *load, struct vec3 place)
 static bool is_of_side(const struct load_input *load, struct vec3 normal)
 {
     static const double least = 1e-9;
-    const double to = along(normal, load->axis);
+    const double to = vec3_at(normal, load->axis);
     return load->side < 0 || (load->side == SIDE_HIGH ? to : -to) > least;
 }
 
@@ -40,9 +38,9 @@ double blast_cosine(const struct blast_input *blast, const struct surface_state 
 {
     double way = 0.0, to = 0.0;
     for (int axis = 0; axis < blast->at.count; axis++) {
-        const double step = blast->at.at[axis] - along(state->place, axis);
+        const double step = blast->at.at[axis] - vec3_at(state->place, axis);
         way += square(step);
-        to += step * along(state->normal, axis);
+        to += step * vec3_at(state->normal, axis);
     }
     *distance = sqrt(way);
     return to / *distance;
@@ -193,7 +191,7 @@ static struct push push_of(const struct acting *acting, const struct body_surfac
                              fabs(pressure) * vec3_dot(now->area, now->normal)};
     if (!is_of_side(load, now->normal))
         return none;
-    const double area = (load->side == SIDE_HIGH ? 1.0 : -1.0) * along(now->area, load->axis);
+    const double area = (load->side == SIDE_HIGH ? 1.0 : -1.0) * vec3_at(now->area, load->axis);
     const struct vec3 traction = vector_at(acting->traction);
     return (struct push){vec3_scale(area, traction), sqrt(vec3_dot(traction, traction)) * area};
 }

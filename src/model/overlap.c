@@ -13,11 +13,6 @@ bool bounds_meet(const struct bounds *a, const struct bounds *b)
            b->low.y <= a->high.y && a->low.z <= b->high.z && b->low.z <= a->high.z;
 }
 
-static double along(struct vec3 place, int axis)
-{
-    return axis == 0 ? place.x : axis == 1 ? place.y : place.z;
-}
-
 /* The axis along which the bodies lie most one behind the other. */
 static int best_axis(const struct overlaps *overlaps)
 {
@@ -27,9 +22,9 @@ static int best_axis(const struct overlaps *overlaps)
         double low = INFINITY, high = -INFINITY, sum = 0.0;
         for (int i = 0; i < overlaps->place->input->bodies.count; i++) {
             const struct bounds *bounds = &overlaps->bounds[i];
-            low = minimum(low, along(bounds->low, axis));
-            high = maximum(high, along(bounds->high, axis));
-            sum += along(bounds->high, axis) - along(bounds->low, axis);
+            low = minimum(low, vec3_at(bounds->low, axis));
+            high = maximum(high, vec3_at(bounds->high, axis));
+            sum += vec3_at(bounds->high, axis) - vec3_at(bounds->low, axis);
         }
         if (sum > 0.0 && (high - low) / sum > most) {
             most = (high - low) / sum;
@@ -57,7 +52,7 @@ static double grow(struct overlaps *overlaps, int begin, int end)
     if (begin >= end)
         return -INFINITY;
     const int middle = begin + (end - begin) / 2;
-    const double own = along(overlaps->bounds[overlaps->order[middle]].high, overlaps->axis);
+    const double own = vec3_at(overlaps->bounds[overlaps->order[middle]].high, overlaps->axis);
     overlaps->highest[middle] =
         maximum(own, maximum(grow(overlaps, begin, middle), grow(overlaps, middle + 1, end)));
     return overlaps->highest[middle];
@@ -81,7 +76,7 @@ struct error *overlaps_make(const struct place *place, struct overlaps *overlaps
         overlaps->bounds[i] = shape_bounds(&case_body(input, (int)i)->shape);
     overlaps->axis = best_axis(overlaps);
     for (size_t i = 0; i < count; i++)
-        entry[i] = (struct entry){along(overlaps->bounds[i].low, overlaps->axis), (int)i};
+        entry[i] = (struct entry){vec3_at(overlaps->bounds[i].low, overlaps->axis), (int)i};
     qsort(entry, count, sizeof *entry, by_low);
     for (size_t i = 0; i < count; i++)
         overlaps->order[i] = entry[i].body;
@@ -137,10 +132,11 @@ static void seek(struct search *search, int begin, int end)
     const struct bounds *own = &overlaps->bounds[search->body];
     while (begin < end) {
         const int middle = begin + (end - begin) / 2, other = overlaps->order[middle];
-        if (overlaps->highest[middle] < along(own->low, overlaps->axis))
+        if (overlaps->highest[middle] < vec3_at(own->low, overlaps->axis))
             return;
         seek(search, begin, middle);
-        if (along(overlaps->bounds[other].low, overlaps->axis) > along(own->high, overlaps->axis))
+        if (vec3_at(overlaps->bounds[other].low, overlaps->axis) >
+            vec3_at(own->high, overlaps->axis))
             return;
         note(search, other);
         begin = middle + 1;

@@ -211,7 +211,7 @@ struct error *problem_create(const struct place *place, struct problem *problem)
     memcpy(problem->gravity, input->gravity.at, sizeof problem->gravity);
     for (int i = 0; i < input->materials.count; i++)
         problem->material[i] = *case_material(input, i)->material;
-    problem->mirrors = boundaries_mirrors(place->face);
+    problem->images = boundaries_images(place->face);
     return set_contacts(problem);
 }
 

@@ -27,7 +27,7 @@ struct problem {
     int materials;
     struct material *material;
     struct place place;                          /* what of the case the solver computes */
-    struct mirrors mirrors;                      /* those of particles */
+    struct mirrors images;                       /* where images of particles are */
     double gravity[3];                           /* m/s^2, of what nothing holds */
     uint8_t *group_of_body;                      /* contact group of each body */
     uint8_t law[CONTACT_GROUPS][CONTACT_GROUPS]; /* of the first towards the second */

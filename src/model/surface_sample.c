@@ -131,7 +131,7 @@ static struct vec3 normal_at(const struct sampler *s, struct vec3 at, int axis, 
     struct vec3 normal = gradient_at(s, at, axis, sign, end);
     const int best = steepest_axis(normal);
     if (best != axis) {
-        const double to = axis_of(normal, best) > 0.0 ? 1.0 : -1.0,
+        const double to = vec3_at(normal, best) > 0.0 ? 1.0 : -1.0,
                      there = crossing(s, at, best, to, 0.0);
         if (!isnan(there))
             normal = gradient_at(s, at, best, to, there);
@@ -199,7 +199,7 @@ static bool fits(const struct piece *piece, const struct cell_side *face)
 static bool is_on_plane(const struct sampler *s, const struct piece *piece, struct cell_side *face)
 {
     static const double steepest = 0.1, margin = 1e-3;
-    const double slope = face->sign * axis_of(piece->normal, face->axis),
+    const double slope = face->sign * vec3_at(piece->normal, face->axis),
                  step = s->step[face->axis],
                  end = vec3_dot(vec3_sub(piece->point, face->at), piece->normal) / slope;
     if (piece->element.cover != face->cover || !(slope > steepest) ||
@@ -259,7 +259,7 @@ static void add_face(struct sampler *s, struct vec3 at, int axis, double sign)
         size *= other == axis ? 1.0 : s->step[other];
     struct piece *piece = &s->piece[found];
     struct surface_state *sum = &piece->element.start;
-    const double weight = size * maximum(sign * axis_of(face.normal, axis), 1e-6);
+    const double weight = size * maximum(sign * vec3_at(face.normal, axis), 1e-6);
     piece->weight += weight;
     sum->area = moved(sum->area, axis, sign * size);
     sum->normal = vec3_add(sum->normal, vec3_scale(weight, face.normal));

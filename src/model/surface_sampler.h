@@ -24,7 +24,7 @@ struct sampler {
     const struct place *place;
     const struct simulation_case *input;
     int body, dimension;
-    struct bounds bounds; /* of the body, and what mirrors leave of it */
+    struct bounds bounds; /* of the body, and what walls leave of it */
     const struct replacements *replacements;
     int *other, others;                    /* bodies that may cover or replace it */
     double origin[3], spacing[3], step[3]; /* of cells, and the size of their parts */
@@ -37,11 +37,6 @@ struct sampler {
     int64_t pieces, piece_capacity;
     bool out_of_memory;
 };
-
-BOLIDE_INLINE double axis_of(struct vec3 v, int axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
 
 /* The index of the cell at steps K from that of AT; -1 outside. */
 BOLIDE_INLINE int64_t sampler_cell(const struct sampler *s, const int64_t at[3], const int k[3])
@@ -59,7 +54,7 @@ BOLIDE_INLINE int64_t sampler_cell(const struct sampler *s, const int64_t at[3],
 BOLIDE_INLINE void sampler_cell_of(const struct sampler *s, struct vec3 place, int64_t at[3])
 {
     for (int axis = 0; axis < 3; axis++) {
-        const double n = floor((axis_of(place, axis) - s->origin[axis]) / s->spacing[axis]);
+        const double n = floor((vec3_at(place, axis) - s->origin[axis]) / s->spacing[axis]);
         at[axis] = (int64_t)minimum(maximum(n, 0.0), (double)(s->count[axis] - 1));
     }
 }
@@ -79,7 +74,7 @@ BOLIDE_INLINE double sampler_distance(const struct sampler *s, const struct carr
 {
     double sum = 0.0;
     for (int axis = 0; axis < s->dimension; axis++)
-        sum += square((axis_of(c->place, axis) - axis_of(place, axis)) / s->spacing[axis]);
+        sum += square((vec3_at(c->place, axis) - vec3_at(place, axis)) / s->spacing[axis]);
     return sum;
 }
 

@@ -20,8 +20,6 @@ static double margin_of(const struct simulation_case *input) { return 1e-9 * inp
  * outside a wall is not cut but reported as an error. */
 static struct bounds kept_in(const struct place *place, int body, const struct bounds *shape)
 {
-    const double from[3] = {shape->low.x, shape->low.y, shape->low.z};
-    const double to[3] = {shape->high.x, shape->high.y, shape->high.z};
     const double margin = margin_of(place->input);
     double end[2][3] = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
     if (place_has(place, body)) {
@@ -31,8 +29,8 @@ static struct bounds kept_in(const struct place *place, int body, const struct b
     for (int axis = 0; axis < place->input->dimension; axis++)
         for (int side = 0; side < 2; side++) {
             const struct face *face = &place->face[axis][side];
-            if (face->cuts && face_closes(face) && face->at > from[axis] + margin &&
-                face->at < to[axis] - margin)
+            if (face->cuts && face_closes(face) && face->at > vec3_at(shape->low, axis) + margin &&
+                face->at < vec3_at(shape->high, axis) - margin)
                 end[side][axis] =
                     side ? minimum(end[1][axis], face->at) : maximum(end[0][axis], face->at);
         }
@@ -84,31 +82,29 @@ static struct error *check_place(const struct place *place, int body, const stru
     static const double FINEST = 1e-3;
     const struct simulation_case *input = place->input;
     const struct bounds bounds = place_bounds(place, body);
-    const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z};
-    const double high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
-    const double spacing[3] = {lattice->spacing.x, lattice->spacing.y, lattice->spacing.z};
     assert(input->dimension <= 3);
     for (int axis = 0; axis < input->dimension; axis++) {
-        const double far = maximum(fabs(low[axis]), fabs(high[axis]));
+        const double low = vec3_at(bounds.low, axis), high = vec3_at(bounds.high, axis);
+        const double far = maximum(fabs(low), fabs(high));
         const double apart = nextafter(far, INFINITY) - far;
-        const double between = lattice->kind == LATTICE_RINGS ? lattice->arc : spacing[axis];
+        const double between =
+            lattice->kind == LATTICE_RINGS ? lattice->arc : vec3_at(lattice->spacing, axis);
         /* a body may be so thin that no number lies in it */
         const double wanted = between > 0.0 ? between : input->resolution;
         const double room = FINEST * wanted / 0x1p-52;
-        if (apart > FINEST * wanted && high[axis] - low[axis] > 2.0 * room)
+        if (apart > FINEST * wanted && high - low > 2.0 * room)
             return input_error(input, "bodies", input->bodies.names[body],
                                "it is %.3g m long along %c, too long for particles %.3g m apart, "
                                "since numbers at its end are %.2g m apart: choose a coarser "
                                "resolution",
-                               high[axis] - low[axis], "xyz"[axis], wanted, apart);
+                               high - low, "xyz"[axis], wanted, apart);
         if (apart > FINEST * wanted)
             return input_error(input, "bodies", input->bodies.names[body],
                                "it lies at %c = %.3g m, where numbers are %.2g m apart, too far "
                                "for particles %.3g m apart: move the case to within %.2g m of the "
                                "origin",
-                               "xyz"[axis],
-                               fabs(low[axis]) > fabs(high[axis]) ? low[axis] : high[axis], apart,
-                               wanted, room);
+                               "xyz"[axis], fabs(low) > fabs(high) ? low : high, apart, wanted,
+                               room);
     }
     return NULL;
 }

@@ -1,5 +1,5 @@
 /* A walk over the sites of one body that become particles: in the shape, on the near side of the
- * axis and of mirrors across it, and not replaced by another body. Private to this module. */
+ * axis and of walls across it, and not replaced by another body. Private to this module. */
 #ifndef BOLIDE_WALK_H
 #define BOLIDE_WALK_H
 
@@ -10,7 +10,7 @@ struct walk {
     const struct simulation_case *input;
     int body;
     struct lattice lattice;
-    struct bounds kept;     /* what the mirrors that cut the body leave; infinite without any */
+    struct bounds kept;     /* what the walls that cut the body leave; infinite without any */
     bool plain;             /* every site becomes a particle */
     int64_t site, end;      /* the next one to look at */
     struct lattice_row row; /* of the site; empty before the first */

@@ -10,16 +10,16 @@
 #include "mpm/mpm_internal.h"
 
 /* The wall at AT across AXIS does not lie on a plane of nodes. */
-static struct error *between_planes(const struct simulation_case *input, int axis, bool high,
-                                    double at, double edge)
+static struct error *between_planes(const struct simulation_case *input, const struct face *face,
+                                    double edge)
 {
+    const double at = face->at;
     const double below = floor(at / edge) * edge, above = ceil(at / edge) * edge;
     const double cells = maximum(1.0, nearbyint(fabs(at / edge)));
     const double reach = edge * (double)bins_reach((int)input->dimension);
     char key[128] = "", advice[96] = "";
-    for (int i = 0; i < input->boundaries.count; i++)
-        if (case_boundary(input, i)->axis == axis && case_boundary(input, i)->side == high)
-            snprintf(key, sizeof key, "%.120s.at", input->boundaries.names[i]);
+    if (face->boundary >= 0)
+        snprintf(key, sizeof key, "%.120s.at", input->boundaries.names[face->boundary]);
     if (!(fabs(at) < reach))
         return input_error(input, "boundaries", key,
                            "%.6g m is beyond the grid of the solver mpm: with cells of %.6g m it "
@@ -69,8 +69,8 @@ struct error *mpm_find_planes(struct mpm *mpm, const struct simulation *simulati
                 fabs(plane) < (double)bins_reach(simulation->problem->dimension))
                 mpm->plane[axis][side] = (int64_t)plane;
             else
-                error = error_join(error, between_planes(simulation->problem->input, axis,
-                                                         side == 1, at, mpm->edge));
+                error =
+                    error_join(error, between_planes(simulation->problem->input, face, mpm->edge));
         }
     return error;
 }

@@ -78,11 +78,10 @@ static void refuse_far_bodies(double edge, const struct simulation *simulation,
     const double reach = edge * (double)bins_reach(simulation->problem->dimension);
     for (int b = 0; b < input->bodies.count; b++) {
         const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
-        const double ends[] = {bounds.low.x,  bounds.low.y,  bounds.low.z,
-                               bounds.high.x, bounds.high.y, bounds.high.z};
         double far = 0.0;
-        for (int k = 0; k < 6; k++)
-            far = k % 3 < simulation->problem->dimension ? maximum(far, fabs(ends[k])) : far;
+        for (int axis = 0; axis < simulation->problem->dimension; axis++)
+            far = maximum(
+                far, maximum(fabs(vec3_at(bounds.low, axis)), fabs(vec3_at(bounds.high, axis))));
         if (far >= reach)
             finding_add(findings, FINDING_WRONG, "bodies", input->bodies.names[b],
                         "a place at %.6g m is beyond the grid of the solver "
@@ -102,11 +101,9 @@ static void refuse_wide_cell(double edge, const struct simulation *simulation,
     assert(simulation->problem->dimension <= 3);
     for (int b = 0; b < input->bodies.count; b++) {
         const struct bounds bounds = shape_bounds(&case_body(input, b)->shape);
-        const double from[] = {bounds.low.x, bounds.low.y, bounds.low.z};
-        const double to[] = {bounds.high.x, bounds.high.y, bounds.high.z};
         for (int axis = 0; axis < simulation->problem->dimension; axis++) {
-            low[axis] = minimum(low[axis], from[axis]);
-            high[axis] = maximum(high[axis], to[axis]);
+            low[axis] = minimum(low[axis], vec3_at(bounds.low, axis));
+            high[axis] = maximum(high[axis], vec3_at(bounds.high, axis));
             extent = maximum(extent, high[axis] - low[axis]);
         }
     }

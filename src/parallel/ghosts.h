@@ -16,15 +16,15 @@ struct mirrors {
     double rounder[3];
 };
 
-BOLIDE_INLINE bool mirrors_repeat(const struct mirrors *mirrors, int axis)
+BOLIDE_INLINE bool images_repeat(const struct mirrors *mirrors, int axis)
 {
     return mirrors->rounder[axis] != 0.0;
 }
 
 /* Whether any axis repeats. */
-BOLIDE_INLINE bool mirrors_periodic(const struct mirrors *mirrors)
+BOLIDE_INLINE bool images_periodic(const struct mirrors *mirrors)
 {
-    return mirrors_repeat(mirrors, 0) || mirrors_repeat(mirrors, 1) || mirrors_repeat(mirrors, 2);
+    return images_repeat(mirrors, 0) || images_repeat(mirrors, 1) || images_repeat(mirrors, 2);
 }
 
 /* Which image of a particle a ghost is: a base-3 number, per axis 0 itself, 1 that of a particle
@@ -64,7 +64,7 @@ BOLIDE_INLINE struct vec3 image_sign(const struct mirrors *mirrors, image_code i
 {
     double sign[3];
     for (int axis = 0; axis < 3; axis++)
-        sign[axis] = image_along(image, axis) && !mirrors_repeat(mirrors, axis) ? -1.0 : 1.0;
+        sign[axis] = image_along(image, axis) && !images_repeat(mirrors, axis) ? -1.0 : 1.0;
     return vec3_make(sign[0], sign[1], sign[2]);
 }
 
@@ -72,7 +72,7 @@ BOLIDE_INLINE struct vec3 image_sign(const struct mirrors *mirrors, image_code i
 BOLIDE_INLINE double image_place(const struct mirrors *mirrors, int image, int axis, double x)
 {
     const double low = mirrors->low[axis], high = mirrors->high[axis];
-    if (mirrors_repeat(mirrors, axis))
+    if (images_repeat(mirrors, axis))
         return image == 1 ? x + (high - low) : image == 2 ? x - (high - low) : x;
     return image == 1 ? 2.0 * low - x : image == 2 ? 2.0 * high - x : x;
 }
@@ -93,7 +93,7 @@ BOLIDE_INLINE int image_order(const struct mirrors *mirrors, image_code image)
     int order = 0;
     for (int axis = 2; axis >= 0; axis--) {
         const int along = image_along(image, axis);
-        order = 3 * order + (mirrors_repeat(mirrors, axis) ? (along + 1) % 3 : along);
+        order = 3 * order + (images_repeat(mirrors, axis) ? (along + 1) % 3 : along);
     }
     return order;
 }

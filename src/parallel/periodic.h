@@ -37,7 +37,7 @@ BOLIDE_INLINE double periodic_inside(const struct mirrors *mirrors, int axis, do
 
 /* Makes AXIS periodic between LOW and HIGH, which it rounds to the grain. Places up to twice
  * the farther face are rounded to it; images, up to four times, are exact. */
-BOLIDE_INLINE void mirrors_make_periodic(struct mirrors *mirrors, int axis, double low, double high)
+BOLIDE_INLINE void images_make_periodic(struct mirrors *mirrors, int axis, double low, double high)
 {
     int exponent;
     frexp(2.0 * maximum(fabs(low), fabs(high)), &exponent);

@@ -86,7 +86,7 @@ static int group_of_place(const struct particles *p, const int64_t at[3], const 
 static void start_at_walls(struct moved *m, const struct mirrors *mirrors, double distance)
 {
     for (int axis = 0; axis < 3; axis++) {
-        if (mirrors_repeat(mirrors, axis)) {
+        if (images_repeat(mirrors, axis)) {
             m->low[axis] = m->high[axis] = (double)NAN;
             continue;
         }
@@ -179,7 +179,7 @@ struct error *motion_start(struct neighbours *n, const struct particles *p, stru
     struct block_motion *motion = n->motion;
     motion->distance = motion->taken_seam = walls.distance;
     motion->mirrors = *walls.mirrors;
-    motion->periodic = mirrors_periodic(walls.mirrors);
+    motion->periodic = images_periodic(walls.mirrors);
     motion->taken_approach = motion->taken_apart = 0.0;
     motion->taken_wall = -walls.distance;
     double largest = 0.0;

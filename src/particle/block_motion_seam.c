@@ -22,7 +22,7 @@ bool motion_blocks_across(const struct particles *p, struct near_walls walls, co
         high[axis] = own[axis] + (axis < p->dimension);
         if (!along)
             continue;
-        if (axis >= p->dimension || !mirrors_repeat(walls.mirrors, axis))
+        if (axis >= p->dimension || !images_repeat(walls.mirrors, axis))
             return false;
         const double from_low = begin - walls.mirrors->low[axis],
                      from_high = walls.mirrors->high[axis] - end;

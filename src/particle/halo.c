@@ -43,7 +43,7 @@ static double gap_along(const struct region *region, const struct mirrors *mirro
                         double low, double high)
 {
     double gap = maximum(region->low[axis] - high, low - region->high[axis]);
-    if (mirrors && mirrors_repeat(mirrors, axis)) {
+    if (mirrors && images_repeat(mirrors, axis)) {
         const double period = periodic_period(mirrors, axis);
         gap = minimum(
             gap, maximum(region->low[axis] - high - period, low + period - region->high[axis]));

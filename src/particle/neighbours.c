@@ -338,7 +338,7 @@ static void find_walled(struct build *b)
     for (int image = 0; image < IMAGE_CODES; image++)
         for (int axis = 0; axis < 3; axis++)
             b->walled[image] |=
-                image_along((image_code)image, axis) && !mirrors_repeat(b->mirrors, axis);
+                image_along((image_code)image, axis) && !images_repeat(b->mirrors, axis);
 }
 
 static struct error *build_with(struct build *b, int threads)
@@ -358,7 +358,7 @@ static struct error *build_with(struct build *b, int threads)
 static struct error *check_periods(const struct mirrors *mirrors, double support)
 {
     for (int axis = 0; axis < 3; axis++)
-        if (mirrors_repeat(mirrors, axis) && support >= periodic_period(mirrors, axis))
+        if (images_repeat(mirrors, axis) && support >= periodic_period(mirrors, axis))
             return error_new(ERROR_STATE,
                              "the supports of particles have grown to %.4g m, skin included: the "
                              "period along %c is %.4g m",

@@ -72,7 +72,7 @@ BOLIDE_INLINE void follow_groups(struct neighbours *n, const struct particles *p
         group[g].largest_reach = maximum(group[g].largest_reach, now);
         for (int axis = 0; axis < 3; axis++) {
             double at = p->position[i][axis], origin = question->origin[i][axis];
-            if (periodic && mirrors_repeat(&motion->mirrors, axis))
+            if (periodic && images_repeat(&motion->mirrors, axis))
                 at = periodic_nearest(&motion->mirrors, axis, at, origin);
             double moved = at - origin;
             box[g].low[axis] = minimum(box[g].low[axis], moved);
@@ -279,7 +279,7 @@ static double approach_of_faces(const struct block_motion *motion, const double 
 {
     double largest = 0.0;
     for (int axis = 0; axis < 3; axis++)
-        if (mirrors_repeat(&motion->mirrors, axis))
+        if (images_repeat(&motion->mirrors, axis))
             largest = maximum(largest, most[RISE + axis] + most[FALL + axis]);
     return largest;
 }

@@ -18,12 +18,18 @@ static double particle_diameter(const struct population *population, bool rings,
     return diameter_of_volume(volume, population->dimension);
 }
 
+/* Where a wall or periodic face is; NAN: there is none. */
+static double wall_at(const struct face *face)
+{
+    return face_closes(face) || face->kind == BOUNDARY_PERIODIC ? face->at : (double)NAN;
+}
+
 /* The range of a picture ends at a wall that the material touches. */
-static void end_at_walls(struct plane *plane, const struct mirrors *mirrors)
+static void end_at_walls(struct plane *plane, const struct place *place)
 {
     for (int axis = 0; axis < 3; ++axis) {
         struct range *extent = &plane->extent[axis];
-        const double low = mirrors->low[axis], high = mirrors->high[axis];
+        const double low = wall_at(&place->face[axis][0]), high = wall_at(&place->face[axis][1]);
         plane->wall[axis][0] = fabs(extent->low - low) <= plane->diameter && low < extent->high;
         plane->wall[axis][1] = fabs(extent->high - high) <= plane->diameter && high > extent->low;
         extent->low = plane->wall[axis][0] ? low : extent->low;
@@ -75,7 +81,7 @@ struct plane plane_find(const struct simulation *simulation, const struct popula
         extent->low -= 0.5 * plane.diameter;
         extent->high += 0.5 * plane.diameter;
     }
-    end_at_walls(&plane, &simulation->problem->mirrors);
+    end_at_walls(&plane, &simulation->problem->place);
     if (population->dimension == 3) {
         /* Of equal axes the last, but for rounding, so that x and y are the picture's. */
         plane.normal = 2;

@@ -23,11 +23,6 @@ struct charge {
     double radius; /* m */
 };
 
-static double part_of(const struct vec3 *v, int axis)
-{
-    return axis == 0 ? v->x : axis == 1 ? v->y : v->z;
-}
-
 /* A body that ends at faces of the domain goes on behind a mirror there. False: it is no charge
  * whose blast spreads. */
 static bool charge_of(const struct simulation_case *input, int body, struct charge *charge)
@@ -41,7 +36,7 @@ static bool charge_of(const struct simulation_case *input, int body, struct char
         return true;
     }
     for (int axis = 0; axis < input->dimension; axis++) {
-        const double low = part_of(&bounds.low, axis), high = part_of(&bounds.high, axis);
+        const double low = vec3_at(bounds.low, axis), high = vec3_at(bounds.high, axis);
         const bool ends_low = low <= domain_face(input, axis, 0).at,
                    ends_high = high >= domain_face(input, axis, 1).at;
         center[axis] = ends_low && !ends_high   ? low
@@ -72,24 +67,11 @@ static bool charge_of_start(const struct simulation_case *input, struct charge *
     return false;
 }
 
-/* The distance from the middle of CHARGE to the nearest place within BOUNDS. */
-static double distance_to(const struct simulation_case *input, const struct charge *charge,
-                          const struct bounds *bounds)
-{
-    double sum = 0.0;
-    for (int axis = 0; axis < input->dimension; axis++) {
-        const double at = part_of(&charge->center, axis), low = part_of(&bounds->low, axis) - at,
-                     high = at - part_of(&bounds->high, axis);
-        sum += square(maximum(maximum(low, high), 0.0));
-    }
-    return sqrt(sum);
-}
-
 static void judge(struct findings *findings, const struct charge *charge, const char *section,
                   const char *name, const struct bounds *bounds)
 {
     const struct simulation_case *input = findings->input;
-    const double distance = distance_to(input, charge, bounds),
+    const double distance = bounds_distance(bounds, charge->center, (int)input->dimension),
                  cells = distance / input->resolution;
     if (cells > CELLS - 1e-6 || !(distance > RADII * charge->radius))
         return;

@@ -31,16 +31,11 @@ struct blast {
     int power;           /* of the radius that volumes grow with */
 };
 
-static const struct material *material_of(const struct simulation_case *input, int body)
-{
-    return case_material(input, case_body(input, body)->material_index)->material;
-}
-
 /* The speed of detonation of BODY, m/s, and *sound that behind its front; 0 for what does not
  * burn. */
 static double detonation_of(const struct simulation_case *input, int body, double *sound)
 {
-    const struct material *material = material_of(input, body);
+    const struct material *material = body_material(input, body);
     struct detonation d;
     if (!material_burns(material))
         return 0.0;
@@ -56,8 +51,6 @@ static double detonation_of(const struct simulation_case *input, int body, doubl
 static double ball_volume(const struct simulation_case *input, int body, int *power)
 {
     const struct bounds bounds = body_bounds(input, body);
-    const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z};
-    const double high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
     const double pi = 3.14159265358979;
     const int radial = geometry_power(input->geometry);
     *power = radial ? (input->dimension == 2 ? 3 : radial + 1) : (int)input->dimension;
@@ -70,7 +63,8 @@ static double ball_volume(const struct simulation_case *input, int body, int *po
     for (int axis = radial ? 1 : 0; axis < 3; axis++)
         for (int side = 0; side < 2; side++) {
             const struct face *face = &whole.face[axis][side];
-            if (face_closes(face) && fabs(face->at - (side ? high : low)[axis]) < input->resolution)
+            if (face_closes(face) &&
+                fabs(face->at - vec3_at(side ? bounds.high : bounds.low, axis)) < input->resolution)
                 volume *= 0.5;
         }
     return volume;
@@ -88,7 +82,7 @@ static bool find_blast(const struct simulation_case *input, const struct estimat
             blast->speed = maximum(blast->speed, speed);
             blast->mass += estimate->body[b].summary.mass;
             blast->volume = ball_volume(input, b, &blast->power);
-            density = material_density(material_of(input, b));
+            density = material_density(body_material(input, b));
         } else if (estimate->body[b].summary.fastest.density < blast->gas) {
             blast->gas = estimate->body[b].summary.fastest.density;
             blast->sound = estimate->body[b].sound_long;

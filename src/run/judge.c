@@ -71,8 +71,7 @@ struct contact_side {
 static struct contact_side contact_side_of(const struct simulation_case *input, int body,
                                            const struct body_summary *summary)
 {
-    const struct material *material =
-        case_material(input, case_body(input, body)->material_index)->material;
+    const struct material *material = body_material(input, body);
     struct point point = summary->fastest;
     const double sound = any_material_evaluate(material, &point).sound_long;
     return (struct contact_side){point.pressure, sound, point.density * sound, summary->speed};

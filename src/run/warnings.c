@@ -226,11 +226,10 @@ static void keep(struct found *found, double value, uint64_t id, int32_t index)
 static double beyond(const struct bounds *room, const struct population *p, int32_t i)
 {
     const double *x = p->position[i];
-    const double low[3] = {room->low.x, room->low.y, room->low.z},
-                 high[3] = {room->high.x, room->high.y, room->high.z};
     double most = 0.0;
     for (int axis = 0; axis < p->dimension; axis++)
-        most = maximum(most, maximum(low[axis] - x[axis], x[axis] - high[axis]));
+        most = maximum(
+            most, maximum(vec3_at(room->low, axis) - x[axis], x[axis] - vec3_at(room->high, axis)));
     return most;
 }
 

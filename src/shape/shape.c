@@ -98,6 +98,17 @@ struct bounds bounds_around(struct bounds a, struct bounds b)
     return (struct bounds){lower_ends(a.low, b.low), higher_ends(a.high, b.high)};
 }
 
+double bounds_distance(const struct bounds *bounds, struct vec3 place, int dimension)
+{
+    double sum = 0.0;
+    for (int axis = 0; axis < dimension; axis++) {
+        const double at = vec3_at(place, axis);
+        sum += square(maximum(
+            0.0, maximum(vec3_at(bounds->low, axis) - at, at - vec3_at(bounds->high, axis))));
+    }
+    return sqrt(sum);
+}
+
 struct bounds bounds_common(struct bounds a, struct bounds b)
 {
     return (struct bounds){higher_ends(a.low, b.low), lower_ends(a.high, b.high)};

@@ -56,5 +56,7 @@ bool bounds_finite(const struct bounds *bounds);
  * high. */
 struct bounds bounds_around(struct bounds a, struct bounds b);
 struct bounds bounds_common(struct bounds a, struct bounds b);
+/* How far PLACE is from BOUNDS along the first DIMENSION axes. */
+double bounds_distance(const struct bounds *bounds, struct vec3 place, int dimension);
 
 #endif

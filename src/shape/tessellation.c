@@ -19,8 +19,6 @@ struct nearest {
     double place[3], distance_square;
 };
 
-static double along(struct vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 /* A walk over the sites of the cells around a point, nearer cells first: those REACH cells away,
  * with their images where the box is periodic. */
 struct ring_walk {
@@ -161,7 +159,7 @@ static struct tessellation *open_cells(const struct tessellation_wanted *wanted,
                                 .least_cell = INFINITY};
     for (int axis = 0; axis < 3; axis++) {
         const bool has = axis < wanted->dimension;
-        plan.low[axis] = has ? along(wanted->box.low, axis) : 0.0;
+        plan.low[axis] = has ? vec3_at(wanted->box.low, axis) : 0.0;
         plan.extent[axis] = has ? packing->extent[axis] : 1.0;
         plan.cells[axis] = has ? (int64_t)maximum(1.0, floor(plan.extent[axis] / wanted->size)) : 1;
         plan.cell[axis] = plan.extent[axis] / (double)plan.cells[axis];
@@ -288,7 +286,7 @@ const char *tessellation_make(const struct tessellation_wanted *wanted, struct t
                                   .seed = wanted->seed};
     for (int axis = 0; axis < 3; axis++) {
         sites.periodic[axis] = wanted->periodic[axis];
-        const double extent = along(wanted->box.high, axis) - along(wanted->box.low, axis);
+        const double extent = vec3_at(wanted->box.high, axis) - vec3_at(wanted->box.low, axis);
         if (axis < wanted->dimension && extent < 3.0 * wanted->size)
             return "the box must be at least three grains wide";
     }

@@ -8,9 +8,9 @@ struct error *sph_check_periods(const struct simulation *simulation, double supp
     struct error *error = NULL;
     for (int b = 0; b < input->boundaries.count; b++) {
         const int axis = case_boundary(input, b)->axis;
-        if (!mirrors_repeat(&simulation->problem->mirrors, axis))
+        if (!images_repeat(&simulation->problem->images, axis))
             continue;
-        const double period = periodic_period(&simulation->problem->mirrors, axis);
+        const double period = periodic_period(&simulation->problem->images, axis);
         if (period < 2.0 * (1.0 - 1e-9) * support)
             error = error_join(
                 error, input_error(input, "boundaries", input->boundaries.names[b],
@@ -23,12 +23,12 @@ struct error *sph_check_periods(const struct simulation *simulation, double supp
 
 void sph_wrap(const struct simulation *simulation, const struct particles *particles)
 {
-    const struct mirrors *mirrors = &simulation->problem->mirrors;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < particles->count; i++)
         for (int axis = 0; axis < simulation->problem->dimension; axis++)
-            if (mirrors_repeat(mirrors, axis)) {
+            if (images_repeat(&simulation->problem->images, axis)) {
                 double *x = &particles->position[i][axis];
-                *x = periodic_inside(mirrors, axis, periodic_rounded(mirrors, axis, *x));
+                *x = periodic_inside(&simulation->problem->images, axis,
+                                     periodic_rounded(&simulation->problem->images, axis, *x));
             }
 }

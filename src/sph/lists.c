@@ -55,7 +55,7 @@ struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, 
     }
     TRY(particles_distribute(p, recut));
     TRY(neighbours_build(&sph->neighbours, p, reach_of(sph, simulation),
-                         &simulation->problem->mirrors, &sph->groups, simulation->threads));
+                         &simulation->problem->images, &sph->groups, simulation->threads));
     sph->steps_since_build = 0;
     simulation_end_phase(simulation, PHASE_SHARED, "neighbour search");
     return ranks_agree(simulation->ranks, reserve_records(sph));

@@ -45,7 +45,7 @@ static void book_of_axis(const struct simulation *simulation, const struct act *
                          struct ledger *ledger, int32_t i, struct vec3 *push)
 {
     const struct particles *p = act->fields->particles;
-    double radius = p->position[i][0], gap = simulation->problem->mirrors.high[0] - radius;
+    double radius = p->position[i][0], gap = simulation->problem->images.high[0] - radius;
     double pull = act->fields->rates.hoop_pull[i];
     if (!(gap < radius)) {
         pull += push->x;
@@ -94,11 +94,11 @@ static void return_stray(const struct simulation *simulation, const struct parti
     if (body_is_frozen(simulation, p->body[i]) || body_is_prescribed(simulation, p->body[i]))
         return;
     for (int axis = 0; axis < simulation->problem->dimension; axis++) {
-        const double x = p->position[i][axis], low = simulation->problem->mirrors.low[axis],
-                     high = simulation->problem->mirrors.high[axis];
+        const double x = p->position[i][axis], low = simulation->problem->images.low[axis],
+                     high = simulation->problem->images.high[axis];
         if (!(x < low || x > high)) /* nearly all, and all where there is no wall */
             continue;
-        if (mirrors_repeat(&simulation->problem->mirrors, axis))
+        if (images_repeat(&simulation->problem->images, axis))
             continue;
         const bool at_axis = sph_axisymmetric(simulation) && axis == 0 && x < low;
         const enum ledger_cause cause = at_axis ? LEDGER_AXIS : LEDGER_WALLS;

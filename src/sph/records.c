@@ -10,11 +10,11 @@
 void sph_reflect_motion(const struct simulation *simulation, image_code image, double *record)
 {
     int dimension = simulation->problem->dimension;
-    struct vec3 sign = image_sign(&simulation->problem->mirrors, image);
+    struct vec3 sign = image_sign(&simulation->problem->images, image);
     double x[3] = {0.0, 0.0, 0.0}, signs[3] = {sign.x, sign.y, sign.z};
     memcpy(x, record, (size_t)dimension * sizeof *x);
     struct vec3 place =
-        image_position(&simulation->problem->mirrors, image, vec3_make(x[0], x[1], x[2]));
+        image_position(&simulation->problem->images, image, vec3_make(x[0], x[1], x[2]));
     double at[3] = {place.x, place.y, place.z};
     double *velocity = record + record_velocity(dimension);
     assert(dimension <= 3);
@@ -54,12 +54,12 @@ static void find_reflections(struct sph *sph, const struct simulation *simulatio
         for (size_t f = 0; f < records->stride; f++)
             sign[f] = 1.0;
         records->reflect(sph, simulation, (image_code)image, sign);
-        const struct vec3 turned = image_sign(&simulation->problem->mirrors, (image_code)image);
+        const struct vec3 turned = image_sign(&simulation->problem->images, (image_code)image);
         const double signs[3] = {turned.x, turned.y, turned.z};
         memcpy(sign, signs, (size_t)simulation->problem->dimension * sizeof *sign);
         for (int axis = 0; axis < 3; axis++)
             reflections->shift[image][axis] = image_place(
-                &simulation->problem->mirrors, image_along((image_code)image, axis), axis, 0.0);
+                &simulation->problem->images, image_along((image_code)image, axis), axis, 0.0);
     }
 }
 
@@ -93,16 +93,17 @@ static void make_images(struct sph *sph, const struct simulation *simulation,
 static void settle_owned(const struct sph *sph, const struct simulation *simulation,
                          const struct sph_records *records)
 {
-    const struct mirrors *mirrors = &simulation->problem->mirrors;
     const double(*origin)[3] = (const double(*)[3])sph->neighbours.origin;
     const int dimension = simulation->problem->dimension;
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t i = 0; i < sph->particles->count; i++) {
         double *record = records->first + (size_t)i * records->stride;
         for (int axis = 0; axis < dimension; axis++)
-            if (mirrors_repeat(mirrors, axis))
+            if (images_repeat(&simulation->problem->images, axis))
                 record[axis] = periodic_nearest(
-                    mirrors, axis, periodic_rounded(mirrors, axis, record[axis]), origin[i][axis]);
+                    &simulation->problem->images, axis,
+                    periodic_rounded(&simulation->problem->images, axis, record[axis]),
+                    origin[i][axis]);
         if (records->place)
             memcpy(records->place + (size_t)i * PLACE_STRIDE, record,
                    (size_t)dimension * sizeof *record);

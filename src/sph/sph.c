@@ -25,9 +25,9 @@ static const double growth_room = 1.08;
 static bool has_walls(const struct simulation *simulation)
 {
     for (int axis = 0; axis < 3; axis++)
-        if (!mirrors_repeat(&simulation->problem->mirrors, axis) &&
-            (!isnan(simulation->problem->mirrors.low[axis]) ||
-             !isnan(simulation->problem->mirrors.high[axis])))
+        if (!images_repeat(&simulation->problem->images, axis) &&
+            (!isnan(simulation->problem->images.low[axis]) ||
+             !isnan(simulation->problem->images.high[axis])))
             return true;
     return false;
 }
@@ -92,7 +92,7 @@ static unsigned traits_of(const struct sph *sph, const struct simulation *simula
         fails |= material_fails(&simulation->problem->material[m]);
     }
     traits |= has_walls(simulation) ? SPH_WALLS : 0u;
-    traits |= mirrors_periodic(&simulation->problem->mirrors) ? SPH_PERIODIC : 0u;
+    traits |= images_periodic(&simulation->problem->images) ? SPH_PERIODIC : 0u;
     traits |= sph_axisymmetric(simulation) ? SPH_AXISYMMETRIC : 0u;
     traits |= simulation->problem->geometry == GEOMETRY_PLANE_STRESS ? SPH_THIN : 0u;
     traits |= simulation->problem->dimension > 1 ? SPH_PLANE : 0u;
@@ -107,9 +107,8 @@ static unsigned traits_of(const struct sph *sph, const struct simulation *simula
 static struct error *check_walls(const struct simulation *simulation, double reach)
 {
     for (int axis = 0; axis < simulation->problem->dimension; axis++) {
-        double gap =
-            simulation->problem->mirrors.high[axis] - simulation->problem->mirrors.low[axis];
-        if (gap < reach && !mirrors_repeat(&simulation->problem->mirrors, axis))
+        double gap = simulation->problem->images.high[axis] - simulation->problem->images.low[axis];
+        if (gap < reach && !images_repeat(&simulation->problem->images, axis))
             return input_error(simulation->problem->input, "boundaries", NULL,
                                "the two walls across %c are %.4g m apart; with this smoothing and "
                                "resolution they must be %.4g m apart at least",

@@ -15,8 +15,7 @@ static const double PRESSURE_RATIO = 5.0;
 
 static bool is_uniform_gas(const struct simulation_case *input, int body)
 {
-    const struct material *material =
-        case_material(input, case_body(input, body)->material_index)->material;
+    const struct material *material = body_material(input, body);
     return eos_traits(&material->eos).gas && !case_body(input, body)->varies;
 }
 

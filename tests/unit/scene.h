@@ -91,7 +91,7 @@ static inline struct vec3 scene_place(const struct scene *scene, int32_t i, imag
     double at[3];
     for (int axis = 0; axis < 3; axis++) {
         at[axis] = scene->particles.position[i][axis];
-        if (mirrors_repeat(&scene->mirrors, axis))
+        if (images_repeat(&scene->mirrors, axis))
             at[axis] = periodic_nearest(&scene->mirrors, axis, at[axis], n->origin[i][axis]);
     }
     return image_position(&scene->mirrors, image, vec3_make(at[0], at[1], at[2]));
@@ -169,8 +169,7 @@ static inline void scene_mark_row(const struct scene *scene, int32_t i, uint8_t 
         }
         order = image_order(&scene->mirrors, (image_code)image);
         for (int axis = 0; axis < 3; axis++)
-            walled |=
-                image_along((image_code)image, axis) && !mirrors_repeat(&scene->mirrors, axis);
+            walled |= image_along((image_code)image, axis) && !images_repeat(&scene->mirrors, axis);
         bool after = k == 0 || part > last_part ||
                      (part == last_part &&
                       (p->id[j] > last_id || (p->id[j] == last_id && order > last_order)));

@@ -139,8 +139,8 @@ static void linear_velocities_have_their_gradient_exactly(void **state)
                     p->velocity[i][a] += gradient[a][b] * p->position[i][b];
             }
         for (int axis = 0; axis < 3; axis++) /* images would not go on with it */
-            problem_of(&run->simulation)->mirrors.low[axis] =
-                problem_of(&run->simulation)->mirrors.high[axis] = NAN;
+            problem_of(&run->simulation)->images.low[axis] =
+                problem_of(&run->simulation)->images.high[axis] = NAN;
         assert_success(run->solver->prepare(&run->sph, &run->simulation, &run->limit));
         double(*strain)[6] = particles_field(p, "strain_rate"),
         (*spin)[3] = particles_field(p, "spin");

@@ -415,7 +415,7 @@ static void stream(int dimension, int count, int steps, unsigned periodic, doubl
         scene.mirrors.low[axis] = -0.5 * size;
         scene.mirrors.high[axis] = 0.5 * size;
         if (periodic >> axis & 1)
-            mirrors_make_periodic(&scene.mirrors, axis, -0.5 * size, 0.5 * size);
+            images_make_periodic(&scene.mirrors, axis, -0.5 * size, 0.5 * size);
     }
     for (int32_t i = 0; i < p->count; i++)
         for (int axis = 0; axis < dimension; axis++)

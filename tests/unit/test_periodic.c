@@ -25,7 +25,7 @@ static void places_shift_without_rounding(void **state)
     for (int k = 0; k < 1000; k++) {
         const double low = dice_between(&dice, -7.0, 1.0),
                      high = low + dice_between(&dice, 0.1, 9.0);
-        mirrors_make_periodic(&mirrors, 1, low, high);
+        images_make_periodic(&mirrors, 1, low, high);
         assert_true(fabs(mirrors.low[1] - low) < 1e-14 && fabs(mirrors.high[1] - high) < 1e-14);
         const double period = periodic_period(&mirrors, 1);
         const double x =
@@ -46,7 +46,7 @@ static void images_are_ordered_by_their_places(void **state)
 {
     (void)state;
     struct mirrors mirrors = {{-1.0, -1.0, NAN}, {1.0, 1.0, NAN}, {0.0}};
-    mirrors_make_periodic(&mirrors, 0, -1.0, 1.0);
+    images_make_periodic(&mirrors, 0, -1.0, 1.0);
     /* one below, itself, one above; behind the walls of y by code */
     assert_true(image_order(&mirrors, 2) < image_order(&mirrors, 0));
     assert_true(image_order(&mirrors, 0) < image_order(&mirrors, 1));
@@ -80,7 +80,7 @@ static void a_uniform_stream_comes_back_as_it_was(void **state)
     for (size_t c = 0; c < COUNT_OF(streams); c++) {
         struct running *run = begin_fresh(streams[c], &base);
         const struct particles *p = particles_of(&run->simulation);
-        const struct mirrors *mirrors = &run->simulation.problem->mirrors;
+        const struct mirrors *mirrors = &run->simulation.problem->images;
         double(*start)[3] = calloc((size_t)p->count, sizeof *start);
         uint64_t *id = calloc((size_t)p->count, sizeof *id);
         memcpy(start, p->position, (size_t)p->count * sizeof *start);
@@ -94,7 +94,7 @@ static void a_uniform_stream_comes_back_as_it_was(void **state)
                 was++;
             for (int axis = 0; axis < run->simulation.problem->dimension; axis++) {
                 double wanted = start[was][axis] + round[c][axis];
-                if (mirrors_repeat(mirrors, axis))
+                if (images_repeat(mirrors, axis))
                     wanted = periodic_nearest(mirrors, axis, wanted, p->position[i][axis]);
                 assert_true(fabs(p->position[i][axis] - wanted) < 1e-12);
             }

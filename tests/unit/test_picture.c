@@ -226,14 +226,14 @@ static void the_frame_stands_where_a_wall_bounds_the_particles(void **state)
 {
     (void)state;
     struct simulation *simulation = lattice(2, 40, 20, 1, 1e-3);
+    struct face(*face)[2] = problem_of(simulation)->place.face;
     for (int axis = 0; axis < 3; axis++)
-        problem_of(simulation)->mirrors.low[axis] = problem_of(simulation)->mirrors.high[axis] =
-            NAN;
+        face[axis][0].kind = face[axis][1].kind = -1;
     assert_null(draw_in(simulation, "pressure", NAN, NAN));
     cairo_surface_t *surface = read_picture();
     assert_in_range(gap_below(surface), 4, 12);
     cairo_surface_destroy(surface);
-    problem_of(simulation)->mirrors.low[1] = 0.0;
+    face[1][0] = (struct face){.kind = BOUNDARY_REFLECTING, .at = 0.0};
     assert_null(draw_in(simulation, "pressure", NAN, NAN));
     surface = read_picture();
     assert_true(gap_below(surface) >= 20); /* the page's own, below the frame */

@@ -160,10 +160,10 @@ static void walls_become_mirrors(void **state)
     add_wall(&w, 1, SIDE_HIGH, 3.0);
     struct simulation s;
     assert_null(simulation_create(&w.input, &alone, 1, &s));
-    assert_true(s.problem->mirrors.low[0] == -1.0 && s.problem->mirrors.high[0] == 2.0 &&
-                s.problem->mirrors.high[1] == 3.0);
-    assert_true(isnan(s.problem->mirrors.low[1]) && isnan(s.problem->mirrors.low[2]) &&
-                isnan(s.problem->mirrors.high[2]));
+    assert_true(s.problem->images.low[0] == -1.0 && s.problem->images.high[0] == 2.0 &&
+                s.problem->images.high[1] == 3.0);
+    assert_true(isnan(s.problem->images.low[1]) && isnan(s.problem->images.low[2]) &&
+                isnan(s.problem->images.high[2]));
     simulation_destroy(&s);
 }
 

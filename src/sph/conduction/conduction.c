@@ -107,7 +107,7 @@ static void reflect(const struct sph *sph, const struct simulation *simulation, 
     (void)sph;
     memcpy(x, record, (size_t)dimension * sizeof *x);
     struct vec3 place =
-        image_position(&simulation->problem->mirrors, image, vec3_make(x[0], x[1], x[2]));
+        image_position(&simulation->problem->images, image, vec3_make(x[0], x[1], x[2]));
     double at[3] = {place.x, place.y, place.z};
     memcpy(record, at, (size_t)dimension * sizeof *at);
     if (sph_axisymmetric(simulation) && image % 3 == 1) /* the other side of the axis */

@@ -78,7 +78,7 @@ static void reflect(const struct sph *sph, const struct simulation *simulation, 
     const struct contact_state *state = sph->state;
     const struct pair_kind kind = state->kind;
     int dimension = simulation->problem->dimension;
-    struct vec3 sign = image_sign(&simulation->problem->mirrors, image);
+    struct vec3 sign = image_sign(&simulation->problem->images, image);
     sph_reflect_motion(simulation, image, record);
     if (kind.shear)
         sph_reflect_tensor(dimension, sign, record + record_stress(dimension));

@@ -93,7 +93,7 @@ static void reflect_for_forces(const struct sph *sph, const struct simulation *s
     const struct hllc_state *state = sph->state;
     const struct hllc_kind kind = state->kind;
     int dimension = simulation->problem->dimension;
-    struct vec3 sign = image_sign(&simulation->problem->mirrors, image);
+    struct vec3 sign = image_sign(&simulation->problem->images, image);
     sph_reflect_motion(simulation, image, record);
     sph_reflect_tensor(dimension, sign, record + hllc_stress(dimension));
     sph_reflect_tensor(dimension, sign, record + hllc_correction(dimension));

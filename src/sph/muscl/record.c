@@ -189,7 +189,7 @@ static void reflect(const struct sph *sph, const struct simulation *simulation, 
 {
     const struct muscl_kind kind = muscl_kind_of(sph);
     int dimension = kind.dimension, stresses = muscl_stresses(kind);
-    const struct vec3 sign = image_sign(&simulation->problem->mirrors, image);
+    const struct vec3 sign = image_sign(&simulation->problem->images, image);
     const double signs[3] = {sign.x, sign.y, sign.z};
     const bool tensor = stresses > 1; /* a fluid's stress is one number */
     assert(dimension >= 1 && dimension <= 3);
