@@ -21,7 +21,8 @@ struct mirrors boundaries_images(const struct face face[3][2])
     return images;
 }
 
-/* The names of the kinds of SUPPORTED as `a, b, c`; of the solvers of the catalogue that have KIND. */
+/* The names of the kinds of SUPPORTED as `a, b, c`; of the solvers of the catalogue that have
+ * KIND. */
 static void kinds_text(unsigned supported, char *text, size_t size)
 {
     const char *names[BOUNDARY_KINDS];

@@ -1,4 +1,5 @@
-/* The faces of a place as particles see them, and what of a case's boundaries a solver cannot do. */
+/* The faces of a place as particles see them, and what of a case's boundaries a solver cannot
+ * do. */
 #ifndef BOLIDE_BOUNDARIES_H
 #define BOLIDE_BOUNDARIES_H
 

@@ -52,12 +52,12 @@ void findings_free(struct findings *findings)
     *findings = (struct findings){0};
 }
 
-struct judgement judge_with(const struct solver_class *class, const void *parameters,
+struct judgement judge_with(const struct solver_class *solver, const void *parameters,
                             const struct simulation *simulation)
 {
     struct judgement judgement = {.findings = {.input = simulation->problem->input},
                                   .largest_jump = INFINITY};
-    if (class->judge)
-        class->judge(parameters, simulation, &judgement);
+    if (solver->judge)
+        solver->judge(parameters, simulation, &judgement);
     return judgement;
 }

@@ -101,8 +101,8 @@ struct solver_class {
                   struct judgement *judgement);
 };
 
-/* What a solver of CLASS with PARAMETERS says; the caller frees the findings. */
-struct judgement judge_with(const struct solver_class *class, const void *parameters,
+/* What SOLVER with PARAMETERS says; the caller frees the findings. */
+struct judgement judge_with(const struct solver_class *solver, const void *parameters,
                             const struct simulation *simulation);
 
 #endif

@@ -24,8 +24,8 @@ struct elastic_wave {
     double impedance, velocity, stress;
 };
 
-/* (7), (15) by means and differences, so that equal states give themselves and mirrored ones a mirror image, to
- * the bit. */
+/* (7), (15) by means and differences, so that equal states give themselves and mirrored ones a
+ * mirror image, to the bit. */
 BOLIDE_INLINE struct contact hllc_contact(struct elastic_wave left, struct elastic_wave right)
 {
     struct contact contact;

@@ -4,8 +4,8 @@
 
 #include "model/findings.h"
 
-/* Finds gauges and rigid bodies with so few cells between them and a charge that the peaks there are
- * known to be too low; nothing with a solver without cells of gas. */
+/* Finds gauges and rigid bodies with so few cells between them and a charge that the peaks there
+ * are known to be too low; nothing with a solver without cells of gas. */
 void blast_cells(struct findings *findings);
 
 #endif

@@ -9,7 +9,8 @@
  * findings. */
 struct judgement judge_solver(const struct simulation *simulation);
 
-/* Adds what is found in the bodies of a case that nothing refuses: takes as long as filling them. */
+/* Adds what is found in the bodies of a case that nothing refuses: takes as long as filling
+ * them. */
 void judge_bodies(struct judgement *judgement);
 
 /* All findings but what is wrong, a line each: `warning: case.yaml:14:9: bodies.flyer: ...`. */
