@@ -169,7 +169,7 @@ def inputs():
     block = "boundaries: {block: {kind: rigid-body, part: {box: {from: [0.5 m, -0.1 m], to: [0.7 m, 0.3 m]}}}}\n"
     yield "gauge off the grid", gas(gauge % "1.5 m, 0.1 m"), "outside the domain, which goes from"
     yield "gauge off the grid, 1-D", gas(gauge % "-0.2 m", 1), "outside the domain, which goes from"
-    yield "gauge in an obstacle", gas(block + gauge % "0.6 m, 0.1 m"), "in the obstacle \"block\""
+    yield "gauge in an obstacle", gas(block + gauge % "0.6 m, 0.1 m"), "in the rigid body \"block\""
     yield "gauge too small", gas(
         "probes: {g: {gauge: {at: [0.5 m, 0.1 m], radius: 1 mm}}}\n"), "centre within 0.001 m"
     yield "gauge off the grid, cfdmp", case("cfdmp", more="probes: {g: {gauge: {at: [3 m, 0 m]}, "
@@ -192,7 +192,7 @@ def inputs():
     yield "obstacle between centres", gas(
         "obstacles: {o: {ball: {center: [0.5 m, 0.1 m], radius: 3 mm}}}\n"), (
             "it blocks nothing|thinner than a cell")
-    for solver, words in (("cfdmp", "thinner than a cell"), ("afdmp", "no boundary of kind rigid-body")):
+    for solver, words in (("cfdmp", "thinner than a cell"), ("afdmp", "no rigid-body boundaries")):
         yield f"thin obstacle, {solver}", case(
             solver, more="obstacles: {plate: {box: {from: [-0.184 m, 0 m], "
             "to: [-0.181 m, 0.3 m]}}}\n"), words
