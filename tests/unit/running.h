@@ -56,6 +56,15 @@ struct running {
     int most_threads; /* 0: their number stays */
 };
 
+/* What the solver refuses of the case with PARAMETERS. */
+static inline struct error *refusal_of(const struct running *run, const void *parameters)
+{
+    struct judgement judgement = judge_with(run->solver, parameters, &run->simulation);
+    struct error *error = findings_refusal(&judgement.findings);
+    findings_free(&judgement.findings);
+    return error;
+}
+
 /* The case and its simulation, before the solver is created. */
 static inline struct running *open_case(const char *text, const struct variant *variant)
 {

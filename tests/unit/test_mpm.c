@@ -353,7 +353,7 @@ static void affine_transfers_want_functions_whose_slopes_do_not_jump(void **stat
         struct mpm_parameters parameters;
         memcpy(&parameters, run->input->solver.value, sizeof parameters);
         parameters.shape = SHAPE_LINEAR;
-        struct error *error = run->solver->create(&run->mpm, &run->simulation, &parameters);
+        struct error *error = refusal_of(run, &parameters);
         assert_non_null(error);
         assert_int_equal(error_kind(error), ERROR_INPUT);
         assert_non_null(strstr(error_message(error, 0), "unstable with `shape: linear`"));
@@ -362,7 +362,7 @@ static void affine_transfers_want_functions_whose_slopes_do_not_jump(void **stat
         run = open_case(sounding, &variant);
         parameters.shape = SHAPE_QUADRATIC;
         parameters.shock_mixing = 3.0;
-        error = run->solver->create(&run->mpm, &run->simulation, &parameters);
+        error = refusal_of(run, &parameters);
         assert_non_null(error);
         assert_non_null(strstr(error_message(error, 0), "mpm.shock_mixing"));
         error_free(error);

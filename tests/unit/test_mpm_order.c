@@ -98,8 +98,7 @@ static void check_refused(const char *setting, const char *why)
 {
     const struct variant variant = {"", 1, 1.0, setting, false};
     struct running *run = open_case(bar_case, &variant);
-    struct error *error =
-        run->solver->create(&run->mpm, &run->simulation, run->input->solver.value);
+    struct error *error = refusal_of(run, run->input->solver.value);
     assert_non_null(error);
     assert_int_equal(error_kind(error), ERROR_INPUT);
     assert_non_null(strstr(error_message(error, 0), "solver.mpm.order"));
