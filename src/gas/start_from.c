@@ -87,9 +87,15 @@ static struct error *open_blast(struct blast *blast, const struct start_input *s
 {
     blast->input = start->input;
     blast->ranks = ranks_alone();
+    const void *parameters = start->input->solver.value;
     struct error *error = simulation_create(start->input, &blast->ranks, 1, &blast->simulation);
+    if (!error) {
+        struct judgement judgement = judge_with(&gas_class, parameters, &blast->simulation);
+        error = findings_refusal(&judgement.findings);
+        findings_free(&judgement.findings);
+    }
     if (!error)
-        error = gas_class.create(&blast->gas, &blast->simulation, start->input->solver.value);
+        error = gas_class.create(&blast->gas, &blast->simulation, parameters);
     return error_context(error, "start.from: %s", start->from);
 }
 
