@@ -16,8 +16,8 @@ static const int64_t sites_a_rank = INT64_C(1) << 32;
 /* Lengths of less than this are rounding. */
 static double margin_of(const struct simulation_case *input) { return 1e-9 * input->resolution; }
 
-/* What the box of PLACE and its walls leave of BODY, whose shape is in the bounds SHAPE. One entirely
- * outside a wall is not cut but reported as an error. */
+/* What the box of PLACE and its walls leave of BODY, whose shape is in the bounds SHAPE. One
+ * entirely outside a wall is not cut but reported as an error. */
 static struct bounds kept_in(const struct place *place, int body, const struct bounds *shape)
 {
     const double margin = margin_of(place->input);
